@@ -29,7 +29,7 @@
 #include <ljus/ljus.hpp>
 #include <ljus/math/stratified_stream.hpp>
 #include <ljus/render/adaptive.hpp>
-#include <ljus/render/photon_mapping.hpp>
+#include <ljus/render/gathering.hpp>
 
 namespace {
 
@@ -92,12 +92,25 @@ std::string piece_name(const std::string& name, std::size_t piece) {
     return name + "-" + std::to_string(piece) + ".pfm";
 }
 
-void make_reference(const Request& request, const LoadedScene& loaded) {
-    const auto tracer = make_path_tracer(loaded.scene);
+/// A scene file, closed.
+struct Subject {
+    World<decltype(LoadedScene::scene)> world;
+    Camera camera;
+    int width = 0;  ///< Of its picture, in pixels.
+    int height = 0; ///< Of its picture, in pixels.
+};
+
+Subject load_subject(const std::string& path) {
+    LoadedScene loaded = load_json<float>(path);
+    return {World(std::move(loaded.scene)), loaded.camera, loaded.width, loaded.height};
+}
+
+void make_reference(const Request& request, const Subject& subject) {
+    const PathTracer tracer(subject.world);
     for (std::size_t i = 0; i < std::size_t(request.make); ++i) {
-        const auto result = render(tracer, loaded.camera,
-                                   {.width = loaded.width,
-                                    .height = loaded.height,
+        const auto result = render(tracer, subject.camera,
+                                   {.width = subject.width,
+                                    .height = subject.height,
                                     .samples = request.rays,
                                     .seed = 1'000'000 + i});
         save_pfm(result.image, piece_name(request.reference, i));
@@ -113,7 +126,7 @@ struct Reference {
     double block_noise = 0; ///< Block error of the same.
 };
 
-Reference load_reference(const Request& request, const LoadedScene& loaded) {
+Reference load_reference(const Request& request, const Subject& subject) {
     std::vector<Image> pieces;
     while (std::filesystem::exists(piece_name(request.reference, pieces.size())))
         pieces.push_back(load_pfm(piece_name(request.reference, pieces.size())));
@@ -122,7 +135,7 @@ Reference load_reference(const Request& request, const LoadedScene& loaded) {
             "the reference " + piece_name(request.reference, 0) + ", -1.pfm, ... has " +
             std::to_string(pieces.size()) +
             " pieces; it needs 2, or any even number: --make");
-    Reference reference{.image = make_image<double>(loaded.width, loaded.height)};
+    Reference reference{.image = make_image<double>(subject.width, subject.height)};
     ImageT<double> half = reference.image;
     for (std::size_t i = 0; i < pieces.size(); ++i)
         for (std::size_t p = 0; p < half.pixels.size(); ++p) {
@@ -144,22 +157,21 @@ double level_of(const auto& image) {
 }
 
 /// Both passes of the photon mapper on one thread, as `render --preset` makes them.
-Image photon_mapping(const LoadedScene& loaded, Preset preset, std::uint64_t seed) {
-    auto settings = preset_settings(preset, loaded.width, loaded.height);
+Image photon_mapping(const Subject& subject, Preset preset, std::uint64_t seed) {
+    auto settings = preset_settings(preset, subject.width, subject.height);
     settings.caustics.seed = settings.general.seed = seed;
     settings.caustics.threads = settings.general.threads = 1;
     const PresetRays rays = preset_rays(preset);
-    const RenderSettings picture{.width = loaded.width,
-                                 .height = loaded.height,
+    const RenderSettings picture{.width = subject.width,
+                                 .height = subject.height,
                                  .samples = rays.first + rays.more,
                                  .seed = seed,
                                  .threads = 1};
-    auto maps = make_photon_maps(loaded.scene, settings);
-    add_irradiance_cache(maps, loaded.scene, loaded.camera, picture, settings);
-    const auto mapper =
-        make_photon_mapper<StratifiedStream>(loaded.scene, maps, settings);
-    if (rays.more == 0) return render(mapper, loaded.camera, picture).image;
-    return render_adaptive(mapper, loaded.camera, picture,
+    PhotonMapper mapper(subject.world, settings,
+                        abilities<StratifiedStream, Gathering>);
+    mapper.fill_cache(subject.camera, picture);
+    if (rays.more == 0) return render(mapper, subject.camera, picture).image;
+    return render_adaptive(mapper, subject.camera, picture,
                            {.first = rays.first,
                             .more = rays.more,
                             .batches = 1,
@@ -167,20 +179,20 @@ Image photon_mapping(const LoadedScene& loaded, Preset preset, std::uint64_t see
         .image;
 }
 
-void measure(const Request& request, const LoadedScene& loaded) {
+void measure(const Request& request, const Subject& subject) {
     constexpr std::array names{"draft", "fast", "exact"};
     const auto* const name = std::ranges::find(names, request.preset);
     if (name == names.end())
         throw std::invalid_argument("there is no preset '" + request.preset + "'");
     const auto preset = static_cast<Preset>(name - names.begin());
-    const Reference reference = load_reference(request, loaded);
+    const Reference reference = load_reference(request, subject);
     std::printf("%s, preset %s, one thread; the reference's own noise: relMSE %.2g, "
                 "blocks %.2g\n%6s %10s %10s %10s %8s %8s\n",
                 request.scene.c_str(), *name, reference.noise, reference.block_noise,
                 "seed", "seconds", "relMSE", "blocks", "mean", "pace");
     for (int seed = 1; seed <= request.seeds; ++seed) {
         const double start = processor_seconds();
-        const Image image = photon_mapping(loaded, preset, std::uint64_t(seed));
+        const Image image = photon_mapping(subject, preset, std::uint64_t(seed));
         const double seconds = processor_seconds() - start;
         std::printf("%6d %10.3f %10.5f %10.6f %+7.2f%% %8.3f\n", seed, seconds,
                     rel_mse(image, reference.image) - reference.noise,
@@ -196,11 +208,11 @@ void measure(const Request& request, const LoadedScene& loaded) {
 int main(int argc, char** argv) {
     try {
         const Request request = parse(argc, argv);
-        const LoadedScene loaded = load_json<float>(request.scene);
+        const Subject subject = load_subject(request.scene);
         if (request.make > 0)
-            make_reference(request, loaded);
+            make_reference(request, subject);
         else
-            measure(request, loaded);
+            measure(request, subject);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s.\n", error.what());
         return 2;

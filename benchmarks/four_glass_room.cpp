@@ -41,8 +41,7 @@ void room(benchmark::State& state) {
         report_settings(static_cast<int>(state.range(2)), threads);
     Counts counts;
     for (auto _ : state) {
-        const auto maps = make_photon_maps(room.scene, settings);
-        const auto mapper = make_photon_mapper(room.scene, maps, settings);
+        const PhotonMapper mapper(room.world, settings);
         const auto result =
             render(mapper, room.camera,
                    {.samples = static_cast<int>(state.range(0)), .threads = threads});
@@ -56,8 +55,7 @@ void render_loop(benchmark::State& state) {
     const auto room = four_glass_room();
     const int threads = static_cast<int>(state.range(1));
     const PhotonMappingSettings settings = report_settings(1, threads);
-    const auto maps = make_photon_maps(room.scene, settings);
-    const auto mapper = make_photon_mapper(room.scene, maps, settings);
+    const PhotonMapper mapper(room.world, settings);
     Counts counts;
     for (auto _ : state) {
         const auto result =

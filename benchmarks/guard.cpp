@@ -220,22 +220,22 @@ LJUS_GUARD guard_random() {
 }
 LJUS_GUARD guard_photon_maps() {
     const auto& w = work();
-    result = result +
-             double(make_photon_maps(w.room.scene, w.settings).general.records.size());
+    result =
+        result +
+        double(PhotonMapper(w.room.world, w.settings).maps().general.records.size());
 }
 LJUS_GUARD guard_photon_mapping() {
     const auto& w = work();
-    const auto maps = make_photon_maps(w.room.scene, w.settings);
-    result = result + render(make_photon_mapper(w.room.scene, maps, w.settings),
-                             w.room.camera, w.picture)
-                          .image.pixels[70]
-                          .x;
+    result = result +
+             render(PhotonMapper(w.room.world, w.settings), w.room.camera, w.picture)
+                 .image.pixels[70]
+                 .x;
 }
 LJUS_GUARD guard_path_tracing() {
     const auto& w = work();
-    result = result + render(make_path_tracer(w.room.scene), w.room.camera, w.picture)
-                          .image.pixels[70]
-                          .x;
+    result =
+        result +
+        render(PathTracer(w.room.world), w.room.camera, w.picture).image.pixels[70].x;
 }
 LJUS_GUARD guard_png() {
     Image image = make_image<float>(64, 64);

@@ -17,7 +17,7 @@
 /// Prints the best of some runs, and their middle one.
 int main() {
     const auto room = ljus::final_room();
-    const auto tracer = make_path_tracer(room.scene);
+    const ljus::PathTracer tracer(room.world);
     std::vector<double> speeds;
     for (int run = 0; run < 15; ++run) {
         const double start = rays::seconds();

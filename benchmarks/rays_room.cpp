@@ -2,6 +2,7 @@
 /// \brief The report's room: its own style of loop, the library's loop and index, and
 /// Embree.
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -69,20 +70,19 @@ struct Loop {
     std::vector<Group> groups;
     std::size_t size = 0;
 
-    template <typename Scene>
-    explicit Loop(const Scene& scene) {
+    explicit Loop(const ljus::AnyWorld auto& world) {
         const auto add = [&](auto... made) {
             size += sizeof...(made);
             groups.emplace_back();
             (groups.back().primitives.emplace_back(made), ...);
         };
-        for (const ljus::Quad& q : std::get<0>(scene.shapes)) {
+        for (const ljus::Quad& q : std::get<0>(world.shapes())) {
             const Vec3 a = q.corner, b = a + q.edge_u, c = b + q.edge_v;
             add(new Triangle(a, b, c), new Triangle(c, a + q.edge_v, a));
         }
-        for (const ljus::Sphere& s : std::get<1>(scene.shapes))
+        for (const ljus::Sphere& s : std::get<1>(world.shapes()))
             add(new Sphere(s.center, s.radius));
-        for (const ljus::Triangle& t : std::get<2>(scene.shapes))
+        for (const ljus::Triangle& t : std::get<2>(world.shapes()))
             add(new Triangle(t.v1, t.v2, t.v3));
     }
     bool first(const Ray& ray, std::size_t& group, std::size_t& primitive,
@@ -132,14 +132,13 @@ struct ObjectOf : Object {
 
 struct Virtual {
     std::vector<std::shared_ptr<Object>> objects;
-    template <typename Scene>
-    explicit Virtual(const Scene& scene) {
+    explicit Virtual(const ljus::AnyWorld auto& world) {
         const auto add = [&](const auto& shapes) {
             for (const auto& shape : shapes)
                 objects.push_back(
                     std::make_shared<ObjectOf<std::decay_t<decltype(shape)>>>(shape));
         };
-        std::apply([&](const auto&... shapes) { (add(shapes), ...); }, scene.shapes);
+        std::apply([&](const auto&... shapes) { (add(shapes), ...); }, world.shapes());
     }
     float closest(const Ray& ray) const {
         float nearest = -1;
@@ -161,37 +160,60 @@ struct Virtual {
     }
 };
 
-/// The loop, or the index.
-template <typename Scene>
-struct House {
-    const Scene& scene;
+/// The library's loop over all shapes.
+template <typename W>
+struct InTurn {
+    const W& world;
     float closest(const Ray& ray) const {
-        const auto hit = closest_hit(scene, ray);
+        const auto hit = closest_hit_plain(world, ray);
         return hit ? hit->at.t : -1;
     }
-    bool any(const Ray& ray) const { return occluded(scene, ray); }
+    bool any(const Ray& ray) const { return occluded_plain(world, ray); }
 };
-template <typename Scene>
-House(const Scene&) -> House<Scene>; // clang finds it by itself from version 17 on
+template <typename W>
+InTurn(const W&) -> InTurn<W>; // clang finds it by itself from version 17 on
+
+/// The library's tree; of one or two shapes its loop.
+template <typename W>
+struct ByTree {
+    const W& world;
+    float closest(const Ray& ray) const {
+        const auto hit = closest_hit(world, ray);
+        return hit ? hit->at.t : -1;
+    }
+    bool any(const Ray& ray) const { return occluded(world, ray); }
+};
+template <typename W>
+ByTree(const W&) -> ByTree<W>;
+
+/// The same shapes, whose intersections are worked out in double. It has no lights: only
+/// rays are cast in it.
+template <typename S>
+auto in_double(const ljus::World<S>& world) {
+    S scene;
+    scene.shapes = world.shapes();
+    scene.objects = world.objects();
+    scene.materials = world.materials();
+    return ljus::World(std::move(scene), ljus::compute_in<double>);
+}
 
 #ifdef LJUS_BENCH_EMBREE
-template <typename Scene>
-void add_to(rays::Embree& embree, const Scene& scene) {
+void add_to(rays::Embree& embree, const ljus::AnyWorld auto& world) {
     std::vector<float> quads, spheres, triangles;
     const auto put = [](std::vector<float>& to, const Vec3& v) {
         to.insert(to.end(), {v.x, v.y, v.z});
     };
-    for (const ljus::Quad& q : std::get<0>(scene.shapes)) {
+    for (const ljus::Quad& q : std::get<0>(world.shapes())) {
         put(quads, q.corner);
         put(quads, q.corner + q.edge_u);
         put(quads, q.corner + q.edge_u + q.edge_v);
         put(quads, q.corner + q.edge_v);
     }
-    for (const ljus::Sphere& s : std::get<1>(scene.shapes)) {
+    for (const ljus::Sphere& s : std::get<1>(world.shapes())) {
         put(spheres, s.center);
         spheres.push_back(s.radius);
     }
-    for (const ljus::Triangle& t : std::get<2>(scene.shapes))
+    for (const ljus::Triangle& t : std::get<2>(world.shapes()))
         for (const Vec3& v : {t.v1, t.v2, t.v3}) put(triangles, v);
     embree.add(RTC_GEOMETRY_TYPE_QUAD, quads, 3, 4);
     embree.add(RTC_GEOMETRY_TYPE_TRIANGLE, triangles, 3, 3);
@@ -200,9 +222,8 @@ void add_to(rays::Embree& embree, const Scene& scene) {
 }
 #endif
 
-/// From how many objects on the index is faster: the room, cut down to its first few.
-template <typename Scene>
-void print_crossover(const Scene& whole, const std::vector<Ray>& set,
+/// From how many objects on the tree is faster: the room, cut down to its first few.
+void print_crossover(const ljus::AnyWorld auto& whole, const std::vector<Ray>& set,
                      const std::string& folder) {
     examples::Table table{
         .name = "bvh-first", .columns = {"objects"}, .rows = {{"loop"}, {"wide tree"}}};
@@ -217,10 +238,10 @@ void print_crossover(const Scene& whole, const std::vector<Ray>& set,
             for (const auto& shape : shapes)
                 if (part.size() < count) part.add(shape, matt);
         };
-        std::apply([&](const auto&... shapes) { (add(shapes), ...); }, whole.shapes);
-        const auto by_tree = ljus::index_scene(part);
-        const House loop{part};
-        const House tree{by_tree};
+        std::apply([&](const auto&... shapes) { (add(shapes), ...); }, whole.shapes());
+        const ljus::World world(std::move(part));
+        const InTurn loop{world};
+        const ByTree tree{world};
         const auto t = rays::compare(set, false, loop, tree);
         std::printf("%8zu %8.1f %8.1f\n", count, t.nanoseconds[0], t.nanoseconds[1]);
         table.columns.push_back(std::to_string(count));
@@ -241,37 +262,39 @@ int main(int argc, char** argv) {
                                       "report / tree", "virtual / tree",
                                       "Embree / tree"}};
     const auto room = ljus::final_room();
-    const auto& scene = room.scene;
-    const auto indexed = ljus::index_scene(scene);
-    const auto in_double = ljus::index_scene<double>(scene);
-    const report::Loop as_report(scene);
-    const Virtual objects(scene);
-    const House loop{scene};
-    const House index{indexed};
-    const House index_double{in_double};
+    const auto& world = room.world;
+    const auto world_in_double = in_double(world);
+    const report::Loop as_report(world);
+    const Virtual objects(world);
+    const InTurn loop{world};
+    const ByTree tree{world};
+    const ByTree tree_in_double{world_in_double};
 #ifdef LJUS_BENCH_EMBREE
     rays::Embree embree;
-    add_to(embree, scene);
+    add_to(embree, world);
 #else
     const rays::NoPeer embree;
 #endif
     const auto first_hit = [&](const Ray& ray) -> std::optional<ljus::SurfacePoint> {
-        const auto hit = closest_hit(scene, ray);
+        const auto hit = closest_hit(world, ray);
         if (!hit) return std::nullopt;
-        return vertex_at(scene, ray, *hit).point;
+        return vertex_at(world, ray, *hit).point;
     };
-    const ljus::Quad& lamp = std::get<0>(scene.shapes)[scene.lights[0].object->index];
+    const auto is_lamp = [](const auto& object) { return object.light == 0; };
+    const auto& quads = world.objects()[0];
+    const ljus::Quad& lamp = std::get<0>(world.shapes())[std::size_t(
+        std::find_if(quads.begin(), quads.end(), is_lamp) - quads.begin())];
     const Ray middle = primary_ray(room.camera, ljus::Vec2{200, 200}, 400, 400);
     const rays::RaySets sets =
         rays::ray_sets(first_hit, middle.origin, middle.origin + middle.direction,
                        {0, 0, 1}, lamp.corner, lamp.edge_u, lamp.edge_v);
-    std::printf("ns per ray; %zu objects, as the report has them %zu\n", scene.size(),
+    std::printf("ns per ray; %zu objects, as the report has them %zu\n", world.size(),
                 as_report.size);
-    std::printf("%-8s %8s %8s %8s %8s %8s %8s   index x report, virtual, Embree\n", "",
-                "report", "virtual", "loop", "index", "double", "Embree");
+    std::printf("%-8s %8s %8s %8s %8s %8s %8s   tree x report, virtual, Embree\n", "",
+                "report", "virtual", "loop", "tree", "double", "Embree");
     const auto row = [&](const char* name, const std::vector<Ray>& set, bool any) {
-        const auto t = rays::compare(set, any, as_report, objects, loop, index,
-                                     index_double, embree);
+        const auto t = rays::compare(set, any, as_report, objects, loop, tree,
+                                     tree_in_double, embree);
         table.rows.push_back({name});
         std::vector<std::string>& cells = table.rows.back();
         std::printf("%-8s", name);
@@ -291,5 +314,5 @@ int main(int argc, char** argv) {
     row("shadow", sets.shadow, true);
 
     save_csv(folder, table);
-    print_crossover(scene, sets.diffuse, folder);
+    print_crossover(world, sets.diffuse, folder);
 }

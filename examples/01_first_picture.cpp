@@ -17,9 +17,9 @@ int main() {
     scene.add(Sphere{.center{-3, 5, -2}, .radius = 0.5f}, grey, Rgb{50}); // a lamp
 
     const Camera camera = look_at({.position{0, 3, 7}, .target{0, 0.9f, 0}});
-    const auto maps = make_photon_maps(scene);
-    const auto picture =
-        render(make_photon_mapper(scene, maps), camera, {.samples = 9});
+    const World world(std::move(scene));
+    const PhotonMapper mapper(world);
+    const auto picture = render(mapper, camera, {.samples = 9});
     save_png(picture.image, "first_picture.png");
 }
 // [first picture]

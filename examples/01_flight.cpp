@@ -53,7 +53,7 @@ auto make_place() {
     scene.add(ljus::Sphere{.center{-3, 6, -2}, .radius = 0.5f}, floor, Rgb{70});
     scene.add(ljus::Quad{.corner{-9, 9, -9}, .edge_u{18, 0, 0}, .edge_v{0, 0, 18}},
               floor, Rgb{0.25f, 0.3f, 0.4f});
-    return scene;
+    return ljus::World(std::move(scene));
 }
 
 /// The camera at a moment of the flight: once around, rising and sinking; the end is
@@ -95,15 +95,14 @@ void body(examples::CommandLine& line) {
     if (frames == 0) frames = options.pick(8, 24, 240);
     if (photons == 0) photons = options.pick(20000LL, 200000LL, 2000000LL);
 
-    const auto scene = make_place();
+    const auto world = make_place();
     const ljus::PhotonMappingSettings settings{
         .caustics{.photons = photons, .seed = options.seed, .threads = options.threads},
         .caustics_estimate{.radius = options.pick(0.2f, 0.07f, 0.02f)}};
     // Photons do not know where the camera is: one map serves all frames.
     // [frames]
     const examples::StopWatch watch;
-    const auto maps = make_photon_maps(scene, settings);
-    const auto mapper = make_photon_mapper(scene, maps, settings);
+    const ljus::PhotonMapper mapper(world, settings);
     const double first_pass = watch.seconds();
     const int columns = std::min(frames, 4), rows = std::min(2, (frames + 3) / 4);
     Image sheet = ljus::make_image(columns * options.width, rows * options.height);

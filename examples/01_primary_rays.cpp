@@ -94,10 +94,10 @@ std::vector<Point> rim_of_ball(const Figure3& figure) {
 
 /// A ray through a place of the camera plane, to what it meets.
 void draw_camera_ray(Figure3& figure, const Vec2& pixel, const examples::Pen& pen) {
-    const auto scene = ljus::make_scene(placed(figure.floor, ljus::Lambertian{}),
-                                        placed(figure.ball, ljus::Lambertian{}));
+    const ljus::World world(ljus::make_scene(placed(figure.floor, ljus::Lambertian{}),
+                                             placed(figure.ball, ljus::Lambertian{})));
     const Ray ray = primary_ray(figure.camera, pixel, Figure3::columns, Figure3::rows);
-    const auto hit = closest_hit(scene, ray);
+    const auto hit = closest_hit(world, ray);
     const Point end = figure.see(point_at(ray, hit ? hit->at.t : 6.5f));
     draw_line(figure.drawing, {figure.see(figure.camera.position), end}, pen);
     if (hit) draw_dot(figure.drawing, end, 2.5, pen.color);
@@ -215,9 +215,8 @@ struct TestCard {
     }
 };
 
-template <typename Log = ljus::NoLog>
-Rgb radiance(const TestCard& card, const Ray& ray, ljus::RandomStream&, ljus::Counts&,
-             Log&& = {}) {
+template <typename Context>
+Rgb radiance(const TestCard& card, const Ray& ray, Context&) {
     const Vec3 d = ray.direction / -ray.direction.z;
     return Rgb(float(card.value(double(d.x), double(d.y))));
 }
@@ -330,9 +329,8 @@ struct Tiles {
     using Stream = ljus::RandomStream;
 };
 
-template <typename Log = ljus::NoLog>
-Rgb radiance(const Tiles&, const Ray& ray, ljus::RandomStream&, ljus::Counts&,
-             Log&& = {}) {
+template <typename Context>
+Rgb radiance(const Tiles&, const Ray& ray, Context&) {
     if (!(ray.direction.y < 0)) return {0.35f, 0.5f, 0.8f};
     const Vec3 p = point_at(ray, -ray.origin.y / ray.direction.y);
     const bool dark = (std::fmod(std::floor(p.x) + std::floor(p.z), 2.0f) != 0);
@@ -360,13 +358,14 @@ void tiles(const examples::Options& options) {
     Image aliased = ljus::make_image(options.width, options.height);
     ljus::Counts counts;
     ljus::RandomStream none;
+    auto context = ljus::context_of(none, counts);
     for (int y = 0; y < options.height; ++y)
         for (int x = 0; x < options.width; ++x)
             pixel(aliased, x, y) =
                 radiance(Tiles{},
                          primary_ray(camera, Vec2{float(x) + 0.5f, float(y) + 0.5f},
                                      options.width, options.height),
-                         none, counts);
+                         context);
     save_png(aliased, options.path("tiles-one.png"));
 }
 
@@ -374,8 +373,7 @@ void tiles(const examples::Options& options) {
 void exposures(const examples::Options& options) {
     const auto room = ljus::cornell_box();
     examples::ProgressBar bar("exposure", options.quiet);
-    const auto maps = make_photon_maps(room.scene);
-    const auto seen = render(make_photon_mapper(room.scene, maps), room.camera,
+    const auto seen = render(ljus::PhotonMapper(room.world), room.camera,
                              {.width = options.height,
                               .height = options.height,
                               .samples = options.samples,
@@ -417,13 +415,14 @@ void fields_of_view(const examples::Options& options) {
                                    .radius = 1},
                       red);
     scene.add(ljus::Sphere{.center{-20, 60, 40}, .radius = 12}, grey, Rgb{40});
+    const ljus::World world(std::move(scene));
     for (const float angle : {1.0f, 20.0f, 60.0f, 120.0f, 170.0f}) {
         const float distance = 3.5f / std::tan(angle * std::numbers::pi_v<float> / 360);
         const Camera camera =
             ljus::look_at({.position{0, 0.06f * distance, 1 + distance},
                            .target{0, 0, 0},
                            .vfov_degrees = angle});
-        const auto seen = render(make_path_tracer(scene, {.max_depth = 2}), camera,
+        const auto seen = render(ljus::PathTracer(world, {.max_depth = 2}), camera,
                                  {.width = options.width,
                                   .height = options.height,
                                   .samples = options.samples,

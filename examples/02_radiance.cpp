@@ -408,7 +408,7 @@ auto wall_and_lamp(float distance) {
     const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
     scene.add(ljus::Quad{{-40, -40, 0}, {80, 0, 0}, {0, 80, 0}}, white);
     scene.add(ljus::Sphere{.center{0, 0, distance}, .radius = 0.6f}, black, Rgb{0.9f});
-    return scene;
+    return ljus::World(std::move(scene));
 }
 
 /// Pictures and a table: a lamp that leaves the wall, as a fixed camera sees both.
@@ -420,8 +420,8 @@ void leave_the_wall(const examples::Options& options) {
         ljus::look_at({.position{8, 0.6f, 5}, .target{0, 0, 1.4f}, .vfov_degrees = 36});
     int number = 0;
     for (const float r : {0.8f, 1.6f, 3.2f}) {
-        const auto scene = wall_and_lamp(r);
-        const auto tracer = make_path_tracer(scene);
+        const auto world = wall_and_lamp(r);
+        const ljus::PathTracer tracer(world);
         const auto picture = render(tracer, camera,
                                     {.width = options.width,
                                      .height = options.height,
@@ -453,10 +453,10 @@ void step_back(const std::string& folder, int shots) {
                           .columns = {"distance (m)", "radiance in the pixel",
                                       "solid angle (sr)", "irradiance, W/m²",
                                       "irradiance / solid angle"}};
-    const auto scene =
+    const ljus::World world(
         ljus::make_scene(placed(ljus::Sphere{.center{0, 0, 0}, .radius = 0.5f},
-                                ljus::Lambertian{.albedo = Rgb{0}}, Rgb{10}));
-    const auto tracer = make_path_tracer(scene);
+                                ljus::Lambertian{.albedo = Rgb{0}}, Rgb{10})));
+    const ljus::PathTracer tracer(world);
     for (const double r : {1.0, 2.0, 4.0, 20.0, 100.0}) {
         const auto eye = ljus::look_at(
             {.position{0, 0, float(r)}, .target{0, 0, 0}, .vfov_degrees = 0.01f});
@@ -608,9 +608,8 @@ struct Card {
     double half = 1;        ///< Pixels from the middle of the picture to its edge.
     bool rings = false;     ///< Or waves along x.
 };
-template <typename Log = ljus::NoLog>
-Rgb radiance(const Card& card, const ljus::Ray& ray, ljus::RandomStream&, ljus::Counts&,
-             Log&& = {}) {
+template <typename Context>
+Rgb radiance(const Card& card, const ljus::Ray& ray, Context&) {
     const double x = double(ray.direction.x / -ray.direction.z) * card.half;
     const double y = double(ray.direction.y / -ray.direction.z) * card.half;
     const double value =
@@ -729,9 +728,10 @@ void pictures_of_rings(const examples::Options& options, int pixels, int samples
         for (int x = 0; x < pixels; ++x) {
             ljus::RandomStream none;
             ljus::Counts counts;
+            auto context = ljus::context_of(none, counts);
             const auto ray =
                 primary_ray(camera, {float(x) + 0.5f, float(y) + 0.5f}, pixels, pixels);
-            pixel(middles, x, y) = radiance(rings, ray, none, counts);
+            pixel(middles, x, y) = radiance(rings, ray, context);
         }
     save_png(middles, options.path("radiance-rings-none.png"));
     for (std::size_t i = 0; i < std::size(filters); ++i)

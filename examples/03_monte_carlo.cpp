@@ -345,9 +345,8 @@ enum class Weights { mean, balance, power };
 double both(Weights rule, ljus::RandomStream& stream) {
     const auto term = [rule](double c, double pdf, double other) {
         double weight = 0.5; // a plain mean of the two
-        if (rule == Weights::balance)
-            weight = ljus::detail::balance_heuristic(pdf, other);
-        if (rule == Weights::power) weight = ljus::detail::power_heuristic(pdf, other);
+        if (rule == Weights::balance) weight = ljus::balance_heuristic(pdf, other);
+        if (rule == Weights::power) weight = ljus::power_heuristic(pdf, other);
         return weight * f(c) / pdf;
     };
     const double a = Cosine::sample(next_1d<double>(stream));
@@ -366,10 +365,9 @@ void multiple(const std::string& folder, int samples) {
                         .y_label = "weight"};
     for (int i = 0; i <= 100; ++i) {
         const double c = i / 100.0, p = Cosine::pdf(c), q = Grazing::pdf(c);
-        plot.rows.push_back({c, ljus::detail::balance_heuristic(p, q),
-                             ljus::detail::balance_heuristic(q, p),
-                             ljus::detail::power_heuristic(p, q),
-                             ljus::detail::power_heuristic(q, p)});
+        plot.rows.push_back({c, ljus::balance_heuristic(p, q),
+                             ljus::balance_heuristic(q, p), ljus::power_heuristic(p, q),
+                             ljus::power_heuristic(q, p)});
     }
     save_plot(folder, plot);
 

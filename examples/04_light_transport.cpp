@@ -27,7 +27,9 @@
 namespace {
 
 using ljus::Image;
-using ljus::only_paths;
+using ljus::OnlyPaths;
+using ljus::PathTracer;
+using ljus::PhotonMapper;
 using ljus::Rgb;
 using ljus::Vec3;
 
@@ -61,15 +63,14 @@ void figure_2(const examples::Options& options, long long photons) {
     const ljus::PhotonMappingSettings settings{
         .caustics{.photons = photons},
         .caustics_estimate{.radius = options.pick(0.1f, 0.02f, 0.007f)}};
-    const auto maps = make_photon_maps(room.scene, settings);
-    const auto mapper = make_photon_mapper(room.scene, maps, settings);
+    const PhotonMapper mapper(room.world, settings);
     // [figure 2]
     const auto picture = [&](const auto& renderer) {
         return rendered("figure 2", renderer, room.camera, options, options.samples,
                         options.seed);
     };
     const Image all = picture(mapper);
-    const Image direct = picture(only_paths(mapper, "ES*D?L"));
+    const Image direct = picture(OnlyPaths(mapper, "ES*D?L"));
     Image indirect = all;
     for (std::size_t i = 0; i < all.pixels.size(); ++i)
         indirect.pixels[i] -= direct.pixels[i];
@@ -85,7 +86,7 @@ void figure_2(const examples::Options& options, long long photons) {
 /// The picture bounce by bounce, and how the light that is left shrinks.
 void bounces(const examples::Options& options) {
     const auto room = ljus::cornell_box();
-    const auto tracer = make_path_tracer(room.scene, {.roulette_depth = 12});
+    const PathTracer tracer(room.world, {.roulette_depth = 12});
     examples::Plot plot{.name = "transport-bounces",
                         .columns = {"bounces", "mean radiance", "halved each time"},
                         .y_label = "W/(m^2 sr)",
@@ -93,7 +94,7 @@ void bounces(const examples::Options& options) {
     std::string words = "E";
     for (int bounce = 0; bounce <= 10; ++bounce) {
         const std::string paths = words + "L";
-        const Image part = rendered("bounces", only_paths(tracer, paths), room.camera,
+        const Image part = rendered("bounces", OnlyPaths(tracer, paths), room.camera,
                                     options, options.samples, options.seed);
         if (bounce <= 4)
             save_png(part, options.path("bounce-" + std::to_string(bounce) + ".png"),
@@ -122,9 +123,9 @@ void truncations(const examples::Options& options) {
         {"path tracing (Kajiya 1986)", "E(S|D)*L", "all"},
     };
     const auto room = ljus::cornell_box();
-    const auto tracer = make_path_tracer(room.scene);
+    const PathTracer tracer(room.world);
     const auto picture = [&](const char* letters) {
-        return rendered(letters, only_paths(tracer, letters), room.camera, options,
+        return rendered(letters, OnlyPaths(tracer, letters), room.camera, options,
                         options.samples, options.seed);
     };
     const Image all = picture("E(S|D)*L");
@@ -158,7 +159,7 @@ auto matt_room() {
                          .edge_u{0.5f, 0, 0},
                          .edge_v{0, 0, 0.5f}},
               black, Rgb{17, 13, 8});
-    return scene;
+    return ljus::World(std::move(scene));
 }
 using MattRoom = decltype(matt_room());
 
@@ -167,26 +168,25 @@ using MattRoom = decltype(matt_room());
 // [area form]
 struct AreaForm {
     using Stream = ljus::RandomStream;
-    const MattRoom& scene;
+    const MattRoom& world;
     bool visibility = true; ///< False: the g of the report, 1/r^2.
 };
 
-template <typename Log = ljus::NoLog>
-Rgb radiance(const AreaForm& form, const ljus::Ray& ray, ljus::RandomStream& stream,
-             ljus::Counts&, Log&& = {}) {
-    const auto hit = closest_hit(form.scene, ray);
+template <typename Context>
+Rgb radiance(const AreaForm& form, const ljus::Ray& ray, Context& context) {
+    const auto hit = closest_hit(form.world, ray);
     if (!hit) return Rgb{0};
-    const auto here = vertex_at(form.scene, ray, *hit);
-    const ljus::Quad& lamp = std::get<0>(form.scene.shapes).back();
-    const ljus::SurfacePoint there = sample_area(lamp, next_2d(stream));
+    const auto here = vertex_at(form.world, ray, *hit);
+    const ljus::Quad& lamp = std::get<0>(form.world.shapes()).back();
+    const ljus::SurfacePoint there = sample_area(lamp, next_2d(context.stream));
     const Vec3 way = there.position - here.point.position;
     const float squared = glm::dot(way, way);
     const float g =
-        form.visibility ? transport_factor(form.scene, here.point, there) : 1 / squared;
+        form.visibility ? transport_factor(form.world, here.point, there) : 1 / squared;
     const Vec3 w = way / std::sqrt(squared);
     const float cosines = std::max(glm::dot(here.frame.normal, w), 0.0f) *
                           std::max(-glm::dot(there.normal, w), 0.0f);
-    const Rgb albedo = form.scene.visit_material(
+    const Rgb albedo = form.world.visit_material(
         here.object.material, [](const ljus::Lambertian& m) { return m.albedo; });
     const float pi = 3.14159265f;
     return here.object.emission +
@@ -200,9 +200,9 @@ ljus::Camera box_camera() {
 
 /// Direct light with the g of Kajiya and with the g of the report.
 void visibility(const examples::Options& options) {
-    const auto scene = matt_room();
+    const auto room = matt_room();
     for (const bool seen : {true, false})
-        save_png(rendered("visibility", AreaForm{scene, seen}, box_camera(), options,
+        save_png(rendered("visibility", AreaForm{room, seen}, box_camera(), options,
                           options.samples, options.seed),
                  options.path(seen ? "g-visible.png" : "g-report.png"));
 }
@@ -218,9 +218,9 @@ void save_flip_map(const Image& image, const Image& truth, const std::string& pa
 /// Footnote 1: renderers that simulate and renderers that emulate, by how wrong they
 /// are and by how wrong they look.
 void emulate(const examples::Options& options, long long photons, int truth_rays) {
-    const auto scene = matt_room();
+    const auto room = matt_room();
     const auto camera = box_camera();
-    const auto tracer = make_path_tracer(scene);
+    const PathTracer tracer(room);
     const Image truth =
         rendered("truth", tracer, camera, options, truth_rays, options.seed + 1000);
     save_png(truth, options.path("emulate-truth.png"));
@@ -254,9 +254,8 @@ void emulate(const examples::Options& options, long long photons, int truth_rays
                 .indirect = indirect,
                 .general{.photons = count, .seed = options.seed},
                 .general_estimate{.radius = 0.25f}};
-            const auto maps = make_photon_maps(scene, settings);
-            return rendered("photons", make_photon_mapper(scene, maps, settings),
-                            camera, options, rays, options.seed);
+            return rendered("photons", PhotonMapper(room, settings), camera, options,
+                            rays, options.seed);
         };
         const std::string many = std::to_string(count);
         take(many + " photons", count == photons ? "emulate-photons" : "",

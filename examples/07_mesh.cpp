@@ -29,7 +29,8 @@ using namespace ljus;
 
 namespace {
 
-using Room = Scene<Shapes<Mesh, Sphere, Quad>, Materials<Lambertian, Mirror, Glass>>;
+using Open = Scene<Shapes<Mesh, Sphere, Quad>, Materials<Lambertian, Mirror, Glass>>;
+using Room = World<Open>;
 
 /// What the user may set besides the common options.
 struct Sizes {
@@ -43,8 +44,8 @@ MeshData without_normals(MeshData data) {
 }
 
 /// A white floor, and a lamp of 0.6 x 0.6 that shines on it from the left.
-Room floor_and_lamp() {
-    Room room;
+Open floor_and_lamp() {
+    Open room;
     const auto white = room.add(Lambertian{.albedo = Rgb{0.7f}});
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
     room.add(Quad{.corner{-5, 0, 4}, .edge_u{10, 0, 0}, .edge_v{0, 0, -10}}, white);
@@ -68,7 +69,7 @@ void flat_and_smooth(const examples::Options& options) {
     const MeshData ball = icosphere(Sphere{.center{-1.1f, 0.8f, 0}, .radius = 0.8f}, 2);
     const MeshData ring = torus(Vec3{0.9f, 0.35f, 0.1f}, 0.75f, 0.34f, 24, 12);
     for (const bool smooth_normals : {false, true}) {
-        Room room = floor_and_lamp();
+        Open room = floor_and_lamp();
         const auto black = room.add(Lambertian{.albedo = Rgb{0}});
         room.add(Quad{.corner{1, 3.5f, 5}, .edge_u{2, 0, 1}, .edge_v{0, 1.5f, -0.5f}},
                  black, Rgb{2.5f});
@@ -78,7 +79,8 @@ void flat_and_smooth(const examples::Options& options) {
         room.add(Mesh(smooth_normals ? ring : without_normals(ring)), blue);
         const Camera camera = look_at(
             {.position{0, 2.2f, 5}, .target{0.1f, 0.5f, 0}, .vfov_degrees = 30});
-        const auto image = render(make_path_tracer(room), camera, picture_of(options));
+        const World world(std::move(room));
+        const auto image = render(PathTracer(world), camera, picture_of(options));
         save_png(image.image,
                  options.path(smooth_normals ? "mesh-smooth.png" : "mesh-flat.png"));
     }
@@ -89,9 +91,9 @@ void flat_and_smooth(const examples::Options& options) {
 const Sphere glass_ball{.center{0, 1.1f, 0}, .radius = 0.8f};
 
 Room glass_room(const MeshData& glass) {
-    Room room = floor_and_lamp();
+    Open room = floor_and_lamp();
     room.add(Mesh(glass), room.add(Glass{.index = 1.5f}));
-    return room;
+    return World(std::move(room));
 }
 
 /// The photons that a glass mesh sends to the floor, and the share of the flux that met
@@ -99,7 +101,7 @@ Room glass_room(const MeshData& glass) {
 /// has no factor; the n^2 of radiance is left out, too.
 std::vector<Photon> glass_photons(const Room& room, long long count, bool factor,
                                   std::uint64_t seed, double& share) {
-    const LightChoice choice = light_choice(room.lights);
+    const LightChoice choice = room.light_choice();
     const std::vector<ObjectId> targets = specular_objects(room);
     std::vector<Photon> photons;
     double met = 0, landed = 0;
@@ -146,22 +148,20 @@ void caustic_pictures(const examples::Options& options, const Sizes& sizes) {
     settings.indirect = IndirectLight::none;
     settings.caustics_estimate.radius = options.pick(0.06f, 0.02f, 0.01f);
     for (const bool factor : {true, false}) {
-        PhotonMapsT<float> maps;
         double share = 0;
-        maps.caustics = make_photon_map(
-            glass_photons(room, sizes.photons, factor, options.seed, share));
-        const auto mapper = make_photon_mapper(room, maps, settings);
+        settings.caustics.photons = 0; // these are traced here
+        PhotonMapper mapper(room, settings);
+        mapper.set_caustics(make_photon_map(
+            glass_photons(room, sizes.photons, factor, options.seed, share)));
         save_png(
             render(mapper, camera, picture_of(options)).image,
             options.path(factor ? "mesh-caustic.png" : "mesh-caustic-without.png"));
     }
     settings.caustics = {
         .photons = sizes.photons, .seed = options.seed, .threads = options.threads};
-    const auto maps = make_photon_maps(fine, settings);
-    save_png(
-        render(make_photon_mapper(fine, maps, settings), camera, picture_of(options))
-            .image,
-        options.path("mesh-caustic-fine.png"));
+    const PhotonMapper mapper(fine, settings);
+    save_png(render(mapper, camera, picture_of(options)).image,
+             options.path("mesh-caustic-fine.png"));
 }
 
 // --- Energy -----------------------------------------------------------------------------
@@ -170,12 +170,12 @@ void caustic_pictures(const examples::Options& options, const Sizes& sizes) {
 template <typename Material>
 double in_furnace(const MeshData& body, const Material& material, int paths,
                   std::uint64_t seed) {
-    Room room;
-    const auto black = room.add(Lambertian{.albedo = Rgb{0}});
-    room.add(Mesh(body), room.add(material));
-    room.add(Sphere{.center{0, 0, 0}, .radius = 4}, black, Rgb{1}, true);
-    const auto tracer =
-        make_path_tracer(room, {.roulette_depth = 1001, .sample_lights = false});
+    Open open;
+    const auto black = open.add(Lambertian{.albedo = Rgb{0}});
+    open.add(Mesh(body), open.add(material));
+    open.add(Sphere{.center{0, 0, 0}, .radius = 4}, black, Rgb{1}, true);
+    const World room(std::move(open));
+    const PathTracer tracer(room, {.roulette_depth = 1001, .sample_lights = false});
     Counts counts;
     double sum = 0;
     int hits = 0;
@@ -189,7 +189,8 @@ double in_furnace(const MeshData& body, const Material& material, int paths,
                       .direction = -glm::normalize(from)};
         const auto first = closest_hit(room, ray);
         if (!first || first->object.type != 0) continue;
-        sum += double(radiance(tracer, ray, stream, counts).x);
+        auto context = context_of(stream, counts);
+        sum += double(radiance(tracer, ray, context).x);
         ++hits;
     }
     return sum / hits;

@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ljus/ljus.hpp>
@@ -48,7 +49,7 @@ auto merging(float distance, bool with_glass) {
     scene.add(Quad{.corner{-9, -0.9f, 3}, .edge_u{18, 0, 0}, .edge_v{0, 0, -12}}, grey);
     scene.add(Quad{.corner{-9, -0.9f, -7}, .edge_u{18, 0, 0}, .edge_v{0, 12, 0}}, grey);
     scene.add(Sphere{.center{-2.5f, 4.5f, -1.5f}, .radius = 0.4f}, grey, Rgb{90});
-    return scene;
+    return World(std::move(scene));
 }
 // [scene]
 
@@ -62,8 +63,8 @@ void pictures(const examples::Options& options) {
     const ljus::RenderSettings picture{options.width, options.height, options.samples,
                                        options.seed, options.threads};
     for (const int hundredths : {200, 170, 145, 120, 80}) {
-        const auto scene = merging(float(hundredths) / 100, false);
-        const auto tracer = make_path_tracer(scene);
+        const auto world = merging(float(hundredths) / 100, false);
+        const ljus::PathTracer tracer(world);
         save_png(render(tracer, camera(30), picture).image,
                  options.path("metaballs-" + std::to_string(hundredths) + ".png"));
         examples::stop_if_asked();
@@ -71,9 +72,8 @@ void pictures(const examples::Options& options) {
     ljus::PhotonMappingSettings settings;
     settings.caustics.photons = options.pick(100000ll, 300000ll, 3000000ll);
     settings.caustics.seed = options.seed;
-    const auto scene = merging(1.2f, true);
-    const auto maps = make_photon_maps(scene, settings);
-    const auto mapper = make_photon_mapper(scene, maps, settings);
+    const auto world = merging(1.2f, true);
+    const ljus::PhotonMapper mapper(world, settings);
     save_png(render(mapper, camera(38), picture).image,
              options.path("metaballs-glass.png"));
     examples::stop_if_asked();

@@ -67,19 +67,19 @@ void draw_figure_9(const std::string& folder) {
 auto corridor(const Rgb& reflectance, float width, float height) {
     const ljus::Mirror mirror{.reflectance = reflectance};
     const float depth = 4;
-    return ljus::make_scene(
+    return ljus::World(ljus::make_scene(
         placed(Quad{{0, -1, -depth}, {0, 0, 2 * depth}, {0, height + 2, 0}}, mirror),
         placed(Quad{{width, -1, -depth}, {0, height + 2, 0}, {0, 0, 2 * depth}},
                mirror),
         placed(Quad{{0, height, -depth}, {width, 0, 0}, {0, 0, 2 * depth}},
-               ljus::Lambertian{.albedo = Rgb{0}}, Rgb{1}));
+               ljus::Lambertian{.albedo = Rgb{0}}, Rgb{1})));
 }
 /// Plot: the lamp after n reflections, traced, beside R to the power of n.
 void plot_powers(const std::string& folder) {
     constexpr float width = 1, height = 1;
     const Rgb reflectance{0.95f, 0.9f, 0.8f};
-    const auto scene = corridor(reflectance, width, height);
-    const auto tracer = make_path_tracer(scene, {.roulette_depth = 1000});
+    const auto world = corridor(reflectance, width, height);
+    const ljus::PathTracer tracer(world, {.roulette_depth = 1000});
     examples::Plot plot{
         .name = "reflection-powers",
         .columns = {"reflections", "R = 0.95", "R = 0.9", "R = 0.8", "0.9^n"},
@@ -92,7 +92,8 @@ void plot_powers(const std::string& folder) {
         const ljus::Ray ray{.origin{width / 2, 0, 0}, .direction = glm::normalize(way)};
         ljus::RandomStream stream = ljus::random_stream(1, ljus::Pass::camera, 0, 0);
         ljus::Counts counts;
-        const Rgb seen = radiance(tracer, ray, stream, counts);
+        auto context = ljus::context_of(stream, counts);
+        const Rgb seen = radiance(tracer, ray, context);
         examples::Row row{double(n)};
         for (int channel = 0; channel < 3; ++channel) {
             row.push_back(double(seen[channel]));
@@ -110,7 +111,7 @@ void plot_powers(const std::string& folder) {
 void hall(const examples::Options& options) {
     const ljus::Mirror mirror{.reflectance{0.86f, 0.95f, 0.9f}};
     const ljus::Lambertian grey{.albedo = Rgb{0.6f}};
-    const auto scene = ljus::make_scene(
+    const ljus::World world(ljus::make_scene(
         placed(Quad{{-2, 0, -3}, {4, 0, 0}, {0, 2.6f, 0}}, mirror),
         placed(Quad{{-2, 0, 3}, {0, 2.6f, 0}, {4, 0, 0}}, mirror),
         placed(Quad{{-2, 0, 3}, {4, 0, 0}, {0, 0, -6}}, grey),
@@ -121,15 +122,14 @@ void hall(const examples::Options& options) {
                ljus::Lambertian{.albedo{0.25f, 0.4f, 0.7f}}),
         placed(ljus::Sphere{.center{0.5f, 0.5f, -1}, .radius = 0.5f},
                ljus::Lambertian{.albedo{0.8f, 0.75f, 0.3f}}),
-        placed(Quad{{-0.5f, 2.59f, -0.8f}, {1, 0, 0}, {0, 0, 1.6f}}, grey, Rgb{9}));
+        placed(Quad{{-0.5f, 2.59f, -0.8f}, {1, 0, 0}, {0, 0, 1.6f}}, grey, Rgb{9})));
     const auto camera = ljus::look_at(
         {.position{-1.1f, 1.35f, 2.6f}, .target{0.35f, 1.05f, -3}, .vfov_degrees = 50});
     const ljus::PhotonMappingSettings settings{
         .caustics{.photons = options.pick(200000, 1000000, 10000000)},
         .caustics_estimate{.radius = options.pick(0.15f, 0.1f, 0.05f)}};
-    const auto maps = make_photon_maps(scene, settings);
-    const auto picture = examples::rendered(
-        "reflection-hall", make_photon_mapper(scene, maps, settings), camera, options);
+    const ljus::PhotonMapper mapper(world, settings);
+    const auto picture = examples::rendered("reflection-hall", mapper, camera, options);
     save_png(picture.image, options.path("reflection-hall.png"));
 }
 

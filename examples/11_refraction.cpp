@@ -151,7 +151,7 @@ void picture(const examples::Options& options, const std::string& name, Error er
     // Sides of 2, on the floor.
     const Vec3 a{-1.9f, 0.01f, 0.6f}, b{0.1f, 0.01f, 0.9f}, c{-0.75f, 0.01f, -1.0f},
         top{-0.85f, 1.7f, 0.2f};
-    const auto scene = ljus::make_scene(
+    const ljus::World world(ljus::make_scene(
         placed(Quad{{-3, 0, 3}, {6, 0, 0}, {0, 0, -6}}, matt(0.7f, 0.7f, 0.7f)),
         placed(Quad{{-3, 4, -3}, {6, 0, 0}, {0, 0, 6}}, matt(0.7f, 0.7f, 0.7f)),
         placed(Quad{{-3, 0, -3}, {6, 0, 0}, {0, 4, 0}}, matt(0.75f, 0.7f, 0.45f)),
@@ -162,7 +162,7 @@ void picture(const examples::Options& options, const std::string& name, Error er
                Rgb{7}),
         placed(Sphere{.center{1.25f, 0.81f, 0.3f}, .radius = 0.8f}, glass),
         placed(Triangle{a, b, top}, glass), placed(Triangle{b, c, top}, glass),
-        placed(Triangle{c, a, top}, glass), placed(Triangle{a, c, b}, glass));
+        placed(Triangle{c, a, top}, glass), placed(Triangle{a, c, b}, glass)));
     const auto camera = ljus::look_at(
         {.position{0.1f, 1.9f, 2.9f}, .target{0.05f, 0.75f, 0}, .vfov_degrees = 62});
     ljus::PhotonMappingSettings settings{
@@ -170,9 +170,8 @@ void picture(const examples::Options& options, const std::string& name, Error er
         .caustics{.photons = options.pick(100000, 1000000, 10000000)},
         .caustics_estimate{.radius = options.pick(0.1f, 0.05f, 0.02f)}};
     settings.caustics.threads = options.threads;
-    const auto maps = make_photon_maps(scene, settings);
-    const auto result = examples::rendered(
-        name, make_photon_mapper(scene, maps, settings), camera, options);
+    const ljus::PhotonMapper mapper(world, settings);
+    const auto result = examples::rendered(name, mapper, camera, options);
     save_png(result.image, options.path(name + ".png"));
 }
 

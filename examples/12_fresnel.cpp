@@ -154,7 +154,7 @@ ljus::Image picture(const examples::Options& options, const std::string& name,
     const auto matt = [](float r, float g, float b) {
         return ljus::Lambertian{.albedo{r, g, b}};
     };
-    const auto scene = ljus::make_scene(
+    const ljus::World world(ljus::make_scene(
         placed(Quad{{-4, 0, 4}, {8, 0, 0}, {0, 0, -8}}, matt(0.12f, 0.12f, 0.14f)),
         placed(Quad{{-4, 0, -4}, {8, 0, 0}, {0, 5, 0}}, matt(0.1f, 0.16f, 0.25f)),
         placed(Quad{{-4, 0, 4}, {0, 0, -8}, {0, 5, 0}}, matt(0, 0, 0), Rgb{1}),
@@ -163,11 +163,11 @@ ljus::Image picture(const examples::Options& options, const std::string& name,
         placed(Quad{{-4, 5, -4}, {8, 0, 0}, {0, 0, 8}}, matt(0.3f, 0.3f, 0.3f)),
         placed(Sphere{.center{-1.7f, 0.8f, 0}, .radius = 0.8f}, left),
         placed(Sphere{.center{0, 0.8f, -0.4f}, .radius = 0.8f}, middle),
-        placed(Sphere{.center{1.7f, 0.8f, 0}, .radius = 0.8f}, right));
+        placed(Sphere{.center{1.7f, 0.8f, 0}, .radius = 0.8f}, right)));
     const auto camera = ljus::look_at(
         {.position{0, 1.5f, 3.9f}, .target{0, 0.85f, 0}, .vfov_degrees = 42});
     const auto result =
-        examples::rendered(name, make_path_tracer(scene), camera, options);
+        examples::rendered(name, ljus::PathTracer(world), camera, options);
     save_png(result.image, options.path(name + ".png"));
     return result.image;
 }

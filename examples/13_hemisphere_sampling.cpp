@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ljus/inspect/metrics.hpp>
@@ -186,7 +187,8 @@ ljus::Image picture(const examples::Options& options, const std::string& name,
         scene.add(Sphere{.center{0, 0, 0}, .radius = 40}, black, Rgb{0.7f}, true);
     const auto camera =
         ljus::look_at({.position{0, 2.4f, 6}, .target{0, 0.8f, 0}, .vfov_degrees = 32});
-    const auto tracer = make_path_tracer(scene, {.sample_lights = false});
+    const ljus::World world(std::move(scene));
+    const ljus::PathTracer tracer(world, {.sample_lights = false});
     auto picture = examples::picture_settings(options);
     picture.samples = rays;
     const auto result = examples::rendered(name, tracer, camera, picture, options);

@@ -38,14 +38,14 @@ ljus::RoughDiffuseT<T> rough(RoughModel model, T albedo, T sigma) {
 template <typename Material>
 Image ball(const examples::Options& options, const std::string& name,
            const Material& material, bool save = true) {
-    const auto scene =
+    const ljus::World world(
         ljus::make_scene(placed(Sphere{.center{0, 0, 0}, .radius = 1}, material),
                          placed(Sphere{.center{-4, 5, 9}, .radius = 1.2f},
-                                ljus::Lambertian{.albedo = Rgb{0}}, Rgb{60}));
+                                ljus::Lambertian{.albedo = Rgb{0}}, Rgb{60})));
     const auto camera =
         ljus::look_at({.position{0, 0, 6}, .target{0, 0, 0}, .vfov_degrees = 21});
     const auto result = examples::rendered(
-        name, make_path_tracer(scene, {.max_depth = 1}), camera, options);
+        name, ljus::PathTracer(world, {.max_depth = 1}), camera, options);
     if (save) save_png(result.image, options.path(name + ".png"));
     return result.image;
 }

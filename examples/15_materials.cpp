@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <ljus/inspect/metrics.hpp>
@@ -163,10 +164,10 @@ Image row_in_room(const examples::Options& options) {
                          .threads = options.threads};
     settings.caustics_estimate = {.radius = options.pick(0.08f, 0.05f, 0.03f)};
     settings.max_depth = 24;
-    const auto maps = make_photon_maps(scene, settings);
+    const ljus::World world(std::move(scene));
+    const ljus::PhotonMapper mapper(world, settings);
     examples::ProgressBar bar("figure 4", options.quiet);
-    const auto result = render(make_photon_mapper(scene, maps, settings), row_camera(0),
-                               picture_of(options, bar));
+    const auto result = render(mapper, row_camera(0), picture_of(options, bar));
     examples::stop_if_asked();
     return result.image;
 }
@@ -182,6 +183,7 @@ Image row_in_furnace(const examples::Options& options, const Row& row) {
     for_each(row, [&](int place, const char* name, const auto& material) {
         RowScene alone = scene;
         alone.add(ball_at(place), alone.add(material));
+        const ljus::World world(std::move(alone));
         const int from = options.width * place / balls;
         const int to = options.width * (place + 1) / balls;
         examples::ProgressBar bar(std::string("furnace: ") + name, options.quiet);
@@ -189,7 +191,7 @@ Image row_in_furnace(const examples::Options& options, const Row& row) {
         picture.width = to - from;
         picture.samples =
             std::max(1, options.samples / 2); // less noise here than in a room
-        const auto result = render(make_path_tracer(alone),
+        const auto result = render(ljus::PathTracer(world),
                                    row_camera(ball_at(place).center.x), picture);
         examples::stop_if_asked();
         for (int y = 0; y < options.height; ++y)
@@ -202,14 +204,14 @@ Image row_in_furnace(const examples::Options& options, const Row& row) {
 /// The mean radiance of a ball under a sky of radiance 1, seen from far away.
 template <typename Material>
 Rgb furnace_albedo(const Material& material, int rays) {
-    const auto scene =
+    const ljus::World world(
         ljus::make_scene(placed(Sphere{.radius = 1000},
                                 ljus::Lambertian{.albedo = Rgb{0}}, Rgb{1}, true),
-                         placed(Sphere{.center{0, 0, 0}, .radius = 1}, material));
+                         placed(Sphere{.center{0, 0, 0}, .radius = 1}, material)));
     const auto camera = ljus::look_at(
         {.position{0, 0, 100}, .target{0, 0, 0}, .vfov_degrees = 1.1459f});
     const int size = 64;
-    const auto image = render(make_path_tracer(scene), camera,
+    const auto image = render(ljus::PathTracer(world), camera,
                               {.width = size, .height = size, .samples = rays})
                            .image;
     Rgb sum{0};
@@ -262,7 +264,7 @@ Image ball_picture(int size, int rays, std::uint64_t seed, const Material& mater
     const auto matt = [](float r, float g, float b) {
         return ljus::Lambertian{.albedo{r, g, b}};
     };
-    const auto scene = ljus::make_scene(
+    const ljus::World world(ljus::make_scene(
         placed(Quad{{-4, 0, 6}, {8, 0, 0}, {0, 0, -10}}, matt(0.4f, 0.4f, 0.4f)),
         placed(Quad{{-4, 0, -4}, {8, 0, 0}, {0, 6, 0}}, matt(0.5f, 0.5f, 0.5f)),
         placed(Quad{{-4, 0, 6}, {0, 0, -10}, {0, 6, 0}}, matt(0.6f, 0.2f, 0.1f)),
@@ -270,10 +272,10 @@ Image ball_picture(int size, int rays, std::uint64_t seed, const Material& mater
         placed(Quad{{-4, 6, -4}, {8, 0, 0}, {0, 0, 10}}, matt(0.6f, 0.6f, 0.6f)),
         placed(Quad{{-4, 0, 6}, {0, 6, 0}, {8, 0, 0}}, matt(0.5f, 0.5f, 0.5f)),
         placed(Quad{{-1, 5.9f, 0}, {2, 0, 0}, {0, 0, 2}}, matt(0, 0, 0), Rgb{20}),
-        placed(Sphere{.center{0, 1, 0}, .radius = 1}, material));
+        placed(Sphere{.center{0, 1, 0}, .radius = 1}, material)));
     const auto camera =
         ljus::look_at({.position{0, 2, 5.5f}, .target{0, 1, 0}, .vfov_degrees = 28});
-    return render(make_path_tracer(scene), camera,
+    return render(ljus::PathTracer(world), camera,
                   {.width = size,
                    .height = size,
                    .samples = rays,
@@ -590,7 +592,7 @@ void picture_mistakes(const examples::Options& options) {
         const auto matt = [&](float r, float g, float b) {
             return WrongMatt{{r, g, b}, mistake};
         };
-        const auto scene = ljus::make_scene(
+        const ljus::World world(ljus::make_scene(
             placed(Quad{{-2, 0, 5}, {4, 0, 0}, {0, 0, -7}}, matt(0.6f, 0.6f, 0.6f)),
             placed(Quad{{-2, 0, -2}, {4, 0, 0}, {0, 4, 0}}, matt(0.6f, 0.6f, 0.6f)),
             placed(Quad{{-2, 0, 5}, {0, 0, -7}, {0, 4, 0}}, matt(0.6f, 0.1f, 0.05f)),
@@ -598,11 +600,11 @@ void picture_mistakes(const examples::Options& options) {
             placed(Quad{{-2, 4, -2}, {4, 0, 0}, {0, 0, 7}}, matt(0.6f, 0.6f, 0.6f)),
             placed(Quad{{-0.6f, 3.95f, -0.6f}, {1.2f, 0, 0}, {0, 0, 1.2f}},
                    matt(0, 0, 0), Rgb{10}),
-            placed(Sphere{.center{0, 1, 0}, .radius = 1}, matt(0.75f, 0.5f, 0.2f)));
+            placed(Sphere{.center{0, 1, 0}, .radius = 1}, matt(0.75f, 0.5f, 0.2f))));
         const auto camera = ljus::look_at(
             {.position{0, 2, 8.5f}, .target{0, 1.9f, 0}, .vfov_degrees = 30});
         examples::ProgressBar bar(name, options.quiet);
-        const auto result = render(make_path_tracer(scene, {.max_depth = 3}), camera,
+        const auto result = render(ljus::PathTracer(world, {.max_depth = 3}), camera,
                                    {.width = size,
                                     .height = size,
                                     .samples = rays,

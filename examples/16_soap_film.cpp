@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ljus/inspect/metrics.hpp>
@@ -104,11 +105,12 @@ double nanoseconds(Color color, int calls) {
 struct Studio {
     using Room = ljus::Scene<ljus::Shapes<ljus::Sphere, ljus::Quad>,
                              ljus::Materials<ljus::Lambertian, ljus::SoapFilm>>;
-    Room scene;
     ljus::SoapFilm film{
         .thickness = 900, .scale = 0.75f, .level{0, -1, 0}, .up{0, 1, 0}};
+    ljus::World<Room> world{room(film)};
 
-    Studio() {
+    static Room room(const ljus::SoapFilm& film) {
+        Room scene;
         const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
         scene.add(ljus::Sphere{}, scene.add(film));
         const auto window = [&](const Vec3& corner, const Vec3& u, const Vec3& v) {
@@ -118,14 +120,15 @@ struct Studio {
         window({7, -1, -2}, {-3, 0, 10}, {0, 5, 0}); // right
         window({-4, 7, -3}, {8, 0, 0}, {0, 0, 8});   // above
         window({-6, -4, 12}, {0, 9, 0}, {12, 0, 0}); // behind the camera
+        return scene;
     }
 
     /// The light along a ray, with the film's colour by any method.
     template <typename Color>
     glm::dvec3 light(const ljus::Ray& ray, Color color, int depth) const {
-        const auto hit = closest_hit(scene, ray);
+        const auto hit = closest_hit(world, ray);
         if (!hit) return glm::dvec3(0);
-        const auto at = vertex_at(scene, ray, *hit);
+        const auto at = vertex_at(world, ray, *hit);
         const Vec3 wo = to_local(at.frame, -ray.direction);
         if (hit->object.type == 1) return wo.z > 0 ? glm::dvec3(8) : glm::dvec3(0);
         if (depth == 0) return glm::dvec3(0);
@@ -290,6 +293,7 @@ void figure_4(const examples::Options& options, const ljus::FilmTable& table) {
                            .table = table});
     ball(4, ljus::Lambertian{.albedo = color});
     ljus::add_ceiling_lamp(scene, 5.0f, -1.0f, 2.0f, Rgb{1});
+    const ljus::World world(std::move(scene));
 
     ljus::PhotonMappingSettings settings;
     settings.caustics = {.photons = options.pick(30000, 300000, 3000000),
@@ -297,16 +301,15 @@ void figure_4(const examples::Options& options, const ljus::FilmTable& table) {
                          .threads = options.threads};
     settings.caustics_estimate.radius = options.pick(0.3f, 0.15f, 0.06f);
     if (!options.quiet) {
-        const ljus::Plan plan = survey(scene, settings);
+        const ljus::Plan plan = survey(world, settings);
         for (const auto* pass : plan.items()) std::printf("%s", to_text(*pass).c_str());
     }
-    const auto maps = make_photon_maps(scene, settings);
+    const ljus::PhotonMapper mapper(world, settings);
     auto picture = examples::picture_settings(options);
     picture.width *= 2;
     picture.height *= 2;
     const auto result =
-        examples::rendered("figure 4", make_photon_mapper(scene, maps, settings),
-                           ljus::report_camera(), picture, options);
+        examples::rendered("figure 4", mapper, ljus::report_camera(), picture, options);
     save_png(result.image, options.path("soap_film-figure-4.png"));
 }
 

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ljus/ljus.hpp>
@@ -25,9 +26,11 @@ using ljus::Rgb;
 using ljus::Sphere;
 
 using TiledFloor = ljus::Textured<ljus::Lambertian, ljus::Checker>;
-using TwoBalls = ljus::Scene<
+using TwoBallsScene = ljus::Scene<
     ljus::Shapes<Sphere, Quad>,
-    ljus::Materials<ljus::Lambertian, ljus::Glass, ljus::Mirror, TiledFloor>>;
+    ljus::Materials<ljus::Lambertian, ljus::Glass, ljus::Mirror, TiledFloor>,
+    ljus::Lights<ljus::PointLight>>;
+using TwoBalls = ljus::World<TwoBallsScene>;
 
 /// What the sky sends, W/(m^2 sr).
 const Rgb sky{0.16f, 0.27f, 0.5f};
@@ -35,7 +38,7 @@ const Rgb sky{0.16f, 0.27f, 0.5f};
 /// The picture that everybody knows: a ball of glass before a mirror, over a floor of
 /// red and yellow tiles, under a blue sky.
 TwoBalls two_balls() {
-    TwoBalls scene;
+    TwoBallsScene scene;
     const auto glass = scene.add(ljus::Glass{.index = 1.5f});
     const auto mirror = scene.add(ljus::Mirror{.reflectance{0.75f, 0.73f, 0.68f}});
     const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
@@ -48,7 +51,7 @@ TwoBalls two_balls() {
     scene.add(Quad{{-6, 0, 3.5f}, {11, 0, 0}, {0, 0, -16}}, floor);
     scene.add(Sphere{.radius = 60}, black, sky, true); // its inside
     scene.add(ljus::PointLight{.position{-3, 7, 5}, .intensity = Rgb{190}});
-    return scene;
+    return TwoBalls(std::move(scene));
 }
 ljus::Camera two_balls_camera() {
     return ljus::look_at(
@@ -70,7 +73,7 @@ ljus::RenderedT<float> rendered(const std::string& name, const Renderer& rendere
 }
 
 /// Depth 0 to 5, and how many rays the tree of a camera ray has.
-void depths(const TwoBalls& scene, const examples::Options& options) {
+void depths(const TwoBalls& world, const examples::Options& options) {
     const ljus::RenderSettings picture{options.width, options.height, options.samples,
                                        options.seed};
     examples::Plot plot{.name = "whitted-rays",
@@ -88,10 +91,10 @@ void depths(const TwoBalls& scene, const examples::Options& options) {
     for (int depth = 0; depth <= 6; ++depth) {
         const auto both =
             rendered("depth " + std::to_string(depth),
-                     make_whitted(scene, settings_of(depth)), picture, options);
-        const auto one =
-            rendered("one branch", make_whitted(scene, settings_of(depth, false)),
-                     picture, options);
+                     ljus::WhittedTracer(world, settings_of(depth)), picture, options);
+        const auto one = rendered("one branch",
+                                  ljus::WhittedTracer(world, settings_of(depth, false)),
+                                  picture, options);
         if (depth <= 5)
             save_png(both.image,
                      options.path("whitted-depth-" + std::to_string(depth) + ".png"));
@@ -126,11 +129,11 @@ double error_on_glass(const Image& image, const Image& truth) {
 }
 
 /// Both branches, or one: error against rays.
-void branches(const TwoBalls& scene, int most, const examples::Options& options) {
+void branches(const TwoBalls& world, int most, const examples::Options& options) {
     const int width = options.pick(48, 120, 180), height = width * 2 / 3;
     const int depth = 8;
     const Image truth =
-        rendered("reference", make_whitted(scene, settings_of(depth)),
+        rendered("reference", ljus::WhittedTracer(world, settings_of(depth)),
                  {.width = width, .height = height, .samples = 16 * most, .seed = 77},
                  options)
             .image;
@@ -149,9 +152,9 @@ void branches(const TwoBalls& scene, int most, const examples::Options& options)
         const ljus::RenderSettings picture{width, height, rays, options.seed};
         std::vector<std::string> cells{std::to_string(rays)};
         for (const bool both : {true, false}) {
-            const auto result =
-                rendered("branches", make_whitted(scene, settings_of(depth, both)),
-                         picture, options);
+            const auto result = rendered(
+                "branches", ljus::WhittedTracer(world, settings_of(depth, both)),
+                picture, options);
             const double cost = double(result.counts.rays()) / (width * height);
             const double error = error_on_glass(result.image, truth);
             plot.rows.push_back({cost, both ? error : empty, both ? empty : error});
@@ -165,7 +168,7 @@ void branches(const TwoBalls& scene, int most, const examples::Options& options)
 }
 
 /// The same scene by the photon map: a sky that lights, and light through the glass.
-void by_photons(const TwoBalls& scene, long long photons,
+void by_photons(const TwoBalls& world, long long photons,
                 const examples::Options& options) {
     ljus::PhotonMappingSettings settings;
     settings.caustics = {
@@ -173,13 +176,11 @@ void by_photons(const TwoBalls& scene, long long photons,
     settings.caustics_estimate = {.radius = options.pick(0.07f, 0.07f, 0.03f)};
     settings.max_depth = 8;
     settings.shadow_rays = 2;
-    const auto maps = make_photon_maps(scene, settings);
+    const ljus::PhotonMapper mapper(world, settings);
     const ljus::RenderSettings picture{
         options.width, options.height,
         std::max(options.samples, options.pick(16, 64, 256)), options.seed};
-    save_png(rendered("photon map", make_photon_mapper(scene, maps, settings), picture,
-                      options)
-                 .image,
+    save_png(rendered("photon map", mapper, picture, options).image,
              options.path("whitted-photons.png"));
 }
 
@@ -189,22 +190,22 @@ void by_photons(const TwoBalls& scene, long long photons,
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long photons = 0;
-        line.about("WhittedSettings's ray tracing: the two balls, turn by turn.");
+        line.about("Whitted's ray tracing: the two balls, turn by turn.");
         line.add("--photons", photons, "Of the picture to compare with; 0: by quality",
                  0, 1'000'000'000);
         int most = 0;
-        line.add("--most", most, "Most rays per pixel in the curves; 0: by quality",
-                 0, 1 << 16);
+        line.add("--most", most, "Most rays per pixel in the curves; 0: by quality", 0,
+                 1 << 16);
         const examples::Options options =
             line.parse({.draft{.width = 300, .height = 200, .samples = 9},
                         .report{.width = 600, .height = 400, .samples = 36},
                         .reference{.width = 900, .height = 600, .samples = 144}});
         if (photons == 0) photons = options.pick(100000LL, 1000000LL, 10000000LL);
-        const TwoBalls scene = two_balls();
-        depths(scene, options);
-        by_photons(scene, photons, options);
+        const TwoBalls world = two_balls();
+        depths(world, options);
+        by_photons(world, photons, options);
         if (most == 0) most = options.pick(64, 256, 1024);
-        branches(scene, most, options);
+        branches(world, most, options);
         return 0;
     });
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ljus/ljus.hpp>
@@ -30,11 +31,12 @@ using Tiles = ljus::Textured<ljus::Lambertian, ljus::Checker>;
 using MovingBall = ljus::Moving<Sphere>;
 using Stage =
     ljus::Scene<ljus::Shapes<Sphere, Quad, MovingBall>,
-                ljus::Materials<ljus::Lambertian, Tiles, ljus::Mirror, ljus::Glossy>>;
+                ljus::Materials<ljus::Lambertian, Tiles, ljus::Mirror, ljus::Glossy>,
+                ljus::Lights<ljus::PointLight>>;
 
-/// A scene and who looks at it.
+/// A closed scene and who looks at it.
 struct Shot {
-    Stage scene{};
+    ljus::World<Stage> world;
     LensCamera camera{};
     bool pixel = false; ///< Whether the rays are spread over the pixel for its curve.
 };
@@ -70,112 +72,119 @@ void add_lamp(Stage& scene, const Vec3& middle, float side, float radiance) {
 
 /// Tiles to the horizon: edges, and more edges than pixels.
 Shot edges() {
-    Shot shot{.pixel = true};
-    add_floor(shot.scene, tiles(shot.scene, Rgb{0.8f}, Rgb{0.08f}), 80);
-    shot.scene.add(Sphere{.center{0.9f, 0.8f, 0}, .radius = 0.8f},
-                   shot.scene.add(ljus::Mirror{Rgb{0.9f}}));
-    shot.scene.add(ljus::PointLight{.position{-5, 40, 20}, .intensity = Rgb{4500}});
-    shot.camera = pinhole({.position{0, 1.6f, 5}, .target{0, 0.9f, 0}});
-    return shot;
+    Stage scene;
+    add_floor(scene, tiles(scene, Rgb{0.8f}, Rgb{0.08f}), 80);
+    scene.add(Sphere{.center{0.9f, 0.8f, 0}, .radius = 0.8f},
+              scene.add(ljus::Mirror{Rgb{0.9f}}));
+    scene.add(ljus::PointLight{.position{-5, 40, 20}, .intensity = Rgb{4500}});
+    return {ljus::World(std::move(scene)),
+            pinhole({.position{0, 1.6f, 5}, .target{0, 0.9f, 0}}), true};
 }
 
 /// A square lamp above two balls and a wall.
 Shot shadows() {
-    Shot shot;
-    add_floor(shot.scene, matt(shot.scene, 0.7f, 0.68f, 0.62f));
-    shot.scene.add(Sphere{.center{1.2f, 0.7f, 0.3f}, .radius = 0.7f},
-                   matt(shot.scene, 0.7f, 0.25f, 0.15f));
-    shot.scene.add(Sphere{.center{-0.4f, 0.35f, 1.2f}, .radius = 0.35f},
-                   matt(shot.scene, 0.2f, 0.35f, 0.65f));
-    shot.scene.add(Quad{{-2.4f, 0, -0.6f}, {1.6f, 0, 0.5f}, {0, 2.4f, 0}},
-                   matt(shot.scene, 0.6f, 0.6f, 0.5f));
-    add_lamp(shot.scene, {-3.5f, 5, 2.2f}, 2, 26);
-    shot.camera =
-        pinhole({.position{0, 3.4f, 7}, .target{0, 0.6f, 0}, .vfov_degrees = 36});
-    return shot;
+    Stage scene;
+    add_floor(scene, matt(scene, 0.7f, 0.68f, 0.62f));
+    scene.add(Sphere{.center{1.2f, 0.7f, 0.3f}, .radius = 0.7f},
+              matt(scene, 0.7f, 0.25f, 0.15f));
+    scene.add(Sphere{.center{-0.4f, 0.35f, 1.2f}, .radius = 0.35f},
+              matt(scene, 0.2f, 0.35f, 0.65f));
+    scene.add(Quad{{-2.4f, 0, -0.6f}, {1.6f, 0, 0.5f}, {0, 2.4f, 0}},
+              matt(scene, 0.6f, 0.6f, 0.5f));
+    add_lamp(scene, {-3.5f, 5, 2.2f}, 2, 26);
+    return {ljus::World(std::move(scene)),
+            pinhole({.position{0, 3.4f, 7}, .target{0, 0.6f, 0}, .vfov_degrees = 36})};
 }
 
 /// Sticks in front of a satin floor: the reflection is sharp only where they stand.
 Shot gloss() {
-    Shot shot;
-    add_floor(shot.scene, shot.scene.add(ljus::Glossy{.reflectance = Rgb{0.75f},
-                                                      .roughness = 0.4f}));
+    Stage scene;
+    add_floor(scene,
+              scene.add(ljus::Glossy{.reflectance = Rgb{0.75f}, .roughness = 0.4f}));
     const Rgb colors[] = {{0.8f, 0.15f, 0.1f},
                           {0.85f, 0.6f, 0.1f},
                           {0.25f, 0.55f, 0.2f},
                           {0.15f, 0.35f, 0.7f},
                           {0.5f, 0.2f, 0.55f}};
     for (int i = 0; i < 5; ++i) {
-        const auto paint = shot.scene.add(ljus::Lambertian{.albedo = colors[i]});
-        shot.scene.add(
-            Quad{{-2.9f + 1.25f * float(i), 0, 0}, {0.8f, 0, 0}, {0, 2.6f, 0}}, paint);
+        const auto paint = scene.add(ljus::Lambertian{.albedo = colors[i]});
+        scene.add(Quad{{-2.9f + 1.25f * float(i), 0, 0}, {0.8f, 0, 0}, {0, 2.6f, 0}},
+                  paint);
     }
-    shot.scene.add(Quad{{-30, 0, -3}, {60, 0, 0}, {0, 20, 0}},
-                   matt(shot.scene, 0.25f, 0.27f, 0.3f));
-    shot.scene.add(ljus::PointLight{.position{1, 5, 7}, .intensity = Rgb{230}});
-    shot.camera =
-        pinhole({.position{0, 2.3f, 7}, .target{0, 0.35f, 0}, .vfov_degrees = 38});
-    return shot;
+    scene.add(Quad{{-30, 0, -3}, {60, 0, 0}, {0, 20, 0}},
+              matt(scene, 0.25f, 0.27f, 0.3f));
+    scene.add(ljus::PointLight{.position{1, 5, 7}, .intensity = Rgb{230}});
+    return {ljus::World(std::move(scene)),
+            pinhole({.position{0, 2.3f, 7}, .target{0, 0.35f, 0}, .vfov_degrees = 38})};
 }
 
 /// Balls in a row, the third of them in focus.
 Shot focus() {
-    Shot shot;
-    add_floor(shot.scene, tiles(shot.scene, Rgb{0.6f}, Rgb{0.3f}, 0.5f));
+    Stage scene;
+    add_floor(scene, tiles(scene, Rgb{0.6f}, Rgb{0.3f}, 0.5f));
     for (int i = 0; i < 6; ++i) {
         const float x = -1.6f + 0.75f * float(i), z = 3.2f - 1.9f * float(i);
-        shot.scene.add(
-            Sphere{.center{x, 0.5f, z}, .radius = 0.5f},
-            matt(shot.scene, 0.75f - 0.1f * float(i), 0.3f, 0.15f + 0.12f * float(i)));
+        scene.add(Sphere{.center{x, 0.5f, z}, .radius = 0.5f},
+                  matt(scene, 0.75f - 0.1f * float(i), 0.3f, 0.15f + 0.12f * float(i)));
     }
-    shot.scene.add(ljus::PointLight{.position{-4, 8, 8}, .intensity = Rgb{320}});
+    scene.add(ljus::PointLight{.position{-4, 8, 8}, .intensity = Rgb{320}});
     const ljus::Camera camera = look_at(
         ljus::View{.position{0, 1.5f, 7}, .target{0, 0.5f, 0}, .vfov_degrees = 34});
     const Vec3 third{-0.1f, 0.5f, -0.6f};
-    shot.camera =
-        with_lens(camera, 0.14f, glm::dot(third - camera.position, camera.forward));
-    return shot;
+    return {
+        ljus::World(std::move(scene)),
+        with_lens(camera, 0.14f, glm::dot(third - camera.position, camera.forward))};
 }
 
-/// A billiard table while the shutter is open.
-Shot motion() {
-    Shot shot;
-    add_floor(shot.scene, matt(shot.scene, 0.06f, 0.35f, 0.16f));
+/// A billiard table, dark.
+Stage billiard_table() {
+    Stage scene;
+    add_floor(scene, matt(scene, 0.06f, 0.35f, 0.16f));
     const auto ball = [&](const Vec3& place, const Vec3& way, const Rgb& color) {
-        const auto paint = shot.scene.add(ljus::Lambertian{.albedo = color});
-        shot.scene.add(MovingBall{{.center = place, .radius = 0.5f}, way}, paint);
+        const auto paint = scene.add(ljus::Lambertian{.albedo = color});
+        scene.add(MovingBall{{.center = place, .radius = 0.5f}, way}, paint);
     };
     ball({-1.9f, 0.5f, 0.6f}, {1.1f, 0, -0.5f}, {0.85f, 0.82f, 0.7f});
     ball({0.6f, 0.5f, -0.3f}, {0, 0, 0}, {0.8f, 0.6f, 0.05f});
     ball({1.8f, 0.5f, 0.4f}, {0.35f, 0, 0.2f}, {0.65f, 0.08f, 0.07f});
     ball({0.3f, 0.5f, -2.6f}, {-0.3f, 0, -0.7f}, {0.1f, 0.15f, 0.55f});
-    shot.scene.add(ljus::PointLight{.position{-3, 7, 4}, .intensity = Rgb{260}});
-    shot.camera = pinhole(
+    return scene;
+}
+
+/// Where it is seen from.
+LensCamera above_the_table() {
+    return pinhole(
         {.position{0, 3.2f, 6.5f}, .target{0, 0.3f, -0.4f}, .vfov_degrees = 36});
-    return shot;
+}
+
+/// The table while the shutter is open.
+Shot motion() {
+    Stage scene = billiard_table();
+    scene.add(ljus::PointLight{.position{-3, 7, 4}, .intensity = Rgb{260}});
+    return {ljus::World(std::move(scene)), above_the_table()};
 }
 
 /// All five: the table again, under two lamps, balls with a gloss, and a lens.
 Shot everything() {
-    Shot shot = motion();
-    shot.scene.lights.clear();
-    add_lamp(shot.scene, {-3, 6, 2}, 2, 20);
-    add_lamp(shot.scene, {4, 6, -3}, 2, 12);
-    shot.scene.add(Sphere{.center{-0.5f, 0.5f, 1.9f}, .radius = 0.5f},
-                   shot.scene.add(ljus::Glossy{.reflectance{0.75f, 0.7f, 0.6f},
-                                               .roughness = 0.35f}));
-    add_sky(shot.scene, Rgb{0.05f, 0.06f, 0.08f});
-    shot.camera.radius = 0.08f;
-    shot.camera.focus = glm::dot(Vec3{0.6f, 0.5f, -0.3f} - shot.camera.pinhole.position,
-                                 shot.camera.pinhole.forward);
-    return shot;
+    Stage scene = billiard_table();
+    add_lamp(scene, {-3, 6, 2}, 2, 20);
+    add_lamp(scene, {4, 6, -3}, 2, 12);
+    scene.add(
+        Sphere{.center{-0.5f, 0.5f, 1.9f}, .radius = 0.5f},
+        scene.add(ljus::Glossy{.reflectance{0.75f, 0.7f, 0.6f}, .roughness = 0.35f}));
+    add_sky(scene, Rgb{0.05f, 0.06f, 0.08f});
+    LensCamera camera = above_the_table();
+    camera.radius = 0.08f;
+    camera.focus = glm::dot(Vec3{0.6f, 0.5f, -0.3f} - camera.pinhole.position,
+                            camera.pinhole.forward);
+    return {ljus::World(std::move(scene)), camera};
 }
 
 /// A picture whose rays share out all their numbers by one pattern, and stay in the
 /// middle of the pixel if told to.
 Image picture_by(const Shot& shot, int width, int height, int rays,
                  ljus::Sampling sampling, std::uint64_t seed, bool pixel, int threads) {
-    const auto tracer = make_distributed(shot.scene);
+    const ljus::DistributedTracer tracer(shot.world);
     const ljus::Pattern pattern = ljus::make_pattern(sampling, rays);
     Image image = ljus::make_image<float>(width, height);
     const auto row = [&](long long number) {
@@ -190,7 +199,8 @@ Image picture_by(const Shot& shot, int width, int height, int rays,
                 const Vec2 place = next_2d(stream);
                 const Vec2 at = Vec2{float(x), float(y)} + (pixel ? place : Vec2{0.5f});
                 const auto ray = camera_ray(shot.camera, at, width, height, stream);
-                sum += glm::dvec3(radiance(tracer, ray, stream, counts));
+                auto context = ljus::context_of(stream, counts);
+                sum += glm::dvec3(radiance(tracer, ray, context));
             }
             ljus::pixel(image, x, y) = Rgb(sum / double(rays));
         }
@@ -273,8 +283,8 @@ void picture(const std::string& name, const Shot& shot, int few,
     for (const int rays : {few, options.samples}) {
         auto picture = examples::picture_settings(options);
         picture.samples = rays;
-        const auto result = examples::rendered(name, ljus::make_distributed(shot.scene),
-                                               shot.camera, picture, options);
+        const auto result = examples::rendered(
+            name, ljus::DistributedTracer(shot.world), shot.camera, picture, options);
         save_png(result.image, options.path("distributed_rays-" + name +
                                             (rays == few ? "-few.png" : ".png")));
     }
@@ -294,8 +304,8 @@ int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         int most = 0;
         line.about("Distributed rays: five blurs, and how fast each becomes smooth.");
-        line.add("--most", most, "Most rays per pixel in the curves; 0: by quality",
-                 0, 1 << 16);
+        line.add("--most", most, "Most rays per pixel in the curves; 0: by quality", 0,
+                 1 << 16);
         const examples::Options options =
             line.parse({.draft{.width = 240, .height = 160, .samples = 36},
                         .report{.width = 600, .height = 400, .samples = 100},

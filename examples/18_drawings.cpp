@@ -184,7 +184,8 @@ using ljus::Sampling;
 using MovingBall = ljus::Moving<ljus::Sphere>;
 template <typename Ball>
 using Balls =
-    ljus::Scene<ljus::Shapes<Ball, ljus::Quad>, ljus::Materials<ljus::Lambertian>>;
+    ljus::Scene<ljus::Shapes<Ball, ljus::Quad>, ljus::Materials<ljus::Lambertian>,
+                ljus::Lights<ljus::PointLight>>;
 
 /// Nine balls on a floor, without a light.
 template <typename Ball>
@@ -212,11 +213,11 @@ struct Timed {
     ljus::Image image;
     double seconds = 0; ///< Of the processor.
 };
-template <typename S, typename AnyCamera>
-Timed timed(const S& scene, const AnyCamera& camera, Sampling sampling, int rays,
+template <ljus::AnyWorld W, typename AnyCamera>
+Timed timed(const W& world, const AnyCamera& camera, Sampling sampling, int rays,
             const examples::Options& options, std::uint64_t seed = 1) {
     const double start = examples::processor_seconds();
-    auto picture = render(ljus::make_distributed(scene), camera,
+    auto picture = render(ljus::DistributedTracer(world), camera,
                           {.width = options.width,
                            .height = options.height,
                            .samples = rays,
@@ -229,12 +230,13 @@ Timed timed(const S& scene, const AnyCamera& camera, Sampling sampling, int rays
 /// Nanoseconds of a camera ray by each pattern, through a lens, and with moving balls.
 void table_costs(const examples::Options& options) {
     const ljus::PointLight light{.position{3, 6, 4}, .intensity = ljus::Rgb{100}};
-    auto still = nine_balls<ljus::Sphere>();
-    auto resting = nine_balls<MovingBall>();
-    auto moving = nine_balls<MovingBall>({0.5f, 0, 0});
-    still.add(light);
-    resting.add(light);
-    moving.add(light);
+    const auto lit = [&](auto scene) {
+        scene.add(light);
+        return ljus::World(std::move(scene));
+    };
+    const auto still = lit(nine_balls<ljus::Sphere>());
+    const auto resting = lit(nine_balls<MovingBall>());
+    const auto moving = lit(nine_balls<MovingBall>({0.5f, 0, 0}));
     const ljus::Camera pinhole =
         look_at(ljus::View{.position{0, 5, 8}, .target{0, 0.4f, 0}});
     const ljus::LensCamera lens = with_lens(pinhole, 0.1f, 9.0f);
@@ -242,9 +244,9 @@ void table_costs(const examples::Options& options) {
     std::array<double, 7> least;
     least.fill(std::numeric_limits<double>::infinity());
     for (int round = 0; round < options.pick(7, 15, 31); ++round) {
-        const auto seconds = [&](const auto& scene, const auto& camera,
+        const auto seconds = [&](const auto& world, const auto& camera,
                                  Sampling sampling) {
-            return timed(scene, camera, sampling, 16, options).seconds;
+            return timed(world, camera, sampling, 16, options).seconds;
         };
         const std::array now{seconds(still, pinhole, Sampling::random),
                              seconds(still, pinhole, Sampling::jittered),
@@ -279,10 +281,11 @@ void plot_trade(const examples::Options& options) {
     auto scene = nine_balls<ljus::Sphere>();
     scene.add(ljus::Quad{{2, 6, 3}, {2, 0, 0}, {0, 0, 2}},
               scene.add(ljus::Lambertian{.albedo = ljus::Rgb{0}}), ljus::Rgb{25});
+    const ljus::World world(std::move(scene));
     const ljus::Camera camera =
         look_at(ljus::View{.position{0, 5, 8}, .target{0, 0.4f, 0}});
     const ljus::Image truth =
-        timed(scene, camera, Sampling::sobol, 16 * options.samples, options, 99).image;
+        timed(world, camera, Sampling::sobol, 16 * options.samples, options, 99).image;
 
     const double none = std::numeric_limits<double>::quiet_NaN();
     examples::Plot plot{.name = "distributed_rays-trade",
@@ -298,7 +301,7 @@ void plot_trade(const examples::Options& options) {
             double square = 0, seconds = std::numeric_limits<double>::infinity();
             const int seeds = options.pick(4, 8, 16);
             for (int seed = 1; seed <= seeds; ++seed) {
-                const Timed one = timed(scene, camera, patterns[kind], rays, options,
+                const Timed one = timed(world, camera, patterns[kind], rays, options,
                                         std::uint64_t(seed));
                 const double error = double(ljus::rmse(one.image, truth));
                 square += error * error / seeds;

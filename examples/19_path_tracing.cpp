@@ -11,13 +11,14 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
+#include <ljus/scene/camera.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 #include <ljus/scenes/furnaces.hpp>
-#include <ljus/scene/camera.hpp>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
@@ -49,12 +50,11 @@ struct Sizes {
 
 // --- Scenes ---------------------------------------------------------------------------
 
+using Matt = ljus::Scene<ljus::Shapes<Quad, Sphere>, ljus::Materials<ljus::Lambertian>>;
+
 /// A room with nothing but diffuse surfaces, its front open.
-auto matt_room() {
-    ljus::Room<
-        ljus::Scene<ljus::Shapes<Quad, Sphere>, ljus::Materials<ljus::Lambertian>>>
-        room;
-    auto& scene = room.scene;
+ljus::Room<Matt> matt_room() {
+    Matt scene;
     ljus::add_cornell_walls(scene);
     const auto grey = scene.add(ljus::Lambertian{.albedo = Rgb{0.75f}});
     const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
@@ -62,8 +62,7 @@ auto matt_room() {
     scene.add(Sphere{{0.42f, 0.38f, 0.3f}, 0.38f}, grey);
     scene.add(Quad{{-0.25f, 1.99f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}}, black,
               Rgb{17, 13, 8});
-    room.camera = ljus::cornell_box().camera;
-    return room;
+    return {ljus::World(std::move(scene)), ljus::cornell_box().camera};
 }
 
 /// Where noise is measured: below the lamp, whose own edge would drown the rest.
@@ -143,7 +142,7 @@ void in_the_room(const examples::Options& options, const Sizes& sizes) {
                                       "efficiency by rays", "by time"}};
     double first_rms = 0, first_by_rays = 0, first_by_time = 0;
     for (std::size_t way = 0; way < 3; ++way) {
-        const auto tracer = make_path_tracer(room.scene, ways[way].settings);
+        const ljus::PathTracer tracer(room.world, ways[way].settings);
         save_png(
             rendered("room", tracer, room.camera, picture, options).image,
             options.path(std::string("path_tracing-room-") + ways[way].file + ".png"));
@@ -179,7 +178,7 @@ void in_the_box(const examples::Options& options) {
         .name = "path_tracing-box",
         .columns = {"way", "RMS noise", "brightest pixel (all are 0.5)"}};
     for (std::size_t way = 0; way < 3; ++way) {
-        const auto tracer = make_path_tracer(room.scene, ways[way].settings);
+        const ljus::PathTracer tracer(room.world, ways[way].settings);
         const Noise noise = noise_of(
             tracer, room.camera,
             {options.width, options.height, options.samples, options.seed}, options);
@@ -217,24 +216,25 @@ OneOwner<Renderer> part_of(const Renderer& whole, std::string_view owner) {
     return {whole, owner};
 }
 
-template <typename Renderer, typename Log = ljus::NoLog>
-Rgb radiance(const OneOwner<Renderer>& one, const ljus::Ray& ray,
-             ljus::RandomStream& stream, ljus::Counts& counts, Log&& = {}) {
+template <typename Renderer>
+Rgb radiance(const OneOwner<Renderer>& one, const ljus::Ray& ray, auto& context) {
     OwnerLog log{.owner = one.owner};
-    (void)radiance(one.whole, ray, stream, counts, log);
+    auto told = ljus::context_of(context.stream, context.counts, log);
+    (void)radiance(one.whole, ray, told);
     return log.sum;
 }
+
 /// The relative noise where the plates mirror the lamps: plate by plate, lamp by lamp.
-template <typename Scene>
+template <typename World>
 std::array<std::array<double, 4>, 4>
-noise_on_plates(const Scene& scene, const ljus::Camera& camera, const Noise& noise) {
+noise_on_plates(const World& world, const ljus::Camera& camera, const Noise& noise) {
     std::array<std::array<double, 4>, 4> squares{}, sums{}, counts{};
     const Image& image = noise.image;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const auto ray = primary_ray(camera, {float(x) + 0.5f, float(y) + 0.5f},
                                          image.width, image.height);
-            const auto hit = closest_hit(scene, ray);
+            const auto hit = closest_hit(world, ray);
             if (!hit || hit->object.type != 0 || hit->object.index >= 4) continue;
             const float across = ray.origin.x + hit->at.t * ray.direction.x;
             const auto lamp = std::size_t(std::clamp((across + 4) / 2, 0.0f, 3.0f));
@@ -261,9 +261,9 @@ void on_the_plates(const examples::Options& options) {
     for (std::size_t way = 0; way < ways.size(); ++way) {
         PathTracingSettings settings = ways[way].settings;
         settings.max_depth = 1;
-        const auto tracer = make_path_tracer(room.scene, settings);
+        const ljus::PathTracer tracer(room.world, settings);
         const Noise here = noise_of(tracer, room.camera, picture, options);
-        noise[way] = noise_on_plates(room.scene, room.camera, here);
+        noise[way] = noise_on_plates(room.world, room.camera, here);
         const std::string file = std::string("path_tracing-plates-") + ways[way].file;
         save_png(here.image, options.path(file + ".png"));
         if (way != 2) continue;
@@ -307,13 +307,14 @@ struct Mean {
 Mean furnace_mean(float albedo, const PathTracingSettings& settings, int paths,
                   std::uint64_t seed) {
     const auto room = ljus::sphere_furnace(Rgb{1}, Rgb{albedo});
-    const auto tracer = make_path_tracer(room.scene, settings);
+    const ljus::PathTracer tracer(room.world, settings);
     ljus::Counts counts;
     double sum = 0, squares = 0;
     for (int path = 0; path < paths; ++path) {
         auto stream = random_stream(seed, ljus::Pass::user, 0, std::uint64_t(path));
         const auto ray = in_furnace(stream);
-        const double seen = double(radiance(tracer, ray, stream, counts).x);
+        auto context = ljus::context_of(stream, counts);
+        const double seen = double(radiance(tracer, ray, context).x);
         sum += seen;
         squares += seen * seen;
     }
@@ -339,7 +340,7 @@ void depths(const examples::Options& options, const Sizes& sizes) {
                                        options.seed};
     const auto light_at = [&](int depth) {
         return mean_of(rendered("depth",
-                                make_path_tracer(room.scene, {.max_depth = depth,
+                                ljus::PathTracer(room.world, {.max_depth = depth,
                                                               .roulette_depth = 1000}),
                                 room.camera, picture, options)
                            .image);
@@ -515,7 +516,7 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
     const std::vector<RouletteCase> cases = roulette_cases();
     std::vector<Noise> noises;
     for (const RouletteCase& c : cases)
-        noises.push_back(noise_of(make_path_tracer(room.scene, c.settings()),
+        noises.push_back(noise_of(ljus::PathTracer(room.world, c.settings()),
                                   low_camera(), {side, side, sizes.most, options.seed},
                                   options));
     const Noise& usual = noises[6];                // threshold 1
@@ -526,7 +527,7 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
     const double rays = usual.rays / rash.rays * options.samples;
     const auto save = [&](const char* file, const PathTracingSettings& settings,
                           int count) {
-        save_png(rendered("roulette", make_path_tracer(room.scene, settings),
+        save_png(rendered("roulette", ljus::PathTracer(room.world, settings),
                           room.camera,
                           {options.width, options.height, count, options.seed}, options)
                      .image,
@@ -546,7 +547,7 @@ void speed(const examples::Options& options) {
                           .columns = {"room", "threads", "million rays per second",
                                       "million paths per second"}};
     const auto measure = [&](const char* name, const auto& room, int threads) {
-        const auto tracer = make_path_tracer(room.scene);
+        const ljus::PathTracer tracer(room.world);
         const examples::StopWatch watch;
         const auto seen = rendered(
             "speed", tracer, room.camera,

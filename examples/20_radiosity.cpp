@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ljus/inspect/metrics.hpp>
@@ -87,20 +88,18 @@ void add_block(Stage& scene, MaterialId matt, const Vec3& middle, const Vec3& si
 
 /// The Cornell box with two matt blocks: all that radiosity was made for.
 Room<Stage> block_room() {
-    Room<Stage> room;
-    add_cornell_walls(room.scene);
-    const auto white = room.scene.add(Lambertian{.albedo = Rgb{0.75f}});
-    add_block(room.scene, white, {-0.35f, 0, -0.3f}, {0.6f, 1.2f, 0.6f}, -17);
-    add_block(room.scene, white, {0.4f, 0, 0.3f}, {0.55f, 0.6f, 0.55f}, 20);
-    room.scene.add(Quad{{-0.3f, 1.999f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}},
-                   room.scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{12, 10, 7});
-    room.camera = cornell_box().camera;
-    return room;
+    Stage scene;
+    add_cornell_walls(scene);
+    const auto white = scene.add(Lambertian{.albedo = Rgb{0.75f}});
+    add_block(scene, white, {-0.35f, 0, -0.3f}, {0.6f, 1.2f, 0.6f}, -17);
+    add_block(scene, white, {0.4f, 0, 0.3f}, {0.55f, 0.6f, 0.55f}, 20);
+    scene.add(Quad{{-0.3f, 1.999f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}},
+              scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{12, 10, 7});
+    return {World(std::move(scene)), cornell_box().camera};
 }
 /// Two rooms; the lamp is in the left one. The front, where the camera stands, is open.
 Room<Stage> two_rooms(double wall) {
-    Room<Stage> room;
-    Stage& scene = room.scene;
+    Stage scene;
     const auto white = scene.add(Lambertian{.albedo = Rgb{0.7f}});
     const auto blue = scene.add(Lambertian{.albedo{0.3f, 0.4f, 0.7f}});
     const Vec3 x{4, 0, 0}, y{0, 2, 0}, z{0, 0, 2}, o{-2, 0, -1};
@@ -112,9 +111,9 @@ Room<Stage> two_rooms(double wall) {
     scene.add(Quad{{float(wall), 0, -1}, y, z}, white);
     scene.add(Quad{{-1.2f, 1.99f, -0.2f}, {0.4f, 0, 0}, {0, 0, 0.4f}},
               scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{60, 54, 45});
-    room.camera = look_at(View{
+    const Camera camera = look_at(View{
         .position{0, 1, 4.6f}, .target{0, 1, 0}, .up{0, 1, 0}, .vfov_degrees = 32});
-    return room;
+    return {World(std::move(scene)), camera};
 }
 
 /// A closed cube of which the ceiling emits: no shadow, and all in closed form.
@@ -131,7 +130,7 @@ auto shining_cube() {
     cube.add(QuadT<double>{x, z, y}, paint(0.3));
     cube.add(QuadT<double>{o, z, x}, paint(0.6));
     cube.add(QuadT<double>{y, x, z}, paint(0.8));
-    return cube;
+    return World(std::move(cube));
 }
 
 // --- Form factors ---------------------------------------------------------------------
@@ -170,7 +169,7 @@ void factors_by_chance(const examples::Options& options) {
 /// What is left after each sweep.
 void residuals(const examples::Options& options, const Sizes& sizes) {
     const auto room = block_room();
-    const auto all = make_radiosity(room.scene, {.patches = {.size = 3 * sizes.patch}});
+    const auto all = make_radiosity(room.world, {.patches = {.size = 3 * sizes.patch}});
     const auto solve = [&](RadiositySolver solver) {
         return solve_radiosity(all->factors, all->patches.patches,
                                {.solver = solver, .tolerance = 1e-14})
@@ -205,9 +204,9 @@ void residuals(const examples::Options& options, const Sizes& sizes) {
 void progress(const examples::Options& options) {
     const auto room = block_room();
     // Four patches of the lamp, in every quality, so that four shots are direct light.
-    const Patches patches = make_patches(room.scene, {.size = 0.31});
+    const Patches patches = make_patches(room.world, {.size = 0.31});
     const auto factors = make_form_factors(
-        room.scene, patches,
+        room.world, patches,
         {.analytic = false, .rays = 1024, .threads = options.threads});
     std::vector<Color> radiosity(factors->size(), Color(0)), unsent;
     for (const Patch& patch : patches.patches) unsent.push_back(patch.emitted);
@@ -216,9 +215,8 @@ void progress(const examples::Options& options) {
         for (; shot < shots; ++shot)
             relax_patch(*factors, patches.patches, brightest_patch(*factors, unsent),
                         radiosity, unsent);
-        const auto map = make_light_map(room.scene, patches, *factors, radiosity);
-        save_png(rendered("shots", make_light_map_view(room.scene, map), room.camera,
-                          options),
+        const auto map = make_light_map(room.world, patches, *factors, radiosity);
+        save_png(rendered("shots", LightMapView(room.world, map), room.camera, options),
                  options.path("radiosity-shots-" + std::to_string(shots) + ".png"));
     }
 }
@@ -295,8 +293,8 @@ std::vector<std::string> by_patches(const Room<Stage>& room, double size, bool a
                                     const examples::Options& options) {
     examples::ProgressBar bar("form factors", options.quiet);
     Lap lap;
-    const Patches patches = make_patches(room.scene, {.size = size});
-    const auto factors = make_form_factors(room.scene, patches,
+    const Patches patches = make_patches(room.world, {.size = size});
+    const auto factors = make_form_factors(room.world, patches,
                                            {.analytic = analytic,
                                             .rays = 1024,
                                             .seed = options.seed,
@@ -306,15 +304,14 @@ std::vector<std::string> by_patches(const Room<Stage>& room, double size, bool a
     const double factor_time = lap();
     const auto solution = solve_radiosity(*factors, patches.patches, {});
     const double solve_time = lap();
-    const auto map = make_light_map(room.scene, patches, *factors, solution.radiosity);
-    const auto view = make_light_map_view(room.scene, map);
+    const auto map = make_light_map(room.world, patches, *factors, solution.radiosity);
+    const LightMapView view(room.world, map);
     (void)lap();
     const Image smooth = rendered("view", view, room.camera, options);
     const double view_time = lap();
     if (!file.empty()) {
         save_png(smooth, options.path(file + "-smooth.png"));
-        save_png(rendered("view",
-                          make_light_map_view(room.scene, map, {.smooth = false}),
+        save_png(rendered("view", LightMapView(room.world, map, {.smooth = false}),
                           room.camera, options),
                  options.path(file + "-flat.png"));
     }
@@ -329,7 +326,7 @@ std::vector<std::string> by_patches(const Room<Stage>& room, double size, bool a
 /// The room at several sizes of patches, beside path tracing: pictures, time and error.
 void room_pictures(const examples::Options& options, const Sizes& sizes) {
     const auto room = block_room();
-    const auto tracer = make_path_tracer(room.scene);
+    const PathTracer tracer(room.world);
     const int many = options.pick(32, 128, 4096);
     const Image truth =
         rendered("reference", tracer, room.camera, options, options.samples * 4 + many);
@@ -370,8 +367,8 @@ using Quarters = std::array<std::array<Value, 4>, wall_count>;
 
 /// The light on a quarter of a wall, by paths that begin there.
 template <typename Tracer>
-Estimate traced_light(const Tracer& tracer, const Stage& scene, std::uint32_t wall,
-                      std::uint32_t quarter, int paths, std::uint64_t seed) {
+Estimate traced_light(const Tracer& tracer, std::uint32_t wall, std::uint32_t quarter,
+                      int paths, std::uint64_t seed) {
     constexpr std::array albedo{0.75, 0.75, 0.75, 0.06, 0.45}; // of the green channel
     Counts counts;
     double sum = 0, squares = 0;
@@ -380,13 +377,13 @@ Estimate traced_light(const Tracer& tracer, const Stage& scene, std::uint32_t wa
                                     static_cast<std::uint64_t>(path));
         const Vec2 u = next_2d(stream);
         const auto at =
-            point_at(std::get<0>(scene.shapes)[wall], (float(quarter % 2) + u.x) / 2,
-                     (float(quarter / 2) + u.y) / 2);
+            point_at(std::get<0>(tracer.world().shapes())[wall],
+                     (float(quarter % 2) + u.x) / 2, (float(quarter / 2) + u.y) / 2);
         // Seen from close by: albedo / pi of the light on the wall.
         const Ray look{.origin = at.position + 0.0002f * at.normal,
                        .direction = -at.normal};
-        const double light =
-            double(radiance(tracer, look, stream, counts).y) / albedo[wall];
+        auto context = context_of(stream, counts);
+        const double light = double(radiance(tracer, look, context).y) / albedo[wall];
         sum += light;
         squares += light * light;
     }
@@ -441,13 +438,13 @@ Difference difference(const LightMap& map, const Quarters<Estimate>& traced) {
 /// The light on each quarter of each wall: by radiosity, and by paths that begin there.
 void agreement(const examples::Options& options, const Sizes& sizes) {
     const auto room = block_room();
-    const auto tracer = make_path_tracer(room.scene);
+    const PathTracer tracer(room.world);
     const int paths = options.pick(4000, 40000, 1000000);
     Quarters<Estimate> traced{};
     for (std::uint32_t wall = 0; wall < wall_count; ++wall)
         for (std::uint32_t quarter = 0; quarter < 4; ++quarter)
             traced[wall][quarter] =
-                traced_light(tracer, room.scene, wall, quarter, paths, options.seed);
+                traced_light(tracer, wall, quarter, paths, options.seed);
     examples::Table table{.name = "radiosity-agreement",
                           .columns = {"side of a patch", "patches", "difference",
                                       "standard error of the paths",
@@ -455,7 +452,7 @@ void agreement(const examples::Options& options, const Sizes& sizes) {
     for (int step = sizes.steps - 1; step >= options.pick(-1, 0, 0); --step) {
         const double size = std::ldexp(sizes.patch, step);
         const auto all = make_radiosity(
-            room.scene,
+            room.world,
             {.patches = {.size = size},
              .factors = {.analytic = false, .rays = options.pick(1024, 4096, 4096)}});
         const Difference found = difference(all->map, traced);
@@ -479,8 +476,8 @@ void views(const examples::Options& options, const Sizes& sizes) {
     Lap lap;
     const RadiositySettings settings{.patches = {.size = sizes.patch},
                                      .factors = {.analytic = false, .rays = 1024}};
-    const auto all = make_radiosity(room.scene, settings);
-    const auto view = make_light_map_view(room.scene, all->map);
+    const auto all = make_radiosity(room.world, settings);
+    const LightMapView view(room.world, all->map);
     const double solved = lap();
     constexpr int count = 5;
     double seen = 0;
@@ -496,15 +493,15 @@ void views(const examples::Options& options, const Sizes& sizes) {
         save_png(image, options.path("radiosity-view-" + std::to_string(i) + ".png"));
     }
     const std::string file = options.path("radiosity.light");
-    save_light_map(file, all->map, light_map_key(room.scene, settings));
+    save_light_map(file, all->map);
     (void)lap();
-    const LightMap map = load_light_map(file, light_map_key(room.scene, settings));
+    const LightMap map = load_light_map(file, light_map_key(room.world, settings));
     const double loaded = lap();
-    const auto again = make_light_map_view(room.scene, map);
+    const LightMapView again(room.world, map);
     const bool same = rendered("again", again, room.camera, options).pixels ==
                       rendered("again", view, room.camera, options).pixels;
     (void)lap();
-    (void)rendered("paths", make_path_tracer(room.scene), room.camera, options);
+    (void)rendered("paths", PathTracer(room.world), room.camera, options);
     const double traced = lap();
     examples::Table table{.name = "radiosity-views",
                           .columns = {"", "s", "of the first view"}};
@@ -543,19 +540,19 @@ void leaks(const examples::Options& options, const Sizes& sizes) {
         std::vector<std::string> row{examples::text(size)};
         for (const double wall : {0.11, 0.0}) {
             const auto room = two_rooms(wall);
-            const auto all = make_radiosity(room.scene, {.patches = {.size = size}});
+            const auto all = make_radiosity(room.world, {.patches = {.size = size}});
             for (const bool smooth : {false, true}) {
-                const auto view =
-                    make_light_map_view(room.scene, all->map, {.smooth = smooth});
+                const LightMapView view(room.world, all->map, {.smooth = smooth});
                 // The dark floor next to the wall, and its like in the lit room.
                 RandomStream none;
                 Counts counts;
+                auto context = context_of(none, counts);
                 const auto near = [&](double side) {
                     double sum = 0;
                     for (int i = 0; i < 100; ++i) {
                         const auto x = float(wall + side * 0.3 * (i + 0.5) / 100);
                         const Ray down{.origin{x, 0.5f, 0.013f}, .direction{0, -1, 0}};
-                        sum += double(radiance(view, down, none, counts).x);
+                        sum += double(radiance(view, down, context).x);
                     }
                     return sum;
                 };
@@ -570,7 +567,7 @@ void leaks(const examples::Options& options, const Sizes& sizes) {
     }
     save_table(options.out, table);
     const auto room = two_rooms(0.11);
-    save_png(rendered("leak paths", make_path_tracer(room.scene), room.camera, options,
+    save_png(rendered("leak paths", PathTracer(room.world), room.camera, options,
                       8 * options.samples, true),
              options.path("radiosity-leak-path.png"));
     if (!options.quiet)
@@ -583,13 +580,13 @@ void leaks(const examples::Options& options, const Sizes& sizes) {
 void report_room(const examples::Options& options, const Sizes& sizes) {
     const auto room = final_room();
     const auto all =
-        make_radiosity(room.scene, {.patches = {.size = 7 * sizes.patch},
+        make_radiosity(room.world, {.patches = {.size = 7 * sizes.patch},
                                     .factors = {.analytic = false, .rays = 2048}});
-    save_png(rendered("report", make_light_map_view(room.scene, all->map), room.camera,
-                      options),
-             options.path("radiosity-report.png"));
-    save_png(rendered("report paths", make_path_tracer(room.scene), room.camera,
-                      options, 2 * options.samples),
+    save_png(
+        rendered("report", LightMapView(room.world, all->map), room.camera, options),
+        options.path("radiosity-report.png"));
+    save_png(rendered("report paths", PathTracer(room.world), room.camera, options,
+                      2 * options.samples),
              options.path("radiosity-report-path.png"));
     const auto sum =
         energy_balance(all->patches, all->factors, all->solution.radiosity);

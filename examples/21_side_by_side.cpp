@@ -21,8 +21,8 @@
 #include <ljus/radiosity/light_map.hpp>
 #include <ljus/radiosity/patches.hpp>
 #include <ljus/radiosity/radiosity.hpp>
-#include <ljus/scenes/cornell_box.hpp>
 #include <ljus/scene/camera.hpp>
+#include <ljus/scenes/cornell_box.hpp>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
@@ -34,7 +34,7 @@ using namespace ljus;
 
 namespace {
 
-using Cornell = CornellSceneT<float>;
+using Cornell = World<CornellSceneT<float>>;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// What the user may set besides the common options.
@@ -133,26 +133,26 @@ template <typename Make>
 Method by_rays(const std::string& name, const std::string& file, Make make,
                const examples::Options& options) {
     return {name, file,
-            [&options, make](const Cornell& scene, const Cameras& cameras,
+            [&options, make](const Cornell& world, const Cameras& cameras,
                              double effort, std::uint64_t seed) {
-                return views_of(make(scene), cameras, options, effort, seed);
+                return views_of(make(world), cameras, options, effort, seed);
             }};
 }
 
 /// Radiosity: patches that shrink as the effort grows.
 Method by_radiosity(const examples::Options& options) {
     return {"radiosity", "radiosity",
-            [&options](const Cornell& scene, const Cameras& cameras, double effort,
+            [&options](const Cornell& world, const Cameras& cameras, double effort,
                        std::uint64_t seed) {
                 Lap lap;
                 const auto solved = make_radiosity(
-                    scene,
+                    world,
                     {.patches = {.size = std::max(0.8 / std::sqrt(effort), 0.07)},
                      .factors = {.analytic = false,
                                  .rays = 512,
                                  .seed = seed,
                                  .threads = options.threads}});
-                const auto view = make_light_map_view(scene, solved->map);
+                const LightMapView view(world, solved->map);
                 const std::size_t kept =
                     solved->map.irradiance.size() * sizeof(RgbT<double>);
                 return views_of(view, cameras, options, std::max(effort / 4, 4.0), seed,
@@ -168,12 +168,12 @@ Method by_radiosity(const examples::Options& options) {
 Method by_photons(IndirectLight indirect, const examples::Options& options) {
     const bool direct = indirect == IndirectLight::photons;
     return {direct ? "photon map seen" : "two passes", direct ? "seen" : "photons",
-            [&options, indirect, direct](const Cornell& scene, const Cameras& cameras,
+            [&options, indirect, direct](const Cornell& world, const Cameras& cameras,
                                          double effort, std::uint64_t seed) {
                 const auto settings = photon_settings(indirect, effort, seed);
                 Lap lap;
-                const auto maps = make_photon_maps(scene, settings);
-                const auto mapper = make_photon_mapper(scene, maps, settings);
+                const PhotonMapper mapper(world, settings);
+                const auto& maps = mapper.maps();
                 const std::size_t kept =
                     bytes_of(maps.general) + bytes_of(maps.caustics);
                 const long long passes = maps.caustics.empty() ? 1 : 2;
@@ -190,13 +190,13 @@ Method by_photons(IndirectLight indirect, const examples::Options& options) {
 std::vector<Method> methods(const examples::Options& options) {
     return {by_rays(
                 "Whitted", "whitted",
-                [](const Cornell& scene) { return make_whitted(scene); }, options),
+                [](const Cornell& world) { return WhittedTracer(world); }, options),
             by_rays(
                 "distributed rays", "distributed",
-                [](const Cornell& scene) { return make_distributed(scene); }, options),
+                [](const Cornell& world) { return DistributedTracer(world); }, options),
             by_rays(
                 "path tracing", "paths",
-                [](const Cornell& scene) { return make_path_tracer(scene); }, options),
+                [](const Cornell& world) { return PathTracer(world); }, options),
             by_radiosity(options),
             by_photons(IndirectLight::map, options),
             by_photons(IndirectLight::photons, options)};
@@ -223,7 +223,7 @@ struct Rung {
 /// A room, its truth, and what all methods made of it.
 struct Study {
     std::string name;                      ///< Of the room.
-    Room<Cornell> room{};                  ///< The room.
+    Room<CornellSceneT<float>> room;       ///< The room.
     ImageT<double> truth{};                ///< By another renderer, with other seeds.
     double noise = 0;                      ///< Of the truth, as relMSE.
     double block_noise = 0;                ///< The same of its blocks.
@@ -234,7 +234,7 @@ struct Study {
 /// a pixel, and photons for caustics.
 struct Judge {
     using Stream = StratifiedStream; ///< What render() gives it to draw from.
-    detail::IndexedT<Cornell> scene; ///< A room.
+    const Cornell& world;            ///< Of a room.
     const PhotonMap& caustics;       ///< Empty in the matt room.
     DensityEstimateSettings gather;  ///< In discs smaller than a pixel.
 };
@@ -242,33 +242,31 @@ struct Judge {
 /// What a matt surface sends on of each lamp's light, and of the caustics map's.
 template <typename Material>
 Rgb lamps_and_caustics(const Judge& judge, const VertexT<float>& at,
-                       const Material& material, StratifiedStream& stream,
-                       Counts& counts) {
-    const Rgb lamps = detail::soft_light(judge.scene, at, material, stream, counts);
+                       const Material& material, auto& context) {
+    const Rgb lamps = sample_all_lights(judge.world, at, material, {}, context);
     return lamps + estimate_radiance(judge.caustics, at, material, at.wo, judge.gather,
-                                     light_kinds, counts.map_photons);
+                                     light_kinds, context.counts.map_photons);
 }
 
 // [judge]
-Rgb radiance(const Judge& judge, const Ray& ray, StratifiedStream& stream,
-             Counts& counts, NoLog = {}) {
+Rgb radiance(const Judge& judge, const Ray& ray, auto& context) {
     Rgb sum{0};
     PathState path{.ray = ray};
     while (path.depth < 1000) {
-        const auto vertex = next_vertex(judge.scene, path, stream);
+        const auto vertex = next_vertex(judge.world, path, context.stream);
         if (!vertex) break;
         if (vertex->emits() && !path.met_diffuse)
             sum += path.throughput * vertex->object.emission;
         const auto at_material = [&](const auto& matter) {
             if (has(lobes(matter), Lobes::non_specular))
                 sum += path.throughput *
-                       lamps_and_caustics(judge, *vertex, matter, stream, counts);
+                       lamps_and_caustics(judge, *vertex, matter, context);
             return continue_path(path, *vertex, matter, Transport::radiance, Lobes::all,
-                                 stream);
+                                 context.stream);
         };
-        if (!visit_material_at(judge.scene, *vertex, at_material)) break;
+        if (!visit_material_at(judge.world, *vertex, at_material)) break;
         if (path.depth >= 4 &&
-            !survives(path.throughput, path.eta_scale, next_1d(stream), 0.4f))
+            !survives(path.throughput, path.eta_scale, next_1d(context.stream), 0.4f))
             break;
     }
     return sum;
@@ -279,15 +277,15 @@ Rgb radiance(const Judge& judge, const Ray& ray, StratifiedStream& stream,
 /// \param photons  Of the caustics map.
 /// \param radius   Of its discs, m.
 /// \param options  Its size, and the number of threads.
-Image judged(const Room<Cornell>& room, int rays, long long photons, float radius,
-             std::uint64_t seed, const examples::Options& options) {
+Image judged(const Room<CornellSceneT<float>>& room, int rays, long long photons,
+             float radius, std::uint64_t seed, const examples::Options& options) {
     const PhotonMappingSettings settings{.indirect = IndirectLight::rays,
                                          .caustics{.photons = photons, .seed = seed},
                                          .caustics_estimate{.radius = radius}};
-    const auto maps = make_photon_maps(room.scene, settings);
+    const PhotonMapper mapper(room.world, settings);
     examples::ProgressBar bar("reference", options.quiet);
-    const Judge judge{.scene = detail::IndexedT<Cornell>(room.scene),
-                      .caustics = maps.caustics,
+    const Judge judge{.world = room.world,
+                      .caustics = mapper.maps().caustics,
                       .gather = settings.caustics_estimate};
     auto rendered = render(judge, room.camera,
                            {.width = options.width,
@@ -340,7 +338,7 @@ void climb(Study& study, const std::vector<Method>& all,
                 int repeats = 0;
                 for (; spent < options.pick(0.01, 0.06, 0.06);
                      ++repeats, spent += lap())
-                    shot = method.shoot(study.room.scene, {study.room.camera},
+                    shot = method.shoot(study.room.world, {study.room.camera},
                                         result.effort,
                                         options.seed + std::uint64_t(seed))[0];
                 images.push_back(shot.image);
@@ -452,7 +450,7 @@ void split_table(const Study& study, const std::vector<Method>& all,
 /// A picture of a method for a panel.
 Shot panel(const Study& study, const Method& method, double effort,
            const examples::Options& options) {
-    return method.shoot(study.room.scene, {study.room.camera}, effort,
+    return method.shoot(study.room.world, {study.room.camera}, effort,
                         options.seed + 77)[0];
 }
 
@@ -609,33 +607,32 @@ ClassSums classes_of(const ClassStudy& of, const Renderer& renderer) {
 
 /// The classes of photon mapping, with maps of its own for each seed.
 ClassSums classes_of_photons(const ClassStudy& of, IndirectLight indirect) {
-    const Cornell& scene = of.study.room.scene;
+    const Cornell& world = of.study.room.world;
     return over_seeds(of, [&](const RenderSettings& picture) {
         const auto settings =
             photon_settings(indirect, of.options.pick(16.0, 64.0, 256.0), picture.seed);
-        const auto maps = make_photon_maps(scene, settings);
-        return class_means(make_photon_mapper(scene, maps, settings),
-                           of.study.room.camera, picture, of.classes);
+        return class_means(PhotonMapper(world, settings), of.study.room.camera, picture,
+                           of.classes);
     });
 }
 
 /// The classes of radiosity, which answers for E D+ L at once. What its lamps' patches
 /// send out, and no others, is E D L; the rest is E D+ D L.
 ClassSums classes_of_radiosity(const ClassStudy& of) {
-    const Cornell& scene = of.study.room.scene;
+    const Cornell& world = of.study.room.world;
     return over_seeds(of, [&](const RenderSettings& picture) {
         const auto all = make_radiosity(
-            scene, {.patches = {.size = of.options.pick(0.4, 0.2, 0.1)},
+            world, {.patches = {.size = of.options.pick(0.4, 0.2, 0.1)},
                     .factors = {.analytic = false, .rays = 512, .seed = picture.seed}});
         std::vector<RgbT<double>> lamp;
         for (const Patch& patch : all->patches.patches) lamp.push_back(patch.emitted);
         const auto view = [&](const LightMap& map) {
-            return class_means(make_light_map_view(scene, map), of.study.room.camera,
-                               picture, of.classes);
+            return class_means(LightMapView(world, map), of.study.room.camera, picture,
+                               of.classes);
         };
         auto whole = view(all->map);
         const auto direct =
-            view(make_light_map(scene, all->patches, all->factors, lamp));
+            view(make_light_map(world, all->patches, all->factors, lamp));
         whole[5] = whole[2] - direct[2];
         whole[2] = direct[2];
         return whole;
@@ -657,14 +654,14 @@ std::string class_ratio(const ClassSum& its, const ClassSum& right, int seeds) {
 /// Each class of paths: what a renderer brings of it, over what path tracing brings.
 void class_table(const Study& study, const examples::Options& options,
                  const Sizes& sizes) {
-    const Cornell& scene = study.room.scene;
+    const Cornell& world = study.room.world;
     ClassStudy of{study, options, std::max(sizes.seeds, 4)};
     for (const char* name : class_names)
         of.classes.push_back(light_path_expression(name));
-    const ClassSums truth = classes_of(of, make_path_tracer(scene));
+    const ClassSums truth = classes_of(of, PathTracer(world));
     const std::array<std::pair<const char*, ClassSums>, 6> renderers{
-        {{"Whitted", classes_of(of, make_whitted(scene))},
-         {"distributed rays", classes_of(of, make_distributed(scene))},
+        {{"Whitted", classes_of(of, WhittedTracer(world))},
+         {"distributed rays", classes_of(of, DistributedTracer(world))},
          {"path tracing", truth},
          {"radiosity", classes_of_radiosity(of)},
          {"two passes", classes_of_photons(of, IndirectLight::map)},
@@ -711,7 +708,7 @@ void views(const Study& study, const std::vector<Method>& all,
         const Method& method = all[k];
         if (method.file == "whitted" || method.file == "distributed") continue;
         const auto shots =
-            method.shoot(study.room.scene, cameras, effort, options.seed);
+            method.shoot(study.room.world, cameras, effort, options.seed);
         const double solution = shots[0].solution;
         double view = 0;
         for (const Shot& shot : shots) view += shot.view / count;
@@ -727,7 +724,7 @@ void views(const Study& study, const std::vector<Method>& all,
                               size(shots[0].memory), size(shots[0].working)});
         if (method.file == "seen" || method.file == "radiosity") {
             const auto shown =
-                larger[k].shoot(study.room.scene, cameras, effort, options.seed);
+                larger[k].shoot(study.room.world, cameras, effort, options.seed);
             for (int i = 0; i < count; i += 2)
                 save_png(shown[std::size_t(i)].image,
                          options.path("side_by_side-" + study.name + "-view-" +

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/clock.hpp"
@@ -20,6 +21,8 @@
 #include "ljus/geometry/shape.hpp"
 #include "ljus/inspect/census.hpp"
 #include "ljus/io/png.hpp"
+#include "ljus/lights/spot_light.hpp"
+#include "ljus/lights/sun_light.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/photons/density_estimate.hpp"
 #include "ljus/photons/tracing.hpp"
@@ -58,12 +61,12 @@ Image draw(const Room<S>& room, int width, int height) {
         for (int x = 0; x < width; ++x) {
             const Ray ray = primary_ray(
                 room.camera, Vec2{float(x) + 0.5f, float(y) + 0.5f}, width, height);
-            const auto hit = closest_hit(room.scene, ray);
+            const auto hit = closest_hit(room.world, ray);
             if (!hit) continue;
-            const auto surface = vertex_at(room.scene, ray, *hit);
+            const auto surface = vertex_at(room.world, ray, *hit);
             const Vec3 wo = to_local(surface.frame, -ray.direction);
             const Rgb albedo =
-                room.scene.visit_material(surface.object.material, [&](const auto& m) {
+                room.world.visit_material(surface.object.material, [&](const auto& m) {
                     return has(lobes(m), Lobes::specular)
                                ? Rgb{0.25f}
                                : Rgb(evaluate(m, wo, wo) * float(pi));
@@ -93,7 +96,7 @@ long long add_dots(Image& image, const Room<S>& room,
         const Vec3 way = photon.position - room.camera.position;
         const Ray ray{
             .origin = room.camera.position, .direction = way, .t_max = 0.999f};
-        if (occluded(room.scene, ray)) continue;
+        if (occluded(room.world, ray)) continue;
         ++seen;
         pixel(image, x, y) += 0.8f / max_component(photon.flux) * photon.flux;
     }
@@ -103,7 +106,7 @@ void picture_of_photons(const examples::Options& options, long long count) {
     const auto room = final_room<float>();
     const Image drawing = draw(room, options.width, options.height);
     const auto traced = trace_photons(
-        room.scene, MapType::general,
+        room.world, MapType::general,
         {.photons = count, .seed = options.seed, .shadow_photons = false});
     const PhotonCensus found = census(traced.photons);
 
@@ -156,18 +159,18 @@ struct Arrivals {
 
 /// Photons in a closed room, all of whose walls reflect the same share.
 Arrivals bounce(float albedo, End end, long long paths, std::uint64_t seed) {
-    Scene<Shapes<Sphere>, Materials<Lambertian>> room;
-    const auto wall = room.add(Lambertian{.albedo = Rgb{albedo}});
-    room.add(Sphere{.radius = 1}, wall, Rgb{0}, true); // seen from inside
-    room.add(PointLight{.position{0.3f, 0, 0}, .intensity = Rgb{float(0.25 / pi)}});
-    const LightChoice choice = light_choice(room.lights);
+    Scene<Shapes<Sphere>, Materials<Lambertian>, Lights<PointLight>> scene;
+    const auto wall = scene.add(Lambertian{.albedo = Rgb{albedo}});
+    scene.add(Sphere{.radius = 1}, wall, Rgb{0}, true); // seen from inside
+    scene.add(PointLight{.position{0.3f, 0, 0}, .intensity = Rgb{float(0.25 / pi)}});
+    const World room(std::move(scene));
     const Lambertian material{.albedo = Rgb{albedo}};
 
     Arrivals arrivals;
     for (long long path = 0; path < paths; ++path) {
         RandomStream stream =
             random_stream(seed, Pass::user, 0, static_cast<std::uint64_t>(path));
-        EmittedPhotonT<float> flight = emit(room, choice, stream);
+        EmittedPhotonT<float> flight = emit(room, room.light_choice(), stream);
         for (std::uint64_t hit_number = 0;; ++hit_number) {
             start_bounce(stream, hit_number + 1);
             const auto hit = closest_hit(room, flight.ray);
@@ -335,22 +338,22 @@ void plot_aims(const examples::Options& options, const Brought& everywhere,
 /// Photons sent everywhere, and photons sent at the glass of the report's figure 11.
 void compare_aims(const examples::Options& options, long long paths) {
     const auto room = four_glass_room<float>();
-    const LightChoice choice = light_choice(room.scene.lights);
-    const auto targets = specular_objects(room.scene);
+    const LightChoice choice = room.world.light_choice();
+    const auto targets = specular_objects(room.world);
     const auto is_target = [&](ObjectId id) {
         for (const ObjectId target : targets)
             if (target == id) return true;
         return false;
     };
     const Brought everywhere = send(options, paths, [&](RandomStream& stream) {
-        const auto flight = emit(room.scene, choice, stream);
-        const auto hit = closest_hit(room.scene, flight.ray);
+        const auto flight = emit(room.world, choice, stream);
+        const auto hit = closest_hit(room.world, flight.ray);
         return hit && is_target(hit->object) ? double(flight.flux.y) : 0.0;
     });
     const Brought aimed = send(options, paths, [&](RandomStream& stream) {
-        const auto sent = aim(room.scene, choice, targets, stream);
+        const auto sent = aim(room.world, choice, targets, stream);
         if (!sent) return 0.0;
-        const auto hit = closest_hit(room.scene, sent->photon.ray);
+        const auto hit = closest_hit(room.world, sent->photon.ray);
         return hit && hit->object == sent->target ? double(sent->photon.flux.y) : 0.0;
     });
     tabulate_aims(options, everywhere, aimed);
@@ -363,17 +366,19 @@ void compare_aims(const examples::Options& options, long long paths) {
 template <typename Light>
 void picture_of_light(const examples::Options& options, long long photons,
                       const Light& light, const std::string& name) {
-    using Scene = ljus::Scene<Shapes<Sphere, Quad>, Materials<Lambertian>>;
-    Room<Scene> room;
-    const auto white = room.scene.add(Lambertian{.albedo = Rgb{0.7f}});
-    room.scene.add(Quad{{-2, 0, -2}, {0, 0, 4}, {4, 0, 0}}, white);
-    room.scene.add(Quad{{-2, 0, -2}, {4, 0, 0}, {0, 2.5f, 0}}, white);
-    room.scene.add(Sphere{.center{0.3f, 0.5f, 0}, .radius = 0.5f}, white);
-    room.scene.add(light);
-    room.camera =
-        look_at(View{.position{-1, 3, 5}, .target{0, 0.6f, -0.3f}, .vfov_degrees = 40});
+    using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian>, Lights<Light>>;
+    Stage scene;
+    const auto white = scene.add(Lambertian{.albedo = Rgb{0.7f}});
+    scene.add(Quad{{-2, 0, -2}, {0, 0, 4}, {4, 0, 0}}, white);
+    scene.add(Quad{{-2, 0, -2}, {4, 0, 0}, {0, 2.5f, 0}}, white);
+    scene.add(Sphere{.center{0.3f, 0.5f, 0}, .radius = 0.5f}, white);
+    scene.add(light);
+    const Room<Stage> room{
+        World(std::move(scene)),
+        look_at(
+            View{.position{-1, 3, 5}, .target{0, 0.6f, -0.3f}, .vfov_degrees = 40})};
     const auto traced = trace_photons(
-        room.scene, MapType::general,
+        room.world, MapType::general,
         {.photons = photons, .seed = options.seed, .shadow_photons = false});
     Image image = draw(room, options.width, options.height);
     add_dots(image, room, traced.photons, PhotonKind::direct);
@@ -383,8 +388,8 @@ void picture_of_light(const examples::Options& options, long long photons,
 // --- The choice of a light ------------------------------------------------------------
 
 /// A closed grey room with a square lamp, a weak ball of light and a strong spot.
-Scene<Shapes<Sphere, Quad>, Materials<Lambertian>> small_room(bool lamp_only) {
-    Scene<Shapes<Sphere, Quad>, Materials<Lambertian>> room;
+auto small_room(bool lamp_only) {
+    Scene<Shapes<Sphere, Quad>, Materials<Lambertian>, Lights<SpotLight>> room;
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.7f}});
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
     const Vec3 x{2, 0, 0}, y{0, 2, 0}, z{0, 0, 2};
@@ -395,11 +400,11 @@ Scene<Shapes<Sphere, Quad>, Materials<Lambertian>> small_room(bool lamp_only) {
     room.add(Quad{{-1, -1, -1}, y, z}, grey);
     room.add(Quad{{1, -1, -1}, z, y}, grey);
     room.add(Quad{{-0.3f, 0.98f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}}, black, Rgb{4});
-    if (lamp_only) return room;
+    if (lamp_only) return World(std::move(room));
     room.add(Sphere{.center{-0.7f, -0.6f, 0.6f}, .radius = 0.05f}, black, Rgb{1});
     room.add(SpotLight{
         .position{0.9f, 0.5f, 0}, .direction{-1, -1, 0}, .intensity = Rgb{30}});
-    return room;
+    return World(std::move(room));
 }
 
 /// What a photon brings to a patch of the floor, by the number of its surface: direct,
@@ -407,8 +412,8 @@ Scene<Shapes<Sphere, Quad>, Materials<Lambertian>> small_room(bool lamp_only) {
 constexpr std::size_t orders = 3;
 using Orders = std::array<double, orders>;
 
-template <typename Scene, typename Stream>
-Orders follow(const Scene& room, const LightChoice& choice, Stream stream) {
+template <AnyWorld W, typename Stream>
+Orders follow(const W& room, const LightChoice& choice, Stream stream) {
     constexpr std::array<std::uint64_t, orders> surface{1, 2, 4};
     Orders brought{};
     auto flight = emit(room, choice, stream);
@@ -446,9 +451,9 @@ struct Spread {
     Orders mean{}, deviation{}; ///< Over the seeds, relative to the mean.
 };
 
-template <typename Scene, typename MakeStream>
-Spread spread_of(const Scene& room, const LightChoice& choice, long long photons,
-                 int seeds, MakeStream make_stream) {
+template <AnyWorld W, typename MakeStream>
+Spread spread_of(const W& room, const LightChoice& choice, long long photons, int seeds,
+                 MakeStream make_stream) {
     Orders sum{}, squares{};
     for (int seed = 0; seed < seeds; ++seed) {
         Orders one{};
@@ -492,7 +497,7 @@ void compare_choices(const examples::Options& options) {
         table.rows.push_back({name, examples::text(s.mean[0], "%.3f"),
                               percent(s.deviation[0]), percent(s.deviation[1])});
     };
-    row("by power", light_choice(room.lights));
+    row("by power", room.light_choice());
     row("each equally often", {.cumulative = {1, 2, 3}});
     examples::save_table(options.out, table);
     if (!options.quiet)
@@ -507,7 +512,7 @@ void compare_choices(const examples::Options& options) {
 /// Plot: the error against the number of photons, random beside Sobol.
 examples::Plot plot_numbers(const examples::Options& options) {
     const auto room = small_room(true);
-    const LightChoice choice = light_choice(room.lights);
+    const LightChoice choice = room.light_choice();
     const int last = options.pick(13, 15, 17);
     const int seeds = options.pick(16, 32, 64);
     const double none = std::nan("");
@@ -639,6 +644,7 @@ void plot_error(const examples::Options& options) {
     const auto white = scene.add(Lambertian{.albedo = Rgb{1}});
     scene.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, white);
     scene.add(lamp, scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{1});
+    const World world(std::move(scene));
     const Lambertian material{.albedo = Rgb{1}};
 
     const int last = options.pick(8, 10, 12); // N = 10^(last/2)
@@ -657,7 +663,7 @@ void plot_error(const examples::Options& options) {
         int places = 0;
         for (int seed = 0; seed < seeds; ++seed) {
             const auto traced = trace_photons(
-                scene, MapType::general,
+                world, MapType::general,
                 {.photons = static_cast<long long>(count),
                  .seed = options.seed + static_cast<std::uint64_t>(seed)});
             const auto map = make_photon_map(traced.photons);

@@ -36,7 +36,7 @@ std::vector<Vec3> on_floor(const examples::Options& options, long long photons) 
     std::vector<Vec3> points;
     for (const MapType law : {MapType::general, MapType::caustics}) {
         const auto traced =
-            trace_photons(room.scene, law,
+            trace_photons(room.world, law,
                           {.photons = law == MapType::general ? photons : 2 * photons,
                            .seed = options.seed,
                            .shadow_photons = false});

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/clock.hpp"
@@ -44,7 +45,7 @@ long long save_figure(const std::string& path, const Image& drawing,
                       PhotonKind kind) {
     Image image = drawing;
     const long long seen = add_photon_dots(
-        image, room.scene, room.camera, photons, {.radius = 1.2f, .brightness = 0.9f},
+        image, room.world, room.camera, photons, {.radius = 1.2f, .brightness = 0.9f},
         [&](const Photon& photon) {
             return photon.kind == kind ? dot_color(photon) : Rgb{0};
         });
@@ -54,9 +55,9 @@ long long save_figure(const std::string& path, const Image& drawing,
 void figures(const examples::Options& options, long long count) {
     const auto room = final_room<float>();
     const Image drawing =
-        scene_drawing(room.scene, room.camera, options.width, options.height);
+        scene_drawing(room.world, room.camera, options.width, options.height);
     const auto traced = trace_photons(
-        room.scene, MapType::general,
+        room.world, MapType::general,
         {.photons = count, .seed = options.seed, .threads = options.threads});
     const PhotonCensus found = census(traced.photons);
     const double emitted = traced.audit.emitted.y;
@@ -92,7 +93,7 @@ void figures(const examples::Options& options, long long count) {
     // Each photon knows its lamp: what either would light, and does not.
     Image image = drawing;
     (void)add_photon_dots(
-        image, room.scene, room.camera, traced.photons,
+        image, room.world, room.camera, traced.photons,
         {.radius = 1.2f, .brightness = 0.9f}, [](const Photon& photon) {
             if (photon.kind != PhotonKind::shadow) return Rgb{0};
             return photon.light == 0 ? Rgb{0.1f, 0.5f, 1} : Rgb{1, 0.4f, 0.05f};
@@ -104,31 +105,28 @@ void figures(const examples::Options& options, long long count) {
 
 /// The general map, looked at: no shadow ray and no indirect ray, only what the photons
 /// say where a camera path first meets a matt surface.
-template <typename Scene>
+template <AnyWorld W>
 struct MapView {
     using Stream = RandomStream;
-    const PhotonMapper<Scene>& mapper; ///< The scene and its maps.
+    const PhotonMapper<W>& mapper; ///< The world and its maps.
 };
-template <typename Scene, typename Log>
-Rgb radiance(const MapView<Scene>& view, const Ray& ray, RandomStream& stream,
-             Counts& counts, Log&&) {
-    const auto& scene = view.mapper.scene;
+template <AnyWorld W>
+Rgb radiance(const MapView<W>& view, const Ray& ray, auto& context) {
+    const W& world = view.mapper.world();
     Rgb sum{0};
     PathState path{.ray = ray};
-    const auto add = [&](const char*, const char*, const Rgb& light) {
-        sum += path.throughput * light;
-    };
+    const RadianceSum add{sum, path.throughput, context.log};
     while (path.depth < 20) {
-        const auto vertex = next_vertex(scene, path, stream);
+        const auto vertex = next_vertex(world, path, context.stream);
         if (!vertex) break;
         if (vertex->emits()) sum += path.throughput * vertex->object.emission;
         const auto at_material = [&](const auto& material) {
             if (has(lobes(material), Lobes::non_specular))
-                light_at(view.mapper, *vertex, material, true, stream, counts, add);
+                light_at(view.mapper, *vertex, material, true, context, add);
             return continue_path(path, *vertex, material, Transport::radiance,
-                                 Lobes::specular, stream);
+                                 Lobes::specular, context.stream);
         };
-        if (!visit_material_at(scene, *vertex, at_material)) break;
+        if (!visit_material_at(world, *vertex, at_material)) break;
     }
     return sum;
 }
@@ -142,20 +140,19 @@ void map_as_picture(const examples::Options& options) {
     settings.caustics = settings.general;
     settings.general_estimate.radius = 0.5f;
     settings.caustics_estimate.radius = 0.15f;
-    const auto maps = make_photon_maps(room.scene, settings);
-    const auto mapper = make_photon_mapper(room.scene, maps, settings);
+    const PhotonMapper mapper(room.world, settings);
     const RenderSettings picture{.width = options.width,
                                  .height = options.height,
                                  .samples = options.pick(4, 16, 64),
                                  .seed = options.seed,
                                  .threads = options.threads};
     const examples::StopWatch watch;
-    save_png(render(MapView<decltype(room.scene)>{mapper}, room.camera, picture).image,
+    save_png(render(MapView<decltype(room.world)>{mapper}, room.camera, picture).image,
              options.path("general-map.png"));
     const double map_seconds = watch.seconds();
     RenderSettings more = picture;
     more.samples = options.pick(8, 64, 1024);
-    save_png(render(make_path_tracer(room.scene), room.camera, more).image,
+    save_png(render(PathTracer(room.world), room.camera, more).image,
              options.path("general-path.png"));
     if (!options.quiet)
         std::printf("the map as a picture: %.1f s; path tracing: %.1f s\n", map_seconds,
@@ -222,7 +219,7 @@ FloorEstimates estimate_floor(const examples::TwoRooms& rooms, long long photons
     const int seeds = options.pick(4, 16, 16);
     for (int seed = 0; seed < seeds; ++seed) {
         const auto map = make_photon_map(
-            trace_photons(rooms.scene, MapType::general,
+            trace_photons(rooms.world, MapType::general,
                           {.photons = photons,
                            .seed = options.seed + static_cast<std::uint64_t>(seed),
                            .max_bounces = 1,
@@ -286,8 +283,7 @@ void leak_pictures(const examples::TwoRooms& rooms, long long photons,
                         .shadow_photons = false,
                         .threads = options.threads};
     settings.general_estimate.radius = float(leak_radius);
-    const auto maps = make_photon_maps(rooms.scene, settings);
-    const auto mapper = make_photon_mapper(rooms.scene, maps, settings);
+    const PhotonMapper mapper(rooms.world, settings);
     const Camera camera =
         look_at({.position{0, 0.5f, 3}, .target{0, 0.5f, 0}, .vfov_degrees = 54});
     const RenderSettings picture{.width = options.width,
@@ -295,11 +291,11 @@ void leak_pictures(const examples::TwoRooms& rooms, long long photons,
                                  .samples = options.pick(4, 16, 64),
                                  .seed = options.seed,
                                  .threads = options.threads};
-    save_png(render(MapView<Boxes>{mapper}, camera, picture).image,
+    save_png(render(MapView<World<Boxes>>{mapper}, camera, picture).image,
              options.path("general-leak.png"), {.exposure = 0.5});
     RenderSettings more = picture;
     more.samples = options.pick(8, 64, 1024);
-    save_png(render(make_path_tracer(rooms.scene), camera, more).image,
+    save_png(render(PathTracer(rooms.world), camera, more).image,
              options.path("general-leak-path.png"), {.exposure = 0.5});
 }
 
@@ -429,6 +425,7 @@ Experiment run_experiment(const examples::Options& options) {
     const Quad lamp{.corner{-0.5f, 1, -0.5f}, .edge_u{1, 0, 0}, .edge_v{0, 0, 1}};
     scene.add(Quad{.corner{-9, 0, -9}, .edge_u{0, 0, 18}, .edge_v{18, 0, 0}}, white);
     scene.add(lamp, scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{1});
+    const World world(std::move(scene));
 
     Experiment all;
     for (int i = 6; i <= options.pick(9, 11, 12); ++i)
@@ -440,7 +437,7 @@ Experiment run_experiment(const examples::Options& options) {
         for (int seed = 0; seed < seeds; ++seed) {
             const examples::StopWatch trace;
             const auto traced =
-                trace_photons(scene, MapType::general,
+                trace_photons(world, MapType::general,
                               {.photons = static_cast<long long>(number),
                                .seed = options.seed + static_cast<std::uint64_t>(seed),
                                .shadow_photons = false,

@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/clock.hpp"
@@ -21,8 +22,10 @@
 #include "ljus/inspect/metrics.hpp"
 #include "ljus/inspect/photon_dots.hpp"
 #include "ljus/io/png.hpp"
+#include "ljus/lights/point_light.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
+#include "ljus/render/skipping.hpp"
 #include "ljus/scenes/mesh_formulas.hpp"
 #include "ljus/scenes/report_rooms.hpp"
 
@@ -30,7 +33,9 @@ using namespace ljus;
 
 namespace {
 
-using Hall = Scene<Shapes<Mesh, Sphere, Quad>, Materials<Lambertian>>;
+using HallScene =
+    Scene<Shapes<Mesh, Sphere, Quad>, Materials<Lambertian>, Lights<PointLight>>;
+using Hall = World<HallScene>;
 constexpr std::array rules{SkipRule::report, SkipRule::any, SkipRule::enough};
 constexpr std::array rule_names{"the report's", "that of 1995", "enough photons"};
 
@@ -115,12 +120,11 @@ PhotonMappingSettings settings_of(const examples::Options& options, SkipRule rul
 }
 
 /// Whether some of a lamp could shine on a surface.
-template <typename S>
-bool faces(const S& scene, const Vertex& vertex, std::size_t lamp) {
+template <AnyWorld W>
+bool faces(const W& world, const Vertex& vertex, std::uint32_t lamp) {
     for (int i = 0; i < 4; ++i) {
         const Vec2 u{i % 2 == 0 ? 0.1f : 0.9f, i < 2 ? 0.1f : 0.9f};
-        const auto sampled =
-            sample_light(scene, scene.lights[lamp], vertex.point.position, u);
+        const auto sampled = sample_light(world, lamp, vertex.point.position, u);
         if (sampled && to_local(vertex.frame, sampled->wi).z * vertex.wo.z > 0)
             return true;
     }
@@ -129,22 +133,23 @@ bool faces(const S& scene, const Vertex& vertex, std::size_t lamp) {
 
 /// What is known of a lamp where each pixel looks: yellow for lit, blue for shadow, red
 /// where a ray must tell, and no colour where no ray is asked.
-template <typename S>
-Image verdict_map(const S& scene, const Camera& camera, const VerdictGrid& grid,
-                  std::size_t lamp, const examples::Options& options) {
-    Image image = scene_drawing(scene, camera, options.width, options.height);
+template <typename Mapper>
+Image verdict_map(const Mapper& mapper, const Camera& camera, std::uint32_t lamp,
+                  const examples::Options& options) {
+    const auto& world = mapper.world();
+    Image image = scene_drawing(world, camera, options.width, options.height);
     for (int y = 0; y < options.height; ++y)
         for (int x = 0; x < options.width; ++x) {
             const Ray ray = primary_ray(camera, Vec2{float(x) + 0.5f, float(y) + 0.5f},
                                         options.width, options.height);
-            const auto hit = closest_hit(scene, ray);
+            const auto hit = closest_hit(world, ray);
             if (!hit) continue;
-            const Vertex vertex = vertex_at(scene, ray, *hit);
-            const bool matt = visit_material_at(scene, vertex, [](const auto& m) {
+            const Vertex vertex = vertex_at(world, ray, *hit);
+            const bool matt = visit_material_at(world, vertex, [](const auto& m) {
                 return has(lobes(m), Lobes::non_specular);
             });
-            if (!matt || vertex.emits() || !faces(scene, vertex, lamp)) continue;
-            const Verdict verdict = grid.verdict(detail::place_of(grid, vertex), lamp);
+            if (!matt || vertex.emits() || !faces(world, vertex, lamp)) continue;
+            const Verdict verdict = verdicts_of(mapper, vertex)(lamp);
             const Rgb color = verdict == Verdict::lit      ? Rgb{0.85f, 0.6f, 0.1f}
                               : verdict == Verdict::shadow ? Rgb{0.02f, 0.07f, 0.35f}
                                                            : Rgb{0.55f, 0.02f, 0.02f};
@@ -156,10 +161,10 @@ Image verdict_map(const S& scene, const Camera& camera, const VerdictGrid& grid,
 void pictures(const examples::Options& options, long long photons) {
     const auto room = final_room<float>();
     for (const SkipRule rule : rules) {
-        const auto maps =
-            make_photon_maps(room.scene, settings_of(options, rule, photons));
-        for (const std::size_t lamp : {0u, 1u})
-            save_png(verdict_map(room.scene, room.camera, maps.verdicts, lamp, options),
+        const PhotonMapper mapper(room.world, settings_of(options, rule, photons),
+                                  abilities<Skipping>);
+        for (const std::uint32_t lamp : {0u, 1u})
+            save_png(verdict_map(mapper, room.camera, lamp, options),
                      options.path("shadow-verdicts-" + std::to_string(int(rule)) + "-" +
                                   std::to_string(lamp) + ".png"));
     }
@@ -175,10 +180,9 @@ void pictures(const examples::Options& options, long long photons) {
                                       "relMSE against all rays", "largest block"},
                           .rows = {}};
     const auto shot = [&](SkipRule rule, long long count) {
-        const PhotonMappingSettings settings = settings_of(options, rule, count);
-        const auto maps = make_photon_maps(room.scene, settings);
-        return render(make_photon_mapper(room.scene, maps, settings), room.camera,
-                      picture);
+        const PhotonMapper mapper(room.world, settings_of(options, rule, count),
+                                  abilities<Skipping>);
+        return render(mapper, room.camera, picture);
     };
     const auto all = shot(SkipRule::none, photons);
     save_png(all.image, options.path("shadow-all.png"));
@@ -209,14 +213,14 @@ void pictures(const examples::Options& options, long long photons) {
 
 /// A floor of 10 x 10, a lamp of 2 x 2 at the height 5, and three balls that lie on it.
 Hall three_balls(float radius) {
-    Hall hall;
+    HallScene hall;
     const auto grey = hall.add(Lambertian{.albedo = Rgb{0.5f}});
     hall.add(Quad{.corner{-5, 0, -5}, .edge_u{0, 0, 10}, .edge_v{10, 0, 0}}, grey);
     hall.add(Quad{.corner{-1, 5, -1}, .edge_u{2, 0, 0}, .edge_v{0, 0, 2}},
              hall.add(Lambertian{.albedo = Rgb{0}}), Rgb{10});
     for (const Vec2& at : {Vec2{-2, -1}, Vec2{1.3f, 1.6f}, Vec2{2, -2.2f}})
         hall.add(Sphere{.center{at.x, radius, at.y}, .radius = radius}, grey);
-    return hall;
+    return Hall(std::move(hall));
 }
 
 /// Points of the floor with the part of the lamp that they see, by brute force.
@@ -226,15 +230,15 @@ struct Probes {
     std::size_t everywhere = 0; ///< The first so many are spread over all the floor.
 };
 // [probe]
-double part_seen(const IndexedScene<Hall>& scene, const Vec3& at, int n) {
+double part_seen(const Hall& hall, const Vec3& at, int n) {
     int seen = 0;
     for (int i = 0; i < n * n; ++i) {
         const Vec3 to{-1 + (float(i % n) + 0.5f) * 2 / float(n), 5,
                       -1 + (float(i / n) + 0.5f) * 2 / float(n)};
-        seen += occluded(scene, Ray{.origin = at,
-                                    .direction = to - at,
-                                    .t_min = 1e-4f,
-                                    .t_max = 0.9999f})
+        seen += occluded(hall, Ray{.origin = at,
+                                   .direction = to - at,
+                                   .t_min = 1e-4f,
+                                   .t_max = 0.9999f})
                     ? 0
                     : 1;
     }
@@ -243,13 +247,12 @@ double part_seen(const IndexedScene<Hall>& scene, const Vec3& at, int n) {
 // [probe]
 
 Probes make_probes(const Hall& hall, float radius, const examples::Options& options) {
-    const IndexedScene<Hall> scene(hall);
     Probes probes;
     examples::Numbers numbers{7};
     const auto add = [&](float x, float z) {
         probes.points.push_back({x, 0, z});
         probes.seen.push_back(
-            part_seen(scene, probes.points.back(), options.pick(8, 16, 32)));
+            part_seen(hall, probes.points.back(), options.pick(8, 16, 32)));
     };
     const int side = options.pick(30, 100, 200);
     for (int i = 0; i < side * side; ++i)
@@ -394,7 +397,7 @@ constexpr float lamp_height = 4, wire_height = 0.5f, lamp_away = 2;
 
 /// A floor under a point light, and a flat wire of a width along x.
 Hall wire_hall(float width) {
-    Hall hall;
+    HallScene hall;
     const auto grey = hall.add(Lambertian{.albedo = Rgb{0.6f}});
     hall.add(Quad{.corner{-3, 0, -3}, .edge_u{0, 0, 6}, .edge_v{6, 0, 0}}, grey);
     hall.add(Quad{.corner{-2.5f, wire_height, -width / 2},
@@ -402,7 +405,7 @@ Hall wire_hall(float width) {
                   .edge_v{0, 0, width}},
              hall.add(Lambertian{.albedo{0.5f, 0.25f, 0.1f}}));
     hall.add(PointLight{.position{0, lamp_height, lamp_away}, .intensity = Rgb{20}});
-    return hall;
+    return Hall(std::move(hall));
 }
 
 void wire(const examples::Options& options, long long photons) {
@@ -451,8 +454,8 @@ void wire(const examples::Options& options, long long photons) {
         PhotonMappingSettings settings = settings_of(options, rule, photons);
         settings.skip.radius = radius;
         settings.indirect = IndirectLight::none;
-        const auto maps = make_photon_maps(hall, settings);
-        save_png(render(make_photon_mapper(hall, maps, settings), camera,
+        const PhotonMapper mapper(hall, settings, abilities<Skipping>);
+        save_png(render(mapper, camera,
                         {.width = options.width,
                          .height = options.height,
                          .samples = options.pick(4, 16, 64),
@@ -467,7 +470,7 @@ void wire(const examples::Options& options, long long photons) {
 
 /// A hall with walls, a lamp, and nine balls of so many triangles each; spheres for 0.
 Hall hall_of_meshes(int cuts, int lamps) {
-    Hall hall;
+    HallScene hall;
     const auto grey = hall.add(Lambertian{.albedo = Rgb{0.6f}});
     const auto red = hall.add(Lambertian{.albedo{0.6f, 0.3f, 0.2f}});
     const auto black = hall.add(Lambertian{.albedo = Rgb{0}});
@@ -492,25 +495,25 @@ Hall hall_of_meshes(int cuts, int lamps) {
         else
             hall.add(ball, red);
     }
-    return hall;
+    return Hall(std::move(hall));
 }
 
 /// Where indirect rays have ended: points of a room as a picture asks about them.
-template <typename S>
-std::vector<Vertex> places_of(const IndexedScene<S>& scene, const Camera& camera,
-                              std::size_t count, std::uint64_t seed) {
+template <AnyWorld W>
+std::vector<Vertex> places_of(const W& world, const Camera& camera, std::size_t count,
+                              std::uint64_t seed) {
     std::vector<Vertex> places;
     for (std::size_t tries = 0; tries < 5 * count && places.size() < count; ++tries) {
         auto stream = random_stream(seed, Pass::camera, 1, tries); // a path of its own
         PathStateT<float> path{
             .ray = primary_ray(camera, 100.0f * next_2d<float>(stream), 100, 100)};
-        auto vertex = next_vertex(scene, path, stream);
+        auto vertex = next_vertex(world, path, stream);
         if (!vertex) continue;
         const Vec3 out = sample_cosine_hemisphere(next_2d<float>(stream));
         const Vec3 up = vertex->wo.z < 0 ? -out : out;
         path.ray = spawn_ray(vertex->point, to_world(vertex->frame, up));
-        vertex = next_vertex(scene, path, stream);
-        if (vertex && visit_material_at(scene, *vertex, [](const auto& m) {
+        vertex = next_vertex(world, path, stream);
+        if (vertex && visit_material_at(world, *vertex, [](const auto& m) {
                 return has(lobes(m), Lobes::non_specular);
             }))
             places.push_back(*vertex);
@@ -519,26 +522,24 @@ std::vector<Vertex> places_of(const IndexedScene<S>& scene, const Camera& camera
 }
 
 /// How often a room's verdicts are wrong: a row for each rule.
-template <typename S>
-void judge_room(examples::Table& table, const char* name, const S& of,
+template <AnyWorld W>
+void judge_room(examples::Table& table, const char* name, const W& world,
                 const Camera& camera, long long photons,
                 const examples::Options& options) {
-    const IndexedScene<S> scene(of);
     const auto places =
-        places_of(scene, camera, options.pick<std::size_t>(200, 4000, 20000), 5);
+        places_of(world, camera, options.pick<std::size_t>(200, 4000, 20000), 5);
     std::vector<double> seen; // place by place and lamp by lamp; -1: it faces away
     for (const Vertex& place : places)
-        for (std::size_t lamp = 0; lamp < of.lights.size(); ++lamp) {
+        for (std::uint32_t lamp = 0; lamp < world.light_count(); ++lamp) {
             int rays = 0, through = 0;
             for (int i = 0; i < 256; ++i) {
                 const Vec2 u{(float(i % 16) + 0.5f) / 16, (float(i / 16) + 0.5f) / 16};
-                const auto sampled =
-                    sample_light(scene, of.lights[lamp], place.point.position, u);
+                const auto sampled = sample_light(world, lamp, place.point.position, u);
                 if (!sampled || to_local(place.frame, sampled->wi).z * place.wo.z <= 0)
                     continue;
                 ++rays;
                 through +=
-                    occluded(scene, spawn_ray_to(place.point, sampled->point)) ? 0 : 1;
+                    occluded(world, spawn_ray_to(place.point, sampled->point)) ? 0 : 1;
             }
             seen.push_back(rays == 0 ? -1 : double(through) / rays);
         }
@@ -549,13 +550,13 @@ void judge_room(examples::Table& table, const char* name, const S& of,
         clear += (part >= 0 && part <= 0.05) || part >= 0.95;
     }
     for (std::size_t r = 0; r < rules.size(); ++r) {
-        const auto maps = make_photon_maps(of, settings_of(options, rules[r], photons));
+        const PhotonMapper mapper(world, settings_of(options, rules[r], photons),
+                                  abilities<Skipping>);
         double asked = 0, known = 0, wrong = 0;
         for (std::size_t i = 0; i < seen.size(); ++i) {
             if (seen[i] < 0) continue;
-            const std::size_t lamps = of.lights.size();
-            const Verdict verdict = maps.verdicts.verdict(
-                detail::place_of(maps.verdicts, places[i / lamps]), i % lamps);
+            const std::size_t lamps = world.light_count();
+            const Verdict verdict = verdicts_of(mapper, places[i / lamps])(i % lamps);
             const double said = verdict == Verdict::lit ? 1 : 0;
             ++asked;
             known += verdict != Verdict::unknown ? 1 : 0;
@@ -576,8 +577,8 @@ void rooms(const examples::Options& options, long long photons) {
     const auto glass = four_glass_room<float>();
     const auto final = final_room<float>();
     for (const long long count : {photons, 10 * photons}) {
-        judge_room(table, "figure 11", glass.scene, glass.camera, count, options);
-        judge_room(table, "figure 1, two lamps", final.scene, final.camera, count,
+        judge_room(table, "figure 11", glass.world, glass.camera, count, options);
+        judge_room(table, "figure 1, two lamps", final.world, final.camera, count,
                    options);
     }
     save(options, table);
@@ -586,12 +587,11 @@ void rooms(const examples::Options& options, long long photons) {
 /// Nanoseconds of a shadow ray, of a verdict from the grid, and of one by the plain
 /// twin, which asks the map: at the same points, for the first lamp. And of a photon,
 /// from the lamp into the grid.
-template <typename S>
-std::array<double, 4> cost_of(const S& of, const Camera& camera, long long photons,
+template <AnyWorld W>
+std::array<double, 4> cost_of(const W& world, const Camera& camera, long long photons,
                               const examples::Options& options) {
-    const IndexedScene<S> scene(of);
     const SkipSettings skip{.rule = SkipRule::enough};
-    const auto traced = trace_photons(of, MapType::general,
+    const auto traced = trace_photons(world, MapType::general,
                                       {.photons = photons,
                                        .seed = options.seed,
                                        .max_bounces = 1,
@@ -600,13 +600,13 @@ std::array<double, 4> cost_of(const S& of, const Camera& camera, long long photo
     const double photon = examples::nanoseconds_a_call(
         double(photons),
         [&] {
-            const auto again = trace_photons(of, MapType::general,
+            const auto again = trace_photons(world, MapType::general,
                                              {.photons = photons,
                                               .seed = options.seed,
                                               .max_bounces = 1,
                                               .equal_lights = true,
                                               .threads = 1});
-            grid = make_verdict_grid(again.photons, of.lights.size(), skip, 1);
+            grid = make_verdict_grid(again.photons, world.light_count(), skip, 1);
             return grid.known.table.size();
         },
         options.pick(1, 5, 9));
@@ -618,9 +618,9 @@ std::array<double, 4> cost_of(const S& of, const Camera& camera, long long photo
     };
     std::vector<Question> questions;
     auto stream = random_stream(options.seed, Pass::camera, 2, 0);
-    for (const Vertex& place : places_of(scene, camera, 4000, options.seed))
-        if (const auto sampled = sample_light(scene, of.lights[0], place.point.position,
-                                              next_2d<float>(stream)))
+    for (const Vertex& place : places_of(world, camera, 4000, options.seed))
+        if (const auto sampled =
+                sample_light(world, 0, place.point.position, next_2d<float>(stream)))
             questions.push_back({place.point, sampled->point, place.wo.z < 0 ? -1 : 1});
     const double calls = double(std::max<std::size_t>(questions.size(), 1));
     const int runs = options.pick(3, 21, 51);
@@ -635,7 +635,7 @@ std::array<double, 4> cost_of(const S& of, const Camera& camera, long long photo
             runs);
     };
     return {time([&](const Question& q) {
-                return occluded(scene, spawn_ray_to(q.point, q.lamp)) ? 1 : 0;
+                return occluded(world, spawn_ray_to(q.point, q.lamp)) ? 1 : 0;
             }),
             time([&](const Question& q) {
                 return int(grid.verdict(grid.place_of(q.point, q.side), 0));
@@ -651,8 +651,8 @@ std::array<double, 4> cost_of(const S& of, const Camera& camera, long long photo
 struct Seconds {
     double with = 0, without = 0, skipped = 0, error = 0;
 };
-template <typename S>
-Seconds seconds_of(const S& scene, const Camera& camera, int shadow_rays,
+template <AnyWorld W>
+Seconds seconds_of(const W& world, const Camera& camera, int shadow_rays,
                    long long photons, int samples, int runs,
                    const examples::Options& options) {
     std::array<std::vector<double>, 2> seconds;
@@ -665,8 +665,8 @@ Seconds seconds_of(const S& scene, const Camera& camera, int shadow_rays,
             settings.shadow_rays = shadow_rays;
             settings.general.threads = settings.caustics.threads = 1;
             const double start = examples::processor_seconds();
-            const auto maps = make_photon_maps(scene, settings);
-            auto picture = render(make_photon_mapper(scene, maps, settings), camera,
+            const PhotonMapper mapper(world, settings, abilities<Skipping>);
+            auto picture = render(mapper, camera,
                                   {.width = options.pick(16, 120, 400),
                                    .height = options.pick(16, 120, 400),
                                    .samples = samples,
@@ -695,15 +695,15 @@ void savings(const examples::Options& options, long long photons, int cuts) {
                                       "seconds without", "seconds with", "ratio",
                                       "relMSE of skipping"},
                           .rows = {}};
-    const auto measure = [&](const std::string& name, const auto& scene,
+    const auto measure = [&](const std::string& name, const auto& world,
                              const Camera& from) {
-        const auto cost = cost_of(scene, from, photons, options);
+        const auto cost = cost_of(world, from, photons, options);
         costs.rows.push_back(
             {name, examples::text(cost[0], "%.0f"), examples::text(cost[1], "%.1f"),
              examples::text(cost[2], "%.0f"), examples::text(cost[3], "%.0f"),
              examples::text(cost[3] / (cost[0] - cost[1]), "%.0f")});
         for (const int rays : {1, 4, 9}) {
-            const Seconds found = seconds_of(scene, from, rays, photons, 16,
+            const Seconds found = seconds_of(world, from, rays, photons, 16,
                                              options.pick(1, 3, 9), options);
             const double ratio = found.with / found.without;
             table.rows.push_back({name, std::to_string(rays),
@@ -715,9 +715,9 @@ void savings(const examples::Options& options, long long photons, int cuts) {
         }
     };
     const auto glass = four_glass_room<float>();
-    measure("figure 11: 11 objects", glass.scene, glass.camera);
+    measure("figure 11: 11 objects", glass.world, glass.camera);
     const auto final = final_room<float>();
-    measure("figure 1: 2 lamps", final.scene, final.camera);
+    measure("figure 1: 2 lamps", final.world, final.camera);
     measure("9 spheres", hall_of_meshes(0, 1), camera);
     for (int cut = cuts % 2 == 0 ? 2 : 1; cut <= cuts; cut += 2)
         measure("9 meshes, " + std::to_string(9 * 20 * (1 << (2 * cut))) + " triangles",
@@ -732,7 +732,7 @@ void savings(const examples::Options& options, long long photons, int cuts) {
     for (int samples = 1; samples <= options.pick(64, 256, 1024); samples *= 4) {
         examples::Row row{double(samples)};
         for (const int rays : {1, 4, 9}) {
-            const Seconds found = seconds_of(glass.scene, glass.camera, rays, photons,
+            const Seconds found = seconds_of(glass.world, glass.camera, rays, photons,
                                              samples, samples < 64 ? 5 : 1, options);
             row.push_back(found.with / found.without);
         }
@@ -747,7 +747,7 @@ void savings(const examples::Options& options, long long photons, int cuts) {
 
 /// Two rooms with a door between; the lamp is in the left one.
 Hall two_rooms() {
-    Hall hall;
+    HallScene hall;
     const auto white = hall.add(Lambertian{.albedo = Rgb{0.6f}});
     const Vec3 x{4, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
     hall.add(Quad{.corner{-2, 0, 0}, .edge_u = z, .edge_v = x}, white);
@@ -759,7 +759,7 @@ Hall two_rooms() {
     hall.add(
         Quad{.corner{-1.2f, 0.999f, 0.3f}, .edge_u{0.3f, 0, 0}, .edge_v{0, 0, 0.3f}},
         hall.add(Lambertian{.albedo = Rgb{0}}), Rgb{20});
-    return hall;
+    return Hall(std::move(hall));
 }
 
 void indirect(const examples::Options& options) {
@@ -773,8 +773,7 @@ void indirect(const examples::Options& options) {
                                  .threads = options.threads};
     PhotonMappingSettings settings =
         settings_of(options, SkipRule::none, options.pick(1000LL, 100LL, 100LL));
-    const auto none = make_photon_maps(hall, settings);
-    const auto all = render(make_photon_mapper(hall, none, settings), camera, picture);
+    const auto all = render(PhotonMapper(hall, settings), camera, picture);
     save_png(all.image, options.path("shadow-dark-all.png"), {.exposure = 3});
     const auto right_half = [](const Image& image) {
         double sum = 0;
@@ -797,15 +796,14 @@ void indirect(const examples::Options& options) {
     settings.skip.radius = 0.1f; // chosen by the photons, it would shrink with them
     for (const long long photons : {100LL, 1000LL, 10000LL, 100000LL}) {
         settings.general.photons = photons;
-        const auto maps = make_photon_maps(hall, settings);
-        const auto some =
-            render(make_photon_mapper(hall, maps, settings), camera, picture);
+        const PhotonMapper mapper(hall, settings, abilities<Skipping>);
+        const auto some = render(mapper, camera, picture);
         if (photons <= 1000)
             save_png(some.image,
                      options.path("shadow-dark-" + std::to_string(photons) + ".png"),
                      {.exposure = 3});
-        const Rgb flux{Vec3(maps.general_audit.emitted) / float(photons)};
-        const float radius = maps.verdicts.radius();
+        const Rgb flux{Vec3(mapper.maps().general_audit.emitted) / float(photons)};
+        const float radius = mapper.state<Skipping>().verdicts.radius();
         const double bound = double(unseen_irradiance(flux, radius).y);
         // The mean irradiance: radiance times pi over the albedo.
         const double irradiance = mean(all.image) * std::numbers::pi / 0.6;

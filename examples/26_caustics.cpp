@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ljus/inspect/photon_dots.hpp>
@@ -87,7 +88,8 @@ double irradiance(const Setup& setup, double rho) {
 }
 
 /// A floor, and what stands above it.
-using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror>>;
+using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror>,
+                    Lights<PointLight>>;
 
 /// The irradiance that an estimate reads on a floor: a white one sends E/pi.
 double read(const PhotonMap& map, const Vec3& at,
@@ -100,19 +102,19 @@ double read(const PhotonMap& map, const Vec3& at,
                            .x);
 }
 
-PhotonMap map_of(const Stage& stage, long long photons, std::uint64_t seed) {
+PhotonMap map_of(const World<Stage>& stage, long long photons, std::uint64_t seed) {
     return make_photon_map(
         trace_photons(stage, MapType::caustics, {.photons = photons, .seed = seed})
             .photons);
 }
 
-Stage ball_stage(const Setup& setup) {
+World<Stage> ball_stage(const Setup& setup) {
     Stage stage;
     examples::add_floor(stage, float(-setup.floor));
     stage.add(Sphere{.radius = float(setup.radius)},
               stage.add(Glass{.index = float(setup.index)}));
     stage.add(PointLight{.position{0, float(setup.light), 0}});
-    return stage;
+    return World(std::move(stage));
 }
 
 constexpr std::array kernels{Kernel::box, Kernel::cone, Kernel::gaussian,
@@ -124,7 +126,7 @@ constexpr std::array kernel_names{"box", "cone", "Gaussian", "Epanechnikov",
 /// make of few photons.
 void profile(const examples::Options& options, long long photons) {
     const Setup setup;
-    const Stage stage = ball_stage(setup);
+    const World stage = ball_stage(setup);
     const auto y = float(-setup.floor);
     const PhotonMap map = map_of(stage, photons, options.seed);
     examples::Plot plot{.name = "caustics-profile",
@@ -162,7 +164,7 @@ void profile(const examples::Options& options, long long photons) {
 
 /// The mean squared error of several ways to gather, relative to the light at the
 /// middle, over the seeds.
-std::vector<double> errors(const Stage& stage, long long photons, int seeds,
+std::vector<double> errors(const World<Stage>& stage, long long photons, int seeds,
                            const examples::Strip& strip,
                            const std::vector<DensityEstimateSettings>& ways) {
     std::vector<double> sum(ways.size());
@@ -198,7 +200,7 @@ std::vector<DensityEstimateSettings> around(double radius,
 
 /// The error against the radius, for few photons and for many.
 void error_by_radius(const examples::Options& options, const Sizes& sizes) {
-    const auto stage = examples::window_scene<Stage>();
+    const World stage(examples::window_scene<Stage>());
     examples::Plot plot{.name = "caustics-radius",
                         .columns = {"radius", "middle 1000", "middle 100 000",
                                     "edge 1000", "edge 100 000"},
@@ -220,7 +222,7 @@ void error_by_radius(const examples::Options& options, const Sizes& sizes) {
 
 /// The error at the best radius against the number of photons, and its two laws.
 void error_by_number(const examples::Options& options, const Sizes& sizes) {
-    const auto stage = examples::window_scene<Stage>();
+    const World stage(examples::window_scene<Stage>());
     examples::Plot plot{
         .name = "caustics-number",
         .columns = {"photons aimed", "middle", "edge", "N^(-2/3)", "N^(-1/3)"},
@@ -263,7 +265,7 @@ void error_by_number(const examples::Options& options, const Sizes& sizes) {
 
 /// The error of each kernel, at one radius and at its best one.
 void error_by_kernel(const examples::Options& options, const Sizes& sizes) {
-    const auto stage = examples::window_scene<Stage>();
+    const World stage(examples::window_scene<Stage>());
     examples::Table table{.name = "caustics-kernels",
                           .columns = {"kernel", "mean of w^2", "middle, r = 0.25",
                                       "middle, best r", "edge, r = 0.25",
@@ -291,12 +293,12 @@ void error_by_kernel(const examples::Options& options, const Sizes& sizes) {
 /// The caustic photons as dots.
 void figure_8(const examples::Options& options) {
     const auto room = four_glass_room();
-    const auto traced = trace_photons(room.scene, MapType::caustics,
+    const auto traced = trace_photons(room.world, MapType::caustics,
                                       {.photons = 20000, .seed = options.seed});
     const int size = std::max(300, options.width);
-    Image image = scene_drawing(room.scene, room.camera, size, size);
+    Image image = scene_drawing(room.world, room.camera, size, size);
     const auto color = [](const Photon& photon) { return dot_color(photon); };
-    (void)add_photon_dots(image, room.scene, room.camera, traced.photons,
+    (void)add_photon_dots(image, room.world, room.camera, traced.photons,
                           {.radius = 1.2f, .brightness = 0.7f}, color);
     save_png(image, options.path("fig-8.png"));
 }
@@ -316,24 +318,24 @@ Image light_image(const Room<S>& room, const RenderSettings& picture,
     const long long batches = std::max(1LL, photons / 500000);
     for (long long batch = 0; batch < batches; ++batch) {
         const auto traced =
-            trace_photons(room.scene, MapType::caustics,
+            trace_photons(room.world, MapType::caustics,
                           {.photons = photons / batches,
                            .seed = picture.seed,
                            .iteration = static_cast<std::uint64_t>(batch),
                            .threads = picture.threads});
         for (const Photon& photon : traced.photons) {
-            const auto place = photon_in_sight(room.scene, camera, photon,
+            const auto place = photon_in_sight(room.world, camera, photon,
                                                picture.width, picture.height);
             if (!place) continue;
             const Vec3 way = photon.position - camera.position;
             const double d = double(glm::length(way));
             const Ray ray{.origin = camera.position, .direction = way / float(d)};
-            const auto hit = closest_hit(room.scene, ray);
+            const auto hit = closest_hit(room.world, ray);
             if (!hit) continue;
-            const auto at = vertex_at(room.scene, ray, *hit);
+            const auto at = vertex_at(room.world, ray, *hit);
             const Vec3 wo = to_local(at.frame, -ray.direction);
             const Vec3 wi = to_local(at.frame, -photon.direction);
-            const Rgb f = room.scene.visit_material(
+            const Rgb f = room.world.visit_material(
                 at.object.material,
                 [&](const auto& material) { return evaluate(material, wo, wi); });
             const double film = double(glm::dot(ray.direction, camera.forward));
@@ -369,11 +371,11 @@ struct CausticsOf {
 };
 
 /// The caustics' share of what radiance() finds for the whole.
-template <typename Renderer, typename Log>
-Rgb radiance(const CausticsOf<Renderer>& part, const Ray& ray, RandomStream& stream,
-             Counts& counts, Log&&) {
+template <typename Renderer>
+Rgb radiance(const CausticsOf<Renderer>& part, const Ray& ray, auto& context) {
     CausticLog log;
-    (void)radiance(part.renderer, ray, stream, counts, log);
+    auto told = context_of(context.stream, context.counts, log);
+    (void)radiance(part.renderer, ray, told);
     return log.sum;
 }
 
@@ -397,12 +399,12 @@ bool sees_matt(const Room<S>& room, const examples::Options& options, int x, int
     for (const Vec2 offset : {Vec2{-0.2f, -0.2f}, Vec2{1.2f, -0.2f}, Vec2{-0.2f, 1.2f},
                               Vec2{1.2f, 1.2f}, Vec2{0.5f, 0.5f}}) {
         const auto hit = closest_hit(
-            room.scene, primary_ray(room.camera, Vec2{float(x), float(y)} + offset,
+            room.world, primary_ray(room.camera, Vec2{float(x), float(y)} + offset,
                                     options.width, options.height));
         if (!hit || (first && hit->object != *first)) return false;
         first = hit->object;
-        if (room.scene.visit_material(
-                room.scene.object(hit->object).material,
+        if (room.world.visit_material(
+                room.world.object(hit->object).material,
                 [](const auto& m) { return lobes(m) != Lobes::diffuse; }))
             return false;
     }
@@ -502,10 +504,9 @@ Figure11 shoot_figure_11(const std::string& name, const R& room,
     settings.caustics_estimate.radius = 0.05f; // the report's
     Figure11 figure;
     const double start = examples::processor_seconds();
-    const auto maps = make_photon_maps(room.scene, settings);
+    const PhotonMapper mapper(room.world, settings);
     figure.first_pass = examples::processor_seconds() - start;
-    figure.stored = maps.caustics.records.size();
-    const auto mapper = make_photon_mapper(room.scene, maps, settings);
+    figure.stored = mapper.maps().caustics.records.size();
     const RenderSettings picture{options.width, options.height, options.samples,
                                  options.seed};
     const auto result = rendered(name, mapper, room.camera, picture, options);
@@ -514,8 +515,8 @@ Figure11 shoot_figure_11(const std::string& name, const R& room,
     const double queries = double(result.counts.map_queries);
     figure.found = queries == 0 ? 0 : double(result.counts.map_photons) / queries;
 
-    settings.indirect = IndirectLight::none; // for the caustics at D alone
-    const auto direct = make_photon_mapper(room.scene, maps, settings);
+    settings.indirect = IndirectLight::none;         // for the caustics at D alone
+    const PhotonMapper direct(room.world, settings); // the same photons
     const Image part =
         rendered(name + " caustics", CausticsOf<decltype(direct)>{direct}, room.camera,
                  picture, options)

@@ -42,9 +42,8 @@ template <typename Scene>
 void figure(const std::string& name, const ljus::Room<Scene>& room,
             const PhotonMappingSettings& settings, const examples::Options& options) {
     const examples::StopWatch watch;
-    const auto maps = make_photon_maps(room.scene, settings);
+    const ljus::PhotonMapper mapper(room.world, settings);
     const double first_pass = watch.seconds();
-    const auto mapper = make_photon_mapper(room.scene, maps, settings);
     const RenderSettings picture{options.width, options.height, options.samples,
                                  options.seed};
     const auto result = rendered(name, mapper, room.camera, picture, options);
@@ -52,19 +51,18 @@ void figure(const std::string& name, const ljus::Room<Scene>& room,
     save_png(result.image, file);
     if (!options.quiet)
         report(file, first_pass, watch.seconds() - first_pass, result.counts,
-               maps.caustics.records.size());
+               mapper.maps().caustics.records.size());
 }
 /// Figure 1 taken apart: the three parts whose sum it is.
 template <typename Scene>
 void parts(const ljus::Room<Scene>& room, const PhotonMappingSettings& settings,
            const examples::Options& options) {
-    const auto maps = make_photon_maps(room.scene, settings);
-    const auto mapper = make_photon_mapper(room.scene, maps, settings);
+    const ljus::PhotonMapper mapper(room.world, settings);
     const RenderSettings picture{options.width, options.height, options.samples,
                                  options.seed};
     // [parts]
     const auto save = [&](std::string_view paths, const char* name) {
-        const auto one = only_paths(mapper, paths);
+        const ljus::OnlyPaths one(mapper, paths);
         const auto result = rendered(name, one, room.camera, picture, options);
         save_png(result.image, options.path(std::string(name) + ".png"));
     };
@@ -80,7 +78,7 @@ void trade(const ljus::Room<Scene>& room, const PhotonMappingSettings& settings,
            const examples::Options& options) {
     const int size = options.pick(24, 80, 120);
     const int most = options.pick(16, 256, 1024);
-    const auto tracer = make_path_tracer(room.scene);
+    const ljus::PathTracer tracer(room.world);
     // Another seed, and sixteen times the rays of the best row.
     const Image truth =
         rendered("reference", tracer, room.camera,
@@ -112,9 +110,8 @@ void trade(const ljus::Room<Scene>& room, const PhotonMappingSettings& settings,
     };
     // The first pass is the same for each row, and timed once: a curve never runs back.
     examples::StopWatch watch;
-    const auto maps = make_photon_maps(room.scene, settings);
+    const ljus::PhotonMapper mapper(room.world, settings);
     const double first_pass = watch.seconds();
-    const auto mapper = make_photon_mapper(room.scene, maps, settings);
     for (int rays = 1; rays <= most; rays *= 4) {
         const RenderSettings picture{size, size, rays, options.seed};
         watch.restart();
@@ -156,7 +153,7 @@ int main(int argc, char** argv) {
 
         const auto room = ljus::final_room();
         if (!options.quiet) {
-            const ljus::Plan plan = survey(room.scene, settings);
+            const ljus::Plan plan = survey(room.world, settings);
             for (const auto* pass : plan.items())
                 std::printf("%s", to_text(*pass).c_str());
         }

@@ -8,10 +8,12 @@
 #include <cstdio>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ljus/image/flip.hpp>
 #include <ljus/ljus.hpp>
+#include <ljus/render/gathering.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 
 #include "common/clock.hpp"
@@ -36,19 +38,19 @@ struct Sizes {
 
 // --- Where a surface ends ------------------------------------------------------------
 
-using Flat = Scene<Shapes<Quad>, Materials<Lambertian>>;
+using Flat = World<Scene<Shapes<Quad>, Materials<Lambertian>>>;
 
 /// A unit square at z = 0.
 Flat unit_square() {
-    Flat scene;
+    Scene<Shapes<Quad>, Materials<Lambertian>> scene;
     scene.add(Quad{.corner{0, 0, 0}, .edge_u{1, 0, 0}, .edge_v{0, 1, 0}},
               scene.add(Lambertian{.albedo = Rgb{0.5f}}));
-    return scene;
+    return Flat(std::move(scene));
 }
 
-Vertex square_vertex(const Flat& scene, float x, float y) {
+Vertex square_vertex(const Flat& square, float x, float y) {
     const Ray ray{.origin{x, y, 0.1f}, .direction{0, 0, -1}};
-    return vertex_at(scene, ray, closest_hit(scene, ray).value());
+    return vertex_at(square, ray, closest_hit(square, ray).value());
 }
 
 /// Indirect photons, evenly on the unit square: 1 W in all, so that E is 1 W/m^2.
@@ -117,7 +119,7 @@ struct Borders {
 };
 
 Borders measure_borders(int maps, std::uint64_t seed) {
-    const Flat scene = unit_square();
+    const Flat square = unit_square();
     const Vec3 up{0, 0, 1};
     IrradiancePointSettings corrected{.nearest = 512, .radius = border_radius};
     IrradiancePointSettings plain = corrected;
@@ -127,7 +129,7 @@ Borders measure_borders(int maps, std::uint64_t seed) {
     for (int m = 0; m < maps; ++m) {
         const PhotonMap map = even_photons(6000, seed + std::uint64_t(m));
         const auto estimate = [&](float x, float y, const auto& how) {
-            return double(estimate_irradiance(scene, map, square_vertex(scene, x, y),
+            return double(estimate_irradiance(square, map, square_vertex(square, x, y),
                                               up, how, border_radius, all_photons)
                               .x);
         };
@@ -216,7 +218,7 @@ struct Deviation {
 template <typename Chosen, typename Wanted>
 Deviation deviation(const PhotonMap& map, const IrradiancePointSettings& how,
                     const Chosen& chosen, const Wanted& wanted, double share) {
-    const Flat scene = unit_square();
+    const Flat square = unit_square();
     const Vec3 up{0, 0, 1};
     std::vector<Vec3> places;
     std::vector<double> known;
@@ -225,11 +227,12 @@ Deviation deviation(const PhotonMap& map, const IrradiancePointSettings& how,
         if (!chosen(i) || std::max(std::abs(p.x - 0.5f), std::abs(p.y - 0.5f)) > 0.4f)
             continue;
         places.push_back(p);
-        known.push_back(double(estimate_irradiance(
-                                   scene, map, square_vertex(scene, p.x, p.y), up, how,
-                                   0.15f, [&](std::uint32_t k) { return wanted(i, k); })
-                                   .x) /
-                        share);
+        known.push_back(
+            double(estimate_irradiance(square, map, square_vertex(square, p.x, p.y), up,
+                                       how, 0.15f,
+                                       [&](std::uint32_t k) { return wanted(i, k); })
+                       .x) /
+            share);
     }
     Deviation result;
     for (const double e : known)
@@ -349,18 +352,18 @@ void draw_idea(const examples::Options& options) {
 // --- Pictures ------------------------------------------------------------------------
 
 /// A renderer that shows what a gather ray would bring, if the camera cast it.
-template <typename S>
+template <typename Mapper>
 struct PointsSeen {
     using Stream = RandomStream;
-    const S& scene;
-    const IrradiancePoints& points;
+    const Mapper& mapper;
 };
 
-template <typename S, typename Log>
-Rgb radiance(const PointsSeen<S>& seen, const Ray& ray, RandomStream& stream,
-             Counts& counts, Log&&) {
-    const auto path = detail::camera_path(seen.scene, ray, stream);
-    return gather_ray(seen.scene, seen.points, path, 20, stream, counts).radiance;
+template <typename Mapper>
+Rgb radiance(const PointsSeen<Mapper>& seen, const Ray& ray, auto& context) {
+    const auto& world = seen.mapper.world();
+    const auto& points = seen.mapper.template state<Gathering>().points;
+    const auto path = camera_path(world, ray, context.stream);
+    return gather_ray(world, points, path, 20, context).radiance;
 }
 
 /// The settings that all pictures share.
@@ -381,8 +384,7 @@ PhotonMappingSettings gather_settings(IndirectLight indirect, long long photons,
 template <typename Room>
 Image photographed(const Room& room, const PhotonMappingSettings& settings, int samples,
                    std::uint64_t seed, const examples::Options& options) {
-    const auto maps = make_photon_maps(room.scene, settings);
-    const auto mapper = make_photon_mapper(room.scene, maps, settings);
+    const PhotonMapper mapper(room.world, settings, abilities<Gathering>);
     auto picture = examples::picture_settings(options);
     picture.samples = samples;
     picture.seed = seed;
@@ -412,8 +414,8 @@ void pictures(examples::Options options, const Sizes& sizes) {
         auto settings =
             gather_settings(IndirectLight::gather, photons, options.seed, options);
         settings.irradiance.edges = edges;
-        const auto maps = make_photon_maps(room.scene, settings);
-        const PointsSeen<decltype(room.scene)> seen{room.scene, maps.irradiance};
+        const PhotonMapper mapper(room.world, settings, abilities<Gathering>);
+        const PointsSeen<decltype(mapper)> seen{mapper};
         save_png(render(seen, room.camera,
                         {.width = options.width,
                          .height = options.height,
@@ -450,9 +452,8 @@ std::vector<Runs> compare(const Room& room,
             auto settings = ways[w];
             settings.caustics.seed = settings.general.seed = std::uint64_t(seed);
             const double begin = examples::processor_seconds();
-            const auto maps = make_photon_maps(room.scene, settings);
+            const PhotonMapper mapper(room.world, settings, abilities<Gathering>);
             const double middle = examples::processor_seconds();
-            const auto mapper = make_photon_mapper(room.scene, maps, settings);
             runs[w].images.push_back(render(mapper, room.camera,
                                             {.width = options.width,
                                              .height = options.height,
@@ -580,11 +581,10 @@ void trade(const examples::Options& options, const Sizes& sizes) {
 template <typename Room>
 double seconds_of_points(const Room& room, const PhotonMappingSettings& gather,
                          int threads) {
-    const auto maps = make_photon_maps(room.scene, gather);
-    const auto scene = index_scene(room.scene);
+    const PhotonMapper mapper(room.world, gather, abilities<Gathering>);
     const double begin = examples::processor_seconds();
-    (void)make_irradiance_points(scene, maps.general, maps.caustics, gather.irradiance,
-                                 1, threads);
+    (void)make_irradiance_points(room.world, mapper.maps().general,
+                                 mapper.maps().caustics, gather.irradiance, 1, threads);
     return examples::processor_seconds() - begin;
 }
 
@@ -641,10 +641,10 @@ void table_of_every(const Room& room, const examples::Oracle& oracle,
     for (std::size_t w = 0; w < ways.size(); ++w) {
         const auto split =
             examples::relative_split(runs[w].images, oracle.truth, oracle.noise);
-        const auto maps = make_photon_maps(room.scene, ways[w]);
+        const PhotonMapper mapper(room.world, ways[w], abilities<Gathering>);
         every.rows.push_back(
             {std::to_string(ways[w].irradiance.every),
-             std::to_string(maps.irradiance.records.size()),
+             std::to_string(mapper.template state<Gathering>().points.records.size()),
              examples::text(median(runs[w].first), "%.2f"),
              examples::text(median(runs[w].second), "%.2f"),
              examples::text(split.bias_squared + split.variance, "%.2g"),

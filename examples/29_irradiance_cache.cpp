@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ljus/image/flip.hpp>
@@ -18,6 +19,7 @@
 #include <ljus/math/stratified_stream.hpp>
 #include <ljus/path/light_transport.hpp>
 #include <ljus/render/adaptive.hpp>
+#include <ljus/render/gathering.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 
 #include "common/clock.hpp"
@@ -33,7 +35,8 @@ namespace {
 
 using examples::text;
 using Box = decltype(cornell_box());
-using Maps = PhotonMapsT<float>;
+/// The photon mapper of the preset `fast`.
+using Mapper = PhotonMapper<decltype(Box::world), StratifiedStream, Gathering>;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// What the user may set besides the common options.
@@ -262,11 +265,11 @@ struct GatheredLog {
     }
 };
 
-template <typename R, typename Log>
-Rgb radiance(const GatheredOnly<R>& only, const Ray& ray, typename R::Stream& stream,
-             Counts& counts, Log&&) {
+template <typename R>
+Rgb radiance(const GatheredOnly<R>& only, const Ray& ray, auto& context) {
     GatheredLog log;
-    (void)radiance(only.renderer, ray, stream, counts, log);
+    auto told = context_of(context.stream, context.counts, log);
+    (void)radiance(only.renderer, ray, told);
     return log.sum;
 }
 
@@ -278,17 +281,10 @@ PhotonMappingSettings fast(int side, std::uint64_t seed, int threads) {
     return settings;
 }
 
-/// Indirect light alone, from maps that are there.
-Image gathered_light(const Box& room, const Maps& maps,
-                     const PhotonMappingSettings& settings,
+/// Indirect light alone.
+Image gathered_light(const Box& room, const Mapper& mapper,
                      const RenderSettings& picture) {
-    const auto mapper =
-        make_photon_mapper<StratifiedStream>(room.scene, maps, settings);
-    auto image =
-        render(
-            GatheredOnly<PhotonMapper<decltype(room.scene), StratifiedStream>>{mapper},
-            room.camera, picture)
-            .image;
+    auto image = render(GatheredOnly<Mapper>{mapper}, room.camera, picture).image;
     examples::stop_if_asked();
     return image;
 }
@@ -302,24 +298,25 @@ void pictures(const examples::Options& options) {
                                  .samples = 4,
                                  .seed = options.seed,
                                  .threads = options.threads};
-    auto maps = make_photon_maps(room.scene, settings);
-    save_png(gathered_light(room, maps, settings, picture),
+    Mapper mapper(room.world, settings);
+    save_png(gathered_light(room, mapper, picture),
              options.path("irradiance_cache-everywhere.png"),
              {.exposure = 2}); // no cache yet
-    add_irradiance_cache(maps, room.scene, room.camera, picture, settings);
-    save_png(gathered_light(room, maps, settings, picture),
+    mapper.fill_cache(room.camera, picture);
+    save_png(gathered_light(room, mapper, picture),
              options.path("irradiance_cache-interpolated.png"), {.exposure = 2});
 
     // The points as dots: as photons that have come to them from the side that is seen.
     std::vector<Photon> dots;
-    for (std::size_t i = 0; i < maps.cache.records.size(); ++i)
-        dots.push_back({.position = maps.cache.tree.point(i),
-                        .direction = -maps.cache.records[i].normal,
-                        .flux = maps.cache.records[i].irradiance});
+    const IrradianceCache& cache = mapper.state<Gathering>().cache;
+    for (std::size_t i = 0; i < cache.records.size(); ++i)
+        dots.push_back({.position = cache.tree.point(i),
+                        .direction = -cache.records[i].normal,
+                        .flux = cache.records[i].irradiance});
     Image drawing =
-        scene_drawing(room.scene, room.camera, options.width, options.height);
+        scene_drawing(room.world, room.camera, options.width, options.height);
     const auto seen = add_photon_dots(
-        drawing, room.scene, room.camera, dots,
+        drawing, room.world, room.camera, dots,
         {.radius = std::max(0.8f, float(options.width) / 250), .brightness = 1},
         [](const Photon& dot) { return dot_color(dot); });
     save_png(drawing, options.path("irradiance_cache-points.png"));
@@ -328,7 +325,7 @@ void pictures(const examples::Options& options) {
                    .rows = {{std::to_string(options.width) + " x " +
                                  std::to_string(options.height),
                              std::to_string(dots.size()), std::to_string(seen),
-                             std::to_string(maps.cache.counts.bounce_rays)}}});
+                             std::to_string(cache.counts.bounce_rays)}}});
 }
 
 // --- Each knob -----------------------------------------------------------------------
@@ -371,7 +368,6 @@ struct Bench {
     const examples::Options& options;
     const Sizes& sizes;
     PhotonMappingSettings settings; ///< The preset `fast`.
-    Maps maps;                      ///< The same for all.
     examples::Oracle twin{};   ///< Gathered at every vertex, from the same photons.
     examples::Oracle traced{}; ///< By path tracing.
 
@@ -389,14 +385,14 @@ void add_oracles(Bench& bench) {
     const int side = bench.sizes.side, truth = bench.sizes.truth;
     auto one_by_one = bench.settings;
     one_by_one.indirect = IndirectLight::gather;
+    const Mapper mapper(bench.room.world, one_by_one);
     bench.twin = oracle_of(
         [&](int rays, std::uint64_t seed) {
-            return gathered_light(bench.room, bench.maps, one_by_one,
-                                  bench.picture(rays, seed));
+            return gathered_light(bench.room, mapper, bench.picture(rays, seed));
         },
         4 * truth, side);
-    const auto tracer = make_path_tracer(bench.room.scene);
-    const auto indirect = only_paths(tracer, "E.*D.*D.*L");
+    const PathTracer tracer(bench.room.world);
+    const OnlyPaths indirect(tracer, "E.*D.*D.*L");
     bench.traced = oracle_of(
         [&](int rays, std::uint64_t seed) {
             auto image =
@@ -437,9 +433,10 @@ struct Turned {
     BiasVariance from_twin{}, from_traced{}, blocks{};
 };
 
-Turned turn(Bench& bench, const Knob& knob) {
+Turned turn(const Bench& bench, const Knob& knob) {
     auto now = bench.settings;
     now.gather = knob.gather;
+    Mapper mapper(bench.room.world, now); // the same photons for all
     Turned found;
     std::vector<Image> runs;
     const int seeds = bench.sizes.seeds;
@@ -447,13 +444,9 @@ Turned turn(Bench& bench, const Knob& knob) {
         const RenderSettings picture =
             bench.picture(9, static_cast<std::uint64_t>(seed));
         const double start = examples::processor_seconds();
-        bench.maps.cache = {};
-        if (knob.cached)
-            bench.maps.cache =
-                make_irradiance_cache(bench.room.scene, bench.maps.irradiance,
-                                      bench.room.camera, picture, knob.gather);
-        found.points = bench.maps.cache.records.size();
-        runs.push_back(gathered_light(bench.room, bench.maps, now, picture));
+        if (knob.cached) mapper.fill_cache(bench.room.camera, picture);
+        found.points = mapper.state<Gathering>().cache.records.size();
+        runs.push_back(gathered_light(bench.room, mapper, picture));
         found.seconds += (examples::processor_seconds() - start) / seeds;
         found.flip += flip(runs.back(), bench.traced.truth) / seeds;
         found.mean += mean_error(runs.back(), bench.traced.truth) / seeds;
@@ -480,7 +473,7 @@ void table_of_oracles(const Bench& bench) {
 void knobs(const examples::Options& options, const Sizes& sizes) {
     const Box room = cornell_box();
     const auto settings = fast(sizes.side, options.seed, options.threads);
-    Bench bench{room, options, sizes, settings, make_photon_maps(room.scene, settings)};
+    Bench bench{room, options, sizes, settings};
     add_oracles(bench);
     examples::Table table{
         .name = "irradiance_cache-knobs",
@@ -554,9 +547,8 @@ template <typename Draws>
 Image by_photons(const Box& room, const PhotonMappingSettings& settings,
                  const RenderSettings& picture, int more = 0) {
     // [by_photons]
-    auto maps = make_photon_maps(room.scene, settings);
-    add_irradiance_cache(maps, room.scene, room.camera, picture, settings);
-    const auto mapper = make_photon_mapper<Draws>(room.scene, maps, settings);
+    PhotonMapper mapper(room.world, settings, abilities<Draws, Gathering>);
+    mapper.fill_cache(room.camera, picture);
     if (more == 0) return render(mapper, room.camera, picture).image;
     RenderSettings most = picture;
     most.samples += more;
@@ -587,7 +579,7 @@ void methods(const examples::Options& options, const Sizes& sizes,
             return by_photons<StratifiedStream>(room, settings, picture(rays, seed));
         };
     };
-    const auto tracer = make_path_tracer(room.scene);
+    const PathTracer tracer(room.world);
     const std::vector<Method> all{
         {"cache", photons(IndirectLight::cache)},
         {"gather", photons(IndirectLight::gather)},
@@ -718,7 +710,7 @@ constexpr std::array lamps{Lamp{"side 2, 1 above the floor", 2, 1},
                            Lamp{"that of the box: side 0.5, 2 above", 0.5f, 2}};
 
 /// A floor, a lamp, and halfway between them half a ceiling whose edge is over x = 0.
-Stage penumbra_stage(const Lamp& lamp) {
+World<Stage> penumbra_stage(const Lamp& lamp) {
     Stage stage;
     const auto white = stage.add(Lambertian{.albedo = Rgb{1}});
     const auto black = stage.add(Lambertian{.albedo = Rgb{0}});
@@ -727,7 +719,7 @@ Stage penumbra_stage(const Lamp& lamp) {
     stage.add(Quad{.corner{-8, h / 2, -8}, .edge_u{8, 0, 0}, .edge_v{0, 0, 16}}, black);
     stage.add(Quad{.corner{-s / 2, h, -s / 2}, .edge_u{s, 0, 0}, .edge_v{0, 0, s}},
               black, Rgb{1});
-    return stage;
+    return World(std::move(stage));
 }
 
 constexpr std::array shadow_rays{1, 2, 4, 9};
@@ -739,7 +731,7 @@ struct InPenumbra {
     std::array<double, shadow_rays.size()> bias{}, noise{}, sampled{};
 };
 
-InPenumbra measure_penumbra(const Stage& stage, const Lamp& lamp, double place,
+InPenumbra measure_penumbra(const World<Stage>& stage, const Lamp& lamp, double place,
                             std::uint64_t number, long long trials,
                             std::uint64_t seed) {
     InPenumbra here{.x = place};
@@ -765,9 +757,10 @@ InPenumbra measure_penumbra(const Stage& stage, const Lamp& lamp, double place,
                     random_stream(seed, Pass::gathering, 1 + k,
                                   number * std::uint64_t(trials) + std::uint64_t(t));
                 Counts counts;
+                auto context = context_of(stream, counts);
                 const double value =
-                    double(detail::sample_all_lights(stage, vertex, white, how,
-                                                     shadow_rays[k], stream, counts)
+                    double(sample_all_lights(stage, vertex, white,
+                                             {how, shadow_rays[k]}, context)
                                .x) /
                     whole;
                 sum += value / double(trials);
@@ -798,7 +791,7 @@ void penumbra(const examples::Options& options) {
                                       "sampled"}};
     const auto percent = [](double share) { return text(100 * share, "%.2f %%"); };
     for (const Lamp& lamp : lamps) {
-        const Stage stage = penumbra_stage(lamp);
+        const World stage = penumbra_stage(lamp);
         std::vector<InPenumbra> found(static_cast<std::size_t>(places));
         const auto at_place = [&](long long i) {
             found[static_cast<std::size_t>(i)] = measure_penumbra(

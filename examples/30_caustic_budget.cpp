@@ -6,13 +6,16 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ljus/image/flip.hpp>
 #include <ljus/inspect/bias_variance.hpp>
 #include <ljus/ljus.hpp>
 #include <ljus/path/light_transport.hpp>
+#include <ljus/render/budgeting.hpp>
 #include <ljus/scenes/report_rooms.hpp>
 
 #include "common/clock.hpp"
@@ -40,7 +43,8 @@ constexpr std::array budget_names{"as seen", "equal", "flux", "area", "brightnes
 
 // --- Two balls -----------------------------------------------------------------------
 
-using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass>>;
+using Stage =
+    Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass>, Lights<PointLight>>;
 constexpr float floor_albedo = 0.5f;
 const Vec3 lamp{0, 4, 0};
 constexpr float watts = 10; // a steradian
@@ -49,8 +53,7 @@ constexpr float watts = 10; // a steradian
 /// void, or in a box whose walls have a colour.
 // [two balls]
 Room<Stage> two_balls(float albedo) {
-    Room<Stage> room;
-    Stage& stage = room.scene;
+    Stage stage;
     const Vec3 low{-3, 0, -3}, x{6, 0, 0}, y{0, 5, 0}, z{0, 0, 6};
     stage.add(Quad{low, z, x}, stage.add(Lambertian{.albedo = Rgb{floor_albedo}}));
     if (albedo > 0) {
@@ -64,11 +67,11 @@ Room<Stage> two_balls(float albedo) {
         stage.add(Sphere{.center{at, 0.8f, 0}, .radius = 0.5f},
                   stage.add(Glass{.index = index}));
     stage.add(PointLight{.position = lamp, .intensity = Rgb{watts}});
-    room.camera = look_at(View{.position{0, 2.4f, 2.9f},
-                               .target{0, 0.45f, 0},
-                               .up{0, 1, 0},
-                               .vfov_degrees = 55});
-    return room;
+    const Camera camera = look_at(View{.position{0, 2.4f, 2.9f},
+                                       .target{0, 0.45f, 0},
+                                       .up{0, 1, 0},
+                                       .vfov_degrees = 55});
+    return {World(std::move(stage)), camera};
 }
 // [two balls]
 
@@ -123,7 +126,7 @@ Image operator+(const Image& a, const Image& b) {
     return sum;
 }
 
-PhotonMap caustics_of(const Stage& stage, long long photons, std::uint64_t seed,
+PhotonMap caustics_of(const World<Stage>& stage, long long photons, std::uint64_t seed,
                       const std::vector<double>& shares,
                       const examples::Options& options) {
     return make_photon_map(trace_photons(stage, MapType::caustics,
@@ -155,7 +158,7 @@ Known known_room(const std::string& name, float albedo, const Grid& grid, float 
                  const Sizes& sizes, const examples::Options& options) {
     Known known{.name = name, .room = two_balls(albedo), .rest = direct_light(grid)};
     const long long many = options.pick(50, 300, 1000) * sizes.photons;
-    const auto general = trace_photons(known.room.scene, MapType::general,
+    const auto general = trace_photons(known.room.world, MapType::general,
                                        {.photons = std::min(many, 2000000LL),
                                         .seed = 91,
                                         .shadow_photons = false,
@@ -164,13 +167,13 @@ Known known_room(const std::string& name, float albedo, const Grid& grid, float 
     known.rest = known.rest + floor_light(make_photon_map(general), grid, 0.2f,
                                           one_kind(PhotonKind::indirect));
     known.truth =
-        known.rest + floor_light(caustics_of(known.room.scene, many, 92, {}, options),
+        known.rest + floor_light(caustics_of(known.room.world, many, 92, {}, options),
                                  grid, 0.5f * radius, all_kinds);
     double mean = 0;
     for (const Rgb& c : known.truth.pixels)
         mean += double(c.x) / double(known.truth.pixels.size());
     known.gain = 1 / mean; // the epsilon of relative errors is made for that
-    known.pilots = pilot_caustics(known.room.scene,
+    known.pilots = pilot_caustics(known.room.world,
                                   PhotonPassSettings{.photons = sizes.photons,
                                                      .seed = options.seed,
                                                      .threads = options.threads},
@@ -192,7 +195,7 @@ Errors errors_of(const Known& known, const std::vector<double>& shares,
     };
     const Image truth = shown(known.truth);
     for (int seed = 1; seed <= sizes.seeds; ++seed) {
-        const auto map = caustics_of(known.room.scene, sizes.photons,
+        const auto map = caustics_of(known.room.world, sizes.photons,
                                      std::uint64_t(seed), shares, options);
         runs.push_back(known.rest + floor_light(map, grid, radius, all_kinds));
         if (seed <= 4)
@@ -310,8 +313,7 @@ void pictures(const examples::Options& options) {
                                 .threads = options.threads};
             settings.caustics_estimate.radius = 0.06f;
             settings.general_estimate.radius = 0.3f;
-            const auto maps = make_photon_maps(room.scene, settings);
-            const auto mapper = make_photon_mapper(room.scene, maps, settings);
+            const PhotonMapper mapper(room.world, settings, abilities<Budgeting>);
             auto image = render(mapper, room.camera,
                                 {.width = options.width,
                                  .height = options.height * 3 / 4,
@@ -363,6 +365,7 @@ struct FourBalls {
     decltype(four_glass_room()) room = four_glass_room();
     float radius = 0.15f;          ///< Of the estimate.
     PhotonPassSettings pass{};     ///< Of a caustics map.
+    PhotonPassSettings rest{};     ///< Of a general map.
     std::vector<Photon> general{}; ///< The light of all but caustics.
     std::vector<CausticPilot> pilots{};
     std::array<std::vector<double>, budgets.size()> shares{}; ///< By each budget.
@@ -371,15 +374,14 @@ struct FourBalls {
 FourBalls known_balls(const examples::Options& options, const Sizes& sizes) {
     FourBalls balls{.pass = {.photons = sizes.photons,
                              .seed = options.seed,
+                             .threads = options.threads},
+                    .rest = {.photons = options.pick(50000LL, 400000LL, 1000000LL),
+                             .shadow_photons = false,
                              .threads = options.threads}};
     balls.general =
-        trace_photons(balls.room.scene, MapType::general,
-                      {.photons = options.pick(50000LL, 400000LL, 1000000LL),
-                       .shadow_photons = false,
-                       .threads = options.threads})
-            .photons;
+        trace_photons(balls.room.world, MapType::general, balls.rest).photons;
     balls.pilots =
-        pilot_caustics(balls.room.scene, balls.pass, balls.radius, balls.general, 0.5f);
+        pilot_caustics(balls.room.world, balls.pass, balls.radius, balls.general, 0.5f);
     for (std::size_t b = 0; b < budgets.size(); ++b)
         balls.shares[b] = caustic_shares(budgets[b], balls.pilots);
     return balls;
@@ -388,11 +390,11 @@ FourBalls known_balls(const examples::Options& options, const Sizes& sizes) {
 /// How often each object of glass is aimed at as lights see it.
 std::vector<double> aimed_as_seen(const FourBalls& balls,
                                   const std::vector<ObjectId>& targets) {
-    const auto choice = light_choice(balls.room.scene.lights);
+    const auto choice = balls.room.world.light_choice();
     std::vector<double> seen(targets.size());
     for (std::uint64_t path = 0; path < 20000; ++path) {
         auto stream = random_stream(7, Pass::caustics_photons, 0, path);
-        const auto aimed = aim(balls.room.scene, choice, targets, stream);
+        const auto aimed = aim(balls.room.world, choice, targets, stream);
         for (std::size_t k = 0; aimed && k < targets.size(); ++k)
             if (targets[k] == aimed->target) seen[k] += 1 / 20000.0;
     }
@@ -406,12 +408,12 @@ void four_balls_shares(const FourBalls& balls, const examples::Options& options)
                                       "by flux", "by area", "by brightness"}};
     constexpr std::array names{"large, right", "thin, left", "middle", "yellow, above"};
     constexpr std::array indices{"1.97", "1", "1.6", "1.7"}; // the report's
-    const auto targets = specular_objects(balls.room.scene);
+    const auto targets = specular_objects(balls.room.world);
     const auto seen = aimed_as_seen(balls, targets);
     const auto percent = [](double x) { return examples::text(100 * x, "%.0f %%"); };
     for (std::size_t k = 0; k < targets.size(); ++k) {
         // Glass comes before mixtures, or not: the ball is known by its place.
-        const float z = balls.room.scene.visit_shape(targets[k], [](const auto& shape) {
+        const float z = balls.room.world.visit_shape(targets[k], [](const auto& shape) {
             return bounding_sphere(shape).center.z;
         });
         const std::size_t name = z > 0 ? 0 : z == -3.5f ? 1 : z == -2.5f ? 2 : 3;
@@ -426,34 +428,28 @@ void four_balls_shares(const FourBalls& balls, const examples::Options& options)
 }
 
 /// A picture of the caustics alone.
-template <typename Indexed>
-Image caustics_seen(const Indexed& scene, const FourBalls& balls, long long photons,
-                    std::uint64_t seed, const std::vector<double>& shares,
-                    const RenderSettings& picture) {
+Image caustics_seen(const FourBalls& balls, long long photons, std::uint64_t seed,
+                    const std::vector<double>& shares, const RenderSettings& picture) {
     PhotonMappingSettings settings{.indirect = IndirectLight::none};
     settings.caustics = balls.pass;
     settings.caustics.photons = photons;
     settings.caustics.seed = seed;
     settings.caustics.shares = shares;
     settings.caustics_estimate.radius = balls.radius;
-    const auto maps = make_photon_maps(scene, settings);
-    const auto mapper = make_photon_mapper(scene, maps, settings);
-    auto image =
-        render(only_paths(mapper, "ES*DS+L"), balls.room.camera, picture).image;
+    const PhotonMapper mapper(balls.room.world, settings);
+    auto image = render(OnlyPaths(mapper, "ES*DS+L"), balls.room.camera, picture).image;
     examples::stop_if_asked();
     return image;
 }
 
 /// A picture of all light but the caustics, the general map seen.
-template <typename Indexed>
-Image rest_seen(const Indexed& scene, const FourBalls& balls,
-                const RenderSettings& picture) {
-    PhotonMappingSettings settings{.indirect = IndirectLight::photons};
+Image rest_seen(const FourBalls& balls, const RenderSettings& picture) {
+    PhotonMappingSettings settings{.indirect = IndirectLight::photons,
+                                   .keep_general_map = true};
     settings.caustics.photons = 0;
+    settings.general = balls.rest;
     settings.general_estimate.radius = 0.4f;
-    PhotonMapsT<float> maps;
-    maps.general = make_photon_map(balls.general);
-    return render(make_photon_mapper(scene, maps, settings), balls.room.camera, picture)
+    return render(PhotonMapper(balls.room.world, settings), balls.room.camera, picture)
         .image;
 }
 
@@ -461,7 +457,6 @@ Image rest_seen(const Indexed& scene, const FourBalls& balls,
 /// always the same.
 void four_balls_errors(const FourBalls& balls, const examples::Options& options,
                        const Sizes& sizes) {
-    const auto scene = index_scene(balls.room.scene);
     const RenderSettings picture{.width = options.width,
                                  .height = options.height,
                                  .samples = 4,
@@ -469,8 +464,8 @@ void four_balls_errors(const FourBalls& balls, const examples::Options& options,
     RenderSettings fine = picture;
     fine.samples = options.pick(16, 64, 256);
     const Image expected = caustics_seen(
-        scene, balls, options.pick(20, 100, 200) * sizes.photons, 99, {}, picture);
-    const Image rest = rest_seen(scene, balls, fine);
+        balls, options.pick(20, 100, 200) * sizes.photons, 99, {}, picture);
+    const Image rest = rest_seen(balls, fine);
     const Image truth = rest + expected;
     examples::Table table{.name = "budget-four-balls-errors",
                           .columns = {"budget", "variance", "relative variance", "FLIP",
@@ -479,7 +474,7 @@ void four_balls_errors(const FourBalls& balls, const examples::Options& options,
         std::vector<Image> runs;
         const double begin = examples::processor_seconds();
         for (int seed = 1; seed <= sizes.seeds; ++seed)
-            runs.push_back(rest + caustics_seen(scene, balls, sizes.photons,
+            runs.push_back(rest + caustics_seen(balls, sizes.photons,
                                                 std::uint64_t(seed), balls.shares[b],
                                                 picture));
         const double seconds = (examples::processor_seconds() - begin) / sizes.seeds;

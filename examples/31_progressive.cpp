@@ -57,7 +57,8 @@ double peak_megabytes() {
 // --- The laws, where light is known --------------------------------------------------
 
 using examples::Strip;
-using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Mirror>>;
+using Stage =
+    Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Mirror>, Lights<PointLight>>;
 
 constexpr std::array strips{examples::middle, examples::edge};
 constexpr int places = 48;
@@ -95,7 +96,7 @@ Image exact_strip(const Strip& strip) {
     return row;
 }
 
-PhotonMap window_map(const Stage& stage, long long photons, std::uint64_t seed,
+PhotonMap window_map(const World<Stage>& stage, long long photons, std::uint64_t seed,
                      long long pass) {
     return make_photon_map(trace_photons(stage, MapType::caustics,
                                          {.photons = photons,
@@ -129,7 +130,7 @@ std::vector<long long> milestones(long long passes) {
 /// Runs all series on the same photons, seed by seed.
 void run_series(std::vector<Series>& all, long long photons,
                 const std::vector<long long>& stops, int seeds) {
-    const auto stage = examples::window_scene<Stage>();
+    const World stage(examples::window_scene<Stage>());
     for (Series& series : all) {
         series.images.assign(stops.size(), {});
         series.estimates.assign(stops.size(), 0);
@@ -268,7 +269,7 @@ constexpr std::array radius_steps{-4, -3, -2, -1, 0, 1, 2, 3, 4}; ///< Quarter o
 
 /// All photons in one map, with each of several radii.
 BestRadius best_map(const Strip& strip, long long photons, int seeds) {
-    const auto stage = examples::window_scene<Stage>();
+    const World stage(examples::window_scene<Stage>());
     std::array<std::vector<Image>, radius_steps.size()> runs;
     std::array<double, radius_steps.size()> radii{};
     for (std::size_t i = 0; i < radii.size(); ++i)
@@ -348,7 +349,7 @@ void one_map(const examples::Options& options, const Sizes& sizes) {
 /// Three passes at a place near the edge of the light: photons of their own, and discs
 /// that shrink.
 void draw_discs(const examples::Options& options) {
-    const auto stage = examples::window_scene<Stage>();
+    const World stage(examples::window_scene<Stage>());
     examples::Drawing figure{.name = "progressive-discs",
                              .description = "Three passes: each has photons of its own "
                                             "and a smaller disc than the one before",
@@ -390,8 +391,8 @@ void draw_discs(const examples::Options& options) {
 
 // --- The picture ---------------------------------------------------------------------
 
-/// The Cornell box with its index, for all passes.
-using Box = IndexedScene<decltype(cornell_box().scene)>;
+/// The Cornell box.
+using Box = decltype(cornell_box());
 
 /// How the box is rendered in one pass.
 PhotonMappingSettings pass_settings(const examples::Options& options,
@@ -429,7 +430,7 @@ void one_picture(const examples::Options& options, const Sizes& sizes) {
     auto picture = picture_settings(options, options.samples, options.seed);
     picture.progress = stopped;
     const auto pass = [&](long long i, double scale) {
-        return photon_mapping_pass(room.scene, room.camera, settings, picture, i,
+        return photon_mapping_pass(room.world, room.camera, settings, picture, i,
                                    scale);
     };
     const auto state = examples::run_passes(sizes.how, options.quiet, pass);
@@ -445,16 +446,15 @@ struct Reference {
 };
 
 /// Two halves: what their errors do not share is their own noise.
-template <typename Room>
-Reference reference_of(const Room& room, const examples::Options& options) {
-    const auto tracer = make_path_tracer(room.scene);
+Reference reference_of(const Box& box, const examples::Options& options) {
+    const PathTracer tracer(box.world);
     const int rays = options.pick(256, 4096, 65536);
     std::array<Image, 2> halves;
     for (const std::size_t i : {0u, 1u}) {
         examples::ProgressBar bar("reference", options.quiet);
         auto picture = picture_settings(options, rays, 77 + i);
         picture.progress = bar;
-        halves[i] = render(tracer, room.camera, picture).image;
+        halves[i] = render(tracer, box.camera, picture).image;
         examples::stop_if_asked();
     }
     Reference truth{.image = halves[0]};
@@ -498,12 +498,13 @@ void run_to(std::vector<Milestone>& milestones, long long limit, ProgressiveStat
 }
 
 /// The first seed goes to the end; the others as far as bias and variance are asked.
-void run_seeds(std::vector<Milestone>& milestones, const Box& box, const Camera& camera,
+void run_seeds(std::vector<Milestone>& milestones, const Box& box,
                const examples::Options& options, int seeds, long long split_at) {
     for (int seed = 1; seed <= seeds; ++seed) {
         const auto number = std::uint64_t(seed);
         const auto pass = [&](long long i, double scale) {
-            return photon_mapping_pass(box, camera, pass_settings(options, number),
+            return photon_mapping_pass(box.world, box.camera,
+                                       pass_settings(options, number),
                                        picture_settings(options, 1, number), i, scale);
         };
         const double begin = examples::processor_seconds();
@@ -522,13 +523,12 @@ void run_seeds(std::vector<Milestone>& milestones, const Box& box, const Camera&
 }
 
 /// The passes as one looks at them, in larger pictures than those that are measured.
-void show_passes(const Box& box, const Camera& camera, examples::Options options,
-                 long long passes) {
+void show_passes(const Box& box, examples::Options options, long long passes) {
     options.width = options.height = options.pick(64, 400, 400);
     const auto pass = [&](long long i, double scale) {
-        return photon_mapping_pass(box, camera, pass_settings(options, options.seed),
-                                   picture_settings(options, 1, options.seed), i,
-                                   scale);
+        return photon_mapping_pass(
+            box.world, box.camera, pass_settings(options, options.seed),
+            picture_settings(options, 1, options.seed), i, scale);
     };
     std::vector<Milestone> shown;
     for (const long long count : {1LL, 10LL, 100LL, passes})
@@ -544,12 +544,11 @@ void show_passes(const Box& box, const Camera& camera, examples::Options options
 
 /// The same passes with the exponent that edges like better.
 void run_faster(std::vector<Milestone>& milestones, const Box& box,
-                const Camera& camera, const examples::Options& options,
-                const Reference& truth) {
+                const examples::Options& options, const Reference& truth) {
     const auto pass = [&](long long i, double scale) {
-        return photon_mapping_pass(box, camera, pass_settings(options, options.seed),
-                                   picture_settings(options, 1, options.seed), i,
-                                   scale);
+        return photon_mapping_pass(
+            box.world, box.camera, pass_settings(options, options.seed),
+            picture_settings(options, 1, options.seed), i, scale);
     };
     run_to(milestones, milestones.back().passes, {.alpha = 1.0 / 3}, pass,
            examples::ProgressBar("alpha 1/3", options.quiet),
@@ -597,9 +596,8 @@ void save_errors(const std::vector<Milestone>& milestones, const Reference& trut
 }
 
 /// As many photons and rays at once, with radii that one must choose.
-void beside_one_map(const Box& box, const Camera& camera, long long passes,
-                    const Reference& truth, const examples::Options& options,
-                    int seeds) {
+void beside_one_map(const Box& box, long long passes, const Reference& truth,
+                    const examples::Options& options, int seeds) {
     examples::Table table{.name = "progressive-beside",
                           .columns = {"how", "processor seconds", "relMSE",
                                       "squared bias", "variance", "FLIP"}};
@@ -636,9 +634,9 @@ void beside_one_map(const Box& box, const Camera& camera, long long passes,
         try_way(count + examples::text(scale, "%.2f"), [&](std::uint64_t seed) {
             ProgressiveState state;
             const auto pass = [&](long long i, double shrunk) {
-                return photon_mapping_pass(box, camera, settings_of(scale, 1, seed),
-                                           picture_settings(options, 1, seed), i,
-                                           shrunk);
+                return photon_mapping_pass(
+                    box.world, box.camera, settings_of(scale, 1, seed),
+                    picture_settings(options, 1, seed), i, shrunk);
             };
             (void)run_progressive(state, passes, pass,
                                   [](const auto&) { return true; });
@@ -648,9 +646,8 @@ void beside_one_map(const Box& box, const Camera& camera, long long passes,
         try_way("one map, radius " + examples::text(scale, "%.2f"),
                 [&](std::uint64_t seed) {
                     const auto settings = settings_of(scale, passes, seed);
-                    const auto maps = make_photon_maps(box, settings);
-                    const auto mapper = make_photon_mapper(box, maps, settings);
-                    return render(mapper, camera,
+                    const PhotonMapper mapper(box.world, settings);
+                    return render(mapper, box.camera,
                                   picture_settings(options, int(passes), seed))
                         .image;
                 });
@@ -659,21 +656,20 @@ void beside_one_map(const Box& box, const Camera& camera, long long passes,
 
 /// The box after ever more passes, and beside one map of as many photons.
 void pictures(const examples::Options& options, const Sizes& sizes) {
-    const auto room = cornell_box();
-    const Box box = index_scene(room.scene);
-    const Reference truth = reference_of(room, options);
+    const Box box = cornell_box();
+    const Reference truth = reference_of(box, options);
     const long long split_at = options.pick(4, 64, 256);
     std::vector<Milestone> all;
     for (const long long passes : milestones(sizes.passes)) all.push_back({passes});
-    show_passes(box, room.camera, options, sizes.passes);
-    run_seeds(all, box, room.camera, options, sizes.seeds, split_at);
-    run_faster(all, box, room.camera, options, truth);
+    show_passes(box, options, sizes.passes);
+    run_seeds(all, box, options, sizes.seeds, split_at);
+    run_faster(all, box, options, truth);
     save_errors(all, truth, options);
 
     long long compared = all.front().passes; // the last milestone of all seeds
     for (const Milestone& at : all)
         if (at.passes <= split_at) compared = at.passes;
-    beside_one_map(box, room.camera, compared, truth, options, sizes.seeds);
+    beside_one_map(box, compared, truth, options, sizes.seeds);
 }
 
 } // namespace

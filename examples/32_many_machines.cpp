@@ -71,13 +71,12 @@ std::vector<V> all_of(const std::vector<V>& mine, const Rank& rank) {
 
 /// The photons of the caustics map: this rank's part, and then all of them.
 // [photons]
-template <typename S>
-std::vector<Photon> photons_of(const S& scene, const PhotonPassSettings& pass,
+template <AnyWorld W>
+std::vector<Photon> photons_of(const W& world, const PhotonPassSettings& pass,
                                const Rank& rank) {
-    const auto targets = specular_objects(scene);
+    const auto targets = specular_objects(world);
     if (targets.empty() || pass.photons == 0) return {};
-    const LightChoice choice = detail::start_pass(pass, scene.lights);
-    const detail::IndexedT<S> indexed(scene);
+    const LightChoice choice = detail::start_pass<float>(pass, world.light_choice());
     const auto paths = rank.part(pass.photons, rank.number);
     const long long size = detail::photon_block, count = paths.last - paths.first;
     std::vector<detail::PhotonBlockT<float>> blocks(
@@ -85,7 +84,7 @@ std::vector<Photon> photons_of(const S& scene, const PhotonPassSettings& pass,
     const auto body = [&](long long i) {
         detail::BlockRange range = detail::block_range(i, size, count);
         range = {paths.first + range.first, paths.first + range.last};
-        detail::trace_block(indexed, MapType::caustics, choice, targets, pass, range,
+        detail::trace_block(world, MapType::caustics, choice, targets, pass, range,
                             blocks[static_cast<std::size_t>(i)]);
     };
     parallel_blocks(static_cast<long long>(blocks.size()), body,
@@ -134,15 +133,16 @@ void save(const Image& image, const std::string& path) {
 }
 
 /// Both passes. Rank 0 saves the picture, when it has all of it.
-template <typename S>
-void render_room(const S& scene, const Camera& camera, const RenderSettings& picture,
+template <AnyWorld W>
+void render_room(const W& world, const Camera& camera, const RenderSettings& picture,
                  PhotonMappingSettings settings, const Rank& rank,
                  const std::string& path, bool quiet) {
     const examples::StopWatch watch;
-    PhotonMapsT<float> maps;
-    maps.caustics = make_photon_map(photons_of(scene, settings.caustics, rank));
+    PhotonMap caustics = make_photon_map(photons_of(world, settings.caustics, rank));
+    settings.caustics.photons = 0; // none besides these
+    PhotonMapper mapper(world, settings, abilities<StratifiedStream>);
+    mapper.set_caustics(std::move(caustics));
     const double first = watch.seconds();
-    const auto mapper = make_photon_mapper<StratifiedStream>(scene, maps, settings);
 
     // [rows]
     std::vector<Rgb> mine;
@@ -191,15 +191,15 @@ void body(examples::CommandLine& line) {
     require_image_size(picture.width, picture.height);
     if (scene.empty()) {
         const auto room = four_glass_room();
-        render_room(room.scene, room.camera, picture, settings, rank, path,
+        render_room(room.world, room.camera, picture, settings, rank, path,
                     options.quiet);
         return;
     }
-    const auto loaded = load_json(scene);
+    auto loaded = load_json(scene);
+    const World world(std::move(loaded.scene));
     if (!line.given("--width")) picture.width = loaded.width;
     if (!line.given("--height")) picture.height = loaded.height;
-    render_room(loaded.scene, loaded.camera, picture, settings, rank, path,
-                options.quiet);
+    render_room(world, loaded.camera, picture, settings, rank, path, options.quiet);
 }
 
 } // namespace

@@ -113,14 +113,13 @@ struct FirstPass {
 };
 
 template <typename R>
-FirstPass first_pass(const R& room, const PhotonMappingSettings& settings,
-                     PhotonMapsT<float>& maps) {
+FirstPass first_pass(const R& room, const PhotonMappingSettings& settings) {
     FirstPass pass;
     TracedPhotonsT<float> traced;
     pass.emission = timed([&] {
-        traced = trace_photons(room.scene, MapType::caustics, settings.caustics);
+        traced = trace_photons(room.world, MapType::caustics, settings.caustics);
     });
-    pass.tree = timed([&] { maps.caustics = make_photon_map(traced.photons); });
+    pass.tree = timed([&] { (void)make_photon_map(traced.photons); });
     return pass;
 }
 
@@ -130,8 +129,7 @@ std::vector<double> errors_of(const R& room, const examples::Oracle& oracle,
                               const std::vector<int>& rays,
                               const examples::Options& options) {
     const PhotonMappingSettings settings = report_settings(options.threads);
-    const auto maps = make_photon_maps(room.scene, settings);
-    const auto mapper = make_photon_mapper(room.scene, maps, settings);
+    const PhotonMapper mapper(room.world, settings);
     std::vector<double> found;
     for (const int n : rays) {
         const auto seen = render(mapper, room.camera,
@@ -261,11 +259,10 @@ void save_truth(const examples::Oracle& oracle, const examples::Options& options
 template <typename R>
 FirstPass table_1(const R& room, const examples::Options& options, const Sizes& sizes,
                   int threads, Line& loop) {
-    PhotonMapsT<float> maps, again;
     const PhotonMappingSettings settings = report_settings(1);
-    const FirstPass alone = first_pass(room, settings, maps);
-    const FirstPass shared = first_pass(room, report_settings(threads), again);
-    const auto mapper = make_photon_mapper(room.scene, maps, settings);
+    const FirstPass alone = first_pass(room, settings);
+    const FirstPass shared = first_pass(room, report_settings(threads));
+    const PhotonMapper mapper(room.world, settings);
     const auto shot = [&](int rays, int by) {
         return timed([&] {
             (void)render(mapper, room.camera,
@@ -299,11 +296,11 @@ struct CostOf {
 };
 
 // [cost]
-template <typename Renderer, typename Log>
-Rgb radiance(const CostOf<Renderer>& cost, const Ray& ray, RandomStream& stream,
-             Counts&, Log&&) {
+template <typename Renderer, typename Context>
+Rgb radiance(const CostOf<Renderer>& cost, const Ray& ray, Context& context) {
     Counts counts;
-    (void)radiance(cost.renderer, ray, stream, counts, NoLog{});
+    auto counted = context_of(context.stream, counts);
+    (void)radiance(cost.renderer, ray, counted);
     return Rgb{float(counts.rays() + counts.map_queries)};
 }
 // [cost]
@@ -534,15 +531,13 @@ bool same_bytes(const R& room, const examples::Options& options) {
     for (const int threads : {1, 2, 3, 8}) {
         const PhotonMappingSettings settings = report_settings(threads);
         const auto traced =
-            trace_photons(room.scene, MapType::caustics, settings.caustics);
+            trace_photons(room.world, MapType::caustics, settings.caustics);
         std::vector<Vec3> marks;
         for (const Photon& photon : traced.photons) {
             marks.push_back(photon.position);
             marks.push_back(photon.flux);
         }
-        PhotonMapsT<float> maps;
-        maps.caustics = make_photon_map(traced.photons);
-        const auto mapper = make_photon_mapper(room.scene, maps, settings);
+        const PhotonMapper mapper(room.world, settings);
         const Image image = render(mapper, room.camera,
                                    {.width = size,
                                     .height = size,
@@ -564,8 +559,7 @@ bool same_bytes(const R& room, const examples::Options& options) {
 
     // Strips of rows, as machines would render them.
     const PhotonMappingSettings settings = report_settings(options.threads);
-    const auto maps = make_photon_maps(room.scene, settings);
-    const auto mapper = make_photon_mapper(room.scene, maps, settings);
+    const PhotonMapper mapper(room.world, settings);
     const RenderSettings picture{size, size, 4, options.seed, options.threads};
     examples::Table machines{.name = "parallel-strips",
                              .columns = {"strips", "picture"}};
@@ -591,8 +585,7 @@ bool same_bytes(const R& room, const examples::Options& options) {
 template <typename R>
 void oversubscribed(const R& room, const examples::Options& options, int repeats) {
     const PhotonMappingSettings settings = report_settings(0);
-    const auto maps = make_photon_maps(room.scene, settings);
-    const auto mapper = make_photon_mapper(room.scene, maps, settings);
+    const PhotonMapper mapper(room.world, settings);
     examples::Table table{.name = "parallel-threads",
                           .columns = {"threads", "seconds", "speed-up", "work of all"}};
     const std::array counts{1, 2, 3, 4, 8, 16, 64};
@@ -726,8 +719,7 @@ int main(int argc, char** argv) {
         const FirstPass first = table_1(room, options, sizes, threads, loop);
 
         const PhotonMappingSettings settings = report_settings(options.threads);
-        const auto maps = make_photon_maps(room.scene, settings);
-        const auto mapper = make_photon_mapper(room.scene, maps, settings);
+        const PhotonMapper mapper(room.world, settings);
         // A fixed size: what it says of schedules depends on it.
         const Image costs = render(CostOf<decltype(mapper)>{mapper}, room.camera,
                                    {.width = 400,
@@ -737,7 +729,7 @@ int main(int argc, char** argv) {
                                 .image;
         schedules(costs, options);
         amdahl(first, loop, options);
-        machines(first, loop, maps.caustics.records.size(), options);
+        machines(first, loop, mapper.maps().caustics.records.size(), options);
         const bool same = same_bytes(room, options);
         oversubscribed(room, options, sizes.repeats);
         false_sharing(options, sizes.repeats);

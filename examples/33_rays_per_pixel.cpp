@@ -68,20 +68,18 @@ using Room3 = decltype(all_materials_room());
 std::vector<double> values_of_pixel(const Room3& room,
                                     const examples::Options& options) {
     const auto settings = settings_with(false, options.seed, options.threads);
-    const auto maps = make_photon_maps(room.scene, settings);
-    const auto mapper = make_photon_mapper(room.scene, maps, settings);
-    const int rays = options.pick(1 << 14, 1 << 18, 1 << 18);
+    const PhotonMapper mapper(room.world, settings);
     const RenderSettings picture{.width = 400,
                                  .height = 400,
-                                 .samples = rays,
+                                 .samples = options.pick(1 << 14, 1 << 18, 1 << 18),
                                  .seed = options.seed,
                                  .sampling = Sampling::random};
-    const Pattern pattern = make_pattern(picture.sampling, rays);
-    std::vector<double> values(static_cast<std::size_t>(rays));
+    const PictureRays rays(picture);
+    std::vector<double> values(static_cast<std::size_t>(picture.samples));
     const auto value = [&](std::size_t ray) {
         Counts counts;
-        const auto found = detail::trace_pixel(mapper, room.camera, picture, pattern,
-                                               200, 330, int(ray), counts);
+        const auto found =
+            trace_pixel(mapper, room.camera, rays, {200, 330, int(ray)}, counts);
         values[ray] = double(luminance(found.weight * found.radiance));
     };
     detail::parallel_each(values.size(), 4096, value, {.threads = options.threads});
@@ -154,9 +152,8 @@ Shots figure_12(const Room3& room, const std::vector<ReportRow>& rows,
     const auto settings = settings_with(true, options.seed, options.threads);
     Shots shots;
     const double start = examples::processor_seconds();
-    const auto maps = make_photon_maps(room.scene, settings);
+    const PhotonMapper mapper(room.world, settings);
     shots.first = examples::processor_seconds() - start;
-    const auto mapper = make_photon_mapper(room.scene, maps, settings);
     for (const ReportRow& row : rows) {
         const int n = row.rays;
         examples::ProgressBar bar("fig-12, " + std::to_string(n) + " rays",
@@ -371,9 +368,10 @@ struct Contest {
     const Room3& room;
     const examples::Options& options;
     int size = 0; ///< Side of the pictures.
-    /// By the seed of the photons: neither depth nor rays change the maps.
-    std::map<std::uint64_t, PhotonMapsT<float>> maps{};
-    PathTracer<decltype(Room3::scene)> tracer = make_path_tracer(room.scene);
+    /// By whether the depth is fixed, and by the seed of the photons.
+    std::map<std::pair<bool, std::uint64_t>, PhotonMapper<decltype(Room3::world)>>
+        mappers{};
+    PathTracer<decltype(Room3::world)> tracer = PathTracer(room.world);
 
     [[nodiscard]] RenderSettings picture(int rays, std::uint64_t seed) const {
         return {.width = size,
@@ -384,11 +382,10 @@ struct Contest {
     }
     [[nodiscard]] Image by_photons(bool fixed_depth, int rays, std::uint64_t seed,
                                    std::uint64_t map_seed) {
-        const auto settings = settings_with(fixed_depth, map_seed, options.threads);
-        const auto [place, fresh] = maps.try_emplace(map_seed);
-        if (fresh) place->second = make_photon_maps(room.scene, settings);
-        const auto mapper = make_photon_mapper(room.scene, place->second, settings);
-        return render(mapper, room.camera, picture(rays, seed)).image;
+        const auto [place, fresh] =
+            mappers.try_emplace({fixed_depth, map_seed}, room.world,
+                                settings_with(fixed_depth, map_seed, options.threads));
+        return render(place->second, room.camera, picture(rays, seed)).image;
     }
     [[nodiscard]] Image by_paths(int rays, std::uint64_t seed) const {
         return render(tracer, room.camera, picture(rays, seed)).image;
@@ -466,7 +463,8 @@ std::vector<std::vector<Rung>> errors_of_rays(Contest& contest,
                                               const examples::Oracle& oracle,
                                               const Sizes& sizes, double first_pass) {
     for (int seed = 1; seed <= sizes.seeds; ++seed) // before any clock runs
-        (void)contest.by_photons(true, 1, 1, std::uint64_t(seed));
+        for (const bool fixed_depth : {true, false})
+            (void)contest.by_photons(fixed_depth, 1, 1, std::uint64_t(seed));
     const std::vector<Method> methods = methods_of(contest);
     std::vector<std::vector<Rung>> runs;
     for (const Method& method : methods)

@@ -79,9 +79,7 @@ std::vector<Image> runs_to_depth(const Room4& room, int depth,
     std::vector<Image> runs;
     for (std::uint64_t seed = 1; seed <= std::uint64_t(seeds); ++seed) {
         const auto settings = settings_with(depth, seed, threads);
-        const auto maps = make_photon_maps(room.scene, settings);
-        runs.push_back(render(make_photon_mapper(room.scene, maps, settings),
-                              room.camera,
+        runs.push_back(render(PhotonMapper(room.world, settings), room.camera,
                               {.width = oracle.truth.width,
                                .height = oracle.truth.height,
                                .samples = 64,
@@ -114,8 +112,7 @@ void table_4(const Room4& room, const examples::Oracle& oracle,
     for (const Depth& row : depths) {
         const std::string name = row.depth > 0 ? std::to_string(row.depth) : "roulette";
         const auto settings = settings_with(row.depth, options.seed, options.threads);
-        const auto maps = make_photon_maps(room.scene, settings);
-        const auto mapper = make_photon_mapper(room.scene, maps, settings);
+        const PhotonMapper mapper(room.world, settings);
         examples::ProgressBar bar("fig-13, depth " + name, options.quiet);
         const double start = examples::processor_seconds();
         const auto seen = render(mapper, room.camera,
@@ -158,7 +155,7 @@ void furnace_by_depth(int rays, const examples::Options& options) {
         for (const float albedo : {0.5f, 0.75f, 0.9f}) {
             const auto room = sphere_furnace<float>(Rgb{1}, Rgb{albedo});
             const auto paths =
-                examples::make_ended_paths(room.scene, Ending::depth, depth);
+                examples::make_ended_paths(room.world, Ending::depth, depth);
             const double seen = mean_of({render(paths, room.camera,
                                                 {.width = 16,
                                                  .height = 16,
@@ -214,7 +211,7 @@ void furnace_by_ending(int rays, const examples::Options& options) {
         Mean light;
         const auto add = [&](Ending ending, int depth, double threshold) {
             light = light_of(
-                examples::make_ended_paths(room.scene, ending, depth, threshold),
+                examples::make_ended_paths(room.world, ending, depth, threshold),
                 room.camera, rays, options.threads);
             row.push_back(percent(light.value, all));
         };
@@ -259,7 +256,7 @@ void endings(const Room4& room, const examples::Oracle& oracle,
                                       "noise", "1 / (noise × s)", "bias² of blocks"}};
     const double truth = mean_of(oracle.truth);
     for (const Way& way : ways) {
-        const auto paths = examples::make_ended_paths(room.scene, way.ending, way.depth,
+        const auto paths = examples::make_ended_paths(room.world, way.ending, way.depth,
                                                       way.threshold);
         std::vector<Image> runs;
         Counts counts;
@@ -579,9 +576,8 @@ int main(int argc, char** argv) {
 
         auto settings = settings_with(0, options.seed, options.threads);
         settings.split_glass = true; // else a few fireflies decide all errors
-        const auto maps = make_photon_maps(room.scene, settings);
-        adaptive("photons", make_photon_mapper(room.scene, maps, settings), room.camera,
-                 options, sizes);
-        adaptive("paths", make_path_tracer(room.scene), room.camera, options, sizes);
+        adaptive("photons", PhotonMapper(room.world, settings), room.camera, options,
+                 sizes);
+        adaptive("paths", PathTracer(room.world), room.camera, options, sizes);
     });
 }

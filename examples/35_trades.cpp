@@ -33,9 +33,8 @@ using examples::text;
 /// A ball of glass in a closed grey room, below a small lamp: most of what is bright is
 /// one caustic.
 template <std::floating_point T>
-auto make_caustic() {
-    Room<CornellSceneT<T>> room;
-    auto& scene = room.scene;
+Room<CornellSceneT<T>> make_caustic() {
+    CornellSceneT<T> scene;
     const auto white = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0.5)}});
     const Vec3T<T> corner{T(-1), T(0), T(-1)}, x{T(2), T(0), T(0)}, y{T(0), T(2), T(0)},
         z{T(0), T(0), T(4)};
@@ -51,11 +50,10 @@ auto make_caustic() {
               scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}}), RgbT<T>{T(50)});
     scene.add(SphereT<T>{.center{T(0), T(0.5), T(0)}, .radius = T(0.35)},
               scene.add(GlassT<T>{.index = T(1.5)}));
-    room.camera = look_at(ViewT<T>{.position{T(0), T(1.3), T(2.8)},
-                                   .target{T(0.1), T(0.25), T(0)},
-                                   .up{T(0), T(1), T(0)},
-                                   .vfov_degrees = T(36)});
-    return room;
+    return {World(std::move(scene)), look_at(ViewT<T>{.position{T(0), T(1.3), T(2.8)},
+                                                      .target{T(0.1), T(0.25), T(0)},
+                                                      .up{T(0), T(1), T(0)},
+                                                      .vfov_degrees = T(36)})};
 }
 
 // --- The knobs -----------------------------------------------------------------------
@@ -300,7 +298,7 @@ double promises(Sweep& sweep, const std::string& name, const Room& room,
         for (int run = 0; run < runs && sweep.bar; ++run) {
             const double begin = examples::processor_seconds();
             const auto kept = keep(
-                room.scene, room.camera,
+                room.world, room.camera,
                 {.width = oracle.truth.width,
                  .height = oracle.truth.height,
                  .seed = options.seed + std::uint64_t(run),

@@ -17,9 +17,12 @@
 #include <ljus/ljus.hpp>
 #include <ljus/radiosity/light_map.hpp>
 #include <ljus/radiosity/radiosity.hpp>
+#include <ljus/render/budgeting.hpp>
 #include <ljus/render/distributed.hpp>
+#include <ljus/render/gathering.hpp>
 #include <ljus/render/plain_path_tracing.hpp>
 #include <ljus/render/progressive.hpp>
+#include <ljus/render/skipping.hpp>
 #include <ljus/render/whitted.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 #include <ljus/scenes/mesh_formulas.hpp>
@@ -30,8 +33,10 @@ using namespace ljus;
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-using Stage = CornellSceneT<float>; // quads and balls; matt, mirror, glass
-using SmoothStage = Scene<Shapes<Mesh, Quad>, Materials<Lambertian>>;
+using Stage = Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Mirror, Glass>,
+                    Lights<PointLight>>;
+using SmoothStage =
+    Scene<Shapes<Mesh, Quad>, Materials<Lambertian>, Lights<PointLight>>;
 
 /// How a picture of the gallery is made.
 struct Eye {
@@ -326,19 +331,18 @@ MaterialId matt(Stage& stage, const Rgb& albedo) {
 }
 
 /// A picture by the report's renderer.
-Image by_photons(const Eye& eye, const Stage& stage, const Camera& camera,
+template <AnyWorld W>
+Image by_photons(const Eye& eye, const W& world, const Camera& camera,
                  PhotonMappingSettings how, double share = 1) {
     how.caustics.threads = how.general.threads = eye.threads;
     const RenderSettings picture = eye.settings(share);
-    PhotonMapsT<float> maps = make_photon_maps(stage, how);
-    add_irradiance_cache(maps, stage, camera, picture, how);
-    return render(make_photon_mapper<StratifiedStream>(stage, maps, how), camera,
-                  picture)
-        .image;
+    PhotonMapper mapper(world, how, abilities<StratifiedStream, Gathering, Skipping>);
+    mapper.fill_cache(camera, picture);
+    return render(mapper, camera, picture).image;
 }
 /// Direct light alone, by sixteen shadow rays to each lamp.
-Image direct_light_of(const Eye& eye, const Stage& stage) {
-    return by_photons(eye, stage, floor_camera(),
+Image direct_light_of(const Eye& eye, const World<Stage>& world) {
+    return by_photons(eye, world, floor_camera(),
                       {.max_depth = 10,
                        .shadow_rays = 16,
                        .split_glass = true,
@@ -347,10 +351,10 @@ Image direct_light_of(const Eye& eye, const Stage& stage) {
                       0.125);
 }
 /// Hard shadows and mirrors, without any chance.
-template <typename S>
-Image by_whitted(const Eye& eye, const S& stage, const Camera& camera,
+template <AnyWorld W>
+Image by_whitted(const Eye& eye, const W& world, const Camera& camera,
                  const WhittedSettings& how = {.max_depth = 12}) {
-    return render(make_whitted(stage, how), camera, eye.settings(0.15)).image;
+    return render(WhittedTracer(world, how), camera, eye.settings(0.15)).image;
 }
 
 /// Two balls under a point light.
@@ -361,7 +365,7 @@ Image point_light(const Eye& eye) {
     stage.add(Sphere{.center{1.1f, 0.7f, -0.6f}, .radius = 0.7f},
               matt(stage, {0.3f, 0.5f, 0.8f}));
     stage.add(PointLight{.position{0.2f, 1.9f, 0.9f}, .intensity = Rgb{7}});
-    return by_whitted(eye, stage, floor_camera());
+    return by_whitted(eye, World(std::move(stage)), floor_camera());
 }
 /// A small bright lamp on the left, a large dim one on the right.
 Image two_sizes(const Eye& eye) {
@@ -370,7 +374,7 @@ Image two_sizes(const Eye& eye) {
     add_lamp(stage, {1.0f, 2.1f, 0}, 1.2f, 5);
     stage.add(Sphere{.center{0, 0.4f, 0.3f}, .radius = 0.4f},
               matt(stage, {0.8f, 0.5f, 0.2f}));
-    return direct_light_of(eye, stage);
+    return direct_light_of(eye, World(std::move(stage)));
 }
 /// One ball below one lamp.
 Image one_lamp(const Eye& eye) {
@@ -378,7 +382,7 @@ Image one_lamp(const Eye& eye) {
     add_lamp(stage, {-0.6f, 2.1f, 0.2f}, 0.8f, 22);
     stage.add(Sphere{.center{-0.1f, 0.5f, 0.2f}, .radius = 0.5f},
               matt(stage, {0.8f, 0.5f, 0.2f}));
-    return direct_light_of(eye, stage);
+    return direct_light_of(eye, World(std::move(stage)));
 }
 /// The same by distributed rays.
 Image penumbra(const Eye& eye) {
@@ -386,7 +390,8 @@ Image penumbra(const Eye& eye) {
     add_lamp(stage, {-0.6f, 2.1f, 0.2f}, 0.8f, 22);
     stage.add(Sphere{.center{-0.1f, 0.5f, 0.2f}, .radius = 0.5f},
               matt(stage, {0.8f, 0.5f, 0.2f}));
-    return render(make_distributed(stage), floor_camera(), eye.settings(0.5)).image;
+    const World world(std::move(stage));
+    return render(DistributedTracer(world), floor_camera(), eye.settings(0.5)).image;
 }
 /// Two lamps of two colours, of which a path asks one.
 Image two_lamps(const Eye& eye) {
@@ -397,8 +402,8 @@ Image two_lamps(const Eye& eye) {
     stage.add(Quad{.corner{1.0f, 2.1f, 0}, .edge_u{0.6f, 0, 0}, .edge_v{0, 0, 0.6f}},
               black, Rgb{10, 24, 40});
     stage.add(Sphere{.center{0, 0.5f, 0.3f}, .radius = 0.5f}, matt(stage, Rgb{0.7f}));
-    return render(make_path_tracer(stage, {.max_depth = 1}), floor_camera(),
-                  eye.settings(3))
+    const World world(std::move(stage));
+    return render(PathTracer(world, {.max_depth = 1}), floor_camera(), eye.settings(3))
         .image;
 }
 /// A lamp, and a point light beside it.
@@ -407,7 +412,7 @@ Image lamp_and_point(const Eye& eye) {
     add_lamp(stage, {-1.2f, 2.1f, 0.2f}, 0.6f, 16);
     stage.add(PointLight{.position{1.6f, 1.9f, 1.0f}, .intensity{4, 5.5f, 8}});
     stage.add(Sphere{.center{0, 0.5f, 0.2f}, .radius = 0.5f}, matt(stage, Rgb{0.8f}));
-    return direct_light_of(eye, stage);
+    return direct_light_of(eye, World(std::move(stage)));
 }
 
 /// A ball of glass between walls of bright and dark stripes.
@@ -440,7 +445,8 @@ Image glass_room(const Eye& eye, Add&& add_ball) {
     add_ball(stage);
     const Camera camera =
         look_at({.position{0, 1.3f, 5}, .target{0, 0.95f, 0}, .vfov_degrees = 32});
-    return by_whitted(eye, stage, camera, {.max_depth = 12, .lamps = false});
+    return by_whitted(eye, World(std::move(stage)), camera,
+                      {.max_depth = 12, .lamps = false});
 }
 Image glass_ball(const Eye& eye) {
     return glass_room(eye, [](Stage& stage) {
@@ -465,46 +471,42 @@ Image lamp_in_glass(const Eye& eye) {
 
 /// The box with two matt balls, and a lamp so large that paths meet it often.
 Room<Stage> wide_lamp_box() {
-    Room<Stage> room;
-    add_cornell_walls(room.scene);
-    room.scene.add(Sphere{.center{-0.42f, 0.38f, -0.3f}, .radius = 0.38f},
-                   matt(room.scene, {0.2f, 0.35f, 0.7f}));
-    room.scene.add(Sphere{.center{0.42f, 0.38f, 0.3f}, .radius = 0.38f},
-                   matt(room.scene, Rgb{0.7f}));
-    add_lamp(room.scene, {0, 1.98f, 0}, 1.4f, 1.3f);
-    room.camera = ljus::cornell_camera();
-    return room;
+    Stage stage;
+    add_cornell_walls(stage);
+    stage.add(Sphere{.center{-0.42f, 0.38f, -0.3f}, .radius = 0.38f},
+              matt(stage, {0.2f, 0.35f, 0.7f}));
+    stage.add(Sphere{.center{0.42f, 0.38f, 0.3f}, .radius = 0.38f},
+              matt(stage, Rgb{0.7f}));
+    add_lamp(stage, {0, 1.98f, 0}, 1.4f, 1.3f);
+    return {World(std::move(stage)), ljus::cornell_camera()};
 }
 
 /// The box with two matt balls, by a path tracer of three surfaces.
 Image box_by_paths(const Eye& eye) {
     const auto room = matt_cornell_box();
-    return render(make_path_tracer(room.scene, {.max_depth = 3}), room.camera,
-                  eye.settings())
+    return render(PathTracer(room.world, {.max_depth = 3}), room.camera, eye.settings())
         .image;
 }
 Image box_with_roulette(const Eye& eye) {
     const auto room = matt_cornell_box();
-    return render(make_path_tracer(room.scene, {.max_depth = 12, .roulette_depth = 1}),
+    return render(PathTracer(room.world, {.max_depth = 12, .roulette_depth = 1}),
                   room.camera, eye.settings())
         .image;
 }
 Image box_by_plain_paths(const Eye& eye) {
     const auto room = wide_lamp_box();
-    return render(make_plain_path_tracer(room.scene, 3), room.camera, eye.settings(2))
-        .image;
+    return render(PlainPathTracer(room.world, 3), room.camera, eye.settings(2)).image;
 }
 /// Four rays a pixel, so that one sees what the numbers are like.
 Image box_with_few_rays(const Eye& eye) {
     const auto room = matt_cornell_box();
     RenderSettings picture = eye.settings();
     picture.samples = std::min(4, picture.samples);
-    return render(make_path_tracer(room.scene, {.max_depth = 1}), room.camera, picture)
-        .image;
+    return render(PathTracer(room.world, {.max_depth = 1}), room.camera, picture).image;
 }
 Image box_direct(const Eye& eye) {
     const auto room = matt_cornell_box();
-    return render(make_path_tracer(room.scene, {.max_depth = 1}), room.camera,
+    return render(PathTracer(room.world, {.max_depth = 1}), room.camera,
                   eye.settings(0.5))
         .image;
 }
@@ -531,7 +533,7 @@ Image cards(const Eye& eye) {
     stage.add(PointLight{.position{1, 3, 5}, .intensity = Rgb{12}});
     const Camera camera =
         look_at({.position{0, 1.6f, 5.6f}, .target{0, 0.8f, 0}, .vfov_degrees = 42});
-    return by_whitted(eye, stage, camera);
+    return by_whitted(eye, World(std::move(stage)), camera);
 }
 
 /// Where the seven shadow rays of each of many points go to. The lamp is the square.
@@ -571,15 +573,16 @@ Image as_saved(const Eye& eye) {
 
 /// What the maps say of each matt surface, looked at directly.
 /// \param maps  Of one picture: each of them adds.
-Image maps_alone(const Eye& eye, const Stage& stage, const Camera& camera,
+template <AnyWorld W>
+Image maps_alone(const Eye& eye, const W& world, const Camera& camera,
                  const std::vector<PhotonMap>& maps,
                  const DensityEstimateSettings& gather) {
     return draw(eye, camera, [&](const Ray& ray) {
-        const auto hit = closest_hit(stage, ray);
+        const auto hit = closest_hit(world, ray);
         if (!hit) return Rgb{0};
-        const Vertex vertex = vertex_at(stage, ray, *hit);
+        const Vertex vertex = vertex_at(world, ray, *hit);
         if (vertex.emits()) return Rgb{1};
-        return visit_material_at(stage, vertex, [&](const auto& material) {
+        return visit_material_at(world, vertex, [&](const auto& material) {
             if (!has(lobes(material), Lobes::non_specular)) // glass: a hint of it
                 return Rgb{0.03f + 0.2f * (1 - std::abs(vertex.wo.z))};
             Rgb sum{0};
@@ -591,12 +594,13 @@ Image maps_alone(const Eye& eye, const Stage& stage, const Camera& camera,
         });
     });
 }
-PhotonMap traced(const Eye& eye, const Stage& stage, MapType type,
+template <AnyWorld W>
+PhotonMap traced(const Eye& eye, const W& world, MapType type,
                  PhotonPassSettings pass) {
     pass.seed = eye.seed;
     pass.threads = eye.threads;
     pass.shadow_photons = false;
-    return make_photon_map(trace_photons(stage, type, pass).photons);
+    return make_photon_map(trace_photons(world, type, pass).photons);
 }
 /// How many photons a picture of this size deserves.
 long long photons_for(const Eye& eye, double per_pixel) {
@@ -610,10 +614,11 @@ Image lamp_by_photons(const Eye& eye, const DensityEstimateSettings& gather,
     add_lamp(stage, {0, 2.1f, 0.4f}, 0.7f, 25);
     stage.add(Sphere{.center{0.7f, 0.5f, 0}, .radius = 0.5f},
               matt(stage, {0.8f, 0.5f, 0.2f}));
+    const World world(std::move(stage));
     const PhotonMap map =
-        traced(eye, stage, MapType::general,
+        traced(eye, world, MapType::general,
                {.photons = photons_for(eye, photons), .max_bounces = 1});
-    return maps_alone(eye, stage, floor_camera(), {map}, gather);
+    return maps_alone(eye, world, floor_camera(), {map}, gather);
 }
 Image direct_photons(const Eye& eye) {
     return lamp_by_photons(eye, {.radius = 0.15f}, 20);
@@ -627,16 +632,17 @@ Image point_by_photons(const Eye& eye) {
     stage.add(PointLight{.position{-0.5f, 1.6f, 0.3f}, .intensity = Rgb{4}});
     stage.add(Sphere{.center{0.6f, 0.5f, 0}, .radius = 0.5f},
               matt(stage, {0.8f, 0.5f, 0.2f}));
-    const PhotonMap map = traced(eye, stage, MapType::general,
+    const World world(std::move(stage));
+    const PhotonMap map = traced(eye, world, MapType::general,
                                  {.photons = photons_for(eye, 20), .max_bounces = 1});
-    return maps_alone(eye, stage, floor_camera(), {map}, {.radius = 0.15f});
+    return maps_alone(eye, world, floor_camera(), {map}, {.radius = 0.15f});
 }
 /// In the box photons are reflected again and again.
 Image box_by_photons(const Eye& eye) {
     const auto room = matt_cornell_box();
     const PhotonMap map =
-        traced(eye, room.scene, MapType::general, {.photons = photons_for(eye, 10)});
-    return maps_alone(eye, room.scene, room.camera, {map}, {.radius = 0.1f});
+        traced(eye, room.world, MapType::general, {.photons = photons_for(eye, 10)});
+    return maps_alone(eye, room.world, room.camera, {map}, {.radius = 0.1f});
 }
 
 /// Near enough to see what the glass makes.
@@ -645,19 +651,19 @@ Camera caustic_camera() {
         {.position{0.1f, 1.9f, 2.6f}, .target{0.15f, 0.25f, 0.2f}, .vfov_degrees = 27});
 }
 /// Glass below a lamp.
-Stage glass_stage(bool second) {
+World<Stage> glass_stage(bool second) {
     Stage stage = floor_stage(Rgb{0.8f});
     stage.add(PointLight{.position{-1.2f, 3.2f, 0.4f}, .intensity = Rgb{4}});
     const auto glass = stage.add(Glass{.index = 1.5f});
     stage.add(Sphere{.center{-0.3f, 0.9f, 0.2f}, .radius = 0.5f}, glass);
     if (second) stage.add(Sphere{.center{0.25f, 0.45f, 0.25f}, .radius = 0.3f}, glass);
-    return stage;
+    return World(std::move(stage));
 }
 Image caustic(const Eye& eye, bool second) {
-    const Stage stage = glass_stage(second);
+    const auto world = glass_stage(second);
     const PhotonMap map =
-        traced(eye, stage, MapType::caustics, {.photons = photons_for(eye, 8)});
-    return maps_alone(eye, stage, caustic_camera(), {map}, {.radius = 0.03f});
+        traced(eye, world, MapType::caustics, {.photons = photons_for(eye, 8)});
+    return maps_alone(eye, world, caustic_camera(), {map}, {.radius = 0.03f});
 }
 Image caustic_of_one(const Eye& eye) {
     return caustic(eye, false);
@@ -667,29 +673,31 @@ Image caustic_of_two(const Eye& eye) {
 }
 /// Both maps, added.
 Image caustic_and_general(const Eye& eye) {
-    const Stage stage = glass_stage(false);
+    const auto world = glass_stage(false);
     const PhotonMap caustics =
-        traced(eye, stage, MapType::caustics, {.photons = photons_for(eye, 8)});
+        traced(eye, world, MapType::caustics, {.photons = photons_for(eye, 8)});
     const PhotonMap general =
-        traced(eye, stage, MapType::general, {.photons = photons_for(eye, 40)});
-    return maps_alone(eye, stage, caustic_camera(), {caustics, general},
+        traced(eye, world, MapType::general, {.photons = photons_for(eye, 40)});
+    return maps_alone(eye, world, caustic_camera(), {caustics, general},
                       {.radius = 0.06f});
 }
 /// Where photons lie, as dots: a floor, and a ball of a mixture that is all clear.
 Image dots(const Eye& eye) {
-    Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Mixture>> stage;
+    Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Mixture>, Lights<PointLight>>
+        stage;
     const auto wall = stage.add(Lambertian{.albedo = Rgb{0.7f}});
     stage.add(Quad{.corner{-4, 0, -2}, .edge_u{0, 0, 8}, .edge_v{8, 0, 0}}, wall);
     stage.add(Quad{.corner{-4, 0, -2}, .edge_u{8, 0, 0}, .edge_v{0, 5, 0}}, wall);
     stage.add(Sphere{.center{0, 0.7f, 0}, .radius = 0.65f},
               stage.add(Mixture{.transparency = 1, .index = 1.5f}));
     stage.add(PointLight{.position{-0.8f, 2.4f, 1.2f}, .intensity = Rgb{4}});
+    const World world(std::move(stage));
     const auto found =
-        trace_photons(stage, MapType::general,
+        trace_photons(world, MapType::general,
                       {.photons = 8000, .seed = eye.seed, .shadow_photons = false});
     const Camera camera = floor_camera();
-    Image image = scene_drawing(stage, camera, eye.size, eye.size);
-    (void)add_photon_dots(image, stage, camera, found.photons,
+    Image image = scene_drawing(world, camera, eye.size, eye.size);
+    (void)add_photon_dots(image, world, camera, found.photons,
                           {.radius = 1.4f, .brightness = 0.8f},
                           [](const Photon& photon) { return dot_color(photon); });
     return image;
@@ -700,9 +708,10 @@ Image screen(const Eye& eye) {
     stage.add(Quad{.corner{-1, 0, 0.3f}, .edge_u{2, 0, 0}, .edge_v{0, 1.5f, 0}},
               matt(stage, {0.8f, 0.5f, 0.2f}));
     stage.add(PointLight{.position{0, 1.6f, -1.1f}, .intensity = Rgb{5}});
-    const PhotonMap map = traced(eye, stage, MapType::general,
+    const World world(std::move(stage));
+    const PhotonMap map = traced(eye, world, MapType::general,
                                  {.photons = photons_for(eye, 20), .max_bounces = 1});
-    return maps_alone(eye, stage, floor_camera(), {map}, {.radius = 0.12f});
+    return maps_alone(eye, world, floor_camera(), {map}, {.radius = 0.12f});
 }
 /// Sixty photons on a floor, each spread over the ball around it.
 Image spread_photons(const Eye& eye) {
@@ -729,12 +738,12 @@ Image spread_photons(const Eye& eye) {
 /// The two-pass renderer in the matt box: who adds what.
 Image box_by_two_passes(const Eye& eye) {
     const auto room = wide_lamp_box();
-    return by_photons(eye, room.scene, room.camera,
+    return by_photons(eye, room.world, room.camera,
                       {.max_depth = 3, .direct = DirectLight::analytic});
 }
 Image box_with_map_seen(const Eye& eye) {
     const auto room = matt_cornell_box();
-    return by_photons(eye, room.scene, room.camera,
+    return by_photons(eye, room.world, room.camera,
                       {.max_depth = 4,
                        .direct = DirectLight::analytic,
                        .indirect = IndirectLight::photons,
@@ -749,22 +758,23 @@ Image box_with_points(const Eye& eye) {
     PhotonMappingSettings how{.indirect = IndirectLight::gather,
                               .general{.photons = photons_for(eye, 5)}};
     how.general.threads = eye.threads;
-    const PhotonMapsT<float> maps = make_photon_maps(room.scene, how);
+    const PhotonMapper mapper(room.world, how, abilities<Gathering>);
+    const auto& points = mapper.state<Gathering>().points;
     return draw(eye, room.camera, [&](const Ray& ray) {
-        const auto hit = closest_hit(room.scene, ray);
+        const auto hit = closest_hit(room.world, ray);
         if (!hit) return Rgb{0};
-        const Vertex vertex = vertex_at(room.scene, ray, *hit);
+        const Vertex vertex = vertex_at(room.world, ray, *hit);
         if (vertex.emits()) return Rgb{1};
-        const Rgb irradiance = irradiance_at(maps.irradiance, vertex.point.position,
+        const Rgb irradiance = irradiance_at(points, vertex.point.position,
                                              ljus::detail::seen_normal(vertex));
-        return visit_material_at(room.scene, vertex, [&](const auto& material) {
+        return visit_material_at(room.world, vertex, [&](const auto& material) {
             return evaluate(material, vertex.wo, vertex.wo) * irradiance;
         });
     });
 }
 Image box_with_cache(const Eye& eye) {
     const auto room = matt_cornell_box();
-    return by_photons(eye, room.scene, room.camera,
+    return by_photons(eye, room.world, room.camera,
                       {.direct = DirectLight::analytic,
                        .indirect = IndirectLight::cache,
                        .general{.photons = photons_for(eye, 5)},
@@ -778,7 +788,7 @@ Image two_lamps_skipped(const Eye& eye) {
     add_lamp(stage, {1.3f, 2.0f, 0.6f}, 0.4f, 24);
     stage.add(Sphere{.center{0, 0.6f, 0.2f}, .radius = 0.6f},
               matt(stage, {0.8f, 0.5f, 0.2f}));
-    return by_photons(eye, stage, floor_camera(),
+    return by_photons(eye, World(std::move(stage)), floor_camera(),
                       {.max_depth = 1,
                        .shadow_rays = 16,
                        .indirect = IndirectLight::none,
@@ -789,29 +799,30 @@ Image two_lamps_skipped(const Eye& eye) {
 }
 /// Caustics of two balls, the budget of photons shared out by what they need.
 Image shared_budget(const Eye& eye) {
-    const Stage stage = glass_stage(true);
+    const auto world = glass_stage(true);
     PhotonMappingSettings how{.caustics{.photons = photons_for(eye, 8)},
                               .caustic_budget = CausticBudget::flux,
                               .caustics_estimate{.radius = 0.05f}};
     how.caustics.seed = eye.seed;
     how.caustics.threads = eye.threads;
-    const PhotonMapsT<float> maps = make_photon_maps(stage, how);
-    return maps_alone(eye, stage, caustic_camera(), {maps.caustics}, {.radius = 0.03f});
+    const PhotonMapper mapper(world, how, abilities<Budgeting>);
+    return maps_alone(eye, world, caustic_camera(), {mapper.maps().caustics},
+                      {.radius = 0.03f});
 }
 
 /// Sixteen passes, each with photons of its own and a smaller radius.
 Image sixteen_passes(const Eye& eye) {
-    const Stage stage = glass_stage(false);
+    const auto world = glass_stage(false);
     ProgressiveState state;
     (void)run_progressive(
         state, 16,
         [&](long long pass, double shrink) {
             const PhotonMap map = traced(
-                eye, stage, MapType::caustics,
+                eye, world, MapType::caustics,
                 {.photons = photons_for(eye, 0.25), .iteration = std::uint64_t(pass)});
             const DensityEstimateSettings gather{.radius = 0.12f * float(shrink)};
             return RenderedT<float>{maps_alone({eye.size, 1, eye.seed, eye.threads},
-                                               stage, caustic_camera(), {map}, gather)};
+                                               world, caustic_camera(), {map}, gather)};
         },
         [](const ProgressiveState&) { return true; });
     return mean_image(state);
@@ -820,14 +831,13 @@ Image sixteen_passes(const Eye& eye) {
 /// with what is broken here there is none.
 Image box_by_radiosity(const Eye& eye) {
     const auto room = matt_cornell_box();
-    const Patches patches = make_patches(room.scene, {.size = 0.25});
+    const Patches patches = make_patches(room.world, {.size = 0.25});
     const auto factors =
-        make_form_factors(room.scene, patches, {.threads = eye.threads});
+        make_form_factors(room.world, patches, {.threads = eye.threads});
     std::vector<RgbT<double>> sent;
     for (const Patch& patch : patches.patches) sent.push_back(patch.emitted);
-    const auto map = make_light_map(room.scene, patches, *factors, sent);
-    return render(make_light_map_view(room.scene, map), room.camera, eye.settings(0.1))
-        .image;
+    const auto map = make_light_map(room.world, patches, *factors, sent);
+    return render(LightMapView(room.world, map), room.camera, eye.settings(0.1)).image;
 }
 
 } // namespace

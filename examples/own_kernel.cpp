@@ -10,13 +10,13 @@
 /// own_kernel.png.
 int main() {
     using namespace ljus;
-    Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Glass>> scene;
+    Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Glass>, Lights<PointLight>> scene;
     const Lambertian white{.albedo = Rgb{0.7f}};
     scene.add(Quad{{-6, 0, 6}, {12, 0, 0}, {0, 0, -12}}, scene.add(white));
     scene.add(Sphere{{0, 1.2f, 0}, 1}, scene.add(Glass{.index = 1.5f}));
     scene.add(PointLight{.position{-3, 5, 0}, .intensity = Rgb{18}});
-    const auto maps = make_photon_maps(scene, {.caustics{.photons = 100000}});
-    const auto indexed = index_scene(scene); // what its rays ask
+    const World world(std::move(scene));
+    const PhotonMapper mapper(world, {.caustics{.photons = 100000}});
     const DensityEstimateOf<reader::Hann> gather{.radius = 0.12f};
     check(gather); // refuses a kernel that makes or loses light
 
@@ -27,12 +27,13 @@ int main() {
         for (int x = 0; x < image.width; ++x) {
             const Ray ray =
                 primary_ray(camera, {float(x), float(y)}, image.width, image.height);
-            const auto hit = closest_hit(indexed, ray);
+            const auto hit = closest_hit(world, ray);
             if (!hit) continue;
-            const VertexT<float> vertex = vertex_at(indexed, ray, *hit);
+            const VertexT<float> vertex = vertex_at(world, ray, *hit);
             std::uint64_t found = 0;
-            pixel(image, x, y) = estimate_radiance(maps.caustics, vertex, white,
-                                                   vertex.wo, gather, all_kinds, found);
+            pixel(image, x, y) =
+                estimate_radiance(mapper.maps().caustics, vertex, white, vertex.wo,
+                                  gather, all_kinds, found);
         }
     // [own kernel]
     save_png(image, "own_kernel.png");

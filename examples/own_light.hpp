@@ -1,43 +1,59 @@
 /// \file own_light.hpp
-/// \brief A light of the reader's own: a torch, as a shop describes it.
+/// \brief A light of the reader's own: a stage lamp, brightest along its axis.
 #pragma once
-#include <cmath>
-#include <numbers>
-
-#include "ljus/scene/make_light.hpp"
+#include "ljus/lights/light.hpp"
 
 /// What a reader has written.
 namespace reader {
+using ljus::Rgb, ljus::Vec2, ljus::Vec3;
+constexpr float two_pi = 2 * std::numbers::pi_v<float>; ///< A hemisphere, in sr.
 
-/// A lamp that lights a round patch evenly.
-struct Torch {
-    ljus::Vec3 position{0};      ///< In scene units.
-    ljus::Vec3 target{0, 0, -1}; ///< What it points at.
-    float watts = 10;            ///< Of light, in all directions together.
-    float beam_degrees = 40;     ///< From one edge of the patch to the other.
+/// A lamp without a size: at an angle from its axis it has I cos^n of that angle.
+struct StageLamp {
+    using Scalar = float; ///< The precision.
+    Vec3 position{0};     ///< In scene units.
+    Vec3 axis{0, -1, 0};  ///< Unit; where it shines to.
+    Rgb intensity{1};     ///< I, along the axis, W/sr.
+    float exponent = 20;  ///< n: the larger, the narrower its beam.
 };
-
-/// Refuses a torch that no picture can be made with.
-inline void check(const Torch& torch) {
-    ljus::require_positive("torch.watts", torch.watts);
-    ljus::require(torch.beam_degrees > 0 && torch.beam_degrees < 180,
-                  "torch.beam_degrees", torch.beam_degrees, "within (0, 180)");
+/// Refuses a lamp that no picture can be made with.
+inline void check(const StageLamp& lamp) {
+    ljus::require_finite("stage lamp.position", lamp.position);
+    ljus::require(std::abs(glm::length(lamp.axis) - 1) < 1e-4f, "stage lamp.axis",
+                  lamp.axis, "of length 1");
+    ljus::require_radiance("stage lamp.intensity", lamp.intensity);
+    ljus::require(lamp.exponent >= 0 && lamp.exponent <= 1000, "stage lamp.exponent",
+                  lamp.exponent, "within [0, 1000]");
 }
-
-// [make_light]
-/// A spot light of a known kind: its watts over the solid angle 2 pi (1 - cos) of the
-/// beam are its intensity.
-inline ljus::Light make_light(const Torch& torch) {
-    const float half = torch.beam_degrees / 2;
-    const float sine = std::sin(half * std::numbers::pi_v<float> / 360);
-    const float solid_angle = 4 * std::numbers::pi_v<float> * sine * sine;
-    return ljus::make_light(
-        ljus::SpotLight{.position = torch.position,
-                        .direction = torch.target - torch.position,
-                        .intensity = ljus::Rgb{torch.watts / solid_angle},
-                        .inner_degrees = half,
-                        .outer_degrees = half});
+// [fall-off]
+/// The intensity over the hemisphere, 2 pi I / (n + 1).
+inline Rgb power(const StageLamp& lamp) {
+    return two_pi / (lamp.exponent + 1) * lamp.intensity;
 }
-// [make_light]
-
+/// The share of that which goes in a direction, per steradian.
+inline float pdf_emission(const StageLamp& lamp, const Vec3&, const Vec3& wo) {
+    const float cosine = glm::dot(wo, lamp.axis);
+    if (!(cosine > 0)) return 0; // behind it, or NaN
+    return (lamp.exponent + 1) / two_pi * std::pow(cosine, lamp.exponent);
+}
+/// What arrives at a point along a shadow ray: intensity / distance^2.
+inline std::optional<ljus::LightSampleT<float>>
+sample_light(const StageLamp& lamp, const Vec3& from, const Vec2&, float) {
+    const Vec3 way = lamp.position - from, wi = glm::normalize(way);
+    const Rgb sent = pdf_emission(lamp, lamp.position, -wi) * power(lamp);
+    if (ljus::is_black(sent)) return std::nullopt;
+    return {{{.position = lamp.position, .normal = -wi}, wi, sent / dot(way, way)}};
+}
+// [fall-off]
+/// Where a photon starts.
+inline Vec3 emission_point(const StageLamp& lamp, const Vec2&, float) {
+    return lamp.position;
+}
+/// Where it goes: cos^(n + 1) of the angle is uniform.
+inline Vec3 sample_emission(const StageLamp& lamp, const Vec3&, const Vec2& u) {
+    const float z = std::pow(1 - u.x, 1 / (lamp.exponent + 1));
+    const float r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = two_pi * u.y;
+    return to_world(ljus::frame_around(lamp.axis),
+                    Vec3{r * std::cos(phi), r * std::sin(phi), z});
+}
 } // namespace reader

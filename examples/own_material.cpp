@@ -20,7 +20,8 @@ int main() {
     }
     scene.add(Sphere{{0, 7, 6}, 1}, grey, Rgb{50});
     const Camera camera = look_at({.position{0, 1.8f, 6.5f}, .target{0, 0.9f, 0}});
-    const auto picture = render(make_path_tracer(scene), camera,
-                                {.width = 360, .height = 200, .samples = 64});
+    const World world(std::move(scene));
+    const auto picture =
+        render(PathTracer(world), camera, {.width = 360, .height = 200, .samples = 64});
     save_png(picture.image, "own_material.png");
 }

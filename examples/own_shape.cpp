@@ -19,8 +19,8 @@ int main() {
     scene.add(Sphere{{3, 5, 2}, 0.6f}, grey, Rgb{95});
     const Camera camera =
         look_at({.position{0.6f, 2.8f, 5.5f}, .target{-0.2f, 0.6f, 0}});
-    const auto maps = make_photon_maps(scene);
-    const auto mapper = make_photon_mapper(scene, maps);
+    const World world(std::move(scene));
+    const PhotonMapper mapper(world);
     save_png(render(mapper, camera, {.width = 320, .height = 240, .samples = 49}).image,
              "own_shape.png");
 }

@@ -37,7 +37,10 @@
 #include "ljus/io/load_json.hpp"
 #include "ljus/math/stratified_stream.hpp"
 #include "ljus/render/adaptive.hpp"
-#include "ljus/render/photon_mapping.hpp"
+#include "ljus/render/budgeting.hpp"
+#include "ljus/render/gathering.hpp"
+#include "ljus/render/skipping.hpp"
+#include "ljus/scenes/room.hpp"
 #ifdef LJUS_HAS_TINYOBJLOADER
 #include "ljus/io/load_obj.hpp"
 #endif
@@ -54,24 +57,27 @@ struct Stoppable {
     const Renderer& renderer;
 };
 
-/// The same for a renderer that asks some of its questions later, together.
-template <detail::AsksLater Renderer>
-struct Stoppable<Renderer> {
-    using Stream = typename Renderer::Stream;
-    struct Later : Renderer::Later {
-        void finish(const Stoppable& stoppable, Counts& counts, auto samples) {
-            Renderer::Later::finish(stoppable.renderer, counts, samples);
-        }
-    };
-    const Renderer& renderer;
+/// The same for a photon mapper, whose batches ask its maps.
+template <AnyWorld W, typename... X>
+struct Stoppable<PhotonMapper<W, X...>> {
+    using Stream = typename PhotonMapper<W, X...>::Stream;
+    using Batch = typename PhotonMapper<W, X...>::Batch;
+    const PhotonMapper<W, X...>& renderer;
+
+    const auto& maps() const { return renderer.maps(); }
+    const auto& settings() const { return renderer.settings(); }
 };
 
-template <typename Renderer, std::floating_point T, typename Log>
+template <typename Renderer, std::floating_point T, typename Context>
 RgbT<T> radiance(const Stoppable<Renderer>& stoppable, const RayT<T>& ray,
-                 typename Renderer::Stream& stream, Counts& counts, Log&& log) {
+                 Context& context) {
     examples::stop_if_asked();
-    return radiance(stoppable.renderer, ray, stream, counts, log);
+    return radiance(stoppable.renderer, ray, context);
 }
+
+/// What the options of this program may ask of a photon mapper.
+constexpr auto all_abilities =
+    abilities<StratifiedStream, Gathering, Skipping, Budgeting>;
 
 /// What the user asked for, besides what all programs share.
 struct Request {
@@ -397,44 +403,40 @@ void print_map(const char* name, const PhotonMapT<T>& map, long long emitted) {
 }
 
 /// All that is made before the picture: photon maps, and what is gathered from them.
-template <std::floating_point T>
-PhotonMapsT<T> first_passes(const LoadedSceneT<T>& loaded, RenderSettings picture,
-                            PhotonMappingSettings settings, bool quiet) {
-    const Plan plan = survey(loaded.scene, settings);
+/// \return The photon mapper that has them.
+template <typename S>
+auto first_passes(const Room<S>& room, RenderSettings picture,
+                  PhotonMappingSettings settings, bool quiet) {
     const examples::StopWatch watch;
     examples::ProgressBar caustics("caustics photons", quiet);
     examples::ProgressBar general("general photons", quiet);
     settings.caustics.progress = caustics;
     settings.general.progress = general;
-    auto maps = make_photon_maps(loaded.scene, settings);
+    PhotonMapper mapper(room.world, settings, all_abilities);
     examples::stop_if_asked();
+    const auto& maps = mapper.maps();
+    const Passes& passes = mapper.passes();
     if (!maps.remarks.empty()) std::fputs(maps.remarks.c_str(), stderr);
-    if (!quiet && (plan.caustics_map.on || plan.general_map.on)) {
+    if (!quiet && (passes.caustics_map || passes.general_map)) {
         std::printf("  %-16s %8.2f s\n", "photons", watch.seconds());
-        if (plan.caustics_map.on)
+        if (passes.caustics_map)
             print_map("caustics map", maps.caustics, settings.caustics.photons);
-        if (plan.general_map.on)
+        if (passes.general_map)
             print_map("general map", maps.general, settings.general.photons);
     }
-    if (!plan.cache.on) return maps;
+    if (!passes.cache) return mapper;
 
     const examples::StopWatch cache_watch;
     examples::ProgressBar gathering("irradiance cache", quiet);
     picture.progress = gathering;
-    add_irradiance_cache(maps, loaded.scene, loaded.camera, picture, settings);
+    mapper.fill_cache(room.camera, picture);
     examples::stop_if_asked();
+    const auto& cache = mapper.template state<Gathering>().cache;
     if (!quiet)
         std::printf("  %-16s %8.2f s  %zu points, %" PRIu64 " gather rays\n",
-                    "irradiance cache", cache_watch.seconds(),
-                    maps.cache.records.size(), maps.cache.counts.bounce_rays);
-    return maps;
-}
-
-/// Finds the shares of a budget, once, so that they can be told.
-template <SceneLike S>
-void choose_shares(const S& scene, PhotonMappingSettings& settings) {
-    if (survey(scene, settings).caustics_map.on)
-        settings.caustics.shares = caustic_shares(scene, settings);
+                    "irradiance cache", cache_watch.seconds(), cache.records.size(),
+                    cache.counts.bounce_rays);
+    return mapper;
 }
 
 /// What was chosen for the caustics, for the terminal.
@@ -448,20 +450,20 @@ void print_caustics(const PhotonMappingSettings& settings) {
 }
 
 /// A picture in passes, each with photons of its own; see \ref progressive.
-template <std::floating_point T>
-RenderedT<T> render_passes(const LoadedSceneT<T>& loaded, RenderSettings picture,
-                           const Request& request, PhotonMappingSettings& settings,
-                           bool quiet) {
-    const auto scene = index_scene(loaded.scene);
+template <typename S>
+RenderedT<typename S::Scalar>
+render_passes(const Room<S>& room, RenderSettings picture, const Request& request,
+              PhotonMappingSettings& settings, bool quiet) {
+    using T = typename S::Scalar;
     auto stopped = [](long long, long long) { return examples::stop_signal() == 0; };
     picture.progress = settings.caustics.progress = settings.general.progress = stopped;
     const examples::StopWatch watch;
-    settings = settings_for_passes(scene, settings);
+    settings = settings_for_passes(room.world, settings, all_abilities);
     examples::stop_if_asked();
     RenderedT<T> rendered;
     const auto pass = [&](long long i, double scale) {
-        auto one = photon_mapping_pass<StratifiedStream>(scene, loaded.camera, settings,
-                                                         picture, i, scale);
+        auto one = photon_mapping_pass(room.world, room.camera, settings, picture, i,
+                                       scale, all_abilities);
         rendered.counts += one.counts;
         return one;
     };
@@ -469,18 +471,19 @@ RenderedT<T> render_passes(const LoadedSceneT<T>& loaded, RenderSettings picture
     rendered.image = mean_image<T>(state);
     if (quiet) return rendered;
     print(rendered.counts, watch.seconds());
-    if (survey(loaded.scene, settings).caustics_map.on) print_caustics(settings);
+    if (survey(room.world, settings).caustics_map.on) print_caustics(settings);
     std::printf("  %-16s %10s  ", "passes", "");
     examples::print_passes(state);
     return rendered;
 }
 
 /// A picture for some seconds, or with some error: settings and samples are chosen.
-template <std::floating_point T>
-RenderedT<T> render_promised(const LoadedSceneT<T>& loaded, RenderSettings& picture,
-                             Request& request, PhotonMappingSettings& settings,
-                             const examples::StopWatch& watch, bool quiet) {
-    const auto scene = index_scene(loaded.scene);
+template <typename S>
+RenderedT<typename S::Scalar>
+render_promised(const Room<S>& room, RenderSettings& picture, Request& request,
+                PhotonMappingSettings& settings, const examples::StopWatch& watch,
+                bool quiet) {
+    using T = typename S::Scalar;
     const auto& promise = request.promise;
     const auto tell = [&](const examples::Kept<T>& kept) {
         const auto all = examples::recipes(picture.width, picture.height);
@@ -490,8 +493,8 @@ RenderedT<T> render_promised(const LoadedSceneT<T>& loaded, RenderSettings& pict
         request.kept["why"] = why;
     };
     auto kept = keep(
-        scene, loaded.camera, picture, promise, [&] { return watch.seconds(); }, quiet,
-        tell);
+        room.world, room.camera, picture, promise, [&] { return watch.seconds(); },
+        quiet, tell);
     settings = kept.recipe.settings;
     picture.samples = kept.recipe.rays;
     request.more_rays = 0;
@@ -514,25 +517,24 @@ RenderedT<T> render_promised(const LoadedSceneT<T>& loaded, RenderSettings& pict
     return kept.rendered;
 }
 
-template <std::floating_point T>
-RenderedT<T> render_scene(const LoadedSceneT<T>& loaded, const RenderSettings& picture,
-                          const Request& request, PhotonMappingSettings& settings,
-                          bool quiet) {
+template <typename S>
+RenderedT<typename S::Scalar>
+render_room(const Room<S>& room, const RenderSettings& picture, const Request& request,
+            PhotonMappingSettings& settings, bool quiet) {
     if (request.renderer == "path") {
-        const std::string digits = detail::digits_remark(loaded.scene);
-        if (!digits.empty()) std::fprintf(stderr, "%s\n", digits.c_str());
-        const auto tracer = make_path_tracer(loaded.scene, path_settings(request));
-        return run(tracer, loaded.camera, picture, request, quiet);
+        // Its paths meet narrow lobes by themselves, as by DirectLight::mis.
+        for (const auto& remark :
+             scene_remarks(room.world, {.direct = DirectLight::mis}))
+            std::fprintf(stderr, "%s\n", remark.c_str());
+        const PathTracer tracer(room.world, path_settings(request));
+        return run(tracer, room.camera, picture, request, quiet);
     }
     if (request.passes.passes > 0)
-        return render_passes(loaded, picture, request, settings, quiet);
-    choose_shares(loaded.scene, settings);
-    const auto maps = first_passes(loaded, picture, settings, quiet);
-    const auto mapper =
-        make_photon_mapper<StratifiedStream>(loaded.scene, maps, settings);
-    settings = mapper.settings; // with the radii that were chosen
-    if (!quiet && !maps.caustics.empty()) print_caustics(settings);
-    return run(mapper, loaded.camera, picture, request, quiet);
+        return render_passes(room, picture, request, settings, quiet);
+    const auto mapper = first_passes(room, picture, settings, quiet);
+    settings = mapper.settings(); // with the radii and the shares that were chosen
+    if (!quiet && !mapper.maps().caustics.empty()) print_caustics(settings);
+    return run(mapper, room.camera, picture, request, quiet);
 }
 
 /// All settings of a picture, for the file beside it.
@@ -590,13 +592,13 @@ constexpr PhotonKind kinds[] = {PhotonKind::direct, PhotonKind::indirect,
                                 PhotonKind::shadow, PhotonKind::caustic};
 
 /// A drawing of the scene, and on it the photons of one kind, or of all.
-template <std::floating_point T>
-ImageT<T> draw_photons(const LoadedSceneT<T>& loaded, const RenderSettings& picture,
-                       const Request& request, const PhotonMappingSettings& settings,
-                       const examples::Options& options) {
-    const auto scene = index_scene(loaded.scene);
-    ImageT<T> image =
-        scene_drawing(scene, loaded.camera, picture.width, picture.height);
+template <typename S>
+ImageT<typename S::Scalar>
+draw_photons(const Room<S>& room, const RenderSettings& picture, const Request& request,
+             const PhotonMappingSettings& settings, const examples::Options& options) {
+    using T = typename S::Scalar;
+    const auto& [world, camera] = room;
+    ImageT<T> image = scene_drawing(world, camera, picture.width, picture.height);
     for (const MapType law : {MapType::general, MapType::caustics}) {
         const bool caustics = law == MapType::caustics;
         if (request.photons != "all" && (request.photons == "caustic") != caustics)
@@ -605,7 +607,7 @@ ImageT<T> draw_photons(const LoadedSceneT<T>& loaded, const RenderSettings& pict
                                   options.quiet);
         PhotonPassSettings pass = caustics ? settings.caustics : settings.general;
         pass.progress = bar;
-        const auto traced = trace_photons(scene, law, pass);
+        const auto traced = trace_photons(world, law, pass);
         examples::stop_if_asked();
         const PhotonCensus found = census(traced.photons);
         for (const PhotonKind kind : kinds) {
@@ -615,7 +617,7 @@ ImageT<T> draw_photons(const LoadedSceneT<T>& loaded, const RenderSettings& pict
                 return photon.kind == kind ? dot_color(photon) : RgbT<T>{0};
             };
             const long long seen =
-                add_photon_dots(image, scene, loaded.camera, traced.photons, {}, color);
+                add_photon_dots(image, world, camera, traced.photons, {}, color);
             const RgbT<double>& flux = found[kind].flux;
             if (!options.quiet)
                 std::printf("  %-16s %10" PRIu64
@@ -690,16 +692,15 @@ std::string path_of(const Request& request, const examples::Options& options) {
 }
 
 /// Prints what is about to be rendered.
+/// \param name  Of the scene; empty if it has none.
 /// \param rays  How many, in words, or nothing.
-template <std::floating_point T>
-void print_heading(const LoadedSceneT<T>& loaded, const Request& request,
+template <AnyWorld W>
+void print_heading(const W& world, std::string name, const Request& request,
                    const RenderSettings& picture, const std::string& rays) {
-    const std::string name = loaded.name.empty()
-                                 ? std::filesystem::path(request.scene).stem().string()
-                                 : loaded.name;
+    if (name.empty()) name = std::filesystem::path(request.scene).stem().string();
     std::printf("%s: %zu objects, %zu lights; %d x %d, %s%s\n", name.c_str(),
-                loaded.scene.size(), loaded.scene.lights.size(), picture.width,
-                picture.height, rays.c_str(),
+                world.size(), world.light_count(), picture.width, picture.height,
+                rays.c_str(),
                 !request.photons.empty()     ? "not rendered: photons as dots"
                 : request.renderer == "path" ? "path tracing"
                                              : "photon mapping");
@@ -723,8 +724,9 @@ void save_result(const std::string& path, const Request& request,
 template <std::floating_point T>
 void run_request(const examples::CommandLine& line, Request request,
                  const examples::Options& options) {
-    const auto loaded = load_scene<T>(request, options.quiet);
+    auto loaded = load_scene<T>(request, options.quiet);
     RenderSettings picture = picture_of(loaded, request, line, options);
+    const Room room{World(std::move(loaded.scene)), loaded.camera};
     const bool promised = promises(request, line);
     set_samples(request, line, picture);
     set_passes(request, line, picture);
@@ -739,30 +741,29 @@ void run_request(const examples::CommandLine& line, Request request,
     }
 
     if (!options.quiet || request.plan)
-        print_heading(loaded, request, picture,
+        print_heading(room.world, loaded.name, request, picture,
                       promised ? ""
                                : std::to_string(picture.samples) + " rays per pixel, ");
     if (request.plan) {
         if (request.renderer == "photon")
-            std::fputs((to_text(survey(loaded.scene, settings)) +
-                        passes_line(request, settings))
-                           .c_str(),
-                       stdout);
+            std::fputs(
+                (to_text(survey(room.world, settings)) + passes_line(request, settings))
+                    .c_str(),
+                stdout);
         return;
     }
 
     if (!request.photons.empty()) {
-        examples::save_picture(
-            draw_photons(loaded, picture, request, settings, options), path,
-            request.exposure);
+        examples::save_picture(draw_photons(room, picture, request, settings, options),
+                               path, request.exposure);
         if (!options.quiet) std::printf("  %s\n", path.c_str());
         return;
     }
     const examples::StopWatch watch;
     const RenderedT<T> rendered =
         promised
-            ? render_promised(loaded, picture, request, settings, watch, options.quiet)
-            : render_scene(loaded, picture, request, settings, options.quiet);
+            ? render_promised(room, picture, request, settings, watch, options.quiet)
+            : render_room(room, picture, request, settings, options.quiet);
     if (rendered.image.pixels.empty() && request.part.count == 0) return;
     const double seconds = watch.seconds();
     save_result(path, request, picture, settings, rendered, seconds);

@@ -31,10 +31,9 @@ struct Halves {
 };
 
 /// Uniform noise of the standard deviation that the direction's side has.
-template <typename Log>
-Rgb radiance(const Halves& halves, const Ray& ray, RandomStream& stream, Counts&,
-             Log&&) {
-    const float noise = std::sqrt(3.0f) * (2 * next_1d(stream) - 1);
+template <typename Context>
+Rgb radiance(const Halves& halves, const Ray& ray, Context& context) {
+    const float noise = std::sqrt(3.0f) * (2 * next_1d(context.stream) - 1);
     const float sigma = ray.direction.x < 0 ? halves.left : halves.right;
     return Rgb{halves.mean + sigma * noise};
 }
@@ -44,18 +43,19 @@ struct Spot {
     using Stream = RandomStream;
     float chance = 0.1f; ///< Of a ray.
 };
-template <typename Log>
-Rgb radiance(const Spot& spot, const Ray&, RandomStream& stream, Counts&, Log&&) {
-    return Rgb{next_1d(stream) < spot.chance ? 1.0f : 0.0f};
+template <typename Context>
+Rgb radiance(const Spot& spot, const Ray&, Context& context) {
+    return Rgb{next_1d(context.stream) < spot.chance ? 1.0f : 0.0f};
 }
 
 /// NaN for one ray in four.
 struct Broken {
     using Stream = RandomStream;
 };
-template <typename Log>
-Rgb radiance(const Broken&, const Ray&, RandomStream& stream, Counts&, Log&&) {
-    return Rgb{next_1d(stream) < 0.25f ? std::numeric_limits<float>::quiet_NaN() : 1};
+template <typename Context>
+Rgb radiance(const Broken&, const Ray&, Context& context) {
+    return Rgb{next_1d(context.stream) < 0.25f ? std::numeric_limits<float>::quiet_NaN()
+                                               : 1};
 }
 
 bool same_bytes(const Image& a, const Image& b) {
@@ -100,7 +100,7 @@ TEST_CASE("adaptive: the blocks of a picture hold each of its pixels once") {
                 pixels += block.pixels();
                 for (int y = block.y; y < block.bottom; ++y)
                     for (int x = block.x; x < block.right; ++x)
-                        ++held[detail::place_of(width, x, y)];
+                        ++held[detail::pixel_index(width, x, y)];
             }
             CHECK(pixels == width * height);
             for (const int count : held) CHECK(count == 1);
@@ -139,9 +139,9 @@ TEST_CASE("adaptive: rays are shared out by the root of the variance") {
 }
 
 TEST_CASE("adaptive: with nothing more to give it is render(), byte by byte") {
-    const ljus_test::Room room =
+    const ljus_test::ClosedRoom room =
         ljus_test::make_room<float>(ljus_test::Ball::glass, ljus_test::Lamp::quad, 1);
-    const auto tracer = make_path_tracer(room);
+    const PathTracer tracer(room);
     const Camera camera;
     for (const Sampling sampling : {Sampling::random, Sampling::multi_jittered}) {
         RenderSettings picture = square(13, 6, 5);
@@ -158,9 +158,9 @@ TEST_CASE("adaptive: with nothing more to give it is render(), byte by byte") {
 }
 
 TEST_CASE("adaptive: the same bytes for any number of threads") {
-    const ljus_test::Room room =
+    const ljus_test::ClosedRoom room =
         ljus_test::make_room<float>(ljus_test::Ball::glass, ljus_test::Lamp::quad, 1);
-    const auto tracer = make_path_tracer(room);
+    const PathTracer tracer(room);
     for (const bool two_stage : {false, true}) {
         const AdaptiveSettings rule{
             .first = 4, .more = 4, .block = 3, .target = 0.05, .two_stage = two_stage};
@@ -413,7 +413,7 @@ TEST_CASE("adaptive: a sample counts with its weight, squared in the squares") {
     detail::SampleSums<Plain, float> samples(renderer, sums, cost);
     for (const auto& [weight, light] : {std::pair{2.0f, 3.0f}, {-0.5f, 8.0f}})
         samples.add(1, [&, w = weight, x = light](auto&) {
-            return detail::PixelSampleT<float>{{x, 2 * x, 0}, w};
+            return PixelSampleT<float>{{x, 2 * x, 0}, w};
         });
     samples.finish();
     CHECK(sums[0].sum == RgbT<double>{0, 0, 0});

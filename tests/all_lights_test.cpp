@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "ljus/geometry/moving.hpp"
+#include "ljus/lights/point_light.hpp"
 #include "ljus/materials/glossy.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
@@ -23,17 +24,17 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// The vertex straight below a point.
-template <typename S>
-Vertex below(const S& scene, const Vec3& from) {
+template <AnyWorld W>
+Vertex below(const W& world, const Vec3& from) {
     const Ray ray{.origin = from, .direction{0, -1, 0}};
-    const auto hit = closest_hit(scene, ray);
+    const auto hit = closest_hit(world, ray);
     REQUIRE(hit);
-    return vertex_at(scene, ray, *hit);
+    return vertex_at(world, ray, *hit);
 }
 
 /// The direct light of a vertex, over many samples.
-template <typename S, typename M>
-Mean direct(const S& scene, const Vertex& vertex, const M& material, DirectLight how,
+template <AnyWorld W, typename M>
+Mean direct(const W& world, const Vertex& vertex, const M& material, DirectLight how,
             int rays, int samples, std::uint64_t seed = 1) {
     Mean mean;
     Counts counts;
@@ -41,14 +42,14 @@ Mean direct(const S& scene, const Vertex& vertex, const M& material, DirectLight
         auto stream =
             random_stream(ljus_test::test_seed(seed), Pass::user, 0, std::uint64_t(i));
         start_bounce(stream, 1);
-        mean.add(double(detail::sample_all_lights(scene, vertex, material, how, rays,
-                                                  stream, counts)
-                            .x));
+        auto context = context_of(stream, counts);
+        mean.add(
+            double(sample_all_lights(world, vertex, material, {how, rays}, context).x));
     }
     return mean;
 }
 
-using Lit = Scene<Shapes<Quad, Sphere>, Materials<Lambertian>>;
+using Lit = Scene<Shapes<Quad, Sphere>, Materials<Lambertian>, Lights<PointLight>>;
 
 /// A floor, a square lamp of side 1 at height 1 and, if asked for, a half plane at
 /// height 0.5 that hides what lies to the left.
@@ -84,17 +85,17 @@ double strip(double x, double x0, double x1) {
 } // namespace
 
 TEST_CASE("all lights: the closed form has no noise where all of a lamp is seen") {
-    const Lit scene = lit_floor(false);
+    const World world(lit_floor(false));
     const Lambertian white{.albedo = Rgb{0.5f}};
     for (const float x : {0.0f, 0.4f, 3.0f}) {
-        const Vertex at = below(scene, {x, 0.1f, 0});
+        const Vertex at = below(world, {x, 0.1f, 0});
         const double right = 0.5 * 3 * strip(double(x), -0.5, 0.5);
-        const Mean seen = direct(scene, at, white, DirectLight::analytic, 1, 50);
+        const Mean seen = direct(world, at, white, DirectLight::analytic, 1, 50);
         CAPTURE(x);
         CHECK(seen.mean == doctest::Approx(right).epsilon(1e-4));
         CHECK(seen.error() < 1e-6 * right);
         // By shadow rays alone there is noise, and the same mean: 4 standard errors.
-        const Mean rays = direct(scene, at, white, DirectLight::sampled, 1, 20000);
+        const Mean rays = direct(world, at, white, DirectLight::sampled, 1, 20000);
         CHECK(std::abs(rays.mean - right) < 4 * rays.error() + 1e-4 * right);
         if (x < 3) CHECK(rays.error() > 1e-4 * right);
     }
@@ -104,22 +105,22 @@ TEST_CASE("all lights: in a penumbra the three ways have one mean") {
     // The screen hides, from x, the part of the lamp left of -x. Of 9 comparisons by 4
     // standard errors, one in 1800 runs would fail were the seeds new. The quotient's
     // bias is of the order of the variance over the rays: below 1 % with 16 of them.
-    const Lit scene = lit_floor(true);
+    const World world(lit_floor(true));
     const Lambertian white{.albedo = Rgb{0.5f}};
     for (const float x : {0.1f, 0.2f, 0.35f}) {
-        const Vertex at = below(scene, {x, 0.1f, 0});
+        const Vertex at = below(world, {x, 0.1f, 0});
         const double right = 0.5 * 3 * strip(double(x), double(-x), 0.5);
         CAPTURE(x);
         for (const DirectLight how :
              {DirectLight::sampled, DirectLight::analytic, DirectLight::mis}) {
-            const Mean seen = direct(scene, at, white, how, 16, 4000);
+            const Mean seen = direct(world, at, white, how, 16, 4000);
             CAPTURE(int(how));
             CHECK(std::abs(seen.mean - right) < 4 * seen.error() + 0.01 * right);
         }
     }
     // Where the whole lamp is hidden it is black, exactly.
     const Mean dark =
-        direct(scene, below(scene, {-3, 0.1f, 0}), white, DirectLight::analytic, 4, 20);
+        direct(world, below(world, {-3, 0.1f, 0}), white, DirectLight::analytic, 4, 20);
     CHECK(dark.mean == 0);
     CHECK(dark.error() == 0);
 }
@@ -129,22 +130,22 @@ TEST_CASE("all lights: multiple importance sampling tames lamps that are walls")
     const auto room = box_furnace(Rgb{2}, Rgb{0.5f});
     const Lambertian wall{.albedo = Rgb{0.5f}};
     for (const float x : {0.0f, 0.9f, 0.99f}) {
-        const Vertex at = below(room.scene, {x, -0.9f, 0.95f});
+        const Vertex at = below(room.world, {x, -0.9f, 0.95f});
         CAPTURE(x);
-        const Mean both = direct(room.scene, at, wall, DirectLight::mis, 1, 20000);
+        const Mean both = direct(room.world, at, wall, DirectLight::mis, 1, 20000);
         CHECK(std::abs(apart(both, 1, 1e-5)) < 4);
-        const Mean rays = direct(room.scene, at, wall, DirectLight::sampled, 1, 20000);
+        const Mean rays = direct(room.world, at, wall, DirectLight::sampled, 1, 20000);
         CHECK(both.error() < 0.7 * rays.error());
-        const Mean form = direct(room.scene, at, wall, DirectLight::analytic, 1, 20);
+        const Mean form = direct(room.world, at, wall, DirectLight::analytic, 1, 20);
         CHECK(form.mean == doctest::Approx(1).epsilon(1e-5));
         CHECK(form.error() < 1e-6);
     }
     const auto ball = sphere_furnace(Rgb{2}, Rgb{0.5f});
-    const Vertex at = below(ball.scene, {0.1f, -0.9f, 0});
-    const Mean both = direct(ball.scene, at, wall, DirectLight::mis, 1, 20000);
+    const Vertex at = below(ball.world, {0.1f, -0.9f, 0});
+    const Mean both = direct(ball.world, at, wall, DirectLight::mis, 1, 20000);
     CHECK(std::abs(apart(both, 1, 1e-5)) < 4);
     // The horizon of a point inside cuts the sphere: no closed form, but shadow rays.
-    const Mean form = direct(ball.scene, at, wall, DirectLight::analytic, 1, 20000);
+    const Mean form = direct(ball.world, at, wall, DirectLight::analytic, 1, 20000);
     CHECK(std::abs(apart(form, 1, 1e-5)) < 4);
 }
 
@@ -178,7 +179,8 @@ TEST_CASE("all lights: in a fog and in colours, from both sides") {
                       inside_out);
             const RayT<double> ray{.origin{0.3, 0.1 * side, 0},
                                    .direction{0, -side, 0}};
-            auto vertex = vertex_at(scene, ray, *closest_hit(scene, ray));
+            const World world(std::move(scene));
+            auto vertex = vertex_at(world, ray, *closest_hit(world, ray));
             vertex.medium = fog;
             for (const DirectLight how : {DirectLight::sampled, DirectLight::mis})
                 for (const int rays : {1, 4}) {
@@ -188,8 +190,9 @@ TEST_CASE("all lights: in a fog and in colours, from both sides") {
                             random_stream(ljus_test::test_seed(3), Pass::user, 0, path);
                         start_bounce(stream, 1);
                         Counts counts;
-                        const D3 seen = detail::sample_all_lights(
-                            scene, vertex, matt, how, rays, stream, counts);
+                        auto context = context_of(stream, counts);
+                        const D3 seen = sample_all_lights(world, vertex, matt,
+                                                          {how, rays}, context);
                         for (int c = 0; c < 3; ++c) mean[c].add(seen[c]);
                         REQUIRE(counts.shadow_rays ==
                                 std::uint64_t(rays + (how == DirectLight::mis)));
@@ -204,8 +207,9 @@ TEST_CASE("all lights: in a fog and in colours, from both sides") {
             // that lie evenly: some parts in a thousand.
             auto stream = random_stream(ljus_test::test_seed(3), Pass::user, 0, 0);
             Counts counts;
-            const D3 seen = detail::sample_all_lights(
-                scene, vertex, matt, DirectLight::analytic, 64, stream, counts);
+            auto context = context_of(stream, counts);
+            const D3 seen = sample_all_lights(world, vertex, matt,
+                                              {DirectLight::analytic, 64}, context);
             CHECK(counts.shadow_rays == 64);
             for (int c = 0; c < 3; ++c)
                 CHECK(seen[c] == doctest::Approx(right[c]).epsilon(0.003));
@@ -214,8 +218,9 @@ TEST_CASE("all lights: in a fog and in colours, from both sides") {
             behind.point.position.y = 2 * side;
             behind.wo.z = -vertex.wo.z;
             Counts none;
-            CHECK(detail::sample_all_lights(scene, behind, matt, DirectLight::analytic,
-                                            4, stream, none) == D3{0});
+            auto nothing = context_of(stream, none);
+            CHECK(sample_all_lights(world, behind, matt, {DirectLight::analytic, 4},
+                                    nothing) == D3{0});
             CHECK(none.shadow_rays == 0);
         }
 }
@@ -226,13 +231,14 @@ TEST_CASE("all lights: a verdict for each light, by its number") {
     const Lambertian white{.albedo = Rgb{0.5f}};
     for (const float power : {1.0f, 10.0f, 100.0f})
         scene.add(PointLight{.position{9, 0.5f, 0}, .intensity = Rgb{power}});
-    const Vertex at = below(scene, {9, 0.1f, 3});
+    const World world(std::move(scene));
+    const Vertex at = below(world, {9, 0.1f, 3});
     const auto light_of = [&](const std::vector<Verdict>& known, int rays,
                               DirectLight how, Counts& counts) {
         auto stream = random_stream(ljus_test::test_seed(1), Pass::user, 0, 0);
-        return detail::sample_all_lights(
-            scene, at, white, how, rays, stream, counts,
-            [&](std::size_t number) { return known[number]; });
+        auto context = context_of(stream, counts);
+        return sample_all_lights(world, at, white, {how, rays}, context,
+                                 [&](std::size_t number) { return known[number]; });
     };
     const double each = 0.5 / pi * 0.5 / std::pow(9.25, 1.5); // of a power of 1
     const Verdict dark = Verdict::shadow, lit = Verdict::lit, ask = Verdict::unknown;
@@ -250,14 +256,15 @@ TEST_CASE("all lights: a verdict for each light, by its number") {
             CHECK(counts.shadow_rays == 0);
         }
     // What is said to be lit is not looked at, even behind a screen; what is not is.
-    Lit hidden = lit_floor(true);
+    const World hidden(lit_floor(true));
     const Vertex shaded = below(hidden, {-3, 0.1f, 0});
     for (const Verdict known : {lit, ask}) {
         auto stream = random_stream(ljus_test::test_seed(1), Pass::user, 0, 0);
         Counts counts;
-        const Rgb seen = detail::sample_all_lights(
-            hidden, shaded, white, DirectLight::analytic, 2, stream, counts,
-            [&](std::size_t) { return known; });
+        auto context = context_of(stream, counts);
+        const Rgb seen =
+            sample_all_lights(hidden, shaded, white, {DirectLight::analytic, 2},
+                              context, [&](std::size_t) { return known; });
         CHECK(double(seen.x) ==
               doctest::Approx(known == lit ? 0.5 * 3 * strip(-3, -0.5, 0.5) : 0)
                   .epsilon(1e-3));
@@ -265,27 +272,29 @@ TEST_CASE("all lights: a verdict for each light, by its number") {
 }
 
 TEST_CASE("all lights: who goes by which way, number by number") {
-    const Lit scene = lit_floor(false);
-    const Vertex at = below(scene, {0.2f, 0.1f, 0});
+    const World world(lit_floor(false));
+    const Vertex at = below(world, {0.2f, 0.1f, 0});
     const Lambertian white{.albedo = Rgb{0.5f}};
     const Glossy gloss{.reflectance = Rgb{0.9f}, .roughness = 0.3f};
     const auto once = [&](const auto& material, DirectLight how, const auto& of) {
         auto stream = random_stream(ljus_test::test_seed(4), Pass::user, 0, 7);
         Counts counts;
-        return detail::sample_all_lights(of, at, material, how, 3, stream, counts);
+        auto context = context_of(stream, counts);
+        return sample_all_lights(of, at, material, {how, 3}, context);
     };
     // A gloss has no closed form: both ways, as if that had been asked for.
-    CHECK(once(gloss, DirectLight::analytic, scene) ==
-          once(gloss, DirectLight::mis, scene));
-    CHECK(once(gloss, DirectLight::sampled, scene) !=
-          once(gloss, DirectLight::mis, scene));
-    CHECK(once(white, DirectLight::analytic, scene) !=
-          once(white, DirectLight::mis, scene));
+    CHECK(once(gloss, DirectLight::analytic, world) ==
+          once(gloss, DirectLight::mis, world));
+    CHECK(once(gloss, DirectLight::sampled, world) !=
+          once(gloss, DirectLight::mis, world));
+    CHECK(once(white, DirectLight::analytic, world) !=
+          once(white, DirectLight::mis, world));
     // No path meets a point light: its shadow rays have all of it.
-    Lit lamp;
-    lamp.add(Quad{.corner{-50, 0, -50}, .edge_u{0, 0, 100}, .edge_v{100, 0, 0}},
-             lamp.add(white));
-    lamp.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{7}});
+    Lit with_bulb;
+    with_bulb.add(Quad{.corner{-50, 0, -50}, .edge_u{0, 0, 100}, .edge_v{100, 0, 0}},
+                  with_bulb.add(white));
+    with_bulb.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{7}});
+    const World lamp(std::move(with_bulb));
     const double right = 0.5 / pi * 7 * 2 / std::pow(4.04, 1.5);
     for (const DirectLight how :
          {DirectLight::sampled, DirectLight::mis, DirectLight::analytic})
@@ -293,15 +302,17 @@ TEST_CASE("all lights: who goes by which way, number by number") {
     // A material without such a lobe sends no ray.
     auto stream = random_stream(ljus_test::test_seed(4), Pass::user, 0, 7);
     Counts counts;
-    CHECK(detail::found_light(scene, at, Mirror{}, 1, stream, counts) == Rgb{0});
+    auto context = context_of(stream, counts);
+    CHECK(detail::found_light(world, at, Mirror{}, 1, context) == Rgb{0});
     CHECK(counts.shadow_rays == 0);
     // No form factor of what has no surface, and none of a light behind the surface.
-    CHECK_FALSE(detail::form_factor_of(lamp, lamp.lights[0], at));
-    CHECK(*detail::form_factor_of(scene, scene.lights[0], at) ==
+    CHECK_FALSE(detail::seen_lamp(lamp, 0, at));
+    CHECK(detail::seen_lamp(world, 0, at)->radiance == Rgb{3});
+    CHECK(detail::seen_lamp(world, 0, at)->form_factor ==
           doctest::Approx(strip(0.2, -0.5, 0.5)).epsilon(1e-4));
     Vertex turned = at;
     turned.wo.z = -at.wo.z;
-    CHECK(*detail::form_factor_of(scene, scene.lights[0], turned) == 0);
+    CHECK(detail::seen_lamp(world, 0, turned)->form_factor == 0);
 }
 
 TEST_CASE("all lights: a lamp that moves, at the time of the path") {
@@ -315,7 +326,8 @@ TEST_CASE("all lights: a lamp that moves, at the time of the path") {
               floor);
     const Quad lamp{.corner{-0.5f, 1, -0.5f}, .edge_u{1, 0, 0}, .edge_v{0, 0, 1}};
     scene.add(Moving<Quad>{lamp, {4, 0, 0}}, black, Rgb{3});
-    Vertex at = below(scene, {1, 0.1f, 0});
+    const World world(std::move(scene));
+    Vertex at = below(world, {1, 0.1f, 0});
     for (const float time : {0.0f, 0.25f, 0.9f}) {
         at.time = time;
         const double x = double(4 * time);
@@ -323,18 +335,18 @@ TEST_CASE("all lights: a lamp that moves, at the time of the path") {
         CAPTURE(time);
         for (const DirectLight how :
              {DirectLight::sampled, DirectLight::analytic, DirectLight::mis}) {
-            const Mean seen = direct(scene, at, white, how, 4, 2000);
+            const Mean seen = direct(world, at, white, how, 4, 2000);
             CHECK(std::abs(apart(seen, right, 1e-4)) < 5);
         }
     }
 }
 
 TEST_CASE("all lights: a narrow gloss sees a lamp by its own ray") {
-    const Lit scene = lit_floor(false);
-    const Vertex at = below(scene, {0.3f, 0.1f, 0});
+    const World world(lit_floor(false));
+    const Vertex at = below(world, {0.3f, 0.1f, 0});
     const Glossy gloss{.reflectance = Rgb{0.9f}, .roughness = 0.02f};
-    const Mean both = direct(scene, at, gloss, DirectLight::mis, 1, 20000);
-    const Mean rays = direct(scene, at, gloss, DirectLight::sampled, 1, 400000);
+    const Mean both = direct(world, at, gloss, DirectLight::mis, 1, 20000);
+    const Mean rays = direct(world, at, gloss, DirectLight::sampled, 1, 400000);
     // Straight up all of the narrow lobe meets the lamp.
     CHECK(std::abs(both.mean - 0.9 * 3) < 4 * both.error() + 0.005);
     CHECK(both.error() * std::sqrt(20000.0) < 0.2 * rays.error() * std::sqrt(400000.0));
@@ -377,7 +389,8 @@ TEST_CASE("all lights: what a ray finds by itself, number by number") {
     scene.add(Moving<Ball>{{.center{0, 2, 0}, .radius = 1.5}, {6, 0, 0}},
               scene.add(LambertianT<double>{.albedo = D3{0}}), radiance);
     const RayT<double> down{.origin{0, 0.3, 0}, .direction{0, -1, 0}};
-    auto at = vertex_at(scene, down, *closest_hit(scene, down));
+    const World world(std::move(scene));
+    auto at = vertex_at(world, down, *closest_hit(world, down));
     at.medium = fog;
     int met = 0;
     for (const double time : {0.0, 0.25, 0.5, 0.6})
@@ -392,8 +405,8 @@ TEST_CASE("all lights: what a ray finds by itself, number by number") {
                 auto stream = random_stream(8, Pass::user, 0, i);
                 auto twin = stream;
                 Counts counts;
-                const D3 seen =
-                    detail::found_light(scene, at, matt, rays, stream, counts);
+                auto context = context_of(stream, counts);
+                const D3 seen = detail::found_light(world, at, matt, rays, context);
                 const D3 local =
                     sample(matt, at.wo, next_3d<double>(twin), Transport::radiance)->wi;
                 const D3 way = to_world(at.frame, local), center{6 * time, 2, 0};
@@ -422,7 +435,8 @@ TEST_CASE("all lights: the rays of a pixel share out all cells of a lamp") {
     Lit scene = lit_floor(false);
     scene.add(Quad{.corner{-9, 0.999f, -9}, .edge_u{0, 0, 9}, .edge_v{9, 0, 0}},
               scene.add(Lambertian{.albedo = Rgb{0}}));
-    const Vertex at = below(scene, {0, 0.1f, 0});
+    const World world(std::move(scene));
+    const Vertex at = below(world, {0, 0.1f, 0});
     const Lambertian white{.albedo = Rgb{0.5f}};
     const double right = 0.75 * 0.5 * 3 * strip(0, -0.5, 0.5);
     const auto pattern = make_pattern(Sampling::jittered, 4096);
@@ -433,9 +447,10 @@ TEST_CASE("all lights: the rays of a pixel share out all cells of a lamp") {
             StratifiedStream stream;
             start_ray(stream, ljus_test::test_seed(3), pixel, ray, pattern);
             start_bounce(stream, 1);
-            sum += double(detail::sample_all_lights(
-                              scene, at, white, DirectLight::sampled, 5, stream, counts)
-                              .x);
+            auto context = context_of(stream, counts);
+            sum += double(
+                sample_all_lights(world, at, white, {DirectLight::sampled, 5}, context)
+                    .x);
         }
         CHECK(sum / pattern.points == doctest::Approx(right).epsilon(0.025));
     }
@@ -446,11 +461,11 @@ TEST_CASE("all lights: of a material that is part mirror the matt part is shared
     // matt part sends back its colour.
     const auto room = box_furnace(Rgb{2}, Rgb{0.5f});
     const Mixture half{.color = Rgb{0.8f}, .reflectivity = 0.5f};
-    const Vertex at = below(room.scene, {0.3f, -0.9f, 0.2f});
+    const Vertex at = below(room.world, {0.3f, -0.9f, 0.2f});
     for (const int rays : {1, 4})
         for (const DirectLight how :
              {DirectLight::sampled, DirectLight::mis, DirectLight::analytic}) {
-            const Mean seen = direct(room.scene, at, half, how, rays, 20000);
+            const Mean seen = direct(room.world, at, half, how, rays, 20000);
             CAPTURE(rays);
             CAPTURE(int(how));
             CHECK(std::abs(apart(seen, 0.8, 1e-5)) < 5); // once in 1.7 million each

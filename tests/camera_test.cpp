@@ -215,9 +215,9 @@ TEST_CASE("camera: without more said it looks along -z, upright") {
     CHECK(view.up == Vec3{0, 1, 0});
     CHECK(view.vfov_degrees == 45);
     // A pinhole leaves nothing to chance, and draws no number.
-    int drawn = 0;
+    RandomStream drawn;
     CHECK(camera_ray(camera, Vec2{3, 4}, 10, 20, drawn).direction ==
           primary_ray(camera, Vec2{3, 4}, 10, 20).direction);
-    CHECK(drawn == 0);
+    CHECK(drawn.counter == 0);
     CHECK(camera_ray(camera, Vec2{3, 4}, 10, 20, drawn).t_min == 0);
 }

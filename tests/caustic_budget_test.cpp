@@ -9,14 +9,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "ljus/inspect/survey.hpp"
+#include "ljus/lights/sun_light.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/photons/budget.hpp"
-#include "ljus/render/photon_maps.hpp"
+#include "ljus/render/budgeting.hpp"
 #include "ljus/scene/scene.hpp"
 #include "support/ball_caustic.hpp"
 #include "support/mean.hpp"
@@ -34,7 +36,8 @@ using ljus_test::test_seed;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-using Room = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror>>;
+using Room = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror>,
+                   Lights<PointLight, SunLight>>;
 
 void add_floor(Room& room, float half = 50) {
     room.add(Quad{.corner{-half, -1, -half},
@@ -149,7 +152,7 @@ TEST_CASE("caustic_budget: shares follow the scatter, and no others do better") 
 }
 
 TEST_CASE("caustic_budget: any shares give the same light") {
-    const Room room = ball_and_mirror();
+    const World room(ball_and_mirror());
     const double right = ball_flux() + mirror_flux();
     for (const auto& shares : {std::vector<double>{}, std::vector{0.5, 0.5},
                                std::vector{0.9, 0.1}, std::vector{0.02, 0.98}})
@@ -187,7 +190,7 @@ TEST_CASE("caustic_budget: any shares give the same light") {
 }
 
 TEST_CASE("caustic_budget: a share is the share of the photons") {
-    const Room room = ball_and_mirror();
+    const World room(ball_and_mirror());
     const std::vector shares{0.3, 0.7};
     const auto traced =
         trace_photons(room, MapType::caustics,
@@ -207,13 +210,13 @@ TEST_CASE("caustic_budget: a share is the share of the photons") {
 }
 
 TEST_CASE("caustic_budget: no shares are the photons of old, byte by byte") {
-    const Room room = ball_and_mirror();
+    const World room(ball_and_mirror());
     const auto targets = specular_objects(room);
-    const auto choice = light_choice(room.lights);
+    const auto choice = room.light_choice();
     for (std::uint64_t path = 0; path < 200; ++path) {
         auto a = random_stream(1, Pass::caustics_photons, 0, path), b = a;
         const auto old = aim(room, choice, targets, a);
-        const auto now = detail::aim_by_share(room, choice, targets, {}, b);
+        const auto now = aim_by_share(room, choice, targets, {}, b);
         REQUIRE(old.has_value() == now.has_value());
         if (!old) continue;
         CHECK(old->photon.flux == now->photon.flux);
@@ -224,7 +227,7 @@ TEST_CASE("caustic_budget: no shares are the photons of old, byte by byte") {
     for (std::uint64_t path = 0; path < 2000; ++path) {
         auto stream = random_stream(2, Pass::caustics_photons, 0, path);
         const std::array shares{0.5, 0.0};
-        const auto aimed = detail::aim_by_share(room, choice, targets, shares, stream);
+        const auto aimed = aim_by_share(room, choice, targets, shares, stream);
         REQUIRE(aimed.has_value());
         CHECK(aimed->target == targets[0]);
     }
@@ -239,8 +242,9 @@ TEST_CASE("caustic_budget: the pilot measures flux, area and scatter") {
         Quad{.corner{-0.2f, 2.5f, -0.2f}, .edge_u{0.4f, 0, 0}, .edge_v{0, 0, 0.4f}},
         room.add(Mirror{.reflectance = Rgb{1}}));
     room.add(PointLight{.position{0, 2, 0}});
+    const World world(std::move(room));
     const PhotonPassSettings pass{.photons = 400000};
-    const auto pilots = pilot_caustics(room, pass, 0.1f);
+    const auto pilots = pilot_caustics(world, pass, 0.1f);
     REQUIRE(pilots.size() == 1);
     double flux = 0, squares = 0;
     const int steps = 200;
@@ -270,7 +274,7 @@ TEST_CASE("caustic_budget: the pilot measures flux, area and scatter") {
                      .direction{0, -1, 0},
                      .flux = Rgb{float(0.01 * e)},
                      .normal = small_normal(Vec3{0, 1, 0})});
-        return pilot_caustics(room, pass, 0.1f, light, wide)[0].visible;
+        return pilot_caustics(world, pass, 0.1f, light, wide)[0].visible;
     };
     // All 100 e W in a disc of radius 50, or so many as are asked by default.
     CHECK(lit_by(100, 50) ==
@@ -296,9 +300,10 @@ TEST_CASE("caustic_budget: the pilot measures flux, area and scatter") {
 
 TEST_CASE("caustic_budget: the pilot's numbers, one photon after the other") {
     // A plain twin: the pilot's own passes, and sums over all photons in turn.
-    Room room = ball_and_mirror();
-    room.add(Sphere{.center{-1.5f, 0.5f, 0.7f}, .radius = 0.3f},
-             room.add(Glass{.index = 1.3f}));
+    Room open = ball_and_mirror();
+    open.add(Sphere{.center{-1.5f, 0.5f, 0.7f}, .radius = 0.3f},
+             open.add(Glass{.index = 1.3f}));
+    const World room(std::move(open));
     int asked = 0;
     const auto ask = [&](long long, long long) { return ++asked > 0; };
     const PhotonPassSettings pass{
@@ -437,13 +442,14 @@ TEST_CASE("caustic_budget: how many paths a pilot has, and that it does not give
     room.add(Quad{.corner{0.3f, 4, 0.4f}, .edge_u{0.06f, 0, 0}, .edge_v{0, 0, 0.06f}},
              room.add(Lambertian{}));
     room.add(PointLight{.position{0, 1, 0}});
+    const World world(std::move(room));
     const auto stored = [&](long long photons, long long give_up) {
-        return pilot_caustics(room, {.photons = photons, .give_up = give_up}, 0.1f)[0]
+        return pilot_caustics(world, {.photons = photons, .give_up = give_up}, 0.1f)[0]
             .stored;
     };
     const auto traced = [&](long long paths) {
         return trace_photons(
-                   room, MapType::caustics,
+                   world, MapType::caustics,
                    {.photons = paths, .iteration = ~std::uint64_t{0}, .shares = {1}})
             .photons.size();
     };
@@ -459,9 +465,10 @@ TEST_CASE("caustic_budget: how many paths a pilot has, and that it does not give
     rare.add(Quad{.corner{0.3f, 4, 0.4f}, .edge_u{0.03f, 0, 0}, .edge_v{0, 0, 0.03f}},
              rare.add(Lambertian{}));
     rare.add(PointLight{.position{0, 1, 0}});
+    const World rare_world(std::move(rare));
     std::uint64_t seed = 1; // with which the first 2048 paths bring nothing
     for (;; ++seed)
-        if (trace_photons(rare, MapType::caustics,
+        if (trace_photons(rare_world, MapType::caustics,
                           {.photons = 20000,
                            .seed = seed,
                            .iteration = ~std::uint64_t{0},
@@ -470,13 +477,14 @@ TEST_CASE("caustic_budget: how many paths a pilot has, and that it does not give
                 .photons.empty())
             break;
     REQUIRE(seed < 50);
-    const auto all = trace_photons(rare, MapType::caustics,
+    const auto all = trace_photons(rare_world, MapType::caustics,
                                    {.photons = 20000,
                                     .seed = seed,
                                     .iteration = ~std::uint64_t{0},
                                     .shares = {1}});
     REQUIRE(all.photons.size() > 0);
-    CHECK(pilot_caustics(rare, {.photons = 400000, .seed = seed, .give_up = 1}, 0.1f)[0]
+    CHECK(pilot_caustics(rare_world, {.photons = 400000, .seed = seed, .give_up = 1},
+                         0.1f)[0]
               .stored == all.photons.size());
 }
 
@@ -484,7 +492,7 @@ TEST_CASE("caustic_budget: an index near 1 asks for photons by area, and else no
     // Two balls of one size and distance. The heavy glass gathers its light in a spot;
     // the light one spreads it over its shadow.
     const PhotonPassSettings pass{.photons = 100000};
-    const Room dark = two_balls(1.05f, 1.5f, 0);
+    const World dark(two_balls(1.05f, 1.5f, 0));
     const auto pilots = pilot_caustics(dark, pass, 0.04f);
     REQUIRE(pilots.size() == 2);
     CHECK(pilots[0].flux == doctest::Approx(pilots[1].flux).epsilon(0.15));
@@ -501,7 +509,7 @@ TEST_CASE("caustic_budget: an index near 1 asks for photons by area, and else no
     // shares come to those of the flux.
     std::vector<double> bright;
     for (const float albedo : {0.0f, 0.5f, 0.8f}) {
-        const Room room = two_balls(1.05f, 1.5f, albedo);
+        const World room(two_balls(1.05f, 1.5f, albedo));
         const auto light = trace_photons(room, MapType::general,
                                          {.photons = 20000, .shadow_photons = false})
                                .photons;
@@ -519,7 +527,7 @@ TEST_CASE("caustic_budget: an index near 1 asks for photons by area, and else no
 
 TEST_CASE("caustic_budget: a radius of 0 is chosen as the picture will choose it") {
     const PhotonPassSettings pass{.photons = 200000};
-    const Room room = two_balls(1.05f, 1.5f, 0.5f);
+    const World room(two_balls(1.05f, 1.5f, 0.5f));
     const PhotonMap whole =
         make_photon_map(trace_photons(room, MapType::caustics, pass).photons);
     const PhotonPassSettings other{.photons = 20000, .shadow_photons = false};
@@ -552,7 +560,7 @@ TEST_CASE("caustic_budget: the shares make the error least that they promise") {
     // relative to all light there, for shares of all kinds, and what the law says. It
     // speaks of mean squares: N times the variance and the square of the mean, which no
     // share changes.
-    const Room room = two_balls(1.05f, 1.5f, 0);
+    const World room(two_balls(1.05f, 1.5f, 0));
     const float radius = 0.06f;
     const auto light = trace_photons(room, MapType::general,
                                      {.photons = 20000, .shadow_photons = false})
@@ -630,9 +638,10 @@ TEST_CASE("caustic_budget: who gets nothing in the pilot is not starved") {
     room.add(Sphere{.center{0, 1, -2}, .radius = 0.3f}, room.add(Glass{}));
     room.add(Sphere{.center{0, 1, -2}, .radius = 0.35f},
              room.add(Lambertian{.albedo = Rgb{0.5f}}));
+    const World world(std::move(room));
     PhotonMappingSettings settings{.caustic_budget = CausticBudget::flux};
     settings.caustics = {.photons = 40000};
-    const auto pilots = pilot_caustics(room, settings.caustics, 0.1f);
+    const auto pilots = pilot_caustics(world, settings.caustics, 0.1f);
     REQUIRE(pilots.size() == 3);
     CHECK(pilots[2].stored == 0);
     CHECK(pilots[2].area == 0);
@@ -647,7 +656,7 @@ TEST_CASE("caustic_budget: who gets nothing in the pilot is not starved") {
 TEST_CASE("caustic_budget: the pilot of the other light is none of the picture's") {
     // What the picture's own photons found, in any of its first passes, must not decide
     // about shares.
-    const Room room = two_balls(1.2f, 1.5f, 0.5f);
+    const World room(two_balls(1.2f, 1.5f, 0.5f));
     PhotonMappingSettings settings{.caustic_budget = CausticBudget::brightness};
     settings.caustics.photons = 20000;
     settings.caustics_estimate.radius = 0.05f;
@@ -670,7 +679,7 @@ TEST_CASE("caustic_budget: the pilot of the other light is none of the picture's
 }
 
 TEST_CASE("caustic_budget: maps by budget have the same light, on any threads") {
-    const Room room = two_balls(1.2f, 1.5f, 0.5f);
+    const World room(two_balls(1.2f, 1.5f, 0.5f));
     for (const CausticBudget budget :
          {CausticBudget::as_seen, CausticBudget::equal, CausticBudget::flux,
           CausticBudget::area, CausticBudget::brightness}) {
@@ -680,7 +689,8 @@ TEST_CASE("caustic_budget: maps by budget have the same light, on any threads") 
         Mean found;
         for (std::uint64_t seed = 1; seed <= 8; ++seed) {
             settings.caustics.seed = settings.general.seed = test_seed(seed);
-            const auto maps = make_photon_maps(room, settings);
+            const PhotonMapper mapper(room, settings, abilities<Budgeting>);
+            const auto& maps = mapper.maps();
             double sum = 0;
             for (std::size_t i = 0; i < maps.caustics.records.size(); ++i)
                 sum += double(maps.caustics.records[i].flux.x);
@@ -692,8 +702,9 @@ TEST_CASE("caustic_budget: maps by budget have the same light, on any threads") 
         // By other threads the same bytes.
         auto others = settings;
         others.caustics.threads = others.general.threads = 3;
-        const auto a = make_photon_maps(room, settings),
-                   b = make_photon_maps(room, others);
+        const PhotonMapper one(room, settings, abilities<Budgeting>),
+            two(room, others, abilities<Budgeting>);
+        const auto &a = one.maps(), &b = two.maps();
         REQUIRE(a.caustics.records.size() == b.caustics.records.size());
         bool same = true;
         for (std::size_t i = 0; i < a.caustics.records.size(); ++i)
@@ -704,7 +715,7 @@ TEST_CASE("caustic_budget: maps by budget have the same light, on any threads") 
 }
 
 TEST_CASE("caustic_budget: what cannot be is refused, and extremes are none") {
-    const Room room = ball_and_mirror();
+    const World room(ball_and_mirror());
     const auto traced = [&](std::vector<double> shares, long long photons = 100) {
         return trace_photons(room, MapType::caustics,
                              {.photons = photons, .shares = std::move(shares)});
@@ -730,10 +741,11 @@ TEST_CASE("caustic_budget: what cannot be is refused, and extremes are none") {
     Room matt;
     add_floor(matt);
     matt.add(PointLight{.position{0, 2, 0}});
-    CHECK(pilot_caustics(matt, PhotonPassSettings{}, 0.1f).empty());
+    const World world(std::move(matt));
+    CHECK(pilot_caustics(world, PhotonPassSettings{}, 0.1f).empty());
     CHECK(caustic_shares(CausticBudget::flux, {}).empty());
     PhotonMappingSettings settings{.caustic_budget = CausticBudget::brightness};
-    CHECK(make_photon_maps(matt, settings).caustics.empty());
+    CHECK(PhotonMapper(world, settings, abilities<Budgeting>).maps().caustics.empty());
     // A sun, a spot and a lamp: their photons by any shares make the same light.
     Room lights;
     add_floor(lights);
@@ -743,11 +755,12 @@ TEST_CASE("caustic_budget: what cannot be is refused, and extremes are none") {
     lights.add(SunLight{.direction{0.1f, -1, 0}, .irradiance = Rgb{2}});
     lights.add(Quad{.corner{-1, 4, -1}, .edge_u{2, 0, 0}, .edge_v{0, 0, 2}},
                lights.add(Lambertian{.albedo = Rgb{0}}), Rgb{3});
+    const World lights_world(std::move(lights));
     std::array<Mean, 2> means;
     for (std::uint64_t seed = 1; seed <= 16; ++seed)
         for (const std::size_t i : {0u, 1u})
             means[i].add(
-                power(trace_photons(lights, MapType::caustics,
+                power(trace_photons(lights_world, MapType::caustics,
                                     {.photons = 20000,
                                      .seed = test_seed(seed + 100 * i),
                                      .shares = i == 0 ? std::vector<double>{}
@@ -770,8 +783,9 @@ TEST_CASE("caustic_budget: each object is chosen with its share, and pays for it
     for (const Vec3 at : {Vec3{3, 0, 0}, Vec3{-3, 0, 0}, Vec3{0, 3, 0}, Vec3{0, -3, 0}})
         room.add(Sphere{.center = at, .radius = 0.5f}, mirror);
     room.add(PointLight{.intensity = Rgb{1}});
-    const auto targets = specular_objects(room);
-    const LightChoice choice = light_choice(room.lights);
+    const World world(std::move(room));
+    const auto targets = specular_objects(world);
+    const LightChoice choice = world.light_choice();
     using Shares = std::vector<double>;
     for (const Shares& shares :
          {Shares{0.1, 0.2, 0, 0.7}, Shares{0.3, 0.1, 0.4, 0.2}}) {
@@ -779,8 +793,7 @@ TEST_CASE("caustic_budget: each object is chosen with its share, and pays for it
         constexpr int photons = 20000;
         for (int i = 0; i < photons; ++i) {
             auto stream = random_stream(1, Pass::user, 0, std::uint64_t(i));
-            const auto aimed =
-                detail::aim_by_share(room, choice, targets, shares, stream);
+            const auto aimed = aim_by_share(world, choice, targets, shares, stream);
             REQUIRE(aimed);
             const auto k =
                 std::size_t(std::find(targets.begin(), targets.end(), aimed->target) -

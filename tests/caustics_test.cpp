@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "ljus/materials/glass.hpp"
@@ -37,11 +38,13 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr std::uint64_t seeds = 16;
 
-using Room = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror>>;
+using Open = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror>,
+                   Lights<PointLight>>;
+using Room = World<Open>;
 const Lambertian white{.albedo = Rgb{0.5f}};
 
 /// The floor y = height, from -half to half, lit from above.
-void add_floor(Room& room, float height, float half) {
+void add_floor(Open& room, float height, float half) {
     room.add(Quad{.corner{-half, height, -half},
                   .edge_u{0, 0, 2 * half},
                   .edge_v{2 * half, 0, 0}},
@@ -51,7 +54,7 @@ void add_floor(Room& room, float height, float half) {
 /// The scene of a closed form. A floor of a ten thousand radii catches all but what
 /// leaves almost level, and rounds positions to a thousandth of the ball.
 Room room_of(const BallCaustic& ball, bool mirror = false, double half = 1e4) {
-    Room room;
+    Open room;
     add_floor(room, float(-ball.floor), float(half * ball.radius));
     const Sphere shape{.radius = float(ball.radius)};
     if (mirror)
@@ -61,7 +64,7 @@ Room room_of(const BallCaustic& ball, bool mirror = false, double half = 1e4) {
                                        .absorption = Rgb{float(ball.absorption)}}));
     room.add(PointLight{.position{0, float(ball.light), 0},
                         .intensity = Rgb{float(ball.intensity)}});
-    return room;
+    return Room(std::move(room));
 }
 
 std::vector<Photon> caustic_photons(const Room& room, long long count,
@@ -202,14 +205,15 @@ TEST_CASE("caustics: the floor gets the power that the ball lets through") {
 }
 
 TEST_CASE("caustics: the three colours of an absorbing glass") {
-    Room room;
+    Open room;
     add_floor(room, -1, 100);
     room.add(Sphere{.radius = 0.5f}, room.add(Glass{.absorption{0.1f, 1.0f, 3.0f}}));
     room.add(PointLight{.position{0, 2, 0}});
+    const World world(std::move(room));
     std::array<Mean, 3> found;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         glm::dvec3 sum(0);
-        for (const Photon& photon : caustic_photons(room, 10000, seed))
+        for (const Photon& photon : caustic_photons(world, 10000, seed))
             sum += glm::dvec3(photon.flux);
         for (int c = 0; c < 3; ++c) found[std::size_t(c)].add(sum[c]);
     }
@@ -240,15 +244,16 @@ TEST_CASE("caustics: a mirror ball and a flat mirror") {
 
     // A square mirror straight above the light: its solid angle from there.
     for (const float height : {0.05f, 0.3f, 2.0f}) {
-        Room room;
+        Open room;
         add_floor(room, -1, 200);
         room.add(
             Quad{.corner{-0.5f, height, -0.5f}, .edge_u{1, 0, 0}, .edge_v{0, 0, 1}},
             room.add(Mirror{.reflectance = Rgb{0.9f}}));
         room.add(PointLight{});
+        const World world(std::move(room));
         const double h = 2 * double(height);
         const double solid_angle = 4 * std::asin(1 / (1 + h * h));
-        const Mean flat = power_of(room, 8000);
+        const Mean flat = power_of(world, 8000);
         CAPTURE(height);
         CAPTURE(flat.mean);
         CAPTURE(flat.error());
@@ -344,7 +349,7 @@ double own_power(const OwnRoom& room, long long paths, std::uint64_t seed) {
 
 /// The same room, and the flux that its light sends out in all.
 Room library_room(const OwnRoom& own, double& flux) {
-    Room room;
+    Open room;
     add_floor(room, float(own.floor), 500);
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
     for (const OwnBall& ball : own.balls) {
@@ -367,7 +372,7 @@ Room library_room(const OwnRoom& own, double& flux) {
         room.add(PointLight{.position{own.light}});
         flux = 4 * pi;
     }
-    return room;
+    return Room(std::move(room));
 }
 
 } // namespace
@@ -518,13 +523,13 @@ namespace {
 /// A point light under a square mirror: from the floor a second light behind a square
 /// window, whose edge is sharp on the floor.
 Room window() {
-    Room room;
+    Open room;
     add_floor(room, 0, 20);
     room.add(
         Quad{.corner{-0.2f, 1.5f, -0.2f}, .edge_u{0.4f, 0, 0}, .edge_v{0, 0, 0.4f}},
         room.add(Mirror{.reflectance = Rgb{1}}));
     room.add(PointLight{.position{0, 1, 0}});
-    return room;
+    return Room(std::move(room));
 }
 
 /// Its exact light: the mirror image stands at height 2, and the window at 1.5 is four
@@ -632,8 +637,7 @@ TEST_CASE("caustics: both ways at the first glass are one way in the mean") {
     for (const bool split : {false, true}) {
         PhotonMappingSettings settings{.split_glass = split};
         settings.caustics = {.photons = 20000, .threads = 1};
-        const auto maps = make_photon_maps(room, settings);
-        const auto mapper = make_photon_mapper(room, maps, settings);
+        const PhotonMapper mapper(room, settings);
         means[split ? 1 : 0] =
             ljus_test::mean_radiance(mapper, 10000, 3, [](RandomStream& stream) {
                 const Vec2 u = next_2d<float>(stream) - 0.5f;
@@ -654,13 +658,14 @@ TEST_CASE(
     PhotonMappingSettings settings{.indirect = IndirectLight::map};
     settings.caustics = {.photons = 5000, .threads = 1};
     settings.general = {.photons = 5000, .threads = 1};
-    const auto maps = make_photon_maps(room, settings);
+    PhotonMapper mapper(room, settings);
+    const auto& maps = mapper.maps();
     for (const float radius : {0.0f, 0.125f}) {
         settings.caustics_estimate.radius = settings.general_estimate.radius = radius;
-        const auto mapper = make_photon_mapper(room, maps, settings);
-        CHECK(mapper.settings.caustics_estimate.radius ==
+        mapper.set_estimates(settings.caustics_estimate, settings.general_estimate);
+        CHECK(mapper.settings().caustics_estimate.radius ==
               (radius > 0 ? radius : float(typical_radius(maps.caustics, 32))));
-        CHECK(mapper.settings.general_estimate.radius ==
+        CHECK(mapper.settings().general_estimate.radius ==
               (radius > 0 ? radius : float(typical_radius(maps.general, 64))));
     }
     CHECK(typical_radius(maps.caustics, 32) > 0);

@@ -52,25 +52,23 @@ TEST_CASE("counts: one shadow ray a light and surface, one ray a bounce") {
     room.add(Quad{.corner{-90, 0, -90}, .edge_u{0, 0, 180}, .edge_v{180, 0, 0}}, white);
     room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{1}});
     room.add(PointLight{.position{1, 2, 0}, .intensity = Rgb{1}});
+    const World world(std::move(room));
     const Camera camera = look_at({.position{0, 3, 0}, .target{0, 0, 0}, .up{0, 0, 1}});
     const RenderSettings picture{.width = 10, .height = 10, .samples = 4, .threads = 1};
     PhotonMappingSettings settings;
-    const auto maps = make_photon_maps(room, settings);
-    const auto mapped =
-        render(make_photon_mapper(room, maps, settings), camera, picture);
+    const auto mapped = render(PhotonMapper(world, settings), camera, picture);
     CHECK(mapped.counts.camera_rays == 400);
     CHECK(mapped.counts.shadow_rays == 800);
     CHECK(mapped.counts.bounce_rays == 400);
     CHECK(mapped.counts.map_queries == 0);
     CHECK(mapped.counts.map_photons == 0);
     // The path tracer chooses one of the lights.
-    const auto traced = render(make_path_tracer(room), camera, picture);
+    const auto traced = render(PathTracer(world), camera, picture);
     CHECK(traced.counts.shadow_rays == 400);
     CHECK(traced.counts.bounce_rays == 400);
     // Depth 1: direct light only, and no other ray.
     settings.max_depth = 1;
-    const auto direct =
-        render(make_photon_mapper(room, maps, settings), camera, picture);
+    const auto direct = render(PhotonMapper(world, settings), camera, picture);
     CHECK(direct.counts.shadow_rays == 800);
     CHECK(direct.counts.bounce_rays == 0);
 }
@@ -81,18 +79,20 @@ TEST_CASE("counts: passes that are off make no photon and ask no query") {
     PhotonMappingSettings settings;
     settings.caustics.photons = 2000;
     settings.general.photons = 2000;
-    const auto counts_of = [&](const ljus_test::Room& room) {
-        const auto maps = make_photon_maps(room, settings);
+    const auto counts_of = [&](const ljus_test::ClosedRoom& room) {
+        const PhotonMapper mapper(room, settings);
+        const auto& maps = mapper.maps();
         const Plan plan = survey(room, settings);
         CHECK(plan.caustics_map.on == !maps.caustics.empty());
         CHECK(plan.general_map.on == !maps.general.empty());
-        return render(make_photon_mapper(room, maps, settings), camera, picture).counts;
+        return render(mapper, camera, picture).counts;
     };
     // No mirror, no glass: no caustics.
-    const ljus_test::Room matt = make_room<float>(Ball::lambertian, Lamp::quad, 1);
+    const ljus_test::ClosedRoom matt =
+        make_room<float>(Ball::lambertian, Lamp::quad, 1);
     CHECK(counts_of(matt).map_queries == 0);
     CHECK(counts_of(matt).map_photons == 0);
-    const ljus_test::Room glass = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const ljus_test::ClosedRoom glass = make_room<float>(Ball::glass, Lamp::quad, 1);
     const Counts with = counts_of(glass);
     CHECK(with.map_queries > 100);
     CHECK(with.map_photons > 100);
@@ -120,28 +120,27 @@ TEST_CASE("counts: what the depth cuts is counted, path by path") {
     const Camera inside = matt.camera;
     for (const int depth : {1, 4}) {
         const PathTracingSettings traced{.max_depth = depth, .roulette_depth = 1000};
-        CHECK(cut(make_path_tracer(matt.scene, traced), inside) == 60);
+        CHECK(cut(PathTracer(matt.world, traced), inside) == 60);
         PhotonMappingSettings settings{.max_depth = depth, .roulette_depth = 1000};
-        const auto maps = make_photon_maps(matt.scene, settings);
         // At a depth of one the plan has no indirect rays, and says why.
-        CHECK(cut(make_photon_mapper(matt.scene, maps, settings), inside) ==
-              (depth == 1 ? 0 : 60));
+        CHECK(cut(PhotonMapper(matt.world, settings), inside) == (depth == 1 ? 0 : 60));
         // The map answers for what comes after: nothing is missing.
         settings.indirect = IndirectLight::photons;
-        const auto known = make_photon_maps(matt.scene, settings);
-        CHECK(cut(make_photon_mapper(matt.scene, known, settings), inside) == 0);
+        CHECK(cut(PhotonMapper(matt.world, settings), inside) == 0);
     }
     // No path is cut where it ends by itself.
     Scene<Shapes<Sphere>, Materials<Lambertian, Mirror>> black;
     black.add(Sphere{.center{0, 0, 0}, .radius = 1},
               black.add(Lambertian{.albedo = Rgb{0}}), Rgb{1}, true);
-    CHECK(cut(make_path_tracer(black, {.max_depth = 50}), inside) == 0);
+    const World world(std::move(black));
+    CHECK(cut(PathTracer(world, {.max_depth = 50}), inside) == 0);
     Scene<Shapes<Sphere>, Materials<Mirror>> hall;
     hall.add(Sphere{.center{0, 0, 0}, .radius = 1}, hall.add(Mirror{}), Rgb{0}, true);
+    const World hall_world(std::move(hall));
     for (const int depth : {1, 4}) {
-        CHECK(cut(make_path_tracer(hall, {.max_depth = depth, .roulette_depth = 1000}),
+        CHECK(cut(PathTracer(hall_world, {.max_depth = depth, .roulette_depth = 1000}),
                   inside) == 60);
-        CHECK(cut(make_whitted(hall, {.max_depth = depth}), inside) == 60);
-        CHECK(cut(make_distributed(hall, {.max_depth = depth}), inside) == 60);
+        CHECK(cut(WhittedTracer(hall_world, {.max_depth = depth}), inside) == 60);
+        CHECK(cut(DistributedTracer(hall_world, {.max_depth = depth}), inside) == 60);
     }
 }

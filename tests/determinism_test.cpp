@@ -65,20 +65,21 @@ TEST_CASE_TEMPLATE("determinism: the same seed gives the same bytes on any numbe
                    T, float, double) {
     const auto room = make_room<T>(Ball::mixture, Lamp::sphere, 2);
     const CameraT<T> camera = room_camera<T>();
-    const auto maps = make_photon_maps(room, settings_with<T>(7, 1));
+    const PhotonMapper mapper(room, settings_with<T>(7, 1));
+    const auto& maps = mapper.maps();
     CHECK_FALSE(maps.caustics.empty());
     CHECK_FALSE(maps.general.empty());
     const auto picture = [](int threads, std::uint64_t seed) {
         return RenderSettings{
             .width = 37, .height = 23, .samples = 3, .seed = seed, .threads = threads};
     };
-    const auto tracer = make_path_tracer(room);
-    const auto mapper = make_photon_mapper(room, maps, settings_with<T>(7, 1));
+    const PathTracer tracer(room);
     const auto traced = render(tracer, camera, picture(1, 5));
     const auto mapped = render(mapper, camera, picture(1, 5));
     for (const int threads : {1, 2, 3, 4}) {
         CAPTURE(threads);
-        const auto again = make_photon_maps(room, settings_with<T>(7, threads));
+        const PhotonMapper twin(room, settings_with<T>(7, threads));
+        const auto& again = twin.maps();
         CHECK(same_map(maps.caustics, again.caustics));
         CHECK(same_map(maps.general, again.general));
         CHECK(same_audit(maps.caustics_audit, again.caustics_audit));
@@ -98,14 +99,14 @@ TEST_CASE_TEMPLATE("determinism: the same seed gives the same bytes on any numbe
         equal += other.image.pixels[i] == traced.image.pixels[i] ? 1 : 0;
     CHECK(equal < other.image.pixels.size() / 50);
     CHECK_FALSE(same_map(maps.caustics,
-                         make_photon_maps(room, settings_with<T>(8, 1)).caustics));
+                         PhotonMapper(room, settings_with<T>(8, 1)).maps().caustics));
     auto next = settings_with<T>(7, 1);
     next.caustics.iteration = 1;
-    CHECK_FALSE(same_map(maps.caustics, make_photon_maps(room, next).caustics));
+    CHECK_FALSE(same_map(maps.caustics, PhotonMapper(room, next).maps().caustics));
 }
 
 TEST_CASE("determinism: the two photon passes draw different numbers") {
-    const Room room = make_room<float>(Ball::mirror, Lamp::point, 1);
+    const ClosedRoom room = make_room<float>(Ball::mirror, Lamp::point, 1);
     const auto general = trace_photons(room, MapType::general, {.photons = 100});
     const auto caustics = trace_photons(room, MapType::caustics, {.photons = 100});
     for (const Photon& a : general.photons)
@@ -116,10 +117,9 @@ TEST_CASE("determinism: float and double render the same room") {
     const auto picture = RenderSettings{
         .width = 12, .height = 12, .samples = 100, .seed = 3, .threads = 1};
     const auto single = make_room<float>(Ball::glass, Lamp::quad, 1);
-    const auto a =
-        render(make_path_tracer(single), room_camera<float>(), picture).image;
+    const auto a = render(PathTracer(single), room_camera<float>(), picture).image;
     const auto room = make_room<double>(Ball::glass, Lamp::quad, 1);
-    const auto b = render(make_path_tracer(room), room_camera<double>(), picture).image;
+    const auto b = render(PathTracer(room), room_camera<double>(), picture).image;
     double x = 0, y = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
         x += double(a.pixels[i].y);

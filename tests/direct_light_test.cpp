@@ -34,22 +34,22 @@ RoomT<T> floor_room() {
 }
 
 /// The mean of the direct light of all lights, without any weight, where a ray meets
-/// the scene, the material made brighter or darker by the albedo.
+/// the closed room, the material made brighter or darker by the albedo.
 template <typename T>
 Mean direct(const RoomT<T>& room, const RayT<T>& ray, const LambertianT<T>& material,
             int samples, Counts& counts, RgbT<T> medium = RgbT<T>{T(0)}) {
-    const auto hit = closest_hit(room, ray);
+    const World world(room);
+    const auto hit = closest_hit(world, ray);
     REQUIRE(hit);
-    VertexT<T> at = vertex_at(room, ray, *hit);
+    VertexT<T> at = vertex_at(world, ray, *hit);
     at.medium = medium;
     auto stream = random_stream(ljus_test::test_seed(1), Pass::user, 0, 0);
     Mean mean;
     for (int i = 0; i < samples; ++i) {
         RgbT<T> sum{T(0)};
-        for (const LightT<T>& light : room.lights)
-            sum += direct_light(
-                room, light, at, material, next_2d<T>(stream),
-                [](const auto&, const auto&) { return T(1); }, counts);
+        for (std::uint32_t light = 0; light < world.light_count(); ++light)
+            sum += direct_light(world, light, at, material, next_2d<T>(stream),
+                                MisT<T>{}, counts);
         mean.add(double(sum.x));
     }
     return mean;
@@ -179,6 +179,8 @@ TEST_CASE("direct light: within a medium it is absorbed along the way") {
 }
 
 TEST_CASE("direct light: every factor once, in colours, from both sides") {
+    // A point light, and a lamp of area 2 seen at its middle: radiance times area, by
+    // both cosines and the square of the distance.
     using D3 = glm::dvec3;
     const LambertianT<double> matt{.albedo{0.8, 0.5, 0.2}};
     const D3 fog{0.1, 0.2, 0.3}, intensity{7, 11, 13};
@@ -186,24 +188,42 @@ TEST_CASE("direct light: every factor once, in colours, from both sides") {
         auto room = floor_room<double>();
         room.add(
             PointLightT<double>{.position{3, 4 * side, 0}, .intensity = intensity});
+        const D3 u{2, 0, 0}, v{0, 0, 1}; // u x v = -2 y
+        room.add(QuadT<double>{{2, 4 * side, -0.5}, side > 0 ? u : v, side > 0 ? v : u},
+                 room.add(LambertianT<double>{.albedo = D3{0}}), intensity);
+        const World world(std::move(room));
         const RayT<double> ray{.origin{0, side, 0}, .direction{0, -side, 0}};
-        VertexT<double> at = vertex_at(room, ray, *closest_hit(room, ray));
+        VertexT<double> at = vertex_at(world, ray, *closest_hit(world, ray));
         at.medium = fog;
-        Counts counts;
-        int calls = 0;
-        const auto weigh = [&](const LightSampleT<double>& light, const D3& wi) {
-            ++calls;
-            CHECK(glm::distance(light.wi, D3{0.6, 0.8 * side, 0}) < 1e-12);
-            CHECK(std::abs(wi.z - 0.8 * side) < 1e-12); // in the surface's frame
-            return 0.375;
+        const auto seen = [&](std::uint32_t light, const MisT<double>& mis) {
+            Counts counts;
+            const D3 found = direct_light(world, light, at, matt,
+                                          Vec2T<double>{0.5, 0.5}, mis, counts);
+            CHECK(counts.shadow_rays == 1);
+            return found;
         };
-        const D3 seen = direct_light(room, room.lights[0], at, matt,
-                                     Vec2T<double>{0.5, 0.5}, weigh, counts);
-        const D3 right =
-            0.375 * matt.albedo / pi * intensity * 0.8 / 25.0 * glm::exp(-5.0 * fog);
-        CHECK(glm::distance(seen, right) < 1e-9 * glm::length(right));
-        CHECK(calls == 1);
-        CHECK(counts.shadow_rays == 1);
+        const auto is = [](const D3& found, const D3& right) {
+            return glm::distance(found, right) < 1e-9 * glm::length(right);
+        };
+        const D3 point =
+            matt.albedo / pi * intensity * 0.8 / 25.0 * glm::exp(-5.0 * fog);
+        const D3 lamp = 2 * 0.8 * point;
+        CHECK(is(seen(0, {}), point));
+        CHECK(is(seen(1, {}), lamp));
+        // Weights: of the lamp, by the densities per steradian of the shadow ray and of
+        // the material. No path meets a point, which keeps all of its light.
+        const double by_shadow = 0.375 * 25 / (2 * 0.8), by_material = 0.8 / pi;
+        for (const MisHeuristic how : {MisHeuristic::balance, MisHeuristic::power}) {
+            const double power = how == MisHeuristic::power ? 2 : 1;
+            const double weight = 1 / (1 + std::pow(by_material / by_shadow, power));
+            const MisT<double> mis{.heuristic = how, .factor = 0.375};
+            CHECK(is(seen(0, mis), point));
+            CHECK(is(seen(1, mis), weight * lamp));
+            // A ray that is not sampled from the material's lobe leaves all of it.
+            CHECK(is(seen(1, {how, 0.375, Lobes::specular}), lamp));
+            CHECK(is(seen(1, {how, 0.375, Lobes::non_specular}), weight * lamp));
+        }
+        CHECK(is(seen(1, {MisHeuristic::shadow_rays, 0.375}), lamp));
     }
 }
 
@@ -211,19 +231,16 @@ TEST_CASE("direct light: a pane in the way takes its part, a wall all of it") {
     using D3 = glm::dvec3;
     const ThinGlassT<double> glass{.index = 1.5};
     const auto lit = [&](const auto&... between) {
-        auto scene =
-            make_scene(placed(QuadT<double>{{-50, 0, 50}, {100, 0, 0}, {0, 0, -100}},
-                              LambertianT<double>{.albedo = D3{0.5}}),
-                       placed(QuadT<double>{{30, 1, 1}, {2, 0, 0}, {0, 0, -2}}, glass),
-                       between...);
-        scene.add(PointLightT<double>{.position{0, 2, 0}, .intensity = D3{8}});
+        const World world(make_scene(
+            placed(QuadT<double>{{-50, 0, 50}, {100, 0, 0}, {0, 0, -100}},
+                   LambertianT<double>{.albedo = D3{0.5}}),
+            placed(QuadT<double>{{30, 1, 1}, {2, 0, 0}, {0, 0, -2}}, glass), between...,
+            PointLightT<double>{.position{0, 2, 0}, .intensity = D3{8}}));
         const RayT<double> ray{.origin{0, 0.5, 0}, .direction{0, -1, 0}};
         Counts counts;
-        return direct_light(
-                   scene, scene.lights[0],
-                   vertex_at(scene, ray, *closest_hit(scene, ray)),
-                   LambertianT<double>{.albedo = D3{0.5}}, Vec2T<double>{0, 0},
-                   [](const auto&, const auto&) { return 1.0; }, counts)
+        return direct_light(world, 0, vertex_at(world, ray, *closest_hit(world, ray)),
+                            LambertianT<double>{.albedo = D3{0.5}}, Vec2T<double>{0, 0},
+                            MisT<double>{}, counts)
             .x;
     };
     const QuadT<double> across{{-1, 1, 1}, {2, 0, 0}, {0, 0, -2}};
@@ -244,8 +261,9 @@ TEST_CASE("direct light: of all lights, by several rays each") {
     const auto black = room.add(LambertianT<double>{.albedo = D3{0}});
     room.add(PointLightT<double>{.position{0, 2, 0}, .intensity{8, 4, 2}});
     room.add(QuadT<double>{{-1, 3, -1}, {2, 0, 0}, {0, 0, 2}}, black, D3{3, 2, 1});
+    const World world(std::move(room));
     const RayT<double> ray{.origin{0, 0.5, 0}, .direction{0, -1, 0}};
-    const auto at = vertex_at(room, ray, *closest_hit(room, ray));
+    const auto at = vertex_at(world, ray, *closest_hit(world, ray));
     const LambertianT<double> matt{.albedo = D3{0.5}};
     // A square of side 2, 3 above: four corners (Howell's C-11).
     const double x = 1.0 / 3, r = std::sqrt(1 + x * x);
@@ -257,8 +275,9 @@ TEST_CASE("direct light: of all lights, by several rays each") {
         for (std::uint64_t path = 0; path < 4000; ++path) {
             auto stream = random_stream(ljus_test::test_seed(5), Pass::user, 0, path);
             Counts counts;
-            const D3 seen = detail::sample_all_lights(
-                room, at, matt, DirectLight::sampled, rays, stream, counts);
+            auto context = context_of(stream, counts);
+            const D3 seen = sample_all_lights(world, at, matt,
+                                              {DirectLight::sampled, rays}, context);
             for (int c = 0; c < 3; ++c) mean[c].add(seen[c]);
             CHECK(counts.shadow_rays == std::uint64_t(2 * rays));
         }
@@ -272,8 +291,6 @@ TEST_CASE("direct light: of all lights, by several rays each") {
 
 TEST_CASE_TEMPLATE("direct light: the weights of two ways to one light", T, float,
                    double) {
-    using detail::balance_heuristic;
-    using detail::power_heuristic;
     const T u = std::numeric_limits<T>::epsilon();
     for (const double a : {1e-30, 1e-3, 0.5, 1.0, 3.0, 1e3, 1e30})
         for (const double b : {1e-30, 1e-3, 0.5, 1.0, 3.0, 1e3, 1e30}) {
@@ -307,13 +324,13 @@ TEST_CASE("direct light: what is known is taken, and one side by both normals") 
     room.add(PointLightT<double>{.position{3, 4, 0}, .intensity{7, 11, 13}});
     const LambertianT<double> matt{.albedo{0.8, 0.5, 0.2}};
     const RayT<double> ray{.origin{0, 0.5, 0}, .direction{0, -1, 0}};
-    VertexT<double> at = vertex_at(room, ray, *closest_hit(room, ray));
-    const auto whole = [](const auto&, const auto&) { return 0.5; };
+    const World world(std::move(room));
+    VertexT<double> at = vertex_at(world, ray, *closest_hit(world, ray));
     const auto share = [&](Verdict verdict, Counts& counts) {
-        return detail::light_share(room, room.lights[0], at, matt,
-                                   Vec2T<double>{0.5, 0.5}, whole, counts, verdict);
+        return detail::light_share(world, 0, at, matt, Vec2T<double>{0.5, 0.5},
+                                   MisT<double>{}, counts, verdict);
     };
-    const D3 sent = 0.5 * matt.albedo / pi * D3{7, 11, 13} * 0.8 / 25.0;
+    const D3 sent = matt.albedo / pi * D3{7, 11, 13} * 0.8 / 25.0;
     Counts counts;
     const auto asked = share(Verdict::unknown, counts);
     CHECK(glm::distance(asked.sent, sent) < 1e-12);
@@ -325,8 +342,8 @@ TEST_CASE("direct light: what is known is taken, and one side by both normals") 
     CHECK(glm::distance(known.arrived, sent) < 1e-12);
     CHECK(counts.shadow_rays == 1);
     CHECK(counts.skipped_rays == 1);
-    CHECK(glm::distance(direct_light(room, room.lights[0], at, matt,
-                                     Vec2T<double>{0, 0}, whole, counts, Verdict::lit),
+    CHECK(glm::distance(direct_light(world, 0, at, matt, Vec2T<double>{0, 0},
+                                     MisT<double>{}, counts, Verdict::lit),
                         sent) < 1e-12);
     // That nothing stands in the way does not make the fog thinner.
     at.medium = {0.1, 0.2, 0.4};
@@ -372,8 +389,8 @@ TEST_CASE("direct light: a lamp, and what stands before it, at the time of the p
                   radiance);
         scene.add(Moving<Wall>{{{-2, 1, -2}, {4, 0, 0}, {0, 0, 4}}, {50, 0, 0}}, black);
         const RayT<double> ray{.origin{0, 0.5, 0}, .direction{0, -1, 0}};
-        auto at = vertex_at(scene, ray, *closest_hit(scene, ray));
-        const auto whole = [](const auto&, const auto&) { return 1.0; };
+        const World world(std::move(scene));
+        auto at = vertex_at(world, ray, *closest_hit(world, ray));
         for (const double time : {0.0, 0.25, 0.75, 1.0}) {
             at.time = time;
             Counts counts;
@@ -381,9 +398,8 @@ TEST_CASE("direct light: a lamp, and what stands before it, at the time of the p
             constexpr int n = 32;
             for (int i = 0; i < n * n; ++i) {
                 const Vec2T<double> u{(i % n + 0.5) / n, (i / n + 0.5) / n};
-                const auto share =
-                    detail::light_share(scene, scene.lights[0], at, matt, u, whole,
-                                        counts, Verdict::unknown);
+                const auto share = detail::light_share(
+                    world, 0, at, matt, u, MisT<double>{}, counts, Verdict::unknown);
                 mean += share.arrived / double(n * n);
                 sent += share.sent / double(n * n);
             }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "ljus/lights/point_light.hpp"
 #include "ljus/materials/compensated_glossy.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
@@ -59,6 +60,15 @@ std::optional<BsdfSampleT<double>> sample(const Lacquer& lacquer, const D3& wo,
 }
 void check(const Lacquer&) {}
 
+/// What a renderer finds along a ray.
+template <typename Renderer, std::floating_point T, StreamLike Stream,
+          typename Log = const NoLog>
+RgbT<T> seen_along(const Renderer& renderer, const RayT<T>& ray, Stream& stream,
+                   Counts& counts, Log& log = detail::no_log) {
+    auto context = context_of(stream, counts, log);
+    return radiance(renderer, ray, context);
+}
+
 /// The mean of n rays of one pixel, as render() draws them.
 template <typename Tracer, typename T>
 double mean_of_rays(const Tracer& tracer, const RayT<T>& ray, int rays,
@@ -68,7 +78,7 @@ double mean_of_rays(const Tracer& tracer, const RayT<T>& ray, int rays,
     for (int i = 0; i < rays; ++i) {
         StratifiedStream stream;
         start_ray(stream, ljus_test::test_seed(3), pixel, i, pattern);
-        sum += double(radiance(tracer, ray, stream, counts).x);
+        sum += double(seen_along(tracer, ray, stream, counts).x);
     }
     return sum / rays;
 }
@@ -101,16 +111,16 @@ bool is_open(const D2& floor, const D2& lamp) {
 }
 
 /// The lamp [-1, 1]^2, the floor, and a half plane beyond the edge.
-auto edge_scene() {
+auto edge_world() {
     const D2 n = edge_normal, along{-n.y, n.x};
     const auto at = [](const D2& p, double y) { return D3{p.x, y, p.y}; };
-    return make_scene(
+    return World(make_scene(
         placed(QuadD{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}}, MattD{RgbD{0.5}}),
         placed(QuadD{{-1, lamp_height, -1}, {2, 0, 0}, {0, 0, 2}}, MattD{RgbD{0}},
                RgbD{lamp_radiance}),
         placed(QuadD{at(-20.0 * along, edge_height), at(-20.0 * n, 0),
                      at(40.0 * along, 0)},
-               MattD{RgbD{0}}));
+               MattD{RgbD{0}})));
 }
 
 /// The part of the square [-1, 1]^2 that a floor point sees: the area of a polygon, cut
@@ -156,8 +166,7 @@ RayT<double> down_to(const D2& floor) {
 
 TEST_CASE("distributed rays: the visible part of a square lamp behind an edge is its "
           "area") {
-    const auto scene = edge_scene();
-    const auto index = index_scene(scene);
+    const auto world = edge_world();
     const QuadD lamp{{-1, lamp_height, -1}, {2, 0, 0}, {0, 0, 2}};
     constexpr int rays = 1024, side = 32;
     for (const double x : {-1.6, -1.2, -0.8, -0.4, -0.05, 0.3, 0.7, 1.1, 1.7}) {
@@ -170,7 +179,7 @@ TEST_CASE("distributed rays: the visible part of a square lamp behind an edge is
             start_ray(stream, ljus_test::test_seed(1), 5, i,
                       make_pattern(Sampling::jittered, rays));
             const auto to = sample_area(lamp, next_2d<double>(stream));
-            open += visibility(index, from, to).x / rays;
+            open += visibility(world, from, to).x / rays;
         }
         CAPTURE(x);
         CAPTURE(open);
@@ -186,8 +195,8 @@ TEST_CASE("distributed rays: the visible part of a square lamp behind an edge is
 }
 
 TEST_CASE("distributed rays: the penumbra's radiance is the quadrature with cosines") {
-    const auto scene = edge_scene();
-    const auto tracer = make_distributed(scene);
+    const auto world = edge_world();
+    const DistributedTracer tracer(world);
     for (const double x : {-0.8, 0.0, 0.6, 2.0}) {
         const D2 floor{x, 0.15};
         Mean seen;
@@ -207,8 +216,8 @@ TEST_CASE("distributed rays: the penumbra's radiance is the quadrature with cosi
 
 TEST_CASE("distributed rays: the error falls by n^-1/2, stratified by n^-3/4") {
     // RMS over 150 pixels; the slope of 4 points of 150 each is known to about 0.03.
-    const auto scene = edge_scene();
-    const auto tracer = make_distributed(scene);
+    const auto world = edge_world();
+    const DistributedTracer tracer(world);
     const D2 floor{0.1, 0.15};
     const double right = lit_by_quadrature(floor);
     const auto error_with = [&](Sampling sampling) {
@@ -242,9 +251,9 @@ namespace {
 // sample().
 template <typename Gloss>
 void check_gloss(const Gloss& gloss) {
-    const auto scene = make_scene(
+    const World world(make_scene(
         placed(QuadD{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}}, gloss),
-        placed(QuadD{{-1, 2, -3}, {2, 0, 0}, {0, 2, 0}}, MattD{RgbD{0}}, RgbD{3}));
+        placed(QuadD{{-1, 2, -3}, {2, 0, 0}, {0, 2, 0}}, MattD{RgbD{0}}, RgbD{3})));
     const D3 wo = glm::normalize(D3{0.2, 1, 1.5}), n{0, 1, 0};
     const FrameT<double> frame = frame_around(n);
     double right = 0;
@@ -259,7 +268,7 @@ void check_gloss(const Gloss& gloss) {
         }
     Mean seen;
     Counts counts;
-    const auto tracer = make_distributed(scene);
+    const DistributedTracer tracer(world);
     for (std::uint64_t pixel = 0; pixel < 200; ++pixel)
         seen.add(mean_of_rays(tracer,
                               RayT<double>{.origin = 3.0 * wo, .direction = -wo}, 64,
@@ -280,23 +289,25 @@ TEST_CASE("distributed rays: gloss sees a lamp as the integral over it says") {
     check_gloss(compensated_glossy(gloss));
 }
 
-TEST_CASE("distributed rays: with point lights and mirrors it is WhittedSettings's, "
+TEST_CASE("distributed rays: with point lights and mirrors it is Whitted's, "
           "bit by bit") {
-    using Room = Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Mirror>>;
+    using Room =
+        Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Mirror>, Lights<PointLight>>;
     Room room;
     const auto matt = room.add(Lambertian{.albedo = Rgb{0.6f}});
     room.add(Quad{{-5, 0, 5}, {10, 0, 0}, {0, 0, -10}}, matt);
     room.add(Sphere{.center{0, 1, 0}}, room.add(Mirror{Rgb{0.9f}}));
     room.add(Sphere{.center{1.5f, 0.5f, 1}, .radius = 0.5f}, matt);
     room.add(PointLight{.position{2, 5, 4}, .intensity = Rgb{60}});
+    const World world(std::move(room));
     const auto camera = look_at({.position{1, 2, 6}, .target{0, 0.7f, 0}});
     const RenderSettings picture{.width = 24,
                                  .height = 16,
                                  .samples = 1,
                                  .threads = 1,
                                  .sampling = Sampling::random};
-    const auto blurred = render(make_distributed(room), camera, picture);
-    const auto sharp = render(make_whitted(room), camera, picture);
+    const auto blurred = render(DistributedTracer(world), camera, picture);
+    const auto sharp = render(WhittedTracer(world), camera, picture);
     CHECK(blurred.image.pixels == sharp.image.pixels);
     CHECK(blurred.counts.rays() == sharp.counts.rays());
     CHECK(sharp.counts.bounce_rays > 20);
@@ -310,7 +321,8 @@ TEST_CASE("distributed rays: a moving strip covers a ray as long as it takes to 
     const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
     scene.add(Strip{.shape{{0, -1, 0}, {0.6f, 0, 0}, {0, 2, 0}}, .way{2, 0, 0}}, black,
               Rgb{1});
-    const auto tracer = make_distributed(scene);
+    const World world(std::move(scene));
+    const DistributedTracer tracer(world);
     for (const double x : {-0.1, 0.1, 0.35, 0.6, 1.0, 1.7, 2.1, 2.45, 2.7}) {
         // At time t it covers [2t, 2t + 0.6].
         const double from = std::max(0.0, (x - 0.6) / 2), to = std::min(1.0, x / 2);
@@ -344,8 +356,8 @@ TEST_CASE("distributed rays: at each time the scene is that of shapes moved by h
                 m);
             scene.add(Triangle{somewhere(4), somewhere(4), somewhere(4)}, m);
         }
-        const auto index = index_scene(scene);
-        CHECK(index.ids.empty() == (count == 1));
+        const World world(scene);
+        CHECK(world.ids().empty() == (count == 1));
         int hits = 0;
         for (int k = 0; k < 60; ++k) {
             const float time = k == 0 ? 0.0f : k == 1 ? 1.0f : next_1d(numbers);
@@ -358,19 +370,21 @@ TEST_CASE("distributed rays: at each time the scene is that of shapes moved by h
                     Quad{q.shape.corner + time * q.way, q.shape.edge_u, q.shape.edge_v},
                     sm);
             for (const auto& t : std::get<2>(scene.shapes)) still.add(t, sm);
+            const World stopped(std::move(still));
             for (int i = 0; i < 60; ++i) {
                 const Vec3 from = somewhere(12), to = somewhere(4);
                 const Ray ray{.origin = from, .direction = to - from, .time = time};
-                const auto found = closest_hit(index, ray);
-                const auto right = closest_hit(still, ray);
+                const auto found = closest_hit(world, ray);
+                const auto right = closest_hit(stopped, ray);
                 REQUIRE(found.has_value() == right.has_value());
-                REQUIRE(occluded(index, ray) == right.has_value());
+                REQUIRE(occluded(world, ray) == right.has_value());
                 if (!found) continue;
                 ++hits;
                 REQUIRE(found->at.t == right->at.t);
                 REQUIRE(found->object == right->object);
-                const auto point = vertex_at(index, ray, *found).point;
-                REQUIRE(point.position == vertex_at(still, ray, *right).point.position);
+                const auto point = vertex_at(world, ray, *found).point;
+                REQUIRE(point.position ==
+                        vertex_at(stopped, ray, *right).point.position);
             }
         }
         CHECK(hits > 10); // or nothing was compared
@@ -395,7 +409,8 @@ TEST_CASE("distributed rays: a moving lamp lights as the mean over its places") 
                 right += 0.5 / pi * 9 * p.y * p.y / (r2 * r2) / (double(n) * n * n);
             }
     Mean seen;
-    const auto tracer = make_distributed(room);
+    const World world(std::move(room));
+    const DistributedTracer tracer(world);
     for (std::uint64_t pixel = 0; pixel < 60; ++pixel)
         seen.add(mean_of_rays(tracer, down_to({0, 0}), 64, pixel));
     CAPTURE(seen.mean);
@@ -405,21 +420,22 @@ TEST_CASE("distributed rays: a moving lamp lights as the mean over its places") 
 }
 
 TEST_CASE("distributed rays: a scene in which nothing moves draws no time") {
-    const auto scene = edge_scene();
-    const auto tracer = make_distributed(scene);
-    static_assert(!detail::lists_moving<decltype(scene)>);
-    static_assert(
-        detail::lists_moving<Scene<Shapes<Quad, Moving<Sphere>>, Materials<Mirror>>>);
+    const auto world = edge_world();
+    const DistributedTracer tracer(world);
+    static_assert(!detail::lists_moving<decltype(edge_world())>);
+    static_assert(detail::lists_moving<
+                  World<Scene<Shapes<Quad, Moving<Sphere>>, Materials<Mirror>>>>);
     RandomStream stream;
     Counts counts;
     const RayT<double> up{.origin{30, 5, 30}, .direction{0, 1, 0}};
-    (void)radiance(tracer, up, stream, counts);
+    (void)seen_along(tracer, up, stream, counts);
     CHECK(stream.counter == std::uint64_t(1) << 16); // the first bounce, nothing drawn
 }
 
 TEST_CASE("distributed rays: every path is L D? (S|G)* E") {
-    using Room = Scene<Shapes<Quad, Moving<Sphere>>,
-                       Materials<Lambertian, Mirror, Glass, Glossy>>;
+    using Room =
+        Scene<Shapes<Quad, Moving<Sphere>>,
+              Materials<Lambertian, Mirror, Glass, Glossy>, Lights<PointLight>>;
     Room room;
     const auto matt = room.add(Lambertian{.albedo = Rgb{0.6f}});
     const auto satin = room.add(Glossy{.reflectance = Rgb{0.8f}, .roughness = 0.4f});
@@ -431,16 +447,16 @@ TEST_CASE("distributed rays: every path is L D? (S|G)* E") {
     room.add(PointLight{.position{2, 4, 4}, .intensity = Rgb{10}});
     const auto lens =
         with_lens(look_at({.position{1, 2.5f, 6}, .target{0, 1.5f, 0}}), 0.1f, 5.0f);
-    const auto tracer = make_distributed(room, {.max_depth = 4});
+    const World world(std::move(room));
+    const DistributedTracer tracer(world, {.max_depth = 4});
     PathLog log;
     Counts counts;
     const RenderSettings picture{.width = 20, .height = 20, .samples = 4, .threads = 1};
+    const PictureRays rays(picture);
     for (int y = 0; y < 20; ++y)
         for (int x = 0; x < 20; ++x)
             for (int i = 0; i < 4; ++i)
-                (void)detail::trace_pixel(tracer, lens, picture,
-                                          ljus::make_pattern(picture.sampling, 4), x, y,
-                                          i, counts, log);
+                (void)trace_pixel(tracer, lens, rays, {x, y, i}, counts, log);
     std::set<std::string> kinds;
     std::size_t longest = 0;
     for (const PathLogLine& line : log.lines) {
@@ -468,7 +484,8 @@ TEST_CASE("distributed rays: every path is L D? (S|G)* E") {
 
 TEST_CASE("distributed rays: the log adds up, ray by ray, in colours") {
     using Room =
-        Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>, MirrorT<double>>>;
+        Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>, MirrorT<double>>,
+              Lights<PointLightT<double>>>;
     Room room;
     const auto matt = room.add(LambertianT<double>{.albedo{0.6, 0.3, 0.1}});
     const auto mirror = room.add(MirrorT<double>{.reflectance{0.9, 0.5, 0.2}});
@@ -476,7 +493,8 @@ TEST_CASE("distributed rays: the log adds up, ray by ray, in colours") {
     room.add(QuadT<double>{{-5, 0, -4}, {10, 0, 0}, {0, 6, 0}}, mirror);
     room.add(QuadT<double>{{-2, 5, -2}, {4, 0, 0}, {0, 0, 4}}, matt, RgbD{4, 5, 6});
     room.add(PointLightT<double>{.position{2, 4, 3}, .intensity{10, 20, 30}});
-    const auto tracer = make_distributed(room, {.max_depth = 3});
+    const World world(std::move(room));
+    const DistributedTracer tracer(world, {.max_depth = 3});
     int in_the_mirror = 0;
     for (int i = 0; i < 100; ++i) {
         auto random =
@@ -485,7 +503,7 @@ TEST_CASE("distributed rays: the log adds up, ray by ray, in colours") {
         PathLog log;
         Counts counts;
         const RayT<double> ray{.origin{0, 2, 3}, .direction = glm::normalize(way)};
-        const D3 seen(radiance(tracer, ray, random, counts, log));
+        const D3 seen(seen_along(tracer, ray, random, counts, log));
         D3 told{0};
         for (const PathLogLine& line : log.lines) {
             if (line.what == "vertex") continue;
@@ -506,11 +524,12 @@ TEST_CASE("distributed rays: max_depth turns, and no ray of black light") {
             const auto mirror = hall.add(MirrorT<double>{.reflectance = RgbD{share}});
             hall.add(QuadT<double>{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, mirror);
             hall.add(QuadT<double>{{-1, -1, 1}, {0, 2, 0}, {2, 0, 0}}, mirror);
+            const World world(std::move(hall));
             Counts counts;
             StratifiedStream stream;
             const RayT<double> across{.origin{0, 0, 0.5}, .direction{0, 0, 1}};
-            (void)radiance(make_distributed(hall, {.max_depth = depth}), across, stream,
-                           counts);
+            (void)seen_along(DistributedTracer(world, {.max_depth = depth}), across,
+                             stream, counts);
             CHECK(counts.bounce_rays == std::uint64_t(share > 0 ? depth : 0));
             CHECK(counts.cut_paths == (share > 0 || depth == 0 ? 1u : 0u));
         }
@@ -520,23 +539,24 @@ TEST_CASE("distributed rays: max_depth turns, and no ray of black light") {
                       red_and_green.add(MirrorT<double>{.reflectance{0, 1, 0}}));
     red_and_green.add(QuadT<double>{{-1, -1, 1}, {0, 2, 0}, {2, 0, 0}},
                       red_and_green.add(MirrorT<double>{.reflectance{1, 0, 0}}));
+    const World world(std::move(red_and_green));
     Counts both;
     StratifiedStream numbers;
-    (void)radiance(make_distributed(red_and_green, {.max_depth = 4}),
-                   RayT<double>{.origin{0, 0, 0.5}, .direction{0, 0, 1}}, numbers,
-                   both);
+    (void)seen_along(DistributedTracer(world, {.max_depth = 4}),
+                     RayT<double>{.origin{0, 0, 0.5}, .direction{0, 0, 1}}, numbers,
+                     both);
     CHECK(both.bounce_rays == 1);
     CHECK(both.cut_paths == 0);
     // A matt surface sends no ray on, so that the depth cuts none; gloss does.
     const Ray down{.origin{0, 1, 0}, .direction{0, -1, 0}};
     for (const int depth : {0, 1}) {
         const auto cut = [&](const auto& material) {
-            const auto floor = make_scene(
-                placed(Quad{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}}, material));
+            const World floor(make_scene(
+                placed(Quad{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}}, material)));
             Counts counts;
             StratifiedStream stream;
-            (void)radiance(make_distributed(floor, {.max_depth = depth}), down, stream,
-                           counts);
+            (void)seen_along(DistributedTracer(floor, {.max_depth = depth}), down,
+                             stream, counts);
             return counts.cut_paths;
         };
         CHECK(cut(Lambertian{}) == 0);
@@ -547,19 +567,19 @@ TEST_CASE("distributed rays: max_depth turns, and no ray of black light") {
 
 TEST_CASE(
     "distributed rays: a matt surface sends no ray on, and gloss no ray to lamps") {
-    const auto scene = edge_scene();
+    const auto world = edge_world();
     Counts counts;
     StratifiedStream stream;
-    (void)radiance(make_distributed(scene), down_to({2, 0}), stream, counts);
+    (void)seen_along(DistributedTracer(world), down_to({2, 0}), stream, counts);
     CHECK(counts.bounce_rays == 0);
     CHECK(counts.shadow_rays == 1);
-    const auto shiny = make_scene(
+    const World shiny(make_scene(
         placed(Quad{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}},
                Glossy{.reflectance = Rgb{0.8f}}),
-        placed(Quad{{-1, 4, -1}, {2, 0, 0}, {0, 0, 2}}, Lambertian{}, Rgb{5}));
+        placed(Quad{{-1, 4, -1}, {2, 0, 0}, {0, 0, 2}}, Lambertian{}, Rgb{5})));
     counts = {};
     const Ray down{.origin{0, 1, 0}, .direction{0, -1, 0}};
-    (void)radiance(make_distributed(shiny), down, stream, counts);
+    (void)seen_along(DistributedTracer(shiny), down, stream, counts);
     CHECK(counts.bounce_rays == 1);
     CHECK(counts.shadow_rays == 0);
 }
@@ -573,11 +593,12 @@ TEST_CASE("distributed rays: what is below a gloss is seen by the same ray") {
              room.add(Lacquer{{.albedo = RgbD{0.5}}, &asked}));
     room.add(QuadD{{-1e4, 4, -1e4}, {2e4, 0, 0}, {0, 0, 2e4}},
              room.add(MattD{.albedo = RgbD{0}}), RgbD{3});
+    const World world(std::move(room));
     Counts counts;
     StratifiedStream stream;
-    const RgbD seen =
-        radiance(make_distributed(room),
-                 RayT<double>{.origin{0, 1, 0}, .direction{0, -1, 0}}, stream, counts);
+    const RgbD seen = seen_along(DistributedTracer(world),
+                                 RayT<double>{.origin{0, 1, 0}, .direction{0, -1, 0}},
+                                 stream, counts);
     CHECK(asked == Lobes::all);
     CHECK(counts.shadow_rays == 0);
     CHECK(seen.x == doctest::Approx(1.5)); // the lamp is all of the sky
@@ -587,7 +608,7 @@ TEST_CASE("distributed rays: a light draws two numbers if it has a size, else no
     const MattD matt{.albedo = RgbD{0.5}};
     for (const int points : {0, 1, 3})
         for (const int lamps : {0, 1, 2}) {
-            Scene<Shapes<QuadD>, Materials<MattD>> room;
+            Scene<Shapes<QuadD>, Materials<MattD>, Lights<PointLightT<double>>> room;
             const auto white = room.add(matt);
             room.add(QuadD{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}}, white);
             for (int i = 0; i < points; ++i)
@@ -597,10 +618,12 @@ TEST_CASE("distributed rays: a light draws two numbers if it has a size, else no
                 room.add(QuadD{{-1, 3.0 + i, -1}, {2, 0, 0}, {0, 0, 2}}, white,
                          RgbD{3});
             const RayT<double> down{.origin{0, 1, 0}, .direction{0, -1, 0}};
-            const auto vertex = vertex_at(room, down, *closest_hit(room, down));
+            const World world(std::move(room));
+            const auto vertex = vertex_at(world, down, *closest_hit(world, down));
             auto stream = random_stream(5, Pass::user, 0, 0), twin = stream;
             Counts counts;
-            (void)detail::soft_light(room, vertex, matt, stream, counts);
+            auto context = context_of(stream, counts);
+            (void)detail::soft_light(world, vertex, matt, context);
             for (int i = 0; i < lamps; ++i) (void)next_2d<double>(twin);
             CHECK(next_1d<double>(stream) == next_1d<double>(twin));
             CHECK(counts.shadow_rays == std::uint64_t(points + lamps));
@@ -608,12 +631,12 @@ TEST_CASE("distributed rays: a light draws two numbers if it has a size, else no
 }
 
 TEST_CASE("distributed rays: at the extremes") {
-    const auto scene = edge_scene();
-    CHECK_THROWS_WITH_AS((void)make_distributed(scene, {.max_depth = -1}),
+    const auto world = edge_world();
+    CHECK_THROWS_WITH_AS((void)DistributedTracer(world, {.max_depth = -1}),
                          "max_depth is -1; it must be at least 0.",
                          std::invalid_argument);
-    CHECK(make_distributed(scene, {.max_depth = 0}).settings.max_depth == 0);
-    CHECK(make_distributed(scene).settings.max_depth == 5);
+    CHECK(DistributedTracer(world, {.max_depth = 0}).settings().max_depth == 0);
+    CHECK(DistributedTracer(world).settings().max_depth == 5);
     using Room = Scene<Shapes<Moving<Sphere>>, Materials<Lambertian>>;
     Room room;
     const auto matt = room.add(Lambertian{.albedo = Rgb{0.5f}});
@@ -625,7 +648,7 @@ TEST_CASE("distributed rays: at the extremes") {
     // What does not move is where it was; a way of 1e6 is flown to its end.
     room.add(Moving<Sphere>{{.center{0, 0, 0}}, {0, 0, 0}}, matt);
     room.add(Moving<Sphere>{{.center{5, 0, 0}}, {1e6f, 0, 0}}, matt);
-    const auto index = index_scene(room);
+    const World index(std::move(room));
     const Ray ahead{.origin{0, 0, 3}, .direction{0, 0, -1}};
     for (const float time : {0.0f, 0.5f, 1.0f}) {
         Ray then = ahead;
@@ -638,5 +661,5 @@ TEST_CASE("distributed rays: at the extremes") {
     CHECK(!closest_hit(index, far_away)); // at time 0, if nothing else is said
     far_away.time = 1;
     CHECK(closest_hit(index, far_away));
-    CHECK(closest_hit(room, Ray{.origin{5, 0, 3}, .direction{0, 0, -1}}));
+    CHECK(closest_hit(index, Ray{.origin{5, 0, 3}, .direction{0, 0, -1}}));
 }

@@ -18,11 +18,14 @@
 #include <vector>
 
 #include "ljus/geometry/shape.hpp"
+#include "ljus/lights/point_light.hpp"
+#include "ljus/lights/spot_light.hpp"
+#include "ljus/lights/sun_light.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
-#include "ljus/scene/query.hpp"
+#include "ljus/scene/world.hpp"
 #include "support/integrate.hpp"
 #include "support/seed.hpp"
 #include "support/statistics.hpp"
@@ -36,7 +39,9 @@ using D3 = glm::dvec3; ///< What the closed forms are computed with.
 namespace {
 
 constexpr double pi = std::numbers::pi;
-using TestScene = Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Glass, Mirror>>;
+using TestScene = Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Glass, Mirror>,
+                        Lights<PointLight, SpotLight, SunLight>>;
+using TestWorld = World<TestScene>;
 
 /// A scene with its materials at hand.
 struct Stage {
@@ -49,6 +54,31 @@ struct Stage {
 RandomStream stream_of(long long path, std::uint64_t seed = 1) {
     return random_stream(ljus_test::test_seed(seed), Pass::user, 0,
                          static_cast<std::uint64_t>(path));
+}
+
+/// A sun, as a world knows it.
+template <AnyWorld W>
+SunInSceneT<float> sun_of(const W& world, std::uint32_t number) {
+    return world.visit_light(number, []<typename L>(const L& light) {
+        if constexpr (std::is_same_v<L, SunInSceneT<float>>)
+            return light;
+        else
+            return SunInSceneT<float>{};
+    });
+}
+
+/// How a point of a light aims at an object.
+template <AnyWorld W>
+detail::AimT<float> aim_of(const W& world, std::uint32_t number,
+                           const SurfacePoint& from, ObjectId target) {
+    return world.visit_light(number, [&](const auto& light) {
+        detail::ConeT<float> cone;
+        if constexpr (requires { light.lamp; })
+            cone = detail::cone_of_emission(light, from);
+        else
+            cone = detail::cone_of_emission(light, from.position);
+        return detail::aim_at(world, cone, from.position, target);
+    });
 }
 
 /// A rectangle of light above the floor z = 0, tilted; it shines down.
@@ -69,16 +99,16 @@ double polygon_irradiance(const std::array<D3, 4>& polygon, D3 at, D3 normal,
 
 /// Emits photons, and compares where they meet the floor with the irradiance there.
 template <typename Irradiance>
-void compare_with_irradiance(const TestScene& scene, double flux,
+void compare_with_irradiance(const TestWorld& world, double flux,
                              Irradiance irradiance) {
     constexpr int cells = 8;
     constexpr double half = 2; // the cells cover [-2, 2]^2
     constexpr long long photons = 200000;
     std::vector<double> counts(cells * cells + 1), expected(cells * cells + 1);
-    const LightChoice choice = light_choice(scene.lights);
+    const LightChoice& choice = world.light_choice();
     for (long long i = 0; i < photons; ++i) {
         RandomStream stream = stream_of(i);
-        const auto flight = emit(scene, choice, stream);
+        const auto flight = emit(world, choice, stream);
         REQUIRE(double(flight.flux.x) == doctest::Approx(flux).epsilon(1e-5));
         std::size_t cell = cells * cells; // anywhere else
         if (flight.ray.direction.z < 0) {
@@ -120,19 +150,19 @@ struct AimedFlux {
     long long kept = 0;                     ///< Photons that met their target first.
     long long behind = 0;                   ///< Photons that the lamp could not send.
 };
-AimedFlux aim_at_all(const TestScene& scene, long long photons,
+AimedFlux aim_at_all(const TestWorld& world, long long photons,
                      std::uint64_t seed = 1) {
-    AimedFlux result{.targets = specular_objects(scene), .means = {}};
+    AimedFlux result{.targets = specular_objects(world), .means = {}};
     result.means.resize(result.targets.size());
-    const LightChoice choice = light_choice(scene.lights);
+    const LightChoice& choice = world.light_choice();
     for (long long i = 0; i < photons; ++i) {
         RandomStream stream = stream_of(i, seed);
-        const auto aimed = aim(scene, choice, result.targets, stream);
+        const auto aimed = aim(world, choice, result.targets, stream);
         bool keep = false;
         if (!aimed) {
             ++result.behind;
         } else {
-            const auto hit = closest_hit(scene, aimed->photon.ray);
+            const auto hit = closest_hit(world, aimed->photon.ray);
             keep = hit && hit->object == aimed->target;
         }
         if (keep) ++result.kept;
@@ -147,14 +177,14 @@ AimedFlux aim_at_all(const TestScene& scene, long long photons,
 }
 
 /// The flux that photons sent everywhere bring to each target.
-std::vector<Mean> emit_to(const TestScene& scene, const std::vector<ObjectId>& targets,
+std::vector<Mean> emit_to(const TestWorld& world, const std::vector<ObjectId>& targets,
                           long long photons) {
     std::vector<Mean> means(targets.size());
-    const LightChoice choice = light_choice(scene.lights);
+    const LightChoice& choice = world.light_choice();
     for (long long i = 0; i < photons; ++i) {
         RandomStream stream = stream_of(i, 77);
-        const auto flight = emit(scene, choice, stream);
-        const auto hit = closest_hit(scene, flight.ray);
+        const auto flight = emit(world, choice, stream);
+        const auto hit = closest_hit(world, flight.ray);
         for (std::size_t j = 0; j < targets.size(); ++j)
             means[j].add(hit && hit->object == targets[j] ? double(flight.flux.x)
                                                           : 0.0);
@@ -199,7 +229,7 @@ TEST_CASE("emission: photons of a quad lie as densely as its irradiance") {
     const D3 c{lamp.corner}, u{lamp.edge_u}, v{lamp.edge_v};
     const std::array polygon{c, c + u, c + u + v, c + v};
     const double flux = 3 * pi * glm::length(glm::cross(u, v));
-    compare_with_irradiance(stage.scene, flux, [&](D3 at) {
+    compare_with_irradiance(World(stage.scene), flux, [&](D3 at) {
         return polygon_irradiance(polygon, at, {0, 0, 1}, 3);
     });
 }
@@ -209,7 +239,7 @@ TEST_CASE("emission: photons of a sphere lie as densely as its irradiance") {
     stage.scene.add(Sphere{.center{0.3f, -0.2f, 1.5f}, .radius = 0.6f}, stage.matt,
                     Rgb{2});
     const double r = double(0.6f);
-    compare_with_irradiance(stage.scene, 2 * pi * 4 * pi * r * r, [&](D3 at) {
+    compare_with_irradiance(World(stage.scene), 2 * pi * 4 * pi * r * r, [&](D3 at) {
         const D3 way = D3{double(0.3f), double(-0.2f), 1.5} - at;
         const double d2 = glm::dot(way, way);
         return pi * 2 * r * r / d2 * way.z / std::sqrt(d2); // E = pi L (R/d)^2 cos
@@ -219,7 +249,7 @@ TEST_CASE("emission: photons of a sphere lie as densely as its irradiance") {
 TEST_CASE("emission: photons of a point light lie as densely as its irradiance") {
     Stage stage;
     stage.scene.add(PointLight{.position{-0.3f, 0.4f, 1}, .intensity = Rgb{5}});
-    compare_with_irradiance(stage.scene, 4 * pi * 5, [&](D3 at) {
+    compare_with_irradiance(World(stage.scene), 4 * pi * 5, [&](D3 at) {
         const D3 way = D3{double(-0.3f), double(0.4f), 1} - at;
         const double d2 = glm::dot(way, way);
         return 5 / d2 * way.z / std::sqrt(d2);
@@ -229,7 +259,8 @@ TEST_CASE("emission: photons of a point light lie as densely as its irradiance")
 TEST_CASE("emission: directions go with the cosine, wherever on the lamp they start") {
     Stage stage;
     stage.scene.add(lamp, stage.matt, Rgb{1});
-    const LightChoice choice = light_choice(stage.scene.lights);
+    const World world(stage.scene);
+    const LightChoice& choice = world.light_choice();
     const D3 u{lamp.edge_u}, v{lamp.edge_v};
     const D3 n = glm::normalize(glm::cross(u, v));
     const D3 tangent = glm::normalize(u), bitangent = glm::cross(n, tangent);
@@ -237,7 +268,7 @@ TEST_CASE("emission: directions go with the cosine, wherever on the lamp they st
     std::vector<double> counts(4 * 4 * 10 * 8), expected(counts.size());
     for (long long i = 0; i < photons; ++i) {
         RandomStream stream = stream_of(i);
-        const RayT<float> ray = emit(stage.scene, choice, stream).ray;
+        const RayT<float> ray = emit(world, choice, stream).ray;
         const D3 d{ray.direction}, p = D3(ray.origin) - D3(lamp.corner);
         REQUIRE(std::abs(glm::length(d) - 1) < 1e-6);
         REQUIRE(std::abs(glm::dot(p, n)) < 1e-5); // it starts on the lamp ...
@@ -266,12 +297,13 @@ TEST_CASE("emission: directions go with the cosine, wherever on the lamp they st
 TEST_CASE("emission: a point light emits alike in all directions") {
     Stage stage;
     stage.scene.add(PointLight{.position{1, 2, 3}});
-    const LightChoice choice = light_choice(stage.scene.lights);
+    const World world(stage.scene);
+    const LightChoice& choice = world.light_choice();
     std::vector<double> counts(20 * 20);
     constexpr long long photons = 80000;
     for (long long i = 0; i < photons; ++i) {
         RandomStream stream = stream_of(i);
-        const RayT<float> ray = emit(stage.scene, choice, stream).ray;
+        const RayT<float> ray = emit(world, choice, stream).ray;
         REQUIRE(ray.origin == Vec3{1, 2, 3});
         const D3 d{ray.direction};
         const int z = std::clamp(int((d.z + 1) * 10), 0, 19);
@@ -287,10 +319,11 @@ TEST_CASE("emission: a room that is a lamp emits inwards") {
     Stage stage;
     const Vec3 center{1, -2, 0.5f}; // not what it would be mirrored about
     stage.scene.add(Sphere{.center = center, .radius = 2}, stage.matt, Rgb{1}, true);
-    const LightChoice choice = light_choice(stage.scene.lights);
+    const World world(stage.scene);
+    const LightChoice& choice = world.light_choice();
     for (long long i = 0; i < 2000; ++i) {
         RandomStream stream = stream_of(i);
-        const RayT<float> ray = emit(stage.scene, choice, stream).ray;
+        const RayT<float> ray = emit(world, choice, stream).ray;
         const double distance = glm::distance(D3(ray.origin), D3(center));
         REQUIRE(distance < 2);
         REQUIRE(distance > 1.9999);
@@ -315,10 +348,11 @@ TEST_CASE("emission: lights are chosen by their power, and keep their colours") 
     for (std::size_t i = 0; i < 3; ++i)
         expected[i] = photons * (flux[i].x + flux[i].y + flux[i].z) / power;
     D3 sum{0};
-    const LightChoice choice = light_choice(stage.scene.lights);
+    const World world(stage.scene);
+    const LightChoice& choice = world.light_choice();
     for (long long i = 0; i < photons; ++i) {
         RandomStream stream = stream_of(i);
-        const auto flight = emit(stage.scene, choice, stream);
+        const auto flight = emit(world, choice, stream);
         REQUIRE(flight.light < 3);
         ++counts[flight.light];
         sum += D3(flight.flux) / double(photons);
@@ -340,18 +374,20 @@ TEST_CASE("emission: aimed at one ball, the plain way and the general one agree"
     Stage stage;
     const Sphere ball{.center{0.5f, -1, 2}, .radius = 0.75f};
     stage.scene.add(ball, stage.glass);
-    stage.scene.add(PointLight{.position{-1, 2, 0.5f}, .intensity = Rgb{3, 2, 1}});
-    const auto targets = specular_objects(stage.scene);
-    const auto choice = light_choice(stage.scene.lights);
+    const PointLight bulb{.position{-1, 2, 0.5f}, .intensity = Rgb{3, 2, 1}};
+    stage.scene.add(bulb);
+    const World world(stage.scene);
+    const auto targets = specular_objects(world);
+    const LightChoice& choice = world.light_choice();
     for (std::uint64_t path = 0; path < 1000; ++path) {
         auto stream = random_stream(ljus_test::test_seed(4), Pass::user, 0, path);
         auto again = stream;
-        const auto aimed = aim(stage.scene, choice, targets, stream);
+        const auto aimed = aim(world, choice, targets, stream);
         REQUIRE(aimed);
         (void)next_1d(again); // the light, the point of it, the target
         (void)next_2d(again);
         (void)next_1d(again);
-        const auto plain = aim_at_ball(stage.scene.lights[0], ball, next_2d(again));
+        const auto plain = aim_at_ball(bulb, ball, next_2d(again));
         REQUIRE(plain.ray.direction == aimed->photon.ray.direction);
         REQUIRE(glm::distance(plain.flux, aimed->photon.flux) <
                 1e-6f * glm::length(plain.flux));
@@ -364,8 +400,8 @@ TEST_CASE("emission: what is mirror or glass is what photons are aimed at") {
     stage.scene.add(Sphere{}, stage.matt);
     const ObjectId ball = stage.scene.add(Sphere{}, stage.glass);
     const ObjectId wall = stage.scene.add(lamp, stage.mirror);
-    CHECK(specular_objects(stage.scene) == std::vector<ObjectId>{wall, ball});
-    CHECK(specular_objects(TestScene{}).empty());
+    CHECK(specular_objects(World(stage.scene)) == std::vector<ObjectId>{wall, ball});
+    CHECK(specular_objects(World(TestScene{})).empty());
 }
 
 TEST_CASE(
@@ -375,7 +411,7 @@ TEST_CASE(
         Stage stage;
         stage.scene.add(Sphere{.center{0, distance, 0}}, stage.glass);
         stage.scene.add(PointLight{.intensity = Rgb{7}});
-        const AimedFlux found = aim_at_all(stage.scene, 20000);
+        const AimedFlux found = aim_at_all(World(stage.scene), 20000);
         // Phi (1 - cos) / 2, where 1 - cos is sin^2 / (1 + cos).
         const double sine2 = 1 / (double(distance) * double(distance));
         const double exact = 4 * pi * 7 * sine2 / (1 + std::sqrt(1 - sine2)) / 2;
@@ -394,7 +430,7 @@ TEST_CASE("emission: aimed at a sphere by a quad, from far, near and the horizon
         const Sphere ball{.center = center, .radius = 0.7f};
         stage.scene.add(ball, stage.glass);
         stage.scene.add(lamp, stage.matt, Rgb{2});
-        const AimedFlux found = aim_at_all(stage.scene, 60000);
+        const AimedFlux found = aim_at_all(World(stage.scene), 60000);
         const double exact = quad_to_sphere(lamp, ball, 2);
         CAPTURE(exact);
         CHECK(std::abs(found.means[0][0].sigmas(exact, 1e-4)) < 4.5);
@@ -412,7 +448,7 @@ TEST_CASE("emission: where cones overlap, each object gets what it is hit by fir
         stage.scene.add(Sphere{.center{0.4f, 0, -6}, .radius = 1.5f}, stage.mirror);
     const ObjectId beside = stage.scene.add(Sphere{.center{0, 4, 0}}, stage.glass);
     stage.scene.add(PointLight{});
-    const AimedFlux found = aim_at_all(stage.scene, 100000);
+    const AimedFlux found = aim_at_all(World(stage.scene), 100000);
     REQUIRE(found.targets == std::vector<ObjectId>{near, far, beside});
 
     // The far ball shows a crescent beside the near one: count it on a fine grid.
@@ -459,7 +495,7 @@ TEST_CASE(
         const double factor = 2 / (pi * x * x) *
                               (std::log(std::sqrt(w * w * w * w / (1 + 2 * x * x))) +
                                2 * x * w * std::atan(x / w) - 2 * x * std::atan(x));
-        const AimedFlux found = aim_at_all(stage.scene, 100000);
+        const AimedFlux found = aim_at_all(World(stage.scene), 100000);
         CHECK(std::abs(found.means[0][0].sigmas(pi * factor, 1e-4)) < 4.5);
     }
 }
@@ -482,7 +518,7 @@ TEST_CASE("emission: at a flat mirror no photon is aimed in vain") {
             };
             const double right =
                 corner(double(beside + 4), 0.5) - corner(double(beside), 0.5);
-            const AimedFlux found = aim_at_all(stage.scene, 40000);
+            const AimedFlux found = aim_at_all(World(stage.scene), 40000);
             CHECK(std::abs(found.means[0][0].sigmas(right, 1e-4)) < 4.5);
             const bool outside = beside > 1 || height > 3; // of the bounding sphere
             if (outside) CHECK(found.kept >= 39900);
@@ -493,7 +529,7 @@ TEST_CASE("emission: a point light within the bound aims everywhere") {
     Stage ball;
     ball.scene.add(Sphere{.center{0.2f, 0, 0}}, ball.glass);
     ball.scene.add(PointLight{});
-    const AimedFlux inside = aim_at_all(ball.scene, 5000);
+    const AimedFlux inside = aim_at_all(World(ball.scene), 5000);
     CHECK(inside.kept == 5000);
     CHECK(inside.means[0][1].mean == doctest::Approx(4 * pi).epsilon(1e-5));
 
@@ -502,8 +538,9 @@ TEST_CASE("emission: a point light within the bound aims everywhere") {
     wall.scene.add(PointLight{.position{0, 0, 0.25f}});
     // The solid angle of a square from above its middle: 4 asin(1 / (1 + 4 h^2)).
     const double solid_angle = 4 * std::asin(1 / (1 + 4 * 0.25 * 0.25));
-    CHECK(std::abs(aim_at_all(wall.scene, 50000).means[0][0].sigmas(solid_angle)) <
-          4.5);
+    CHECK(
+        std::abs(aim_at_all(World(wall.scene), 50000).means[0][0].sigmas(solid_angle)) <
+        4.5);
 }
 
 TEST_CASE("emission: a shell of light sends a ball within it the share (r/R)^2") {
@@ -513,9 +550,9 @@ TEST_CASE("emission: a shell of light sends a ball within it the share (r/R)^2")
         stage.scene.add(Sphere{.radius = r}, stage.glass);
         const double flux = pi * 4 * pi * 4;
         const double share = double(r) * double(r) / 4;
-        CHECK(
-            std::abs(aim_at_all(stage.scene, 30000).means[0][0].sigmas(flux * share)) <
-            4.5);
+        CHECK(std::abs(aim_at_all(World(stage.scene), 30000)
+                           .means[0][0]
+                           .sigmas(flux * share)) < 4.5);
     }
 }
 
@@ -523,7 +560,7 @@ TEST_CASE("emission: what lies behind the lamp, or a wall, gets nothing") {
     Stage stage;
     stage.scene.add(lamp, stage.matt, Rgb{1});
     stage.scene.add(Sphere{.center{0, 0, 6}}, stage.glass);
-    const AimedFlux found = aim_at_all(stage.scene, 5000);
+    const AimedFlux found = aim_at_all(World(stage.scene), 5000);
     CHECK(found.kept == 0);
     CHECK(found.behind == 5000);
     CHECK(found.means[0][0].mean == 0);
@@ -533,7 +570,7 @@ TEST_CASE("emission: what lies behind the lamp, or a wall, gets nothing") {
     hidden.scene.add(Quad{.corner{-9, -9, 1.5f}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
                      hidden.matt);
     hidden.scene.add(Sphere{.center{0, 0, 0}}, hidden.glass);
-    CHECK(aim_at_all(hidden.scene, 5000).kept == 0);
+    CHECK(aim_at_all(World(hidden.scene), 5000).kept == 0);
 }
 
 TEST_CASE("emission: aimed photons bring what photons sent everywhere bring") {
@@ -546,8 +583,9 @@ TEST_CASE("emission: aimed photons bring what photons sent everywhere bring") {
     stage.scene.add(Sphere{.center{0.9f, 0, 1.5f}, .radius = 0.6f}, stage.mirror);
     stage.scene.add(Quad{.corner{-1, -1, -0.5f}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}},
                     stage.mirror);
-    const AimedFlux aimed = aim_at_all(stage.scene, 150000);
-    const auto everywhere = emit_to(stage.scene, aimed.targets, 150000);
+    const World world(stage.scene);
+    const AimedFlux aimed = aim_at_all(world, 150000);
+    const auto everywhere = emit_to(world, aimed.targets, 150000);
     REQUIRE(aimed.targets.size() == 3);
     for (std::size_t i = 0; i < 3; ++i) {
         CAPTURE(i);
@@ -564,7 +602,7 @@ TEST_CASE("emission: one point of the square says where on a light, the other wh
     // Lights, and what each of the two points decides: a lamp has both, a sun is
     // parallel, points and spots are but a point.
     struct Case {
-        int light;
+        std::uint32_t light;
         bool origin_by_point, direction_by_direction;
     };
     Stage stage;
@@ -572,13 +610,15 @@ TEST_CASE("emission: one point of the square says where on a light, the other wh
     stage.scene.add(PointLight{.position{0, 0, 3}, .intensity{1, 0, 0}});
     stage.scene.add(SpotLight{.position{0, 0, 3}, .intensity{1, 0, 0}});
     stage.scene.add(SunLight{.irradiance{1, 1, 1}});
+    const World world(stage.scene);
     const Vec2 a{0.2f, 0.3f}, b{0.7f, 0.6f};
     for (const Case& c : {Case{0, true, true}, Case{1, false, true},
                           Case{2, false, true}, Case{3, true, false}}) {
         CAPTURE(c.light);
-        const auto& light = stage.scene.lights[std::size_t(c.light)];
         const auto ray = [&](const Vec2& point, const Vec2& direction) {
-            return light_ray(stage.scene, light, point, direction);
+            return world.visit_light(c.light, [&](const auto& light) {
+                return emit_photon(light, point, direction, 0.0f).ray;
+            });
         };
         const auto first = ray(a, b), moved = ray(b, b), turned = ray(a, a);
         CHECK((moved.origin != first.origin) == c.origin_by_point);
@@ -593,11 +633,12 @@ TEST_CASE("emission: a photon knows its light among hundreds") {
     Stage stage;
     for (int i = 0; i < 600; ++i)
         stage.scene.add(PointLight{.position{float(i), 0, 0}, .intensity{1, 1, 1}});
-    const LightChoice choice = light_choice(stage.scene.lights);
+    const World world(stage.scene);
+    const LightChoice& choice = world.light_choice();
     int beyond = 0;
     for (long long i = 0; i < 200; ++i) {
         RandomStream stream = stream_of(i);
-        const auto flight = emit(stage.scene, choice, stream);
+        const auto flight = emit(world, choice, stream);
         CHECK(flight.ray.origin.x == float(flight.light));
         beyond += flight.light > 255;
     }
@@ -609,15 +650,16 @@ TEST_CASE("emission: the light of an aimed photon has its colour and its number"
     stage.scene.add(PointLight{.position{0, 0, 3}, .intensity{1, 0, 0}});
     stage.scene.add(PointLight{.position{0, 0, -3}, .intensity{0, 2, 0}});
     stage.scene.add(Sphere{}, stage.glass);
-    const AimedFlux found = aim_at_all(stage.scene, 50000);
+    const AimedFlux found = aim_at_all(World(stage.scene), 50000);
     const double cap = 2 * pi * (1 - std::sqrt(8.0) / 3); // solid angle of the ball
     CHECK(std::abs(found.means[0][0].sigmas(cap)) < 4.5);
     CHECK(std::abs(found.means[0][1].sigmas(2 * cap)) < 4.5);
     CHECK(found.means[0][2].mean == 0);
-    const LightChoice choice = light_choice(stage.scene.lights);
+    const World world(stage.scene);
+    const LightChoice& choice = world.light_choice();
     for (long long i = 0; i < 100; ++i) {
         RandomStream stream = stream_of(i);
-        const auto aimed = aim(stage.scene, choice, found.targets, stream);
+        const auto aimed = aim(world, choice, found.targets, stream);
         REQUIRE(aimed);
         CHECK((aimed->photon.flux.x > 0) == (aimed->photon.light == 0));
         CHECK((aimed->photon.flux.y > 0) == (aimed->photon.light == 1));
@@ -627,7 +669,8 @@ TEST_CASE("emission: the light of an aimed photon has its colour and its number"
 namespace {
 
 /// A scene with one light and a black floor z = 0 of [-2, 2]^2 below it.
-using LitFloor = Scene<Shapes<Quad, Sphere, Triangle>, Materials<Lambertian>>;
+using LitFloor = Scene<Shapes<Quad, Sphere, Triangle>, Materials<Lambertian>,
+                       Lights<PointLight, SpotLight, SunLight>>;
 
 LitFloor lit_floor() {
     LitFloor scene;
@@ -639,16 +682,16 @@ LitFloor lit_floor() {
 /// What the photons of many seeds bring to the patch [0, 0.8] x [-0.2, 0.5] of the
 /// floor; one number a seed.
 template <typename MakeStream>
-Mean flux_on_patch(const LitFloor& scene, MakeStream make_stream) {
-    const LightChoice choice = light_choice(scene.lights);
+Mean flux_on_patch(const World<LitFloor>& world, MakeStream make_stream) {
+    const LightChoice& choice = world.light_choice();
     Mean mean;
     constexpr int photons = 4096;
     for (std::uint64_t seed = 1; seed <= 16; ++seed) {
         double sum = 0;
         for (std::uint64_t i = 0; i < photons; ++i) {
             auto stream = make_stream(seed, i);
-            const auto flight = emit(scene, choice, stream);
-            const auto hit = closest_hit(scene, flight.ray);
+            const auto flight = emit(world, choice, stream);
+            const auto hit = closest_hit(world, flight.ray);
             if (!hit || hit->object != ObjectId{0, 0}) continue;
             const Vec3 p = flight.ray.origin + hit->at.t * flight.ray.direction;
             if (p.x >= 0 && p.x < 0.8f && p.y >= -0.2f && p.y < 0.5f)
@@ -677,10 +720,11 @@ TEST_CASE(
     // 3 standard errors of 16 seeds: Student's t with 15 degrees puts 0.9 % beyond; 14
     // numbers, were the seeds new, 12 %.
     const auto compare = [](const char* name, const LitFloor& scene, double right) {
-        const Mean chance = flux_on_patch(scene, [](auto seed, auto i) {
+        const World world(scene);
+        const Mean chance = flux_on_patch(world, [](auto seed, auto i) {
             return random_stream(seed, Pass::user, 0, i);
         });
-        const Mean even = flux_on_patch(scene, [](auto seed, auto i) {
+        const Mean even = flux_on_patch(world, [](auto seed, auto i) {
             return sobol_stream(seed, Pass::user, 0, i);
         });
         CAPTURE(name);
@@ -780,8 +824,9 @@ TEST_CASE("emission: a spot light's directions go with its intensity, in cones o
             return 2 * sine * sine; // 1 - cos
         };
         const double wi = lifted(inner), wo = lifted(outer);
-        const LightChoice choice = light_choice(stage.scene.lights);
-        CHECK(double(stage.scene.lights[0].flux.x) ==
+        const World world(stage.scene);
+        const LightChoice& choice = world.light_choice();
+        CHECK(double(world.powers()[0].x) ==
               doctest::Approx(3 * pi * (wi + wo)).epsilon(1e-5));
         const D3 side = glm::normalize(glm::cross(axis, D3{0, 0, 1}));
         const D3 up = glm::cross(side, axis);
@@ -789,7 +834,7 @@ TEST_CASE("emission: a spot light's directions go with its intensity, in cones o
         std::vector<double> counts(rings * slices), expected(counts.size());
         for (long long i = 0; i < photons; ++i) {
             RandomStream stream = stream_of(i);
-            const auto flight = emit(stage.scene, choice, stream);
+            const auto flight = emit(world, choice, stream);
             REQUIRE(flight.ray.origin == Vec3{1, 2, 3});
             const D3 d = glm::normalize(D3(flight.ray.direction)) - axis;
             const double w = glm::dot(d, d) / 2;
@@ -822,20 +867,22 @@ TEST_CASE(
     "it; they know what is added later") {
     Stage stage;
     stage.scene.add(SunLight{.direction{0, 0, -3}, .irradiance = Rgb{2}});
-    CHECK(stage.scene.lights[0].flux.x == 0.0f); // nothing to shine on yet
+    CHECK(World(stage.scene).powers()[0].x == 0.0f); // nothing to shine on yet
     stage.scene.add(Sphere{.center{1, 0, 0}, .radius = 1}, stage.matt);
-    const float small = stage.scene.lights[0].flux.x;
+    const float small = World(stage.scene).powers()[0].x;
     stage.scene.add(Sphere{.center{-1, 0, 5}, .radius = 0.5f}, stage.matt);
-    CHECK(stage.scene.lights[0].flux.x > small);
-    const double radius = double(stage.scene.lights[0].radius);
-    const D3 middle{stage.scene.lights[0].position};
-    CHECK(double(stage.scene.lights[0].flux.x) ==
+    const World world(stage.scene);
+    CHECK(world.powers()[0].x > small);
+    const Sphere around = sun_of(world, 0).around;
+    const double radius = double(around.radius);
+    const D3 middle{around.center};
+    CHECK(double(world.powers()[0].x) ==
           doctest::Approx(2 * pi * radius * radius).epsilon(1e-5));
-    const LightChoice choice = light_choice(stage.scene.lights);
+    const LightChoice& choice = world.light_choice();
     std::vector<double> counts(10 * 12), expected(counts.size(), 60000.0 / 120);
     for (long long i = 0; i < 60000; ++i) {
         RandomStream stream = stream_of(i);
-        const auto flight = emit(stage.scene, choice, stream);
+        const auto flight = emit(world, choice, stream);
         REQUIRE(flight.ray.direction == Vec3{0, 0, -1});
         REQUIRE(flight.ray.origin.z > 5.5f);
         const D3 p = (D3(flight.ray.origin) - middle) / radius;
@@ -867,8 +914,9 @@ TEST_CASE("emission: aimed photons bring as much from spots and suns as those se
                                       .outer_degrees = kind == 1 ? 6.0f : 50.0f});
         else
             stage.scene.add(SunLight{.direction{0.3f, 0.1f, -1}});
-        const AimedFlux aimed = aim_at_all(stage.scene, 60000);
-        const auto everywhere = emit_to(stage.scene, aimed.targets, 60000);
+        const World world(stage.scene);
+        const AimedFlux aimed = aim_at_all(world, 60000);
+        const auto everywhere = emit_to(world, aimed.targets, 60000);
         for (std::size_t i = 0; i < 3; ++i) {
             CAPTURE(kind);
             CAPTURE(i);
@@ -889,13 +937,14 @@ TEST_CASE("emission: chosen by power all photons weigh the same; chosen evenly t
     LitFloor scene = lit_floor();
     for (const float strength : {0.1f, 1.0f, 30.0f})
         scene.add(PointLight{.position{0.1f, 0.2f, 1}, .intensity = Rgb{strength}});
-    const LightChoice by_power = light_choice(scene.lights);
+    const World world(scene);
+    const LightChoice& by_power = world.light_choice();
     const LightChoice even{.cumulative = {1, 2, 3}};
     Mean weight[2];
     for (const int i : {0, 1})
         for (long long path = 0; path < 3000; ++path) {
             RandomStream stream = stream_of(path);
-            weight[i].add(double(emit(scene, i == 0 ? by_power : even, stream).flux.x));
+            weight[i].add(double(emit(world, i == 0 ? by_power : even, stream).flux.x));
         }
     const double flux = 4 * pi * 31.1;
     CHECK(weight[0].mean == doctest::Approx(flux).epsilon(1e-5));
@@ -906,17 +955,20 @@ TEST_CASE("emission: chosen by power all photons weigh the same; chosen evenly t
 
 TEST_CASE(
     "emission: where things move, a photon has a time and a lamp its place then") {
-    Scene<Shapes<Moving<Quad>, Sphere>, Materials<Lambertian, Mirror>> scene;
+    Scene<Shapes<Moving<Quad>, Sphere>, Materials<Lambertian, Mirror>,
+          Lights<PointLight, SunLight>>
+        scene;
     const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
     const Quad square{.corner{0, 0, 0}, .edge_u{1, 0, 0}, .edge_v{0, 1, 0}};
     scene.add(Moving<Quad>{square, {100, 0, 0}}, black, Rgb{1});
     scene.add(PointLight{.position{0, 0, 5}, .intensity = Rgb{1}});
-    const LightChoice choice = light_choice(scene.lights);
+    const World world(scene);
+    const LightChoice& choice = world.light_choice();
     double times = 0;
     int of_lamp = 0;
     for (long long i = 0; i < 4000; ++i) {
         RandomStream stream = stream_of(i);
-        const auto photon = emit(scene, choice, stream);
+        const auto photon = emit(world, choice, stream);
         times += double(photon.ray.time) / 4000;
         REQUIRE(photon.ray.time >= 0);
         REQUIRE(photon.ray.time < 1);
@@ -932,19 +984,22 @@ TEST_CASE(
 
 TEST_CASE(
     "emission: aimed photons, too, know when they fly and where the lamp is then") {
-    Scene<Shapes<Moving<Quad>, Sphere>, Materials<Lambertian, Mirror>> scene;
+    Scene<Shapes<Moving<Quad>, Sphere>, Materials<Lambertian, Mirror>,
+          Lights<PointLight, SunLight>>
+        scene;
     const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
     const Quad square{.corner{0, 0, 0}, .edge_u{1, 0, 0}, .edge_v{0, 1, 0}};
     scene.add(Moving<Quad>{square, {100, 0, 0}}, black, Rgb{1});
     scene.add(Sphere{.center{50, 0, 30}, .radius = 5}, scene.add(Mirror{}));
     scene.add(SunLight{.direction{0, 0, -1}, .irradiance = Rgb{0.001f}});
-    const LightChoice choice = light_choice(scene.lights);
-    const auto targets = specular_objects(scene);
+    const World world(scene);
+    const LightChoice& choice = world.light_choice();
+    const auto targets = specular_objects(world);
     REQUIRE(targets.size() == 1);
     double times[2] = {}, counts[2] = {};
     for (long long i = 0; i < 4000; ++i) {
         RandomStream stream = stream_of(i);
-        const auto aimed = aim(scene, choice, targets, stream);
+        const auto aimed = aim(world, choice, targets, stream);
         REQUIRE(aimed);
         const Ray& ray = aimed->photon.ray;
         counts[aimed->photon.light] += 1;
@@ -962,7 +1017,6 @@ TEST_CASE(
 }
 
 TEST_CASE("emission: how a light aims at each kind of object, and how often") {
-    using detail::aim_at;
     Stage stage;
     const auto mirror = stage.mirror;
     stage.scene.add(Sphere{.center{0, 0, 10}, .radius = 1}, mirror);
@@ -975,21 +1029,22 @@ TEST_CASE("emission: how a light aims at each kind of object, and how often") {
                               .intensity = Rgb{1},
                               .inner_degrees = 0.1f,
                               .outer_degrees = 0.2f});
-    const auto targets = specular_objects(stage.scene);
+    const World world(stage.scene);
+    const auto targets = specular_objects(world);
     REQUIRE(targets.size() == 2);
     const SurfacePoint from{};
     for (const ObjectId target : targets) {
-        const bool round = stage.scene.visit_shape(target, [](const auto& shape) {
+        const bool round = world.visit_shape(target, [](const auto& shape) {
             return std::same_as<std::remove_cvref_t<decltype(shape)>, Sphere>;
         });
-        const auto at = aim_at(stage.scene, stage.scene.lights[0], from, target);
+        const auto at = aim_of(world, 0, from, target);
         // A ball by its cone, 1 - cos; a rectangle by its area over 2 pi d^2.
         const double right =
             round ? 1 - std::sqrt(1 - 0.01) : 0.2 * 0.4 / (2 * pi * 400);
         CHECK(at.at_area == !round);
         CHECK(double(at.size) == ljus_test::within(right, 1e-3));
         // The spot's own cone is narrower: within 0.2 degrees.
-        const auto spot = aim_at(stage.scene, stage.scene.lights[1], from, target);
+        const auto spot = aim_of(world, 1, from, target);
         const double narrow = 1 - std::cos(0.2 * pi / 180);
         CHECK_FALSE(spot.at_area);
         CHECK(double(spot.size) == ljus_test::within(narrow, 1e-2));
@@ -999,18 +1054,19 @@ TEST_CASE("emission: how a light aims at each kind of object, and how often") {
 }
 
 TEST_CASE("emission: a sun's photons start beside the scene, wherever they are aimed") {
-    Scene<Shapes<Sphere>, Materials<Lambertian>> scene;
+    Scene<Shapes<Sphere>, Materials<Lambertian>, Lights<SunLight>> scene;
     const auto grey = scene.add(Lambertian{});
     for (const Vec3& center : {Vec3{-5, 0, 0}, Vec3{5, 1, 2}, Vec3{0, -7, 3}})
         scene.add(Sphere{.center = center}, grey);
     scene.add(SunLight{.direction{0.6f, -0.8f, 0}});
-    const Light& sun = scene.lights.back();
+    const SunInSceneT<float> sun = sun_of(World(scene), 0);
     for (const Vec3& center : {Vec3{-5, 0, 0}, Vec3{5, 1, 2}, Vec3{0, -7, 3}})
         for (const Vec2& u : {Vec2{0.5f, 0.5f}, Vec2{0.1f, 0.9f}, Vec2{0.8f, 0.3f}}) {
-            const Ray ray = detail::sun_ray(sun, center, 0.5f, u);
+            const Ray ray =
+                detail::ray_from_afar(sun.around, sun.direction, center, 0.5f, u);
             CHECK(ray.direction == sun.direction);
-            CHECK(double(glm::dot(ray.origin - sun.position, sun.direction)) ==
-                  doctest::Approx(-double(sun.radius)).epsilon(1e-5));
+            CHECK(double(glm::dot(ray.origin - sun.around.center, sun.direction)) ==
+                  doctest::Approx(-double(sun.around.radius)).epsilon(1e-5));
             const Vec3 beside = glm::cross(ray.origin - center, sun.direction);
             CHECK(glm::length(beside) < 0.5f); // towards the disc around the centre
         }
@@ -1038,11 +1094,10 @@ TEST_CASE("emission: what is matt and a mirror at once is aimed at, too") {
     scene.add(Sphere{}, scene.add(Lambertian{}));
     const ObjectId gloss =
         scene.add(Sphere{.center{3, 0, 0}}, scene.add(Mixture{.reflectivity = 0.5f}));
-    CHECK(specular_objects(scene) == std::vector<ObjectId>{gloss});
+    CHECK(specular_objects(World(scene)) == std::vector<ObjectId>{gloss});
 }
 
 TEST_CASE("emission: from within a bound a lamp aims at all that it can shine on") {
-    using detail::aim_at;
     Stage stage;
     const ObjectId ball = stage.scene.add(Sphere{.radius = 2}, stage.glass);
     const ObjectId wall = stage.scene.add(
@@ -1051,16 +1106,17 @@ TEST_CASE("emission: from within a bound a lamp aims at all that it can shine on
         Quad{.corner{-0.1f, -0.1f, 0.5f}, .edge_u{0.2f, 0, 0}, .edge_v{0, 0.2f, 0}},
         stage.matt, Rgb{1});
     stage.scene.add(PointLight{.position{0, 0, 0.5f}});
+    const World world(stage.scene);
     const SurfacePoint from{.position{0, 0, 0.5f}, .normal{0, 0, 1}};
     for (const ObjectId target : {ball, wall}) {
         // Its hemisphere, and a point light the whole sphere:
         // in solid angles over 2 pi.
-        const auto lamp_at = aim_at(stage.scene, stage.scene.lights[0], from, target);
+        const auto lamp_at = aim_of(world, 0, from, target);
         CHECK(lamp_at.cone.axis == from.normal);
         CHECK(lamp_at.cone.one_minus_cos == 1);
         CHECK(lamp_at.size == 1);
         CHECK_FALSE(lamp_at.at_area);
-        const auto point_at = aim_at(stage.scene, stage.scene.lights[1], from, target);
+        const auto point_at = aim_of(world, 1, from, target);
         CHECK(point_at.cone.one_minus_cos == 2);
         CHECK(point_at.size == 2);
         CHECK_FALSE(point_at.at_area);
@@ -1070,7 +1126,7 @@ TEST_CASE("emission: from within a bound a lamp aims at all that it can shine on
     for (long long i = 0; i < 1000; ++i) {
         RandomStream stream = stream_of(i);
         const auto aimed =
-            aim(stage.scene, only, std::span<const ObjectId>(&ball, 1), stream);
+            aim(world, only, std::span<const ObjectId>(&ball, 1), stream);
         REQUIRE(aimed);
         CHECK(aimed->photon.ray.direction.z > 0);
     }
@@ -1083,11 +1139,12 @@ TEST_CASE("emission: a spot that is wider than its target aims at nothing else")
     stage.scene.add(ball, stage.glass);
     stage.scene.add(
         SpotLight{.direction{0, 0, -1}, .inner_degrees = 1, .outer_degrees = 40});
-    const auto targets = specular_objects(stage.scene);
-    const LightChoice choice = light_choice(stage.scene.lights);
+    const World world(stage.scene);
+    const auto targets = specular_objects(world);
+    const LightChoice& choice = world.light_choice();
     for (long long i = 0; i < 1000; ++i) {
         RandomStream stream = stream_of(i);
-        const auto aimed = aim(stage.scene, choice, targets, stream);
+        const auto aimed = aim(world, choice, targets, stream);
         REQUIRE(aimed);
         CHECK(intersect(aimed->photon.ray, ball));
     }
@@ -1100,14 +1157,15 @@ TEST_CASE("emission: each light's aimed photons pay for how often it is chosen")
     stage.scene.add(Sphere{.radius = 0.5f}, stage.glass);
     stage.scene.add(PointLight{.position{0, 3, 0}, .intensity = Rgb{0.2f}});
     stage.scene.add(SunLight{.direction{0, 0, -1}, .irradiance = Rgb{4}});
-    const auto targets = specular_objects(stage.scene);
+    const World world(stage.scene);
+    const auto targets = specular_objects(world);
     const LightChoice choice{.cumulative = {9, 10}};
     const double cone = 1 - std::sqrt(1 - 0.25 / 9);
     const double wanted[] = {2 * pi * cone * 0.2 / 0.9, 4 * pi * 0.25 / 0.1};
     int seen[2] = {};
     for (long long i = 0; i < 1000; ++i) {
         RandomStream stream = stream_of(i);
-        const auto aimed = aim(stage.scene, choice, targets, stream);
+        const auto aimed = aim(world, choice, targets, stream);
         REQUIRE(aimed);
         const auto light = aimed->photon.light;
         ++seen[light];
@@ -1121,10 +1179,11 @@ TEST_CASE("emission: a mirror that is seen exactly from its edge gets no photon"
     Stage stage;
     stage.scene.add(Quad{.corner{2, -0.5f, 0}}, stage.mirror); // in the plane z = 0
     stage.scene.add(PointLight{});
-    const auto targets = specular_objects(stage.scene);
-    const LightChoice choice = light_choice(stage.scene.lights);
+    const World world(stage.scene);
+    const auto targets = specular_objects(world);
+    const LightChoice& choice = world.light_choice();
     for (long long i = 0; i < 100; ++i) {
         RandomStream stream = stream_of(i);
-        CHECK_FALSE(aim(stage.scene, choice, targets, stream));
+        CHECK_FALSE(aim(world, choice, targets, stream));
     }
 }

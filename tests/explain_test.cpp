@@ -57,12 +57,11 @@ struct HalfNan {
     using Stream = RandomStream;
 };
 
-[[maybe_unused]] Rgb radiance(const HalfNan&, const Ray&, RandomStream&, Counts& counts,
-                              auto&& log) {
-    log.begin();
-    const bool bad = counts.camera_rays % 2 == 0;
+[[maybe_unused]] Rgb radiance(const HalfNan&, const Ray&, auto& context) {
+    context.log.begin();
+    const bool bad = context.counts.camera_rays % 2 == 0;
     const Rgb value{bad ? std::numeric_limits<float>::quiet_NaN() : 3.0f};
-    log.term("emission", "L", value);
+    context.log.term("emission", "L", value);
     return value;
 }
 
@@ -71,12 +70,11 @@ struct Colors {
     using Stream = RandomStream;
 };
 
-[[maybe_unused]] Rgb radiance(const Colors&, const Ray&, RandomStream&, Counts&,
-                              auto&& log) {
-    log.begin();
-    log.term("red", "L", Rgb{2, 0, 0});
-    log.term("green", "DL", Rgb{1, 5, 0});
-    log.term("blue", "SL", Rgb{0, 0, 3});
+[[maybe_unused]] Rgb radiance(const Colors&, const Ray&, auto& context) {
+    context.log.begin();
+    context.log.term("red", "L", Rgb{2, 0, 0});
+    context.log.term("green", "DL", Rgb{1, 5, 0});
+    context.log.term("blue", "SL", Rgb{0, 0, 3});
     return {3, 5, 3};
 }
 
@@ -107,7 +105,7 @@ TEST_CASE("explain: each term counts as much as the filter says") {
     // The rays of a pixel have weights, with Mitchell's filter of both signs: the sums
     // are those of the pixel only if each term has its ray's.
     const auto room = cornell_box();
-    const auto tracer = make_path_tracer(room.scene);
+    const PathTracer tracer(room.world);
     for (const Filter filter : {Filter::gaussian, Filter::mitchell}) {
         RenderSettings filtered = picture;
         filtered.filter = filter;
@@ -125,10 +123,10 @@ TEST_CASE("explain: each term counts as much as the filter says") {
 TEST_CASE("explain: the sums by path add up to the pixel as it is rendered") {
     const auto room = cornell_box();
     SUBCASE("path tracing") {
-        check_sums(make_path_tracer(room.scene), room.camera);
+        check_sums(PathTracer(room.world), room.camera);
     }
     SUBCASE("path tracing without shadow rays") {
-        check_sums(make_path_tracer(room.scene, {.sample_lights = false}), room.camera);
+        check_sums(PathTracer(room.world, {.sample_lights = false}), room.camera);
     }
     for (const auto indirect : {IndirectLight::rays, IndirectLight::map,
                                 IndirectLight::photons, IndirectLight::none}) {
@@ -136,20 +134,20 @@ TEST_CASE("explain: the sums by path add up to the pixel as it is rendered") {
                                              .indirect = indirect,
                                              .caustics = {.photons = 2000},
                                              .general = {.photons = 2000}};
-        const auto maps = make_photon_maps(room.scene, settings);
-        check_sums(make_photon_mapper(room.scene, maps, settings), room.camera, true);
+        check_sums(PhotonMapper(room.world, settings), room.camera, true);
     }
 }
 
 TEST_CASE("explain: a floor below a point light has one path, of the known value") {
-    Scene<Shapes<Quad>, Materials<Lambertian>> scene;
+    Scene<Shapes<Quad>, Materials<Lambertian>, Lights<PointLight>> scene;
     scene.add(Quad{.corner{-9, 0, 9}, .edge_u{18, 0, 0}, .edge_v{0, 0, -18}},
               scene.add(Lambertian{.albedo{0.8f, 0.4f, 0.2f}}));
     scene.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{10}});
+    const World world(std::move(scene));
     const Camera camera = look_at(
         {.position{0, 5, 0}, .target{0, 0, 0}, .up{0, 0, -1}, .vfov_degrees = 0.01f});
     const auto apart = detail::take_apart(
-        make_path_tracer(scene), camera, {.width = 1, .height = 1, .samples = 4}, 0, 0);
+        PathTracer(world), camera, {.width = 1, .height = 1, .samples = 4}, 0, 0);
     REQUIRE(apart.sums.size() == 1);
     CHECK(apart.sums[0].path == "EDL");
     CHECK(apart.sums[0].owner == "shadow ray");
@@ -164,7 +162,7 @@ TEST_CASE("explain: a floor below a point light has one path, of the known value
 TEST_CASE("explain: the text has a line for each vertex, each term and each path") {
     const auto room = cornell_box();
     const auto apart =
-        detail::take_apart(make_path_tracer(room.scene), room.camera, picture, 3, 9, 2);
+        detail::take_apart(PathTracer(room.world), room.camera, picture, 3, 9, 2);
     const std::string text = detail::describe(apart);
     CHECK(text.find("ray 1\n") == 0);
     CHECK(text.find("\nray 2\n") != std::string::npos);
@@ -202,8 +200,8 @@ TEST_CASE("explain: long lists of paths end in one line for the rest") {
 
 TEST_CASE("explain: a scene alone is explained by path tracing") {
     const auto room = cornell_box();
-    CHECK(explain(room.scene, room.camera, 120, 300) ==
-          explain(make_path_tracer(room.scene), room.camera, {}, 120, 300));
+    CHECK(explain(room.world, room.camera, 120, 300) ==
+          explain(PathTracer(room.world), room.camera, {}, 120, 300));
 }
 
 TEST_CASE("explain: rays that are not finite are left out and counted") {
@@ -222,7 +220,7 @@ TEST_CASE("explain: rays that are not finite are left out and counted") {
 
 TEST_CASE("explain: a pixel outside of the picture is refused") {
     const auto room = cornell_box();
-    const auto tracer = make_path_tracer(room.scene);
+    const PathTracer tracer(room.world);
     for (const auto& [x, y] : {std::pair{-1, 0}, {12, 0}, {0, -1}, {0, 12}})
         CHECK_THROWS_AS((void)explain(tracer, room.camera, picture, x, y),
                         std::invalid_argument);

@@ -117,10 +117,10 @@ TEST_CASE("extremes: far from the origin float says that it does not hold, and d
     CHECK(lost.remarks.find("float keeps ") != std::string::npos);
     CHECK(lost.remarks.find("use double, or move the scene towards the origin") !=
           std::string::npos);
-    const Plan plan = survey(examples::extreme_room<float>(at(1e6)).scene, {});
+    const Plan plan = survey(examples::extreme_room<float>(at(1e6)).world, {});
     REQUIRE(plan.remarks.size() == 1);
     CHECK(lost.remarks == plan.remarks.front() + "\n");
-    const auto gone = survey(examples::extreme_room<float>(at(1e12)).scene, {});
+    const auto gone = survey(examples::extreme_room<float>(at(1e12)).world, {});
     REQUIRE(gone.remarks.size() == 1);
     CHECK(gone.remarks.front() ==
           "an object is so small or so far away that float keeps nothing of its size; "
@@ -201,7 +201,8 @@ TEST_CASE_TEMPLATE("extremes: in a furnace everything that loses no light is inv
                     look_at(ViewT<T>{.position = middle + Vec3T<T>{0, 0, T(4) * s},
                                      .target = middle,
                                      .vfov_degrees = T(30)});
-                const auto tracer = make_path_tracer(scene);
+                const World world(std::move(scene));
+                const PathTracer tracer(world);
                 const auto picture =
                     render(tracer, camera, {.width = 16, .height = 16, .samples = 4});
                 CHECK(picture.counts.rejected == 0);

@@ -45,7 +45,8 @@ double largest_error(const Renderer& renderer, const ljus::RgbT<T>& reflectance)
     for (int n = 0; n <= 40; ++n) {
         ljus::RandomStream stream = ljus::random_stream(3, ljus::Pass::camera, 0, 0);
         ljus::Counts counts;
-        const auto seen = radiance(renderer, ray_of<T>(n), stream, counts);
+        auto context = ljus::context_of(stream, counts);
+        const auto seen = radiance(renderer, ray_of<T>(n), context);
         for (int channel = 0; channel < 3; ++channel) {
             const double exact = std::pow(double(reflectance[channel]), n);
             largest = std::max(largest, std::abs(double(seen[channel]) / exact - 1));
@@ -59,23 +60,21 @@ double largest_error(const Renderer& renderer, const ljus::RgbT<T>& reflectance)
 TEST_CASE_TEMPLATE("facing_mirrors: n reflections leave R^n in both renderers", T,
                    float, double) {
     const ljus::RgbT<T> reflectance{T(0.95), T(0.9), T(0.8)};
-    const auto scene = hall(reflectance);
+    const ljus::World world(hall(reflectance));
     const double most = 45 * double(std::numeric_limits<T>::epsilon());
     const double found =
-        largest_error(make_path_tracer(scene, {.roulette_depth = 1000}), reflectance);
+        largest_error(ljus::PathTracer(world, {.roulette_depth = 1000}), reflectance);
     MESSAGE("largest relative error ", found);
     CHECK(found <= most);
     ljus::PhotonMappingSettings settings{.roulette_depth = 1000};
     settings.caustics.photons = 100;
-    const auto maps = make_photon_maps(scene, settings);
-    CHECK(largest_error(make_photon_mapper(scene, maps, settings), reflectance) <=
-          most);
+    CHECK(largest_error(ljus::PhotonMapper(world, settings), reflectance) <= most);
 }
 
 TEST_CASE("facing_mirrors: roulette keeps the mean of 40 reflections") {
     const ljus::Rgb reflectance{0.95f, 0.9f, 0.8f};
-    const auto scene = hall(reflectance);
-    const auto tracer = make_path_tracer(scene, {.roulette_depth = 4});
+    const ljus::World world(hall(reflectance));
+    const ljus::PathTracer tracer(world, {.roulette_depth = 4});
     const double exact = std::pow(0.95, 40);
     constexpr int paths = 20000;
     double sum = 0, squares = 0;
@@ -83,8 +82,8 @@ TEST_CASE("facing_mirrors: roulette keeps the mean of 40 reflections") {
         ljus::RandomStream stream = ljus::random_stream(
             ljus_test::test_seed(3), ljus::Pass::camera, 0, static_cast<unsigned>(i));
         ljus::Counts counts;
-        const double seen =
-            double(radiance(tracer, ray_of<float>(40), stream, counts).x);
+        auto context = ljus::context_of(stream, counts);
+        const double seen = double(radiance(tracer, ray_of<float>(40), context).x);
         sum += seen;
         squares += seen * seen;
     }

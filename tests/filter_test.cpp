@@ -44,9 +44,8 @@ struct Waves {
     double pixel = 0.1;   ///< Width of a pixel in that plane.
     double slope = 0;     ///< Of a ramp that is added.
 };
-template <typename Log = ljus::NoLog>
-Rgb radiance(const Waves& waves, const ljus::Ray& ray, ljus::RandomStream&,
-             ljus::Counts&, Log&& = {}) {
+template <typename Context>
+Rgb radiance(const Waves& waves, const ljus::Ray& ray, Context&) {
     const double x = double(ray.direction.x / -ray.direction.z) / waves.pixel;
     return Rgb(float(1 + std::cos(2 * pi * waves.frequency * x) + waves.slope * x));
 }

@@ -20,7 +20,7 @@
 #include "ljus/materials/glossy.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
-#include "ljus/render/photon_mapping.hpp"
+#include "ljus/render/gathering.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/mean.hpp"
 #include "support/refusal.hpp"
@@ -46,7 +46,7 @@ double part_by_rule(double s) {
     return sum;
 }
 
-using Flat = Scene<Shapes<Quad, Triangle>, Materials<Lambertian>>;
+using Flat = Scene<Shapes<Quad, Triangle>, Materials<Lambertian>, Lights<PointLight>>;
 
 /// A unit square at z = 0, whole or of two triangles.
 Flat square(bool two_triangles) {
@@ -64,7 +64,7 @@ Flat square(bool two_triangles) {
 /// Lets every photon count, for estimate_irradiance().
 constexpr auto all_photons = [](std::uint32_t) { return true; };
 
-Vertex at(const Flat& scene, float x, float y) {
+Vertex at(const World<Flat>& scene, float x, float y) {
     const Ray ray{.origin{x, y, 0.1f}, .direction{0, 0, -1}};
     const auto hit = closest_hit(scene, ray);
     REQUIRE(hit);
@@ -101,7 +101,8 @@ TEST_CASE("final gathering: the part of the kernel beside a line") {
 TEST_CASE("final gathering: what lies on the surface near its edges") {
     const Vec3 up{0, 0, 1};
     for (const bool triangles : {false, true}) {
-        const Flat scene = square(triangles);
+        const Flat open = square(triangles);
+        const World scene(open);
         const auto part = [&](float x, float y, float radius) {
             return detail::part_on_surface(scene, at(scene, x, y), up, radius);
         };
@@ -110,16 +111,18 @@ TEST_CASE("final gathering: what lies on the surface near its edges") {
         CHECK(part(0.05f, 0.4f, 0.1f) == doctest::Approx(detail::kernel_part(0.5f)));
         CHECK(part(0.98f, 0.6f, 0.1f) == doctest::Approx(detail::kernel_part(0.2f)));
         // From below as from above, and whatever lies farther down or leans.
-        Flat more = scene;
+        Flat more = open;
         const auto grey = more.add(Lambertian{});
         more.add(Quad{.corner{-9, -9, -0.5f}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
                  grey);
         more.add(Quad{.corner{1, 0, -0.5f}, .edge_u{0, 1, 0}, .edge_v{0.2f, 0, 1}},
                  grey);
+        const World larger(std::move(more));
         for (const Vec3 side : {up, -up})
-            for (const Flat& there : {scene, more}) {
+            for (const World<Flat>* there : {&scene, &larger}) {
                 const auto of = [&](float x, float y) {
-                    return detail::part_on_surface(there, at(there, x, y), side, 0.1f);
+                    return detail::part_on_surface(*there, at(*there, x, y), side,
+                                                   0.1f);
                 };
                 CHECK(of(0.05f, 0.4f) == doctest::Approx(detail::kernel_part(0.5f)));
                 CHECK(of(0.98f, 0.6f) == doctest::Approx(detail::kernel_part(0.2f)));
@@ -127,12 +130,12 @@ TEST_CASE("final gathering: what lies on the surface near its edges") {
             }
         // A step down or up, lower than the disc is wide, is no way on either.
         for (const float step : {-0.03f, -0.07f, 0.03f, 0.07f}) {
-            Flat stairs = scene;
+            Flat stairs = open;
             stairs.add(Quad{.corner{1, -1, step}, .edge_u{3, 0, 0}, .edge_v{0, 3, 0}},
                        stairs.add(Lambertian{}));
+            const World two(std::move(stairs));
             for (const Vec3 side : {up, -up})
-                CHECK(detail::part_on_surface(stairs, at(stairs, 0.98f, 0.6f), side,
-                                              0.1f) ==
+                CHECK(detail::part_on_surface(two, at(two, 0.98f, 0.6f), side, 0.1f) ==
                       doctest::Approx(detail::kernel_part(0.2f)));
         }
         if (!triangles) // at a corner of two triangles each edge is seen by one of them
@@ -143,7 +146,7 @@ TEST_CASE("final gathering: what lies on the surface near its edges") {
 }
 
 TEST_CASE("final gathering: photons that all lie in one point have no area") {
-    const Flat scene = square(false);
+    const World scene(square(false));
     const std::vector<Photon> photons(9, {.position{0.5f, 0.5f, 0},
                                           .direction{0, 0, -1},
                                           .flux = Rgb{1},
@@ -157,7 +160,7 @@ TEST_CASE("final gathering: photons that all lie in one point have no area") {
 TEST_CASE("final gathering: an even light is found in the middle and at the edge") {
     // 1 W on a unit square is 1 W/m^2. Over 16 maps; 6 comparisons of 4 standard errors
     // and one of a bias of 3 %, which the product of two edges has at a corner.
-    const Flat scene = square(false);
+    const World scene(square(false));
     const Vec3 up{0, 0, 1};
     const IrradiancePointSettings how{.nearest = 50};
     IrradiancePointSettings plain = how;
@@ -206,7 +209,7 @@ TEST_CASE("final gathering: an even light is found in the middle and at the edge
 TEST_CASE("final gathering: fewer photons than asked for are spread over the disc") {
     // 100 photons of 0.01 W on a unit square, 28 in the disc in the mean, k of 64: all
     // of them count. 400 maps, 4 standard errors.
-    const Flat scene = square(false);
+    const World scene(square(false));
     Mean few;
     for (std::uint64_t seed = 1; seed <= 400; ++seed)
         few.add(double(estimate_irradiance(scene, even_photons(100, seed),
@@ -221,7 +224,7 @@ TEST_CASE("final gathering: what is looked up is right in the mean over a surfac
     // or their numbers, too large, would each stand for less of the surface. With
     // points in the tree's order and 16 photons an estimate is 4 % too dark. Over 64
     // maps; three comparisons of 4 standard errors.
-    const Flat scene = square(false);
+    const World scene(square(false));
     for (const int every : {2, 8, 32}) {
         Mean mean;
         for (std::uint64_t seed = 1; seed <= 64; ++seed) {
@@ -299,12 +302,12 @@ TEST_CASE("final gathering: in a furnace every way of gathering finds L / (1 - a
                                          .samples = 4,
                                          .seed = test_seed(seed),
                                          .threads = 1};
-            auto maps = make_photon_maps(room.scene, settings);
-            for (const auto& record : maps.irradiance.records)
+            PhotonMapper mapper(room.world, settings, abilities<Gathering>);
+            const auto& state = mapper.state<Gathering>();
+            for (const auto& record : state.points.records)
                 known.add(double(record.irradiance.x) / pi);
-            add_irradiance_cache(maps, room.scene, room.camera, picture, settings);
-            CHECK(maps.cache.empty() == (indirect == IndirectLight::gather));
-            const auto mapper = make_photon_mapper(room.scene, maps, settings);
+            mapper.fill_cache(room.camera, picture);
+            CHECK(state.cache.empty() == (indirect == IndirectLight::gather));
             double sum = 0;
             for (const Rgb& pixel : render(mapper, room.camera, picture).image.pixels)
                 sum += double(pixel.x) / (24 * 24);
@@ -320,7 +323,7 @@ TEST_CASE("final gathering: in a furnace every way of gathering finds L / (1 - a
 
 TEST_CASE("final gathering: an estimate of few photons, added up by hand") {
     // Epanechnikov's weights 2 (1 - d^2 / r^2), over pi r^2, in colours.
-    const Flat scene = square(false);
+    const World scene(square(false));
     const Vec3 up{0, 0, 1};
     const auto photon = [&](float x, PhotonKind kind, float down, Rgb flux) {
         return Photon{.position{x, 0.5f, 0},
@@ -377,6 +380,7 @@ TEST_CASE("final gathering: points at photons, with all the light that is there"
     const auto grey = scene.add(Lambertian{.albedo = Rgb{0.5f}});
     scene.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, grey);
     scene.add(PointLight{.position{0, 0, 2}, .intensity{8, 4, 2}});
+    const World world(std::move(scene));
     std::vector<Photon> photons;
     for (int i = 0; i < 7; ++i)
         photons.push_back({.position{float(i) - 3, 0.5f, i == 6 ? 1.0f : 0.0f},
@@ -398,7 +402,7 @@ TEST_CASE("final gathering: points at photons, with all the light that is there"
     for (const int every : {2, 3, 100})
         for (const bool with : {false, true}) {
             const IrradiancePoints points = make_irradiance_points(
-                scene, general, with ? caustics : PhotonMap{},
+                world, general, with ? caustics : PhotonMap{},
                 {.every = every, .nearest = 50, .radius = 0.2f}, 1, 1);
             REQUIRE(points.records.size() == std::size_t((6 + every) / every));
             CHECK(points.radius == 0.2f);
@@ -426,7 +430,7 @@ TEST_CASE("final gathering: points at photons, with all the light that is there"
     const PhotonMap pairs = make_photon_map(photons);
     const auto of_pairs = [&](float radius, int threads) {
         return make_irradiance_points(
-            scene, pairs, PhotonMap{},
+            world, pairs, PhotonMap{},
             {.every = 2, .nearest = 50, .radius = radius, .shadow_rays = 3}, 1,
             threads);
     };
@@ -446,7 +450,7 @@ TEST_CASE("final gathering: points at photons, with all the light that is there"
     CHECK(chosen.radius == 4 * typical_radius(pairs, 50));
     // Of n photons on a unit square, k lie in a disc of the area k / n.
     for (const std::size_t k : {8u, 128u}) {
-        const auto even = make_irradiance_points(scene, even_photons(20000, 5),
+        const auto even = make_irradiance_points(world, even_photons(20000, 5),
                                                  PhotonMap{}, {.nearest = k}, 1, 3);
         CHECK(double(even.radius) ==
               ljus_test::within(4 * std::sqrt(double(k) / (pi * 20000)), 0.1));
@@ -480,15 +484,17 @@ TEST_CASE("final gathering: what a gather ray brings, along a known way") {
              Rgb{100}); // it shines: nothing that a gather ray takes along
     hall.add(Quad{.corner{2, -1, -1}, .edge_u{2, 2, 0}, .edge_v{0, 0, 2}},
              hall.add(Mirror{.reflectance = Rgb{1}}));
+    const World world(std::move(hall));
     const IrradiancePoints points = everywhere(known, {{0, -1, 0}});
     const auto gathered = [&](const Vec3& way, int depth, Counts& counts) {
         auto stream = random_stream(test_seed(1), Pass::user, 0, 0);
+        auto context = context_of(stream, counts);
         const PathState path{.ray{.direction = way},
                              .throughput{2, 2, 2},
                              .medium = fog,
                              .met_diffuse = true,
                              .depth = 1};
-        return gather_ray(hall, points, path, depth, stream, counts);
+        return gather_ray(world, points, path, depth, context);
     };
     for (const bool mirrored : {false, true}) {
         Counts counts;
@@ -525,17 +531,19 @@ TEST_CASE("final gathering: the irradiance of a square, from its own side") {
     hall.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, floor);
     hall.add(Quad{.corner{-1, -1, 1}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}},
              hall.add(Lambertian{.albedo{0.8f, 0.5f, 0.2f}}));
+    const World world(std::move(hall));
     const IrradiancePoints points = everywhere(Rgb{3, 5, 7}, {{0, 0, -1}, {0, 0, 1}});
     const double r = std::sqrt(2.0), factor = 4 / (2 * pi) * 2 / r * std::atan(1 / r);
     for (const bool above : {true, false})
         for (const int rays : {20000, 1}) {
             const Ray ray{.origin{0, 0, above ? 0.5f : -0.5f},
                           .direction{0, 0, above ? -1.0f : 1.0f}};
-            const Vertex vertex = vertex_at(hall, ray, *closest_hit(hall, ray));
+            const Vertex vertex = vertex_at(world, ray, *closest_hit(world, ray));
             auto stream = random_stream(test_seed(1), Pass::user, 0, 0);
             Counts counts;
+            auto context = context_of(stream, counts);
             const auto seen =
-                gather_irradiance(hall, points, vertex, {.rays = rays}, stream, counts);
+                gather_irradiance(world, points, vertex, {.rays = rays}, context);
             CHECK(seen.normal == Vec3{0, 0, above ? 1.0f : -1.0f});
             CHECK(counts.bounce_rays == std::uint64_t(rays));
             if (!above) {
@@ -566,6 +574,7 @@ TEST_CASE("final gathering: the irradiance of a square, from its own side") {
     const auto disc = ball.add(Lambertian{});
     ball.add(Quad{.corner{-0.1f, -0.1f, 0}, .edge_u{0.2f, 0, 0}, .edge_v{0, 0.2f, 0}},
              disc);
+    const World inside(std::move(ball));
     std::vector<Vec3> ways;
     auto numbers = random_stream(test_seed(2), Pass::user, 0, 0);
     for (int i = 0; i < 4000; ++i)
@@ -573,9 +582,10 @@ TEST_CASE("final gathering: the irradiance of a square, from its own side") {
     const IrradiancePoints all = everywhere(Rgb{3, 5, 7}, ways);
     const Ray down{.origin{0, 0, 0.5f}, .direction{0, 0, -1}};
     Counts counts;
-    const auto seen =
-        gather_irradiance(ball, all, vertex_at(ball, down, *closest_hit(ball, down)),
-                          {.rays = 24}, numbers, counts);
+    auto context = context_of(numbers, counts);
+    const auto seen = gather_irradiance(
+        inside, all, vertex_at(inside, down, *closest_hit(inside, down)), {.rays = 24},
+        context);
     CHECK(double(seen.distance) == ljus_test::within(2, 1e-4));
     for (int c = 0; c < 3; ++c) // albedo E / pi from everywhere
         CHECK(double(seen.irradiance[c]) == ljus_test::within(0.5 * (3 + 2 * c), 1e-4));
@@ -612,20 +622,15 @@ TEST_CASE("final gathering: what a material reflects of an irradiance") {
 
 TEST_CASE("final gathering: settings that give no picture are refused by a sentence") {
     const auto room = box_furnace(Rgb{1}, Rgb{0.5f});
-    const PhotonMapsT<float> maps;
     const auto refused = [&](auto change, const std::string& sentence) {
         PhotonMappingSettings settings;
         change(settings);
         CAPTURE(sentence);
         CHECK(refusal([&] { check(settings); }) == sentence);
         // Whoever takes settings looks at them.
-        CHECK(refusal([&] { (void)make_photon_maps(room.scene, settings); }) ==
-              sentence);
-        CHECK(refusal([&] { (void)make_photon_mapper(room.scene, maps, settings); }) ==
-              sentence);
-        PhotonMapsT<float> given;
+        CHECK(refusal([&] { (void)PhotonMapper(room.world, settings); }) == sentence);
         CHECK(refusal([&] {
-                  add_irradiance_cache(given, room.scene, Camera{}, {}, settings);
+                  (void)PhotonMapper(room.world, settings, abilities<Gathering>);
               }) == sentence);
     };
     refused([](auto& s) { s.irradiance.every = 1; },
@@ -687,8 +692,7 @@ TEST_CASE("final gathering: settings that give no picture are refused by a sente
     least.irradiance.nearest = 512;
     least.gather.nearest = 64;
     check(least);
-    (void)make_photon_maps(room.scene, least);
-    (void)make_photon_mapper(room.scene, maps, least);
+    (void)PhotonMapper(room.world, least, abilities<Gathering>);
 }
 
 TEST_CASE("final gathering: what is meant where nothing is said") {
@@ -718,8 +722,10 @@ TEST_CASE("final gathering: what is meant where nothing is said") {
     CHECK(nothing.spacing == 0);
     const PhotonMapsT<float> maps;
     CHECK(maps.complete);
-    CHECK(maps.cache.complete);
-    CHECK(maps.cache.empty());
+    const Gathering::State<float> state;
+    CHECK(state.cache.complete);
+    CHECK(state.cache.empty());
+    CHECK(state.points.empty());
 }
 
 TEST_CASE("final gathering: like normals, and surfaces that lean") {
@@ -745,7 +751,8 @@ TEST_CASE("final gathering: like normals, and surfaces that lean") {
                        .edge_v{0, 1, 0}},
                   scene.add(Lambertian{}));
         const Vec3 there{1.001f, 0.5f, 0};
-        CHECK(detail::goes_on(scene, there, Vec3{0, 0, 1}, 0.01f) == (degrees < 8));
+        CHECK(detail::goes_on(World(scene), there, Vec3{0, 0, 1}, 0.01f) ==
+              (degrees < 8));
     }
 }
 
@@ -767,7 +774,7 @@ TEST_CASE(
     under.add(floor, grey);
     under.add(Quad{.corner{-1, -1, 0.01f}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}}, grey);
     under.add(PointLight{.position{0, 0, 2}});
-    const auto dark = make_irradiance_points(under, photons_at(8), PhotonMap{},
+    const auto dark = make_irradiance_points(World(under), photons_at(8), PhotonMap{},
                                              {.every = 2, .radius = 0.2f}, 1, 1);
     REQUIRE(dark.records.size() == 4);
     for (const auto& record : dark.records) CHECK(record.irradiance == Rgb{0});
@@ -779,8 +786,9 @@ TEST_CASE(
     half.add(Quad{.corner{-0.5f, -0.5f, 2}, .edge_u{0, 1, 0}, .edge_v{1, 0, 0}}, wall,
              Rgb{1});
     half.add(Quad{.corner{0, -9, 1}, .edge_u{9, 0, 0}, .edge_v{0, 18, 0}}, wall);
+    const World world(std::move(half));
     const auto seen =
-        make_irradiance_points(half, photons_at(200), PhotonMap{},
+        make_irradiance_points(world, photons_at(200), PhotonMap{},
                                {.every = 2, .radius = 0.2f, .shadow_rays = 1}, 1, 1);
     int lit = 0;
     for (const auto& record : seen.records) lit += record.irradiance.x > 0;
@@ -790,7 +798,7 @@ TEST_CASE(
     // As many rays as are asked for, by the seed that is asked for.
     const auto found = [&](int rays, std::uint64_t seed) {
         const auto points = make_irradiance_points(
-            half, photons_at(200), PhotonMap{},
+            world, photons_at(200), PhotonMap{},
             {.every = 2, .radius = 0.2f, .shadow_rays = rays}, seed, 1);
         Mean mean;
         for (const auto& record : points.records) mean.add(double(record.irradiance.x));
@@ -807,6 +815,7 @@ TEST_CASE("final gathering: direct photons are no part of what is worked out") {
     scene.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
               scene.add(Lambertian{}));
     scene.add(PointLight{.position{0, 0, 2}});
+    const World world(std::move(scene));
     std::vector<Photon> photons;
     for (int i = 0; i < 400; ++i)
         photons.push_back({.position{0.01f * float(i % 20), 0.01f * float(i / 20), 0},
@@ -814,7 +823,7 @@ TEST_CASE("final gathering: direct photons are no part of what is worked out") {
                            .flux = Rgb{1},
                            .kind = i % 3 == 0 ? PhotonKind::shadow : PhotonKind::direct,
                            .normal = small_normal(Vec3{0, 0, 1})});
-    const auto points = make_irradiance_points(scene, make_photon_map(photons),
+    const auto points = make_irradiance_points(world, make_photon_map(photons),
                                                PhotonMap{}, {.radius = 0.2f}, 1, 1);
     REQUIRE(points.records.size() == 67);
     for (std::size_t i = 0; i < 67; ++i) {
@@ -846,6 +855,7 @@ TEST_CASE("final gathering: photons lie on the shape, however its normals are be
         if (bent) data.normals.assign(3, glm::normalize(Vec3{2.75f, 0, 1}));
         Scene<Shapes<Mesh>, Materials<Lambertian>> scene;
         scene.add(Mesh(data), scene.add(Lambertian{}));
+        const World world(std::move(scene));
         std::vector<Photon> photons;
         for (int i = 0; i < 100; ++i)
             photons.push_back(
@@ -854,7 +864,7 @@ TEST_CASE("final gathering: photons lie on the shape, however its normals are be
                  .flux = Rgb{1},
                  .kind = PhotonKind::indirect,
                  .normal = small_normal(Vec3{0, 0, 1})});
-        const auto points = make_irradiance_points(scene, make_photon_map(photons),
+        const auto points = make_irradiance_points(world, make_photon_map(photons),
                                                    PhotonMap{}, {.radius = 0.2f}, 1, 1);
         double sum = 0;
         for (const auto& record : points.records) sum += double(record.irradiance.x);
@@ -892,6 +902,7 @@ IrradiancePoints bright_at(const std::vector<Vec3>& places,
 TEST_CASE("final gathering: rays are attenuated by what their surface lies in") {
     Hollow room;
     room.add(Sphere{}, room.add(Lambertian{.albedo = Rgb{1}}), Rgb{0}, true);
+    const World world(std::move(room));
     std::vector<Vec3> places, normals;
     for (int i = 0; i < 2000; ++i) {
         const float z = (float(i) + 0.5f) / 1000 - 1, phi = 2.4f * float(i);
@@ -902,9 +913,10 @@ TEST_CASE("final gathering: rays are attenuated by what their surface lies in") 
     const auto points = bright_at(places, normals);
     auto stream = random_stream(1, Pass::user, 0, 0);
     Counts counts;
+    auto context = context_of(stream, counts);
     const Rgb medium{0.5f, 1, 2};
-    const auto found = gather_irradiance(room, points, looks_up(medium),
-                                         GatherSettings{}, stream, counts);
+    const auto found =
+        gather_irradiance(world, points, looks_up(medium), GatherSettings{}, context);
     for (int c = 0; c < 3; ++c) // each ray is 1 long
         CHECK(double(found.irradiance[c]) ==
               ljus_test::within(std::exp(-double(medium[c])), 1e-4));
@@ -917,12 +929,14 @@ TEST_CASE("final gathering: in a hall of dim mirrors each ray ends by its own ch
     // together 200, with a standard deviation of 14: beyond 100 off once in 1e12.
     Hollow hall;
     hall.add(Sphere{.center{0, 0, 0.3f}}, hall.add(Mirror{.reflectance = Rgb{0.5f}}));
+    const World world(std::move(hall));
     const GatherSettings settings{.rays = 100, .max_depth = 1000};
     for (std::uint64_t i = 0; i < 20; ++i) {
         auto stream = random_stream(test_seed(2), Pass::user, 0, i);
         Counts counts;
-        (void)gather_irradiance(hall, IrradiancePoints{}, looks_up(), settings, stream,
-                                counts);
+        auto context = context_of(stream, counts);
+        (void)gather_irradiance(world, IrradiancePoints{}, looks_up(), settings,
+                                context);
         CHECK(counts.bounce_rays > 100);
         CHECK(counts.bounce_rays < 300);
     }
@@ -939,14 +953,16 @@ TEST_CASE("final gathering: five rays stand elsewhere at each place: no bias") {
                                   .edge_u{0, 0.5f, 0},
                                   .edge_v{0.5f, 0, 0}};
                 room.add(square, room.add(Lambertian{.albedo = Rgb{1}}));
+                const World world(std::move(room));
                 const auto points =
                     bright_at({square.corner}, {Vec3{0, 0, -1}}); // which is its normal
                 Mean mean;
                 for (std::uint64_t i = 0; i < 4000; ++i) {
                     auto stream = random_stream(test_seed(3), Pass::user, 0, i);
                     Counts counts;
-                    mean.add(double(gather_irradiance(room, points, looks_up(),
-                                                      {.rays = 5}, stream, counts)
+                    auto context = context_of(stream, counts);
+                    mean.add(double(gather_irradiance(world, points, looks_up(),
+                                                      {.rays = 5}, context)
                                         .irradiance.x));
                 }
                 const auto right =
@@ -966,14 +982,16 @@ TEST_CASE(
     hall.add(Quad{.corner{-9, -9, 2}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, glass);
     hall.add(Quad{.corner{-9, -9, 3}, .edge_u{0, 18, 0}, .edge_v{18, 0, 0}},
              hall.add(Lambertian{.albedo = Rgb{0.5f}}));
+    const World world(std::move(hall));
     const IrradiancePoints points = everywhere(Rgb{3, 5, 7}, {{0, 0, -1}});
     int arrived = 0;
     for (std::uint64_t i = 0; i < 400; ++i) {
         auto stream = random_stream(test_seed(4), Pass::user, 0, i);
         Counts counts;
+        auto context = context_of(stream, counts);
         const PathState path{
             .ray{.direction{0, 0, 1}}, .met_diffuse = true, .depth = 1};
-        const auto found = gather_ray(hall, points, path, 100, stream, counts);
+        const auto found = gather_ray(world, points, path, 100, context);
         CHECK(found.distance == 1);
         if (found.radiance == Rgb{0}) continue;
         ++arrived;
@@ -991,15 +1009,17 @@ TEST_CASE("final gathering: a gather ray looks up the side that it meets") {
     Hall hall;
     hall.add(Quad{.corner{-9, -9, 1}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
              hall.add(Lambertian{.albedo = Rgb{0.5f}}));
+    const World world(std::move(hall));
     IrradiancePoints points = everywhere(Rgb{0}, {{0, 0, 1}, {0, 0, -1}});
     for (auto& record : points.records) record.irradiance = Rgb{record.normal.z + 2};
     for (const float way : {1.0f, -1.0f}) {
         auto stream = random_stream(test_seed(5), Pass::user, 0, 0);
         Counts counts;
+        auto context = context_of(stream, counts);
         const PathState path{.ray{.origin{0, 0, 1 - way}, .direction{0, 0, way}},
                              .met_diffuse = true,
                              .depth = 1};
-        const auto found = gather_ray(hall, points, path, 100, stream, counts);
+        const auto found = gather_ray(world, points, path, 100, context);
         CHECK(double(found.radiance.x) ==
               ljus_test::within(0.5 * double(2 - way) / pi, 1e-5));
     }
@@ -1021,14 +1041,15 @@ TEST_CASE("final gathering: a gloss that a gather ray meets sends light, too") {
     Scene<Shapes<Quad>, Materials<Lambertian, Glossy>> hall;
     hall.add(Quad{.corner{-9, -9, -1}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
              hall.add(gloss));
+    const World world(std::move(hall));
     const IrradiancePoints points = everywhere(Rgb{3}, {{0, 0, 1}});
     Mean mean;
     for (std::uint64_t i = 0; i < 4000; ++i) {
         auto stream = random_stream(test_seed(6), Pass::user, 0, i);
         Counts counts;
+        auto context = context_of(stream, counts);
         const PathState path{.ray{.direction = -wo}, .met_diffuse = true, .depth = 1};
-        mean.add(
-            double(gather_ray(hall, points, path, 100, stream, counts).radiance.y));
+        mean.add(double(gather_ray(world, points, path, 100, context).radiance.y));
         CHECK(counts.map_queries == 1);
         CHECK(counts.bounce_rays == 1);
     }
@@ -1044,15 +1065,17 @@ TEST_CASE("final gathering: rays meet what moves where it is at their time") {
     const Quad ceiling{
         .corner{-1e4f, -1e4f, 1}, .edge_u{0, 2e4f, 0}, .edge_v{2e4f, 0, 0}};
     hall.add(Moving<Quad>{ceiling, {0, 0, 4}}, matt);
+    const World world(std::move(hall));
     const IrradiancePoints points = everywhere(Rgb{3}, {{0, 0, -1}});
     const Ray ray{.origin{0, 0, 0.5f}, .direction{0, 0, -1}};
-    auto vertex = vertex_at(hall, ray, *closest_hit(hall, ray));
+    auto vertex = vertex_at(world, ray, *closest_hit(world, ray));
     for (const float time : {0.0f, 0.25f, 1.0f}) {
         vertex.time = time;
         auto stream = random_stream(test_seed(4), Pass::user, 0, 0);
         Counts counts;
+        auto context = context_of(stream, counts);
         const auto seen =
-            gather_irradiance(hall, points, vertex, {.rays = 400}, stream, counts);
+            gather_irradiance(world, points, vertex, {.rays = 400}, context);
         // 1 / length = cos / height, of which the mean over the cosine's is 2 / 3.
         const double height = 1 + 4 * double(time);
         CHECK(double(seen.distance) == ljus_test::within(1.5 * height, 0.01));

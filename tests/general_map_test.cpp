@@ -18,7 +18,9 @@
 #include "ljus/inspect/census.hpp"
 #include "ljus/inspect/survey.hpp"
 #include "ljus/photons/density_estimate.hpp"
-#include "ljus/render/photon_mapping.hpp"
+#include "ljus/render/budgeting.hpp"
+#include "ljus/render/gathering.hpp"
+#include "ljus/render/skipping.hpp"
 #include "support/draws.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
@@ -128,8 +130,9 @@ std::vector<double> radiosity(int n, bool direct_only) {
     return quarters;
 }
 
-/// The same box as a scene of the library; `turned` turns the quads' normals outwards.
-RoomT<float> box_scene(bool turned) {
+/// The same box as a closed scene of the library; `turned` turns the quads' normals
+/// outwards.
+ClosedRoom box_scene(bool turned) {
     RoomT<float> scene;
     for (const Rectangle& wall : box_walls()) {
         const auto matt = scene.add(Lambertian{.albedo = Rgb{float(wall.albedo)}});
@@ -139,7 +142,7 @@ RoomT<float> box_scene(bool turned) {
                        .edge_v = Vec3(swap ? wall.u : wall.v)},
                   matt, Rgb{float(wall.emitted / pi)});
     }
-    return scene;
+    return World(std::move(scene));
 }
 
 /// Which quarter of which wall a photon of the box lies on.
@@ -176,7 +179,7 @@ TEST_CASE("general map: direct and indirect photons of a box are its radiosity")
         CHECK(total_18[i] == ljus_test::within(total[i], 0.004));
     }
     for (const bool turned : {false, true}) {
-        const RoomT<float> scene = box_scene(turned);
+        const ClosedRoom scene = box_scene(turned);
         std::array<Mean, 24> direct_seen, indirect_seen, total_seen;
         for (int seed = 1; seed <= seeds; ++seed) {
             const auto traced =
@@ -312,11 +315,12 @@ TEST_CASE("general map: direct + shadow = the light that nothing hides, for each
         for (const PlateLamp& lamp : lamps)
             scene.add(quad_of(lamp.plate, lamp.up > 0), black,
                       Rgb{float(lamp.radiance)});
+        const World world(std::move(scene));
 
         std::vector<std::array<std::array<Mean, 3>, 3>> seen(cells.size());
         for (int seed = 1; seed <= seeds; ++seed) {
             const auto traced =
-                trace_photons(scene, MapType::general,
+                trace_photons(world, MapType::general,
                               {.photons = 10000,
                                .seed = test_seed(std::uint64_t(100 + seed)),
                                .threads = 1});
@@ -383,8 +387,9 @@ TEST_CASE("general map: photons lie on matt surfaces only, and each knows its li
                           .edge_u{0.4f, 0, 0},
                           .edge_v{0, 0, 0.4f}},
                      black, lamp == 0 ? Rgb{5, 0, 0} : Rgb{0, 2, 0});
+        const World world(std::move(room));
         const auto traced =
-            trace_photons(room, MapType::general, {.photons = 20000, .threads = 1});
+            trace_photons(world, MapType::general, {.photons = 20000, .threads = 1});
         const PhotonCensus found = census(traced.photons);
         CHECK(found[PhotonKind::caustic].photons == 0);
         std::array<int, 2> of_light{};
@@ -406,10 +411,10 @@ TEST_CASE("general map: photons lie on matt surfaces only, and each knows its li
             REQUIRE(t > 0);
             REQUIRE(std::abs(origin.x - centers[photon.light].x) < 0.2001f);
             REQUIRE(std::abs(origin.z - centers[photon.light].z) < 0.2001f);
-            const bool hidden = occluded(room, Ray{.origin = origin,
-                                                   .direction = t * d,
-                                                   .t_min = 1e-4f,
-                                                   .t_max = 1 - 1e-4f});
+            const bool hidden = occluded(world, Ray{.origin = origin,
+                                                    .direction = t * d,
+                                                    .t_min = 1e-4f,
+                                                    .t_max = 1 - 1e-4f});
             REQUIRE(hidden == (photon.kind == PhotonKind::shadow));
         }
         CHECK(of_light[0] > of_light[1]); // by power
@@ -425,7 +430,7 @@ TEST_CASE(
     "general map: what the walls absorb is 1 - albedo of what the photons bring") {
     // In a matt scene each photon that is stored has been absorbed by that share: path
     // by path the sums are those of the flux audit.
-    const RoomT<float> scene = box_scene(false);
+    const ClosedRoom scene = box_scene(false);
     const auto walls = box_walls();
     for (const int bounces : {1, 2, 1000}) {
         const auto traced =
@@ -509,11 +514,12 @@ double slope(const std::vector<double>& x, const std::vector<double>& y) {
 
 TEST_CASE("general map: variance falls with 1/(N r^2), bias^2 grows with r^4, and the "
           "best error falls with N^(-2/3)") {
-    Scene<Shapes<Quad>, Materials<Lambertian>> scene;
+    Scene<Shapes<Quad>, Materials<Lambertian>, Lights<PointLight>> scene;
     const auto white = scene.add(Lambertian{.albedo = Rgb{1}});
     scene.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, white);
     scene.add(Quad{.corner{-0.5f, -0.5f, 1}, .edge_u{0, 1, 0}, .edge_v{1, 0, 0}},
               scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{1});
+    const World world(std::move(scene));
     std::vector<Point> places;
     for (int i = 0; i < 25; ++i)
         places.push_back({0.3 * (i % 5) - 0.6, 0.3 * (i / 5) - 0.6, 0});
@@ -526,7 +532,7 @@ TEST_CASE("general map: variance falls with 1/(N r^2), bias^2 grows with r^4, an
                                             std::vector<Mean>(places.size()));
         for (int seed = 1; seed <= 16; ++seed) {
             const auto map =
-                make_photon_map(trace_photons(scene, MapType::general,
+                make_photon_map(trace_photons(world, MapType::general,
                                               {.photons = number,
                                                .seed = test_seed(std::uint64_t(seed)),
                                                .max_bounces = 1,
@@ -614,15 +620,17 @@ TEST_CASE(
 TEST_CASE("general map: no light, no photons, one photon, a scene of glass") {
     Room dark;
     add_walls(dark);
-    CHECK_FALSE(survey(dark, {.keep_general_map = true}).general_map.on);
-    CHECK(make_photon_maps(dark, {.keep_general_map = true}).general.empty());
+    const World world(std::move(dark));
+    CHECK_FALSE(survey(world, {.keep_general_map = true}).general_map.on);
+    CHECK(PhotonMapper(world, {.keep_general_map = true}).maps().general.empty());
 
-    const Room room = make_room<float>(Ball::lambertian, Lamp::quad, 2);
+    const ClosedRoom room = make_room<float>(Ball::lambertian, Lamp::quad, 2);
     PhotonMappingSettings settings{.keep_general_map = true};
     settings.general.photons = 0;
-    CHECK(make_photon_maps(room, settings).general.empty());
+    CHECK(PhotonMapper(room, settings).maps().general.empty());
     settings.general.photons = 1;
-    const auto one = make_photon_maps(room, settings);
+    const PhotonMapper mapper(room, settings);
+    const auto& one = mapper.maps();
     CHECK(census(one.general)[PhotonKind::direct].photons == 1);
     CHECK(one.general_audit.emitted.x ==
           doctest::Approx(double(census(one.general)[PhotonKind::direct].flux.x)));
@@ -630,11 +638,12 @@ TEST_CASE("general map: no light, no photons, one photon, a scene of glass") {
     Room glass;
     add_ball(glass, Ball::glass);
     add_lamps(glass, Lamp::point, 1); // no object of its own
+    const World glass_world(std::move(glass));
     const auto none =
-        trace_photons(glass, MapType::general, {.photons = 3000, .threads = 1});
+        trace_photons(glass_world, MapType::general, {.photons = 3000, .threads = 1});
     CHECK(none.photons.empty());
     CHECK(none.audit.emitted.x > 0);
-    CHECK_FALSE(survey(glass, {.keep_general_map = true}).general_map.on);
+    CHECK_FALSE(survey(glass_world, {.keep_general_map = true}).general_map.on);
 }
 
 TEST_CASE("general map: a lamp in a closed box lights the box, and all else is in its "
@@ -651,8 +660,9 @@ TEST_CASE("general map: a lamp in a closed box lights the box, and all else is i
           std::tuple{low + z, x, y}})
         room.add(Quad{.corner = corner, .edge_u = u, .edge_v = v}, grey);
     room.add(PointLight{.position = low + 0.5f * (x + y + z), .intensity = Rgb{1}});
+    const World world(std::move(room));
     const auto traced =
-        trace_photons(room, MapType::general, {.photons = 3000, .threads = 1});
+        trace_photons(world, MapType::general, {.photons = 3000, .threads = 1});
     int inside = 0;
     for (const Photon& photon : traced.photons) {
         const Vec3 p = glm::abs(photon.position - low - 0.5f * (x + y + z));
@@ -677,8 +687,9 @@ PhotonCensus census_of_box(double scale, double offset) {
                            .edge_v = Vec3T<T>(scale * wall.v)},
                   scene.add(LambertianT<T>{.albedo = RgbT<T>{T(wall.albedo)}}),
                   RgbT<T>{T(wall.emitted)});
+    const World closed(std::move(scene));
     return census(
-        trace_photons(scene, MapType::general, {.photons = 2000, .threads = 1})
+        trace_photons(closed, MapType::general, {.photons = 2000, .threads = 1})
             .photons);
 }
 
@@ -773,13 +784,13 @@ TEST_CASE("general map: what the presets ask for") {
 }
 
 TEST_CASE("general map: which maps are made for what, and which photons they keep") {
-    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
-    const auto maps_of = [&](auto change, const Room& of) {
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const auto maps_of = [](auto change, const ClosedRoom& of) {
         PhotonMappingSettings settings;
         settings.caustics = {.photons = 300, .threads = 1};
         settings.general = {.photons = 3000, .threads = 1};
         change(settings);
-        return make_photon_maps(of, settings);
+        return PhotonMapper(of, settings, abilities<Gathering, Skipping>);
     };
     const auto make = [&](auto change) { return maps_of(change, room); };
     const auto kinds = [](const PhotonMap& map) {
@@ -790,28 +801,29 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
     };
     constexpr int direct = 1, caustic = 2, indirect = 4, shadow = 8;
     const auto rays = make([](auto&) {});
-    CHECK(rays.general.empty());
-    CHECK(rays.irradiance.empty());
-    CHECK(rays.cache.empty());
-    CHECK(rays.verdicts.empty());
-    CHECK(rays.complete);
-    CHECK(rays.remarks.empty());
-    CHECK(kinds(rays.caustics) == caustic);
-    CHECK(rays.caustics_audit.emitted.x > 0);
-    CHECK(rays.general_audit.emitted.x == 0);
+    CHECK(rays.maps().general.empty());
+    CHECK(rays.state<Gathering>().points.empty());
+    CHECK(rays.state<Gathering>().cache.empty());
+    CHECK(rays.state<Skipping>().verdicts.empty());
+    CHECK(rays.maps().complete);
+    CHECK(rays.maps().remarks.empty());
+    CHECK(kinds(rays.maps().caustics) == caustic);
+    CHECK(rays.maps().caustics_audit.emitted.x > 0);
+    CHECK(rays.maps().general_audit.emitted.x == 0);
     for (const bool shadows : {true, false}) {
         const auto kept = make([&](auto& s) {
             s.keep_general_map = true;
             s.general.shadow_photons = shadows;
         });
-        CHECK(kinds(kept.general) == (direct | indirect | (shadows ? shadow : 0)));
-        CHECK(kept.general_audit.emitted.x > 0);
+        CHECK(kinds(kept.maps().general) ==
+              (direct | indirect | (shadows ? shadow : 0)));
+        CHECK(kept.maps().general_audit.emitted.x > 0);
         const auto map = make([&](auto& s) {
             s.indirect = IndirectLight::map;
             s.general.shadow_photons = shadows;
         });
-        CHECK(kinds(map.general) == kinds(kept.general));
-        CHECK(map.irradiance.empty());
+        CHECK(kinds(map.maps().general) == kinds(kept.maps().general));
+        CHECK(map.state<Gathering>().points.empty());
     }
     for (const IndirectLight way :
          {IndirectLight::photons, IndirectLight::gather, IndirectLight::cache}) {
@@ -819,47 +831,49 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
             s.indirect = way;
             s.general.shadow_photons = false;
         });
-        CHECK(kinds(alone.general) == indirect);
-        CHECK(alone.irradiance.empty() == (way == IndirectLight::photons));
+        CHECK(kinds(alone.maps().general) == indirect);
+        CHECK(alone.state<Gathering>().points.empty() ==
+              (way == IndirectLight::photons));
         const auto all = make([&](auto& s) {
             s.indirect = way;
             s.keep_general_map = true;
         });
-        CHECK(kinds(all.general) == (direct | indirect | shadow));
+        CHECK(kinds(all.maps().general) == (direct | indirect | shadow));
     }
     // For shadow rays alone: no photon's second surface, and no map.
     const auto skipped = make([](auto& s) { s.skip.rule = SkipRule::any; });
-    CHECK(skipped.general.empty());
-    CHECK_FALSE(skipped.verdicts.empty());
-    CHECK_FALSE(skipped.verdicts.dark_known);
-    CHECK(skipped.general_audit.cut.x > 0.2 * skipped.general_audit.emitted.x);
+    CHECK(skipped.maps().general.empty());
+    CHECK_FALSE(skipped.state<Skipping>().verdicts.empty());
+    CHECK_FALSE(skipped.state<Skipping>().verdicts.dark_known);
+    CHECK(skipped.maps().general_audit.cut.x >
+          0.2 * skipped.maps().general_audit.emitted.x);
     const auto bounces = make([](auto& s) { s.skip.indirect_rays = true; });
-    CHECK(bounces.general.empty());
-    CHECK(bounces.verdicts.dark_known);
-    CHECK(bounces.general_audit.cut.x == 0);
+    CHECK(bounces.maps().general.empty());
+    CHECK(bounces.state<Skipping>().verdicts.dark_known);
+    CHECK(bounces.maps().general_audit.cut.x == 0);
     const auto both = make([](auto& s) {
         s.skip = {.rule = SkipRule::any, .indirect_rays = true};
         s.indirect = IndirectLight::map;
         s.general.shadow_photons = false;
     });
-    CHECK_FALSE(both.verdicts.empty());
-    CHECK(both.verdicts.dark_known);
-    CHECK(kinds(both.general) == (direct | indirect));
-    CHECK(both.general_audit.cut.x == 0);
+    CHECK_FALSE(both.state<Skipping>().verdicts.empty());
+    CHECK(both.state<Skipping>().verdicts.dark_known);
+    CHECK(kinds(both.maps().general) == (direct | indirect));
+    CHECK(both.maps().general_audit.cut.x == 0);
     // What the verdicts alone asked for goes again, and no caustic with it.
     const auto fewer = make([](auto& s) {
         s.skip.rule = SkipRule::any;
         s.indirect = IndirectLight::gather;
     });
-    CHECK_FALSE(fewer.verdicts.empty());
-    CHECK(kinds(fewer.general) == indirect);
+    CHECK_FALSE(fewer.state<Skipping>().verdicts.empty());
+    CHECK(kinds(fewer.maps().general) == indirect);
     int lit = 0; // direct photons have told the verdicts, though no map keeps them
     for (int i = 0; i < 100; ++i) {
         const SurfacePoint place{
             .position{0.19f * float(i % 10) - 0.9f, -1, 0.19f * float(i / 10) - 0.9f},
             .normal{0, 1, 0}};
-        const auto at = fewer.verdicts.place_of(place, 1);
-        lit += fewer.verdicts.verdict(at, 0) == Verdict::lit;
+        const auto at = fewer.state<Skipping>().verdicts.place_of(place, 1);
+        lit += fewer.state<Skipping>().verdicts.verdict(at, 0) == Verdict::lit;
     }
     CHECK(lit > 20);
     // Who keeps the map keeps its shadows, whatever the verdicts ask for.
@@ -867,9 +881,9 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
         s.skip.rule = SkipRule::any;
         s.keep_general_map = true;
     });
-    CHECK(kinds(with_shadows.general) == (direct | indirect | shadow));
-    CHECK(kinds(fewer.caustics) == caustic);
-    CHECK(fewer.caustics.records.size() == rays.caustics.records.size());
+    CHECK(kinds(with_shadows.maps().general) == (direct | indirect | shadow));
+    CHECK(kinds(fewer.maps().caustics) == caustic);
+    CHECK(fewer.maps().caustics.records.size() == rays.maps().caustics.records.size());
     // A cache is made if it is asked for, and not else.
     const Camera camera = room_camera<float>();
     const RenderSettings picture{.width = 12, .height = 12, .samples = 1, .threads = 1};
@@ -877,21 +891,22 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
         PhotonMappingSettings settings{.indirect = cache ? IndirectLight::cache
                                                          : IndirectLight::gather};
         settings.general = {.photons = 2000, .threads = 1};
-        auto maps = make_photon_maps(room, settings);
-        CHECK(maps.cache.empty());
-        add_irradiance_cache(maps, room, camera, picture, settings);
-        CHECK(maps.cache.empty() == !cache);
+        PhotonMapper mapper(room, settings, abilities<Gathering>);
+        CHECK(mapper.state<Gathering>().cache.empty());
+        mapper.fill_cache(camera, picture);
+        CHECK(mapper.state<Gathering>().cache.empty() == !cache);
     }
     // What there is to say of scene and passes, a line each.
     Room far;
     add_walls(far);
     add_lamps(far, Lamp::quad, 1);
     far.add(Sphere{.center{4e5f, 0, 0}, .radius = 0.01f}, far.add(Glass{}));
+    const World world(std::move(far));
     const auto in_vain = [](auto& s) {
         s.caustics.photons = 100000;
         s.caustics.give_up = 3000;
     };
-    const auto said = maps_of(in_vain, far).remarks;
+    const auto said = maps_of(in_vain, world).maps().remarks;
     CHECK(said.find("float keeps") != std::string::npos);
     CHECK(said.find("\ngave up after") != std::string::npos);
     CHECK(std::count(said.begin(), said.end(), '\n') == 2);
@@ -901,58 +916,62 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
     CHECK_FALSE(make([&](auto& s) {
                     s.caustics.photons = 3000;
                     s.caustics.progress = stop;
-                }).complete);
+                })
+                    .maps()
+                    .complete);
     CHECK_FALSE(make([&](auto& s) {
                     s.general.progress = stop;
                     s.indirect = IndirectLight::gather;
-                }).complete);
+                })
+                    .maps()
+                    .complete);
 }
 
 TEST_CASE("general map: a pass that was stopped is not made up for by the next one") {
-    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
     const auto stop = [](long long, long long) { return false; };
     PhotonMappingSettings settings{.indirect = IndirectLight::gather};
     settings.caustics = {.photons = 3000, .threads = 1, .progress = stop};
     settings.general = {.photons = 3000, .threads = 1};
-    const auto maps = make_photon_maps(room, settings);
-    CHECK_FALSE(maps.general.empty()); // that one was complete
-    CHECK_FALSE(maps.complete);
-    CHECK(maps.irradiance.empty()); // and nothing is worked out from half a map
+    const PhotonMapper half(room, settings, abilities<Gathering>);
+    CHECK_FALSE(half.maps().general.empty()); // that one was complete
+    CHECK_FALSE(half.maps().complete);
+    // And nothing is worked out from half a map.
+    CHECK(half.state<Gathering>().points.empty());
     settings.caustics.progress = no_progress;
-    const auto whole = make_photon_maps(room, settings);
-    CHECK(whole.complete);
-    CHECK_FALSE(whole.irradiance.empty());
+    const PhotonMapper whole(room, settings, abilities<Gathering>);
+    CHECK(whole.maps().complete);
+    CHECK_FALSE(whole.state<Gathering>().points.empty());
 }
 
 TEST_CASE("general map: who is asked of what, with the seed of which pass") {
-    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
     PhotonMappingSettings settings{.indirect = IndirectLight::cache};
     settings.caustics = {.photons = 500, .seed = 9, .threads = 1};
     settings.general = {.photons = 1000, .seed = 5, .threads = 1};
     settings.irradiance.shadow_rays = 1;
-    auto maps = make_photon_maps(room, settings);
+    const PhotonMapper mapper(room, settings, abilities<Gathering>);
     const auto points_by = [&](std::uint64_t seed) {
         const auto points =
-            make_irradiance_points(detail::IndexedT<Room>(room), maps.general,
-                                   maps.caustics, settings.irradiance, seed, 1);
+            make_irradiance_points(room, mapper.maps().general, mapper.maps().caustics,
+                                   settings.irradiance, seed, 1);
         std::vector<Rgb> found;
         for (const auto& record : points.records) found.push_back(record.irradiance);
         return found;
     };
     std::vector<Rgb> seen;
-    for (const auto& record : maps.irradiance.records)
+    for (const auto& record : mapper.state<Gathering>().points.records)
         seen.push_back(record.irradiance);
     CHECK(seen.size() > 100);
     CHECK(seen == points_by(5));
     CHECK(seen != points_by(9));
     // A cache is made of photons: without any there is none, and no ray is sent for it.
     settings.general.photons = 0;
-    auto none = make_photon_maps(room, settings);
-    add_irradiance_cache(none, room, room_camera<float>(),
-                         {.width = 6, .height = 6, .samples = 1, .threads = 1},
-                         settings);
-    CHECK(none.cache.empty());
-    CHECK(none.cache.counts.bounce_rays == 0);
+    PhotonMapper none(room, settings, abilities<Gathering>);
+    none.fill_cache(room_camera<float>(),
+                    {.width = 6, .height = 6, .samples = 1, .threads = 1});
+    CHECK(none.state<Gathering>().cache.empty());
+    CHECK(none.state<Gathering>().cache.counts.bounce_rays == 0);
 }
 
 TEST_CASE("general map: for shadow rays alone each lamp sends as many photons") {
@@ -968,6 +987,7 @@ TEST_CASE("general map: for shadow rays alone each lamp sends as many photons") 
     candle.corner.x = 0.3f;
     room.add(lamp, black, Rgb{1e6f});
     room.add(candle, black, Rgb{1});
+    const World world(std::move(room));
     PhotonMappingSettings settings;
     settings.general = {.photons = 3000, .threads = 1};
     settings.skip.rule = SkipRule::any;
@@ -976,16 +996,17 @@ TEST_CASE("general map: for shadow rays alone each lamp sends as many photons") 
         PhotonMappingSettings how = settings;
         how.skip.indirect_rays = indirect_too;
         how.general.shadow_photons = false; // no map keeps them, but verdicts ask
-        const auto maps = make_photon_maps(room, how);
+        const PhotonMapper mapper(world, how, abilities<Skipping>);
+        const auto& verdicts = mapper.state<Skipping>().verdicts;
         // Of places all over the floor: so many know something of a lamp.
         std::array<int, 2> known{};
         for (int i = 0; i < 400; ++i) {
             const SurfacePoint place{.position{0.095f * float(i % 20) - 0.9f, -1,
                                                0.095f * float(i / 20) - 0.9f},
                                      .normal{0, 1, 0}};
-            const auto at = maps.verdicts.place_of(place, 1);
+            const auto at = verdicts.place_of(place, 1);
             for (const std::size_t light : {0u, 1u}) {
-                const Verdict verdict = maps.verdicts.verdict(at, light);
+                const Verdict verdict = verdicts.verdict(at, light);
                 known[light] += verdict != Verdict::unknown;
                 dark += verdict == Verdict::shadow;
             }
@@ -1002,8 +1023,12 @@ TEST_CASE("general map: for shadow rays alone each lamp sends as many photons") 
 }
 
 TEST_CASE("general map: how caustic photons are shared out, by which light") {
-    Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
-    room.add(Sphere{.center{-0.5f, 0.3f, 0}, .radius = 0.2f}, room.add(Mirror{}));
+    Room open;
+    add_walls(open);
+    add_ball(open, Ball::glass);
+    add_lamps(open, Lamp::quad, 1);
+    open.add(Sphere{.center{-0.5f, 0.3f, 0}, .radius = 0.2f}, open.add(Mirror{}));
+    const World room(std::move(open));
     PhotonMappingSettings settings;
     settings.caustics = {.photons = 20000, .threads = 1};
     CHECK(caustic_shares(room, settings).empty()); // as lights see them
@@ -1043,20 +1068,26 @@ TEST_CASE("general map: how caustic photons are shared out, by which light") {
 }
 
 TEST_CASE("general map: a mapper's radii, and the maps that it asks") {
-    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
     PhotonMappingSettings settings{.indirect = IndirectLight::photons};
     settings.caustics = {.photons = 2000, .threads = 1};
     settings.general = {.photons = 2000, .threads = 1};
-    const auto maps = make_photon_maps(room, settings);
+    PhotonMapper changed(room, settings);
+    const auto& maps = changed.maps();
     for (const float caustics : {0.0f, 0.2f})
         for (const float general : {0.0f, 0.4f}) {
             settings.caustics_estimate.radius = caustics;
             settings.general_estimate.radius = general;
-            const auto mapper = make_photon_mapper(room, maps, settings);
-            CHECK(mapper.settings.caustics_estimate.radius ==
-                  (caustics > 0 ? caustics : typical_radius(maps.caustics, 32)));
-            CHECK(mapper.settings.general_estimate.radius ==
-                  (general > 0 ? general : typical_radius(maps.general, 64)));
+            changed.set_estimates(settings.caustics_estimate,
+                                  settings.general_estimate);
+            const PhotonMapper made(room, settings);
+            for (const PhotonMappingSettings& how :
+                 {made.settings(), changed.settings()}) {
+                CHECK(how.caustics_estimate.radius ==
+                      (caustics > 0 ? caustics : typical_radius(maps.caustics, 32)));
+                CHECK(how.general_estimate.radius ==
+                      (general > 0 ? general : typical_radius(maps.general, 64)));
+            }
         }
     // At a matt surface: one query of each map that there is, and is asked for.
     const auto queries = [&](IndirectLight indirect, bool with_caustics) {
@@ -1065,12 +1096,12 @@ TEST_CASE("general map: a mapper's radii, and the maps that it asks") {
         how.caustics = settings.caustics;
         how.keep_general_map = true;
         how.caustics.photons = with_caustics ? 2000 : 0;
-        const auto made = make_photon_maps(room, how);
+        const PhotonMapper mapper(room, how);
         auto stream = random_stream(test_seed(1), Pass::user, 0, 0);
         Counts counts;
-        (void)radiance(make_photon_mapper(room, made, how),
-                       Ray{.origin{0, 0.6f, 0.5f}, .direction{-1, 0, 0}}, stream,
-                       counts);
+        auto context = context_of(stream, counts);
+        (void)radiance(mapper, Ray{.origin{0, 0.6f, 0.5f}, .direction{-1, 0, 0}},
+                       context);
         CHECK(counts.shadow_rays <= 1);
         return counts.map_queries;
     };

@@ -11,8 +11,8 @@
 
 #include "ljus/materials/glossy.hpp"
 #include "ljus/math/stratified_stream.hpp"
+#include "ljus/render/gathering.hpp"
 #include "ljus/render/path_tracing.hpp"
-#include "ljus/render/photon_mapping.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
 #include "support/student.hpp"
@@ -137,7 +137,7 @@ IrradiancePoints known(const Rgb& irradiance) {
 } // namespace
 
 TEST_CASE("irradiance cache: what is known is taken, what is not is gathered") {
-    const Hall scene = hall();
+    const World scene(hall());
     const IrradiancePoints points = known(Rgb{2});
     const Ray ray{.origin{0, 0, 1}, .direction{0, 0, -1}};
     const Vertex vertex = vertex_at(scene, ray, *closest_hit(scene, ray));
@@ -145,8 +145,9 @@ TEST_CASE("irradiance cache: what is known is taken, what is not is gathered") {
                           {{Rgb{1}, up, 0.6f, 1}, {Rgb{3}, up, 0.6f, 1}});
     const auto find = [&](float reach, Counts& counts) {
         auto stream = random_stream(1, Pass::user, 0, 0);
+        auto context = context_of(stream, counts);
         return irradiance_between(scene, points, cache, vertex,
-                                  {.rays = 9, .reach = reach}, stream, counts)
+                                  {.rays = 9, .reach = reach}, context)
             .x;
     };
     Counts counts;
@@ -162,15 +163,15 @@ TEST_CASE("irradiance cache: what is known is taken, what is not is gathered") {
         vertex_at(scene, from_below, *closest_hit(scene, from_below));
     cache = cache_of({{0, 0, 0}, {0, 0, 0}}, {{Rgb{1}, up, 9, 1}, {Rgb{3}, -up, 9, 1}});
     auto stream = random_stream(1, Pass::user, 0, 0);
+    auto context = context_of(stream, counts);
     counts = {};
-    CHECK(irradiance_between(scene, points, cache, other_side, {}, stream, counts).x ==
-          3);
+    CHECK(irradiance_between(scene, points, cache, other_side, {}, context).x == 3);
     CHECK(counts.bounce_rays == 0);
 }
 
 TEST_CASE("irradiance cache: points where a camera ray meets something matt") {
     const IrradiancePoints points = known(Rgb{2});
-    const auto gathered = [&](const Hall& scene, const Ray& ray,
+    const auto gathered = [&](const World<Hall>& scene, const Ray& ray,
                               const GatherSettings& how) {
         auto stream = random_stream(1, Pass::user, 0, 0);
         detail::GatheredRowT<float> row;
@@ -179,7 +180,7 @@ TEST_CASE("irradiance cache: points where a camera ray meets something matt") {
         return row;
     };
     const Ray down{.origin{0, 0, 3}, .direction{0, 0, -1}};
-    const auto floor = gathered(hall(), down, {.rays = 7});
+    const auto floor = gathered(World(hall()), down, {.rays = 7});
     REQUIRE(floor.positions.size() == 1);
     CHECK(glm::length(floor.positions[0]) < 1e-5f);
     CHECK(floor.records[0].normal == up);
@@ -190,15 +191,16 @@ TEST_CASE("irradiance cache: points where a camera ray meets something matt") {
         Hall scene = hall();
         scene.add(Quad{.corner{-1, -1, 1}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}},
                   scene.add(Mirror{.reflectance = Rgb{bright}}));
-        const auto up_there = gathered(scene, down, {.rays = 3});
+        const World world(std::move(scene));
+        const auto up_there = gathered(world, down, {.rays = 3});
         CHECK(up_there.positions.size() == (bright > 0.01f ? 1 : 0));
         if (bright == 1) CHECK(up_there.positions[0].z == doctest::Approx(4));
-        CHECK(gathered(scene, down, {.rays = 3, .max_depth = 2}).positions.size() ==
+        CHECK(gathered(world, down, {.rays = 3, .max_depth = 2}).positions.size() ==
               (bright > 0.01f ? 1 : 0));
-        CHECK(gathered(scene, down, {.rays = 3, .max_depth = 1}).positions.empty());
+        CHECK(gathered(world, down, {.rays = 3, .max_depth = 1}).positions.empty());
     }
     // At glass both ways: through it to the floor, and back to the ceiling.
-    const auto both = gathered(hall(true), down, {.rays = 3});
+    const auto both = gathered(World(hall(true)), down, {.rays = 3});
     int below = 0, above = 0;
     for (const Vec3& p : both.positions) (p.z < 2 ? below : above) += 1;
     CHECK(below == 1);
@@ -207,7 +209,7 @@ TEST_CASE("irradiance cache: points where a camera ray meets something matt") {
     Hall shiny;
     shiny.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
               shiny.add(Glossy{}));
-    CHECK(gathered(shiny, down, {}).positions.empty());
+    CHECK(gathered(World(shiny), down, {}).positions.empty());
     // Of many slabs only so many ways as are rendered, eight; at 80
     // degrees both ways are strong.
     Hall panes = hall();
@@ -219,17 +221,18 @@ TEST_CASE("irradiance cache: points where a camera ray meets something matt") {
                        .edge_v = i % 2 == 0 ? x : y},
                   glass);
     }
+    const World many(std::move(panes));
     for (int i = 0; i < 8; ++i) {
         const Ray slanted{.origin{0, 0, 3},
                           .direction = glm::normalize(Vec3{5.7f, 0.1f * float(i), -1})};
-        const std::size_t ways = gathered(panes, slanted, {.rays = 1}).positions.size();
+        const std::size_t ways = gathered(many, slanted, {.rays = 1}).positions.size();
         CHECK(ways <= 8);
         CHECK(ways >= 5); // but for those that are too faint
     }
 }
 
 TEST_CASE("irradiance cache: a point in each square of pixels") {
-    const Hall scene = hall();
+    const World scene(hall());
     const IrradiancePoints points = known(Rgb{2});
     const Camera camera = look_at({.position{0, 0, 3}, .target{0, 0, 0}, .up{0, 1, 0}});
     double aside = 0, squares = 0;
@@ -271,7 +274,7 @@ TEST_CASE("irradiance cache: a point in each square of pixels") {
 TEST_CASE("irradiance cache: each square has numbers of its own, with each seed") {
     // Where in its square a point stands: of 3 x 12 places in the unit square two are
     // as near as that once in 50 000 runs.
-    const Hall scene = hall();
+    const World scene(hall());
     const Camera camera = look_at({.position{0, 0, 3}, .target{0, 0, 0}, .up{0, 1, 0}});
     std::vector<glm::dvec2> places;
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
@@ -298,9 +301,10 @@ TEST_CASE("irradiance cache: each point has what was gathered there") {
     Hall scene = hall();
     scene.add(Quad{.corner{1, -50, 0}, .edge_u{0, 0, 4}, .edge_v{0, 100, 0}},
               scene.add(Lambertian{}));
+    const World world(std::move(scene));
     const Camera camera = look_at(
         {.position{-1, 0, 3}, .target{1, 0, 0}, .up{0, 1, 0}, .vfov_degrees = 60});
-    const auto cache = make_irradiance_cache(scene, known(Rgb{2}), camera,
+    const auto cache = make_irradiance_cache(world, known(Rgb{2}), camera,
                                              {.width = 40, .height = 40, .threads = 2},
                                              {.rays = 4, .tile = 2});
     REQUIRE(cache.records.size() == 400);
@@ -325,7 +329,7 @@ TEST_CASE("irradiance cache: it equals path tracing, block by block") {
     const Camera camera = room_camera<float>();
     for (const Ball ball :
          {Ball::lambertian, Ball::oren_nayar, Ball::mirror, Ball::glass}) {
-        const Room room = make_room<float>(ball, Lamp::quad, 1);
+        const ClosedRoom room = make_room<float>(ball, Lamp::quad, 1);
         std::vector<Mean> mapped(blocks), traced(blocks);
         Mean all_mapped, all_traced;
         const auto add = [&](const Image& image, std::vector<Mean>& means, Mean& all) {
@@ -347,16 +351,13 @@ TEST_CASE("irradiance cache: it equals path tracing, block by block") {
                                    .samples = 6,
                                    .seed = test_seed(run),
                                    .threads = 1};
-            add(render(make_path_tracer(room), camera, picture).image, traced,
-                all_traced);
+            add(render(PathTracer(room), camera, picture).image, traced, all_traced);
             if (run > 12) continue;
             picture.samples = 4;
             const auto settings = cached(picture.seed);
-            auto maps = make_photon_maps(room, settings);
-            add_irradiance_cache(maps, room, camera, picture, settings);
-            CHECK(maps.cache.records.size() > 100);
-            const auto mapper =
-                make_photon_mapper<StratifiedStream>(room, maps, settings);
+            PhotonMapper mapper(room, settings, abilities<Gathering, StratifiedStream>);
+            mapper.fill_cache(camera, picture);
+            CHECK(mapper.state<Gathering>().cache.records.size() > 100);
             add(render(mapper, camera, picture).image, mapped, all_mapped);
         }
         CAPTURE(int(ball));
@@ -385,17 +386,15 @@ TEST_CASE("irradiance cache: it equals path tracing, block by block") {
 TEST_CASE("irradiance cache: surfaces seen from inside, and turned inside out") {
     // A room within a sphere that is lit from its middle: its shape's normals point
     // outwards, those of the surface inwards. Everywhere the same light comes.
-    using S = Scene<Shapes<Sphere>, Materials<Lambertian>>;
-    S scene;
+    Scene<Shapes<Sphere>, Materials<Lambertian>, Lights<PointLight>> scene;
     const auto wall = scene.add(Lambertian{.albedo = Rgb{0.5f}});
     scene.add(Sphere{}, wall);
     scene.add(PointLight{.intensity = Rgb{1}});
     const Camera camera = look_at(View{.position{0.3f, 0, 0}, .target{1, 0.1f, 0}});
     const RenderSettings picture{.width = 30, .height = 30, .samples = 4, .threads = 1};
-    auto settings = cached(1);
-    auto maps = make_photon_maps(scene, settings);
-    add_irradiance_cache(maps, scene, camera, picture, settings);
-    const auto mapper = make_photon_mapper(scene, maps, settings);
+    const World world(std::move(scene));
+    PhotonMapper mapper(world, cached(1), abilities<Gathering>);
+    mapper.fill_cache(camera, picture);
     const auto image = render(mapper, camera, picture).image;
     Mean mean;
     for (const Rgb& p : image.pixels) mean.add(double(p.x));
@@ -404,7 +403,7 @@ TEST_CASE("irradiance cache: surfaces seen from inside, and turned inside out") 
 }
 
 TEST_CASE("irradiance cache: the same bytes for any number of threads") {
-    const Room room = make_room<float>(Ball::glass, Lamp::sphere, 2);
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::sphere, 2);
     const Camera camera = room_camera<float>();
     std::vector<Image> images;
     for (const int threads : {1, 3}) {
@@ -412,27 +411,24 @@ TEST_CASE("irradiance cache: the same bytes for any number of threads") {
         settings.general.threads = settings.caustics.threads = threads;
         const RenderSettings picture{
             .width = 31, .height = 17, .samples = 2, .threads = threads};
-        auto maps = make_photon_maps(room, settings);
-        add_irradiance_cache(maps, room, camera, picture, settings);
-        images.push_back(
-            render(make_photon_mapper<StratifiedStream>(room, maps, settings), camera,
-                   picture)
-                .image);
+        PhotonMapper mapper(room, settings, abilities<Gathering, StratifiedStream>);
+        mapper.fill_cache(camera, picture);
+        images.push_back(render(mapper, camera, picture).image);
     }
     CHECK(images[0].pixels == images[1].pixels);
 }
 
 TEST_CASE("irradiance cache: no photons, no light, no points") {
     // Without photons there is direct light only, and no NaN.
-    const Room room = make_room<float>(Ball::lambertian, Lamp::quad, 1);
+    const ClosedRoom room = make_room<float>(Ball::lambertian, Lamp::quad, 1);
     const Camera camera = room_camera<float>();
     const RenderSettings picture{.width = 20, .height = 20, .samples = 2, .threads = 1};
     const auto image = [&](auto change) {
         auto settings = cached(1);
         change(settings);
-        auto maps = make_photon_maps(room, settings);
-        add_irradiance_cache(maps, room, camera, picture, settings);
-        return render(make_photon_mapper(room, maps, settings), camera, picture);
+        PhotonMapper mapper(room, settings, abilities<Gathering>);
+        mapper.fill_cache(camera, picture);
+        return render(mapper, camera, picture);
     };
     const auto none = image([](auto& s) { s.general.photons = 0; });
     const auto direct = image([](auto& s) { s.indirect = IndirectLight::none; });

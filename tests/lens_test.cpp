@@ -74,7 +74,8 @@ TEST_CASE("lens: a pane lets 2n/(n^2 + 1) through, all the ways to and fro toget
         scene.add(Quad{{-50, -50, -1}, {0, 100, 0}, {100, 0, 0}}, glass);
         scene.add(Quad{{-50, -50, -2}, {100, 0, 0}, {0, 100, 0}}, black,
                   ljus::RgbT<double>{1});
-        const auto tracer = make_path_tracer(scene, {.roulette_depth = 1000});
+        const ljus::World world(std::move(scene));
+        const ljus::PathTracer tracer(world, {.roulette_depth = 1000});
         constexpr int paths = 40000;
         int through = 0;
         for (int i = 0; i < paths; ++i) {
@@ -83,7 +84,8 @@ TEST_CASE("lens: a pane lets 2n/(n^2 + 1) through, all the ways to and fro toget
                                     static_cast<unsigned>(i));
             ljus::Counts counts;
             const Ray ray{.origin{0, 0, 1}, .direction{0, 0, -1}};
-            const double seen = radiance(tracer, ray, stream, counts).x;
+            auto context = ljus::context_of(stream, counts);
+            const double seen = radiance(tracer, ray, context).x;
             // A path ends at the lamp or in the void; the n^2 in and out cancel.
             REQUIRE((seen == 0 || std::abs(seen - 1) < 1e-12));
             through += seen > 0.5;

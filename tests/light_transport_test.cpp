@@ -141,12 +141,12 @@ TEST_CASE("light_transport: an expression that is none is refused with its place
 
 TEST_CASE("light_transport: the parts of a picture add up to the whole") {
     const auto room = cornell_box();
-    const auto tracer = make_path_tracer(room.scene);
+    const PathTracer tracer(room.world);
     const Image whole = picture(tracer, room.camera);
-    CHECK(difference(whole, picture(only_paths(tracer, "E.*L"), room.camera)) == 0);
+    CHECK(difference(whole, picture(OnlyPaths(tracer, "E.*L"), room.camera)) == 0);
     // And cost as much: nothing is left out but the sums.
     const Counts all = render(tracer, room.camera, small()).counts;
-    const Counts some = render(only_paths(tracer, "EDL"), room.camera, small()).counts;
+    const Counts some = render(OnlyPaths(tracer, "EDL"), room.camera, small()).counts;
     CHECK(all.bounce_rays > 0);
     CHECK(some.camera_rays == all.camera_rays);
     CHECK(some.bounce_rays == all.bounce_rays);
@@ -156,7 +156,7 @@ TEST_CASE("light_transport: the parts of a picture add up to the whole") {
           std::vector<const char*>{"ES*L", "ES*DL", "E.*DDL", "E.*DS+DL", "E.*DS+L"}}) {
         Image sum = make_image(16, 16);
         for (const char* words : classes) {
-            const Image part = picture(only_paths(tracer, words), room.camera);
+            const Image part = picture(OnlyPaths(tracer, words), room.camera);
             for (std::size_t i = 0; i < sum.pixels.size(); ++i)
                 sum.pixels[i] += part.pixels[i];
         }
@@ -167,13 +167,13 @@ TEST_CASE("light_transport: the parts of a picture add up to the whole") {
 TEST_CASE(
     "light_transport: cut short by the letters or by the depth, the same picture") {
     const auto room = cornell_box();
-    const auto tracer = make_path_tracer(room.scene);
-    const auto one = make_path_tracer(room.scene, {.max_depth = 1});
+    const PathTracer tracer(room.world);
+    const PathTracer one(room.world, {.max_depth = 1});
     CHECK(difference(picture(one, room.camera),
-                     picture(only_paths(tracer, "ED?L"), room.camera)) == 0);
-    const auto three = make_path_tracer(room.scene, {.max_depth = 3});
+                     picture(OnlyPaths(tracer, "ED?L"), room.camera)) == 0);
+    const PathTracer three(room.world, {.max_depth = 3});
     CHECK(difference(picture(three, room.camera),
-                     picture(only_paths(tracer, "E(..?)?D?L"), room.camera)) < 1e-6);
+                     picture(OnlyPaths(tracer, "E(..?)?D?L"), room.camera)) < 1e-6);
 }
 
 TEST_CASE("light_transport: g is 1/r^2 where points see each other, and else 0") {
@@ -187,12 +187,13 @@ TEST_CASE("light_transport: g is 1/r^2 where points see each other, and else 0")
     // A screen at half the height hides the half of the lamp with x above a / 2.
     const QuadT<double> screen{
         .corner{a / 4, h / 2, -9}, .edge_u{9, 0, 0}, .edge_v{0, 0, 18}};
-    Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>>> open, hidden;
-    const auto grey = open.add(LambertianT<double>{});
-    (void)hidden.add(LambertianT<double>{});
-    open.add(lamp, grey);
-    hidden.add(lamp, grey);
-    hidden.add(screen, grey);
+    Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>>> lamp_alone, screened;
+    const auto grey = lamp_alone.add(LambertianT<double>{});
+    (void)screened.add(LambertianT<double>{});
+    lamp_alone.add(lamp, grey);
+    screened.add(lamp, grey);
+    screened.add(screen, grey);
+    const World open(std::move(lamp_alone)), hidden(std::move(screened));
     const SurfacePointT<double> floor{.normal{0, 1, 0}};
     const int n = 80;
     double seen = 0, half = 0, below_half = 0;
@@ -225,11 +226,11 @@ TEST_CASE("light_transport: in a furnace each bounce has its power of the albedo
     // Inside of a ball that shines, each bounce keeps rho. 1024 paths; a path's share
     // of a bounce scatters by less than its mean, so that 6 standard errors are 0.19.
     const auto furnace = sphere_furnace<float>(Rgb{1}, {0.9f, 0.5f, 0.1f});
-    const auto tracer = make_path_tracer(furnace.scene, {.max_depth = 4});
+    const PathTracer tracer(furnace.world, {.max_depth = 4});
     std::string words = "E";
     for (int bounce = 0; bounce < 4; ++bounce) {
         const std::string all = words + "L"; // the class does not keep it
-        const Image image = picture(only_paths(tracer, all), furnace.camera);
+        const Image image = picture(OnlyPaths(tracer, all), furnace.camera);
         Rgb mean{0};
         for (const Rgb& c : image.pixels) mean += c / 256.0f;
         CAPTURE(bounce);

@@ -14,7 +14,7 @@
 
 #include "ljus/io/load_json.hpp"
 #include "ljus/io/png.hpp"
-#include "ljus/scene/query.hpp"
+#include "ljus/scene/world.hpp"
 #include "scratch_folder.hpp"
 
 using namespace ljus;
@@ -98,8 +98,9 @@ TEST_CASE("load_json: everything in the file is in the scene") {
     CHECK(spheres[0].radius == 0.75f);
     CHECK(triangles[0].v2 == Vec3{-1.5f, 1, 0.5f});
 
-    CHECK(scene
-              .visit_material(scene.object({0, 0}).material,
+    const World world(scene);
+    CHECK(world
+              .visit_material(world.object({0, 0}).material,
                               [](const auto& m) {
                                   return evaluate(m, Vec3{0, 0, 1}, Vec3{0, 0, 1}) *
                                          std::numbers::pi_v<float>;
@@ -118,10 +119,15 @@ TEST_CASE("load_json: everything in the file is in the scene") {
 
 TEST_CASE("load_json: a lamp of two triangles is one light") {
     const LoadedScene loaded = read_json_scene(good, "a.json");
-    REQUIRE(loaded.scene.lights.size() == 1);
-    CHECK(loaded.scene.lights[0].emission == Rgb{5, 4, 2.5f});
-    CHECK(loaded.scene.lights[0].flux.x ==
-          doctest::Approx(5 * 1.44 * std::numbers::pi));
+    const World world(loaded.scene);
+    REQUIRE(world.light_count() == 1);
+    world.visit_light(0, [](const auto& light) {
+        if constexpr (requires { light.lamp; })
+            CHECK(light.lamp.radiance == Rgb{5, 4, 2.5f});
+        else
+            FAIL("the lamp is no object");
+    });
+    CHECK(world.powers()[0].x == doctest::Approx(5 * 1.44 * std::numbers::pi));
 }
 
 TEST_CASE("load_json: the camera sees what it looks at in the middle") {
@@ -337,7 +343,7 @@ TEST_CASE("load_json: the report's sliders") {
     CHECK(all.absorption == Rgb{1, 2, 3});
     // A ball whose material shines is a light.
     CHECK(read_json_scene(mixture(R"(, "emissivity": 3)"), "a.json")
-              .scene.lights.size() == 2);
+              .scene.light_count() == 2);
 
     CHECK(refusal(mixture(R"(, "reflectivity": 1.5)")) ==
           "a.json: materials.glass.reflectivity is 1.5; it must be within [0, 1].");
@@ -353,8 +359,8 @@ TEST_CASE("load_json: each name makes its own material") {
     // The type of the material of the ball, as the scene numbers them, and f there.
     const auto f = [](const std::string& material) {
         const LoadedScene loaded = read_json_scene(with(material), "a.json");
-        return loaded.scene.visit_material(
-            loaded.scene.object({1, 0}).material, [](const auto& m) {
+        return World(loaded.scene)
+            .visit_material(loaded.scene.object({1, 0}).material, [](const auto& m) {
                 const Vec3 tilted{0.6f, 0, 0.8f}, back{-0.48f, 0.36f, 0.8f};
                 return evaluate(m, tilted, back);
             });
@@ -457,17 +463,31 @@ TEST_CASE("load_json: points, spots and suns") {
                 "intensity": [1, 1, 1], "inner_deg": 10, "outer_deg": 60},
                {"type": "sun", "direction": [1, -1, 0], "irradiance": [4, 4, 3]})"),
         "a.json");
-    const auto& lights = loaded.scene.lights;
-    REQUIRE(lights.size() == 4); // the lamp is the first
-    CHECK(lights[1].kind == LightKind::point);
-    CHECK(lights[1].position == Vec3{0, 2, 1});
-    CHECK(lights[1].emission == Rgb{1, 2, 3});
-    CHECK(lights[2].kind == LightKind::spot);
-    CHECK(lights[2].direction == Vec3{0, -1, 0});
-    CHECK(lights[2].outer == doctest::Approx(0.5));
-    CHECK(lights[3].kind == LightKind::sun);
-    CHECK(lights[3].emission == Rgb{4, 4, 3});
-    CHECK(lights[3].radius > 2);
+    const auto& [points, spots, suns] = loaded.scene.lights;
+    REQUIRE(points.size() == 1);
+    CHECK(points[0].position == Vec3{0, 2, 1});
+    CHECK(points[0].intensity == Rgb{1, 2, 3});
+    REQUIRE(spots.size() == 1);
+    CHECK(glm::normalize(spots[0].direction) == Vec3{0, -1, 0});
+    CHECK(spots[0].outer_degrees == doctest::Approx(60));
+    REQUIRE(suns.size() == 1);
+    CHECK(suns[0].irradiance == Rgb{4, 4, 3});
+    // In the scene they come after the lamp, in the order of the file.
+    const World world(loaded.scene);
+    REQUIRE(world.light_count() == 4);
+    CHECK(world.can_be_met(0));
+    world.visit_light(2, [](const auto& light) {
+        if constexpr (requires { light.outer; })
+            CHECK(light.outer == doctest::Approx(0.5));
+        else
+            FAIL("the third light is no spot");
+    });
+    world.visit_light(3, [](const auto& light) {
+        if constexpr (requires { light.around; })
+            CHECK(light.around.radius > 2);
+        else
+            FAIL("the fourth light is no sun");
+    });
 
     CHECK(refusal(lit("1")) == "a.json: lights[0] is 1; it must be an object.");
     CHECK(refusal(lit(R"({"type": "moon"})")) ==
@@ -681,12 +701,13 @@ TEST_CASE("load_json: garbage is refused, or gives a scene that can be used") {
         try {
             const LoadedScene loaded = read_json_scene(text, "a.json");
             ++accepted;
-            REQUIRE(!loaded.scene.lights.empty());
+            REQUIRE(loaded.scene.light_count() > 0);
             REQUIRE(loaded.width >= 1);
             REQUIRE(is_finite(loaded.camera.forward));
+            const World world(loaded.scene);
             const auto hit =
-                closest_hit(loaded.scene, primary_ray(loaded.camera, Vec2{0.5f, 0.5f},
-                                                      loaded.width, loaded.height));
+                closest_hit(world, primary_ray(loaded.camera, Vec2{0.5f, 0.5f},
+                                               loaded.width, loaded.height));
             if (hit) REQUIRE(hit->at.t >= 0);
         } catch (const std::runtime_error& error) {
             const std::string what = error.what();

@@ -395,8 +395,11 @@ TEST_CASE("load_obj: materials of a file, and scenes that use it") {
     Scene<Shapes<Mesh>, Materials<Lambertian, Glass, Mirror>> scene;
     add_obj(scene, loaded);
     CHECK(scene.size() == 5);
-    REQUIRE(scene.lights.size() == 1);
-    CHECK(scene.lights[0].emission == Rgb{3, 2, 1});
+    REQUIRE(scene.light_count() == 1);
+    const World world(scene);
+    world.visit_light(0, [](const auto& light) {
+        CHECK(light.lamp.radiance == Rgb{3, 2, 1});
+    });
     CHECK(scene.object({0, 2}).material.type == 1);
     CHECK(scene.object({0, 3}).material.type == 2);
     Scene<Shapes<Mesh>, Materials<Lambertian>> plain; // lists neither glass nor mirrors
@@ -412,7 +415,7 @@ TEST_CASE("load_obj: materials of a file, and scenes that use it") {
     std::string report;
     const auto read = read_json_scene(json, folder.file("s.json"), ObjMeshes{&report});
     CHECK(read.scene.size() == 5);
-    CHECK(read.scene.lights.size() == 5);
+    CHECK(read.scene.light_count() == 5);
     CHECK(report.find("edges") != std::string::npos);
     CHECK_THROWS_AS((void)read_json_scene(json, folder.file("s.json")),
                     std::runtime_error);
@@ -464,12 +467,14 @@ TEST_CASE("load_obj: texture coordinates and the picture of a material") {
 
     Scene<Shapes<Mesh>, Materials<Lambertian, ObjPicture>> scene;
     add_obj(scene, loaded);
-    const ObjPicture& paint = std::get<std::vector<ObjPicture>>(scene.materials).at(0);
+    const World world(std::move(scene));
+    const ObjPicture& paint =
+        std::get<std::vector<ObjPicture>>(world.materials()).at(0);
     const auto at = [&](float x, float y) {
         const Ray ray{.origin{x, y, 3}, .direction{0, 0, -1}};
-        const auto hit = closest_hit(scene, ray);
+        const auto hit = closest_hit(world, ray);
         REQUIRE(hit.has_value());
-        const auto surface = vertex_at(scene, ray, *hit);
+        const auto surface = vertex_at(world, ray, *hit);
         CHECK(surface.uv == Vec2{x / 4, y / 2});
         return material_at(paint, surface.point.position, surface.uv).albedo;
     };
@@ -488,9 +493,10 @@ TEST_CASE("load_obj: texture coordinates and the picture of a material") {
                         "irradiance": [1, 1, 1]}]})",
         folder.file("s.json"), ObjMeshes{});
     const Ray green{.origin{3, 1.5f, 3}, .direction{0, 0, -1}};
-    const auto surface = vertex_at(json.scene, green, *closest_hit(json.scene, green));
+    const World hung(json.scene);
+    const auto surface = vertex_at(hung, green, *closest_hit(hung, green));
     const Vec3 up{0, 0, 1};
-    visit_material_at(json.scene, surface, [&](const auto& m) {
+    visit_material_at(hung, surface, [&](const auto& m) {
         CHECK(evaluate(m, up, up) == Rgb{0, std::numbers::inv_pi_v<float>, 0});
     });
     // A scene that does not list pictures is painted in Kd, as before.
@@ -613,16 +619,16 @@ TEST_CASE("load_obj: which words of a material file make a mirror or glass") {
                                                                          : 0u));
     const auto& glasses = std::get<std::vector<Glass>>(scene.materials);
     CHECK(glasses.back().index == 0.001f);
-    CHECK(scene.lights.size() == 3);
+    CHECK(scene.light_count() == 3);
     Scene<Shapes<Mesh>, Materials<Lambertian>> painted;
     const auto white = painted.add(Lambertian{.albedo = Rgb{0.75f}});
     add_obj(painted, loaded, white, Rgb{1, 2, 3});
     CHECK(painted.size() == 18);
-    CHECK(painted.lights.size() == 18);
+    CHECK(painted.light_count() == 18);
     CHECK(painted.object({0, 3}).emission == Rgb{1, 2, 3});
     CHECK(painted.object({0, 3}).material == white);
     add_obj(painted, loaded, white);
-    CHECK(painted.lights.size() == 18);
+    CHECK(painted.light_count() == 18);
     // A file of meshes for a scene in JSON, with the normals that it asks for.
     ScratchFolder::write(folder.file("cube.obj"), cube);
     std::string report;
@@ -653,7 +659,8 @@ TEST_CASE("load_obj: a path-traced wall shows the four colours") {
          .target{2, 1, 0},
          .up{0, 1, 0},
          .vfov_degrees = 2 * std::atan(1.0f / 200) * 180 / std::numbers::pi_v<float>});
-    const auto image = render(make_path_tracer(scene), camera,
+    const World world(std::move(scene));
+    const auto image = render(PathTracer(world), camera,
                               {.width = 64, .height = 32, .samples = 64, .threads = 1})
                            .image;
     const Image colors = four_colors();

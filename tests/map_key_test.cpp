@@ -10,6 +10,8 @@
 #include "ljus/geometry/metaballs.hpp"
 #include "ljus/geometry/moving.hpp"
 #include "ljus/io/light_map_file.hpp"
+#include "ljus/lights/point_light.hpp"
+#include "ljus/lights/spot_light.hpp"
 #include "ljus/materials/eon.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/mixture.hpp"
@@ -58,7 +60,8 @@ struct Parts {
 
     std::uint64_t hash() const {
         Scene<Shapes<Sphere, Quad, Moving<Sphere>, Metaballs, Mesh>,
-              Materials<Lambertian, Glass, SoapFilm, Mixture, RoughDiffuse>>
+              Materials<Lambertian, Glass, SoapFilm, Mixture, RoughDiffuse>,
+              Lights<PointLight, SpotLight>>
             scene;
         const auto grey = scene.add(matt);
         scene.add(ball, scene.add(glass));
@@ -68,13 +71,13 @@ struct Parts {
         scene.add(Mesh(mesh), scene.add(film));
         scene.add(lamp);
         scene.add(spot);
-        return detail::scene_hash(scene);
+        return detail::scene_hash(World(std::move(scene)));
     }
 };
 
 auto go_on = [](long long, long long) { return true; };
 
-std::string refusal(const std::string& path, const MapKey& key) {
+std::string refusal(const std::string& path, const LightMapKey& key) {
     try {
         (void)load_light_map(path, key);
     } catch (const std::runtime_error& error) {
@@ -151,7 +154,7 @@ TEST_CASE(
     const auto with = [](const auto& material) {
         Scene<Shapes<Sphere>, Materials<std::remove_cvref_t<decltype(material)>>> scene;
         scene.add(Sphere{.center{0, 0, -3}, .radius = 1}, scene.add(material));
-        return detail::scene_hash(scene);
+        return detail::scene_hash(World(std::move(scene)));
     };
     CHECK(with(Lambertian{.albedo = Rgb{0.5f}}) !=
           with(Mirror{.reflectance = Rgb{0.5f}}));
@@ -163,7 +166,7 @@ TEST_CASE(
         const auto blue = scene.add(Lambertian{.albedo{0, 0, 1}});
         scene.add(Sphere{.center{0, 0, -3}, .radius = 1}, swapped ? blue : red);
         scene.add(Sphere{.center{0, 3, -3}, .radius = 1}, swapped ? red : blue);
-        return detail::scene_hash(scene);
+        return detail::scene_hash(World(std::move(scene)));
     };
     CHECK(made_of(true) != made_of(false));
 }
@@ -173,7 +176,7 @@ TEST_CASE("map_key: settings that change a light map count, and no others") {
     const auto same = [&](auto change) {
         RadiositySettings settings;
         change(settings);
-        return light_map_key(room.scene, settings) == light_map_key(room.scene, {});
+        return light_map_key(room.world, settings) == light_map_key(room.world, {});
     };
     using Settings = RadiositySettings;
     CHECK_FALSE(same([](Settings& s) { s.patches.size = 1; }));
@@ -190,24 +193,33 @@ TEST_CASE("map_key: settings that change a light map count, and no others") {
         s.factors.threads = s.solve.threads = 3;
         s.factors.progress = go_on;
     }));
-    CHECK(light_map_key(room.scene, {}).scene == detail::scene_hash(room.scene));
+    CHECK(light_map_key(room.world, {}).scene == detail::scene_hash(room.world));
 }
 
 TEST_CASE("map_key: the map of a scene that was changed since is refused") {
     const ScratchFolder folder;
     const std::string path = folder.file("a.map");
     const std::string cannot = "cannot read '" + path + "': it was made ";
-    const auto room = cornell_box();
-    auto moved = room;
-    std::get<std::vector<Sphere>>(moved.scene.shapes)[0].center.x += 0.01f;
+    const auto box = [](float x) {
+        Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Mirror, Glass>> scene;
+        add_cornell_walls(scene);
+        const auto matt = scene.add(Lambertian{});
+        scene.add(Sphere{.center{x, 0.4f, 0}, .radius = 0.4f}, matt, Rgb{3});
+        return World(std::move(scene));
+    };
+    const auto room = box(0), moved = box(0.01f);
     const std::string other_scene =
         "for another scene, with other shapes, materials or lights; make it anew.";
     const std::string other_settings = "with other settings; make it anew, or ask for "
                                        "those that it was made with.";
     const RadiositySettings large{.patches = {.size = 1}, .factors = {.rays = 4}};
-    const auto light = make_radiosity(room.scene, large);
-    save_light_map(path, light->map, light_map_key(room.scene, large));
-    CHECK(refusal(path, light_map_key(room.scene, large)) == "it was read");
-    CHECK(refusal(path, light_map_key(moved.scene, large)) == cannot + other_scene);
-    CHECK(refusal(path, light_map_key(room.scene, {})) == cannot + other_settings);
+    const auto light = make_radiosity(room, large);
+    save_light_map(path, light->map);
+    CHECK(refusal(path, light_map_key(room, large)) == "it was read");
+    CHECK(refusal(path, light_map_key(moved, large)) == cannot + other_scene);
+    CHECK(refusal(path, light_map_key(room, {})) == cannot + other_settings);
+    CHECK_NOTHROW((void)LightMapView(room, light->map));
+    CHECK_THROWS_WITH_AS((void)LightMapView(moved, light->map),
+                         ("The light map was made " + other_scene).c_str(),
+                         std::invalid_argument);
 }

@@ -50,7 +50,7 @@ using Room = Scene<Shapes<Sphere, Quad>,
 /// A closed room; a ball of the material on the floor, a small mirror beside it, so
 /// that a caustic falls on both, and a lamp behind the camera's view.
 template <Material M>
-Room room_with(const M& material) {
+World<Room> room_with(const M& material) {
     Room room;
     const auto grey = room.add(Matt{.albedo = Rgb{0.5f}});
     const auto red = room.add(Matt{.albedo{0.6f, 0.3f, 0.3f}});
@@ -68,7 +68,7 @@ Room room_with(const M& material) {
     room.add(Sphere{.center{0.6f, -0.7f, 0.25f}, .radius = 0.25f},
              room.add(Mirror{.reflectance{0.9f, 0.8f, 0.7f}}));
     room.add(Quad{{-0.6f, 0.98f, -0.55f}, {1, 0, 0}, {0, 0, 1}}, black, Rgb{4, 4, 3});
-    return room;
+    return World(std::move(room));
 }
 
 /// The means of the blocks and of the whole picture, over several seeds.
@@ -117,17 +117,15 @@ void compare(const std::string& name, const M& material, std::uint64_t cell,
     Blocks traced, mapped;
     for (std::uint64_t s = 1; s <= traced_seeds; ++s)
         traced.add(
-            render(make_path_tracer(room), camera, picture(1000 * cell + 500 + s))
-                .image);
+            render(PathTracer(room), camera, picture(1000 * cell + 500 + s)).image);
     for (std::uint64_t s = 1; s <= mapped_seeds; ++s) {
         PhotonMappingSettings settings;
         settings.caustics = {
             .photons = 20000, .seed = test_seed(1000 * cell + s), .threads = 1};
         settings.caustics_estimate = {.radius = 0.03f};
-        const auto maps = make_photon_maps(room, settings);
-        mapped.add(render(make_photon_mapper(room, maps, settings), camera,
-                          picture(1000 * cell + s))
-                       .image);
+        mapped.add(
+            render(PhotonMapper(room, settings), camera, picture(1000 * cell + s))
+                .image);
     }
     double least = 1;
     for (int b = 0; b < across * across; ++b) {

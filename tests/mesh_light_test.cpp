@@ -22,7 +22,7 @@ constexpr int seeds = 16;
 const Sphere ball{.center{0.1f, -0.4f, -0.1f}, .radius = 0.45f};
 
 /// A furnace or the room [-1, 1]^3, with a ball of triangles or the sphere itself.
-MeshRoom room_with(bool furnace, bool glass, bool triangles) {
+ClosedMeshRoom room_with(bool furnace, bool glass, bool triangles) {
     MeshRoom room;
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
     const Rgb glow{furnace ? 0.5f : 0.0f};
@@ -49,7 +49,7 @@ MeshRoom room_with(bool furnace, bool glass, bool triangles) {
         room.add(Mesh(icosphere(ball, 5)), material, own);
     else
         room.add(ball, material, own);
-    return room;
+    return ClosedMeshRoom(std::move(room));
 }
 
 const Camera camera =
@@ -79,16 +79,16 @@ struct Blocks {
     }
 };
 
-Blocks traced(const MeshRoom& room, std::uint64_t first, int count) {
+Blocks traced(const ClosedMeshRoom& room, std::uint64_t first, int count) {
     Blocks blocks;
     for (int i = 0; i < count; ++i)
-        blocks.add(render(make_path_tracer(room), camera,
+        blocks.add(render(PathTracer(room), camera,
                           picture(first + static_cast<std::uint64_t>(i)))
                        .image);
     return blocks;
 }
 
-Blocks mapped(const MeshRoom& room, std::uint64_t first, int count) {
+Blocks mapped(const ClosedMeshRoom& room, std::uint64_t first, int count) {
     Blocks blocks;
     for (int i = 0; i < count; ++i) {
         const std::uint64_t seed = first + static_cast<std::uint64_t>(i);
@@ -96,10 +96,7 @@ Blocks mapped(const MeshRoom& room, std::uint64_t first, int count) {
         settings.caustics = {
             .photons = 20000, .seed = ljus_test::test_seed(seed), .threads = 1};
         settings.caustics_estimate = {.radius = 0.03f};
-        const auto maps = make_photon_maps(room, settings);
-        blocks.add(
-            render(make_photon_mapper(room, maps, settings), camera, picture(seed))
-                .image);
+        blocks.add(render(PhotonMapper(room, settings), camera, picture(seed)).image);
     }
     return blocks;
 }
@@ -116,8 +113,8 @@ TEST_CASE("mesh: a ball of 20480 smooth triangles is a sphere, in both renderers
     std::uint64_t first = 100;
     for (const bool furnace : {true, false})
         for (const bool glass : {false, true}) {
-            const MeshRoom mesh = room_with(furnace, glass, true);
-            const MeshRoom sphere = room_with(furnace, glass, false);
+            const ClosedMeshRoom mesh = room_with(furnace, glass, true);
+            const ClosedMeshRoom sphere = room_with(furnace, glass, false);
             first += 1000;
             const Blocks a = traced(mesh, first, 32);
             const Blocks b = mapped(mesh, first + 200, seeds);

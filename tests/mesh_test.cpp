@@ -128,13 +128,14 @@ TEST_CASE("mesh: pictures and photons are those of its triangles, to the last bi
     }
     const Camera camera = look_at({.position{0, 1.5f, 3}, .target{0, 0.3f, 0}});
     const RenderSettings picture{.width = 40, .height = 30, .samples = 4};
-    const auto a = render(make_path_tracer(whole), camera, picture).image;
-    const auto b = render(make_path_tracer(parts), camera, picture).image;
+    const World of_mesh(std::move(whole)), of_parts(std::move(parts));
+    const auto a = render(PathTracer(of_mesh), camera, picture).image;
+    const auto b = render(PathTracer(of_parts), camera, picture).image;
     CHECK(std::memcmp(a.pixels.data(), b.pixels.data(),
                       a.pixels.size() * sizeof(a.pixels[0])) == 0);
     const PhotonPassSettings pass{.photons = 2000};
-    const auto p = trace_photons(whole, MapType::general, pass).photons;
-    const auto q = trace_photons(parts, MapType::general, pass).photons;
+    const auto p = trace_photons(of_mesh, MapType::general, pass).photons;
+    const auto q = trace_photons(of_parts, MapType::general, pass).photons;
     REQUIRE(p.size() == q.size());
     int other = 0;
     for (std::size_t i = 0; i < p.size(); ++i)
@@ -250,28 +251,28 @@ TEST_CASE("mesh: points are uniform over its area") {
 
 TEST_CASE("mesh: a lamp of triangles lights as the sphere does") {
     const Mesh lamp(icosphere(Sphere{.center{0, 3, 0}, .radius = 1}, 4));
-    const auto scene =
+    const World scene(
         make_scene(placed(lamp, Lambertian{.albedo = Rgb{0}}, Rgb{2}),
-                   placed(Quad{{-1, 0, 1}, {2, 0, 0}, {0, 0, -2}}, Lambertian{}));
-    REQUIRE(scene.lights.size() == 1);
-    CHECK(scene.lights[0].flux.x ==
+                   placed(Quad{{-1, 0, 1}, {2, 0, 0}, {0, 0, -2}}, Lambertian{})));
+    REQUIRE(scene.light_count() == 1);
+    CHECK(scene.powers()[0].x ==
           doctest::Approx(2 * std::numbers::pi * 4 * std::numbers::pi).epsilon(5e-3));
     // E = pi L (r/d)^2 right below; half of it comes back over pi.
     const double right = 0.5 * 2 * 1 / 9.0;
     const auto down = [](RandomStream&) {
         return Ray{.origin{0, 1, 0}, .direction{0, -1, 0}};
     };
-    const Mean both = mean_radiance(make_path_tracer(scene), 40000, 1, down);
+    const Mean both = mean_radiance(PathTracer(scene), 40000, 1, down);
     CHECK(std::abs(apart(both, right, 4e-3)) < 3);
-    const auto no_shadow_rays = make_path_tracer(scene, {.sample_lights = false});
+    const PathTracer no_shadow_rays(scene, {.sample_lights = false});
     const Mean alone = mean_radiance(no_shadow_rays, 40000, 2, down);
     CHECK(std::abs(apart(alone, right, 4e-3)) < 3);
     // Photons carry the same.
     const auto traced = trace_photons(scene, MapType::general, {.photons = 40000});
     double sum = 0;
     for (const Photon& photon : traced.photons) sum += double(photon.flux.x);
-    CHECK(std::abs(double(traced.audit.emitted.x) - double(scene.lights[0].flux.x)) <
-          1e-3 * double(scene.lights[0].flux.x));
+    CHECK(std::abs(double(traced.audit.emitted.x) - double(scene.powers()[0].x)) <
+          1e-3 * double(scene.powers()[0].x));
     CHECK(sum > 0);
 }
 
@@ -280,10 +281,10 @@ TEST_CASE("mesh: in a furnace a smooth mesh loses what its horizons cut off") {
     // the share below the triangle's horizon, (1 - cos d) / 2, has nowhere to go.
     for (const int cuts : {0, 1, 3}) {
         const Mesh mesh(icosphere(unit_ball, cuts));
-        const auto scene =
+        const World scene(
             make_scene(placed(mesh, Lambertian{.albedo = Rgb{1}}),
                        placed(Sphere{.center{0, 0, 0}, .radius = 5},
-                              Lambertian{.albedo = Rgb{0}}, Rgb{1}, true));
+                              Lambertian{.albedo = Rgb{0}}, Rgb{1}, true)));
         Numbers numbers{7};
         Mean lost;
         for (int i = 0; i < 20; ++i) {
@@ -298,9 +299,8 @@ TEST_CASE("mesh: in a furnace a smooth mesh loses what its horizons cut off") {
             const bool turned = glm::dot(n, at.direction) > 0;
             const double right =
                 turned ? 1.0 : 0.5 + 0.5 * double(glm::dot(n, point.normal));
-            const Mean seen =
-                mean_radiance(make_path_tracer(scene), 4000, 100u + unsigned(i),
-                              [&](RandomStream&) { return at; });
+            const Mean seen = mean_radiance(PathTracer(scene), 4000, 100u + unsigned(i),
+                                            [&](RandomStream&) { return at; });
             CHECK(std::abs(apart(seen, right, 1e-3)) < 4);
             lost.add(1 - right);
         }
@@ -320,9 +320,10 @@ TEST_CASE("mesh: mirrors, glass and matt meshes in a furnace are as bright as it
                                               : room.add(Lambertian{.albedo = Rgb{1}});
             room.add(Mesh(data), material);
             room.add(Sphere{.center{0, 0, 0}, .radius = 6}, black, Rgb{1}, true);
+            const World world(std::move(room));
             // Without roulette and shadow rays each path brings exactly what it should.
-            const auto tracer = make_path_tracer(
-                room, {.roulette_depth = 1001, .sample_lights = false});
+            const PathTracer tracer(world,
+                                    {.roulette_depth = 1001, .sample_lights = false});
             const Camera camera = look_at({.position{0, 2, 3}, .target{0, 0, 0}});
             const auto image =
                 render(tracer, camera, {.width = 48, .height = 48, .samples = 16})
@@ -361,11 +362,12 @@ TEST_CASE("mesh: no light leaks through it") {
         room.add(Sphere{.center{ring ? 1.0f : 0.0f, 0, 0}, .radius = 0.1f}, grey,
                  Rgb{100});
         room.add(Sphere{.center{0, 0, 0}, .radius = 5}, grey, Rgb{0}, true);
+        const World world(room);
         const Camera camera = look_at({.position{0, 2, 3}, .target{0, 0, 0}});
-        const IndexedScene<MeshRoom, double> exact(room);
-        const auto image = render(make_path_tracer(exact), camera,
-                                  {.width = 40, .height = 40, .samples = 8})
-                               .image;
+        const World exact(std::move(room), compute_in<double>);
+        const auto image =
+            render(PathTracer(exact), camera, {.width = 40, .height = 40, .samples = 8})
+                .image;
         double sum = 0;
         for (const Rgb& pixel : image.pixels) sum += double(pixel.x);
         CHECK(sum == 0);
@@ -386,7 +388,7 @@ TEST_CASE("mesh: photons and camera paths agree about coarse smooth meshes") {
         for (const int kind : {0, 1, 2}) {
             const Mesh mesh(
                 icosphere(Sphere{.center{0.3f, 1.3f, 0}, .radius = 1}, cuts));
-            const MeshRoom room =
+            const ClosedMeshRoom room =
                 kind == 0   ? lamp_below(mesh, Lambertian{.albedo = Rgb{0.8f}})
                 : kind == 1 ? lamp_below(mesh, Mirror{.reflectance = Rgb{0.9f}})
                             : lamp_below(mesh, Glass{.index = 1.5f});
@@ -409,7 +411,7 @@ TEST_CASE("mesh: photons land with the cosine of the shading normal") {
                              .normals{ns, ns, ns},
                              .triangles{{0, 1, 2}}});
     const PointLight light{.position{0, 2, 0}, .intensity = Rgb{1}};
-    const auto scene = make_scene(placed(mesh, Lambertian{}), light);
+    const World scene(make_scene(placed(mesh, Lambertian{}), light));
     constexpr int count = 20000;
     const auto traced = trace_photons(scene, MapType::general,
                                       {.photons = count, .shadow_photons = false});

@@ -398,7 +398,7 @@ TEST_CASE("metaballs: no light, said in one sentence; black radiance is fine") {
                                            "can be lit, but cannot be a light.");
     }
     CHECK(scene.size() == 1);
-    CHECK(scene.lights.empty());
+    CHECK(scene.light_count() == 0);
 }
 
 TEST_CASE("isosurface: Blinn's blobs, which no formula solves, by both solvers") {
@@ -573,11 +573,10 @@ TEST_CASE("metaballs: glass and grey ones in the path tracer and the photon mapp
     scene.add(left, grey);
     scene.add(Quad{.corner{-4, -1, 0}, .edge_u{8, 0, 0}, .edge_v{0, 0, -8}}, grey);
     scene.add(Sphere{.center{2, 4, -2}, .radius = 0.5f}, grey, Rgb{20});
-    const PhotonMappingSettings settings{};
-    const auto maps = make_photon_maps(scene, settings);
-    CHECK(maps.caustics.records.size() > 1000); // aimed at the bounding sphere
-    const auto mapper = make_photon_mapper(scene, maps, settings);
-    const auto tracer = make_path_tracer(scene);
+    const World world(std::move(scene));
+    const PhotonMapper mapper(world);
+    CHECK(mapper.maps().caustics.records.size() > 1000); // aimed at the bounding sphere
+    const PathTracer tracer(world);
     const RenderSettings picture{32, 32, 64, 1};
     const auto a = render(mapper, Camera{}, picture),
                b = render(tracer, Camera{}, picture);

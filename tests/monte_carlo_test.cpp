@@ -159,7 +159,7 @@ TEST_CASE("monte carlo: errors fall by chance, by strata and by Owen as theory s
 }
 
 TEST_CASE("monte carlo: weights of several ways add up to 1, the mean stays") {
-    using ljus::detail::balance_heuristic, ljus::detail::power_heuristic;
+    using ljus::balance_heuristic, ljus::power_heuristic;
     for (double c = 0.01; c < 1; c += 0.01) {
         const double p = pdf_cosine(c), q = pdf_grazing(c);
         CHECK(balance_heuristic(p, q) + balance_heuristic(q, p) == within(1, 1e-12));

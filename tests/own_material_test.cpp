@@ -6,6 +6,8 @@
 
 #include <doctest/doctest.h>
 
+#include <utility>
+
 #include "ljus/geometry/sphere.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/render/path_tracing.hpp"
@@ -89,7 +91,9 @@ TEST_CASE("own material: one that is only specular need not say that it has no f
     RandomStream stream = random_stream(1, Pass::camera, 0, 0);
     const Ray ray{.origin{0.3f, 0.2f, 2}, .direction{0, 0, -1}};
     Counts counts;
-    const Rgb seen = radiance(make_path_tracer(scene), ray, stream, counts);
+    auto context = context_of(stream, counts);
+    const World world(std::move(scene));
+    const Rgb seen = radiance(PathTracer(world), ray, context);
     CHECK(seen.x == doctest::Approx(1).epsilon(1e-5));
     CHECK(seen.y == 0);
 }

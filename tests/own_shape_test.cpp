@@ -6,9 +6,10 @@
 #include <doctest/doctest.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "ljus/materials/lambertian.hpp"
-#include "ljus/scene/query.hpp"
+#include "ljus/scene/world.hpp"
 #include "support/draws.hpp"
 
 using ljus::Ray, ljus::Vec3;
@@ -106,7 +107,8 @@ TEST_CASE("own shape: a scene finds it as its own shapes") {
     const auto grey = scene.add(ljus::Lambertian{});
     scene.add(ljus::Sphere{{0, 0, -5}, 1}, grey);
     scene.add(Crate{{-1, -1, -3}, {1, 1, -2}}, grey);
-    const auto hit = closest_hit(scene, Ray{});
+    const ljus::World world(std::move(scene));
+    const auto hit = closest_hit(world, Ray{});
     REQUIRE(hit);
     CHECK(hit->at.t == 2.0f);
     CHECK(hit->object.type == 1);

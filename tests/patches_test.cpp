@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "ljus/geometry/moving.hpp"
+#include "ljus/lights/point_light.hpp"
 #include "ljus/radiosity/form_factor_matrix.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "ljus/scenes/furnaces.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 template <typename T>
 using Stage = Scene<Shapes<QuadT<T>, TriangleT<T>, SphereT<T>>,
-                    Materials<LambertianT<T>, MirrorT<T>>>;
+                    Materials<LambertianT<T>, MirrorT<T>>, Lights<PointLightT<T>>>;
 
 Rgb grey(float value) {
     return Rgb{value};
@@ -100,7 +101,7 @@ TEST_CASE("patches: each place of a shape belongs to one cell") {
 
 TEST_CASE("patches: what there is, and what is left out") {
     const auto room = cornell_box();
-    const Patches all = make_patches(room.scene, {.size = 0.5});
+    const Patches all = make_patches(room.world, {.size = 0.5});
     // Five walls of 4 x 4 seen from within, and a lamp of one patch on both sides.
     CHECK(all.patches.size() == 5 * 16 + 2);
     CHECK(!all.convex);
@@ -116,7 +117,7 @@ TEST_CASE("patches: what there is, and what is left out") {
     CHECK(all.left_out[0] == "2 objects do not look equally bright from everywhere");
 
     const auto furnace = sphere_furnace<float>(grey(1), grey(0.5f));
-    const Patches inside = make_patches(furnace.scene, {.size = 1});
+    const Patches inside = make_patches(furnace.world, {.size = 1});
     CHECK(inside.convex);
     CHECK(inside.grids.size() == 1);
     CHECK(inside.grids[0].inward);
@@ -125,12 +126,12 @@ TEST_CASE("patches: what there is, and what is left out") {
     odd.add(PointLight{.position{0, 1, 0}});
     const auto white = odd.add(Lambertian{});
     odd.add(Quad{}, white);
-    CHECK(refusal([&] { (void)make_patches(odd); }) ==
+    CHECK(refusal([&] { (void)make_patches(World(odd)); }) ==
           "the number of patches is 0; it must be at least 1: a diffuse quad, triangle "
           "or ball that sees another.");
     odd.add(Quad{.corner{0, 0, 1}, .edge_u{1, 0, 0}, .edge_v{1, 0, 0}}, white);
     odd.add(Triangle{{0, 0, 2}, {0, 1, 2}, {1, 0, 2}}, white);
-    const Patches two = make_patches(odd, {.size = 10});
+    const Patches two = make_patches(World(odd), {.size = 10});
     CHECK(two.patches.size() == 2); // one without an area has no patch
     CHECK(two.left_out == std::vector<std::string>{"1 light is no surface"});
 }
@@ -138,26 +139,26 @@ TEST_CASE("patches: what there is, and what is left out") {
 TEST_CASE("patches: too many are refused before they take any memory") {
     const auto room = cornell_box();
     CHECK(
-        refusal([&] { (void)make_patches(room.scene, {.size = 0.01}); }) ==
+        refusal([&] { (void)make_patches(room.world, {.size = 0.01}); }) ==
         "the number of patches is 40000; it must be at most 8192, for there is a form "
         "factor for each pair of them: take larger ones.");
     CHECK(refusal([&] {
-              (void)make_patches(room.scene, {.size = 1e-300});
+              (void)make_patches(room.world, {.size = 1e-300});
           }).starts_with("the number of patches is 1e+12; "));
     for (const double size : {0.0, -1.0, std::nan("")})
         CHECK(refusal([&] {
-                  (void)make_patches(room.scene, {.size = size});
+                  (void)make_patches(room.world, {.size = size});
               }).starts_with("patch size is "));
     CHECK(refusal(
-              [&] { (void)make_patches(room.scene, {.size = 1, .most = 100'000}); }) ==
+              [&] { (void)make_patches(room.world, {.size = 1, .most = 100'000}); }) ==
           "most is 100000; it must be at most 65536: their form factors take 34 GB.");
 }
 
 TEST_CASE("form_factors: the closed form in a box") {
     const auto box = unit_box();
-    const Patches all = make_patches(box, {.size = 0.25});
+    const Patches all = make_patches(World(box), {.size = 0.25});
     CHECK(all.convex);
-    const auto factors = make_form_factors(box, all);
+    const auto factors = make_form_factors(World(box), all);
     REQUIRE(factors);
     const std::size_t n = factors->size();
     CHECK(n == 96);
@@ -180,11 +181,12 @@ TEST_CASE("form_factors: the closed form in a box") {
 
 TEST_CASE("form_factors: rays agree with the closed form") {
     const auto box = unit_box();
-    const Patches all = make_patches(box, {.size = 0.5});
-    const auto right = make_form_factors(box, all);
+    const Patches all = make_patches(World(box), {.size = 0.5});
+    const auto right = make_form_factors(World(box), all);
     constexpr int rays = 4000;
     const auto found = make_form_factors(
-        box, all, {.analytic = false, .rays = rays, .seed = ljus_test::test_seed(1)});
+        World(box), all,
+        {.analytic = false, .rays = rays, .seed = ljus_test::test_seed(1)});
     const std::size_t n = all.patches.size();
     double squares = 0, pairs = 0, worst_row = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -212,17 +214,17 @@ TEST_CASE("form_factors: rays agree with the closed form") {
     CHECK(worst_row < 5 / std::sqrt(2.0 * rays));
 
     // The same rays, whatever the number of threads.
-    const auto again = make_form_factors(box, all,
+    const auto again = make_form_factors(World(box), all,
                                          {.analytic = false,
                                           .rays = rays,
                                           .seed = ljus_test::test_seed(1),
                                           .threads = 3});
     CHECK(again->exchange == found->exchange);
     const auto stop = [](long long, long long) { return false; };
-    CHECK(!make_form_factors(box, all, {.rays = 1, .progress = stop}));
-    CHECK_THROWS_AS((void)make_form_factors(box, all, {.rays = 0}),
+    CHECK(!make_form_factors(World(box), all, {.rays = 1, .progress = stop}));
+    CHECK_THROWS_AS((void)make_form_factors(World(box), all, {.rays = 0}),
                     std::invalid_argument);
-    CHECK_THROWS_AS((void)make_form_factors(box, all, {.shadow_rays = 0}),
+    CHECK_THROWS_AS((void)make_form_factors(World(box), all, {.shadow_rays = 0}),
                     std::invalid_argument);
 }
 
@@ -230,7 +232,7 @@ TEST_CASE("form_factors: rays find the numbers of the tables") {
     const auto box = unit_box();
     constexpr int rays = 20000;
     const auto found = make_form_factors(
-        box, make_patches(box, {.size = 1}),
+        World(box), make_patches(World(box), {.size = 1}),
         {.analytic = false, .rays = rays, .seed = ljus_test::test_seed(1)});
     REQUIRE(found->size() == 6);
     const double sigma = std::sqrt(0.2 * 0.8 / (2.0 * rays));
@@ -245,9 +247,9 @@ TEST_CASE("form_factors: rays find the numbers of the tables") {
 
 TEST_CASE("form_factors: rows are closed, and stay symmetric") {
     const auto box = unit_box();
-    const Patches all = make_patches(box, {.size = 0.5});
-    const auto few =
-        make_form_factors(box, all, {.analytic = false, .rays = 50, .closed = true});
+    const Patches all = make_patches(World(box), {.size = 0.5});
+    const auto few = make_form_factors(World(box), all,
+                                       {.analytic = false, .rays = 50, .closed = true});
     for (std::size_t i = 0; i < few->size(); ++i) {
         CHECK(std::abs(few->row_sum(i) - 1) < 1e-13);
         for (std::size_t j = 0; j < few->size(); ++j)
@@ -259,7 +261,8 @@ TEST_CASE("form_factors: rows are closed, and stay symmetric") {
     open.add(Triangle{{0, 0, 2}, {0, 1, 2}, {1, 0, 2}}, white);
     open.add(Triangle{{9, 9, 9}, {9, 10, 9}, {9, 9, 10}}, white);
     CHECK(refusal([&] {
-              (void)make_form_factors(open, make_patches(open, {.size = 9}),
+              (void)make_form_factors(World(open),
+                                      make_patches(World(open), {.size = 9}),
                                       {.closed = true});
           }).starts_with("closed is 1; it must be false"));
 }
@@ -275,12 +278,12 @@ TEST_CASE("form_factors: what stands between") {
         if (width > 0)
             stage.add(QuadT<double>{{-5, -5, 0.5}, {5 + width, 0, 0}, {0, 10, 0}},
                       stage.add(MirrorT<double>{}));
-        const Patches all = make_patches(stage, {.size = 1});
+        const Patches all = make_patches(World(stage), {.size = 1});
         CHECK(all.convex == (width <= 0));
         const auto factors = make_form_factors(
-            stage, all, {.shadow_rays = 4000, .seed = ljus_test::test_seed(1)});
+            World(stage), all, {.shadow_rays = 4000, .seed = ljus_test::test_seed(1)});
         const auto rays = make_form_factors(
-            stage, all,
+            World(stage), all,
             {.analytic = false, .rays = 20000, .seed = ljus_test::test_seed(1)});
         CHECK((*rays)(0, 1) == doctest::Approx((*factors)(0, 1)).epsilon(0.03));
         return (*factors)(0, 1) / ljus_test::form_factor_facing(1, 1, 1);
@@ -293,8 +296,8 @@ TEST_CASE("form_factors: what stands between") {
 
 TEST_CASE("form_factors: within a ball each patch sees all alike") {
     const auto furnace = sphere_furnace<double>(RgbT<double>(1), RgbT<double>(0.5));
-    const Patches all = make_patches(furnace.scene, {.size = 1});
-    const auto factors = make_form_factors(furnace.scene, all, {.rays = 4000});
+    const Patches all = make_patches(furnace.world, {.size = 1});
+    const auto factors = make_form_factors(furnace.world, all, {.rays = 4000});
     const double right = 1.0 / double(all.patches.size());
     for (std::size_t i = 0; i < factors->size(); ++i)
         for (std::size_t j = 0; j < factors->size(); ++j) // itself among them: hollow
@@ -305,9 +308,9 @@ TEST_CASE("form_factors: within a ball each patch sees all alike") {
     const auto white = stage.add(Lambertian{});
     stage.add(Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, white);
     stage.add(Sphere{.center{0, 0, 2}, .radius = 0.5f}, white);
-    const Patches two = make_patches(stage, {.size = 1});
-    const auto mixed =
-        make_form_factors(stage, two, {.rays = 2000, .seed = ljus_test::test_seed(1)});
+    const Patches two = make_patches(World(stage), {.size = 1});
+    const auto mixed = make_form_factors(
+        World(stage), two, {.rays = 2000, .seed = ljus_test::test_seed(1)});
     double sum = 0, ball = 0;
     for (std::size_t i = 4; i < two.patches.size(); ++i) {
         for (std::size_t j = 0; j < 4; ++j) sum += mixed->row(i)[j];
@@ -339,20 +342,21 @@ TEST_CASE("patches: how many cells, at least, and what a ball reaches over") {
     const auto white = stage.add(LambertianT<double>{});
     stage.add(QuadT<double>{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, white);
     stage.add(SphereT<double>{.center{0, 0, -0.3}, .radius = 0.2}, white);
-    CHECK(make_patches(stage, {.size = 9}).grids.size() ==
+    CHECK(make_patches(World(stage), {.size = 9}).grids.size() ==
           2); // the lower side, the ball
     stage.add(SphereT<double>{.center{0, 0, -0.3}, .radius = 0.5}, white);
-    CHECK(make_patches(stage, {.size = 9}).grids.size() == 4);
+    CHECK(make_patches(World(stage), {.size = 9}).grids.size() == 4);
     // What has no patches is said.
     Scene<Shapes<Quad, Moving<Quad>>, Materials<Lambertian>> moving;
     const auto grey = moving.add(Lambertian{});
     moving.add(Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, grey);
     moving.add(Moving<Quad>{Quad{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}}, {0, 0, 1}}, grey);
-    const Patches all = make_patches(moving, {.size = 9});
+    const Patches all = make_patches(World(moving), {.size = 9});
     CHECK(all.left_out == std::vector<std::string>{
                               "1 object is of a shape that is not cut into patches"});
     moving.add(Moving<Quad>{Quad{{0, 0, 5}, {0, 1, 0}, {1, 0, 0}}, {0, 0, 1}}, grey);
-    CHECK(make_patches(moving, {.size = 9}).left_out[0] ==
+    const World moving_world(std::move(moving));
+    CHECK(make_patches(moving_world, {.size = 9}).left_out[0] ==
           "2 objects are of a shape that is not cut into patches");
 }
 
@@ -365,12 +369,11 @@ TEST_CASE("form_factors: the visible share has the weights of the form factor") 
         const auto white = stage.add(LambertianT<double>{});
         stage.add(QuadT<double>{V(0), {1, 0, 0}, {0, 1, 0}}, white);
         stage.add(QuadT<double>{{0, 0, h}, {0, 1, 0}, {1, 0, 0}}, white);
-        const Patches open = make_patches(stage, {.size = 1});
-        CHECK(detail::visible_share(IndexedScene<Stage<double>>(stage), open, 0, 1, 100,
-                                    1) == 1);
+        const Patches open = make_patches(World(stage), {.size = 1});
+        CHECK(detail::visible_share(World(stage), open, 0, 1, 100, 1) == 1);
         stage.add(QuadT<double>{{0.25, -50, h / 2}, {50, 0, 0}, {0, 100, 0}},
                   stage.add(MirrorT<double>{}));
-        const Patches all = make_patches(stage, {.size = 1});
+        const Patches all = make_patches(World(stage), {.size = 1});
         constexpr int n = 24;
         double seen = 0, whole = 0;
         for (int i = 0; i < n; ++i)
@@ -386,9 +389,8 @@ TEST_CASE("form_factors: the visible share has the weights of the form factor") 
                                 : middle == 0.25 ? weight / 2
                                                  : 0;
                     }
-        const double share =
-            detail::visible_share(IndexedScene<Stage<double>>(stage), all, 0, 1, 10000,
-                                  ljus_test::test_seed(1));
+        const double share = detail::visible_share(World(stage), all, 0, 1, 10000,
+                                                   ljus_test::test_seed(1));
         CAPTURE(h);
         CHECK(share == doctest::Approx(seen / whole).epsilon(0.02));
     }
@@ -403,8 +405,8 @@ TEST_CASE("form_factors: what lies behind a patch has no part in what is visible
     stage.add(QuadT<double>{{1.5, 0, 0}, {0, 0, 1}, {0, 1, 0}}, white);
     stage.add(QuadT<double>{{1.51, -9, -9}, {0, 18, 0}, {0, 0, 18}},
               stage.add(MirrorT<double>{}));
-    const Patches all = make_patches(stage, {.size = 9});
-    const IndexedScene<Stage<double>> indexed(stage);
+    const Patches all = make_patches(World(stage), {.size = 9});
+    const World indexed(stage);
     int faced = 0;
     for (std::uint32_t i = 0; i < all.patches.size(); ++i)
         for (std::uint32_t j = 0; j < all.patches.size(); ++j) {
@@ -447,9 +449,9 @@ TEST_CASE("patches: how many cells an edge of any length is cut into") {
     }
     // As many patches as may be, and one more.
     const auto box = unit_box(); // 4 to a side
-    CHECK(make_patches(box, {.size = 0.5, .most = 24}).patches.size() == 24);
+    CHECK(make_patches(World(box), {.size = 0.5, .most = 24}).patches.size() == 24);
     CHECK(refusal([&] {
-              (void)make_patches(box, {.size = 0.5, .most = 23});
+              (void)make_patches(World(box), {.size = 0.5, .most = 23});
           }).starts_with("the number of patches is 24; it must be at most 23"));
 }
 
@@ -459,16 +461,16 @@ TEST_CASE("patches: what stands between, and what only seems to stand before") {
     const auto white = stage.add(LambertianT<float>{});
     stage.add(QuadT<float>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, white);
     stage.add(QuadT<float>{{0, 0, 2}, {0, 1, 0}, {1, 0, 0}}, white);
-    CHECK(make_patches(stage, {.size = 9}).convex);
+    CHECK(make_patches(World(stage), {.size = 9}).convex);
     Stage<float> with_ball = stage;
     with_ball.add(SphereT<float>{.center{0.5f, 0.5f, 1}, .radius = 0.2f}, white);
-    CHECK_FALSE(make_patches(with_ball, {.size = 9}).convex);
+    CHECK_FALSE(make_patches(World(with_ball), {.size = 9}).convex);
     // From within a ball nothing stands in the way of anything.
     Stage<float> within;
     const auto inside = within.add(LambertianT<float>{});
     within.add(SphereT<float>{.radius = 2}, inside, V(1), true);
-    CHECK(make_patches(within, {.size = 9}).convex);
-    CHECK(make_patches(within, {.size = 9}).patches.size() > 0);
+    CHECK(make_patches(World(within), {.size = 9}).convex);
+    CHECK(make_patches(World(within), {.size = 9}).patches.size() > 0);
 
     // Pieces of one plane, whichever way it lies: rounding
     // puts no piece before another.
@@ -482,7 +484,7 @@ TEST_CASE("patches: what stands between, and what only seems to stand before") {
                 QuadT<float>{V{7.1f, -3.3f, 9.7f} + float(i) * u + float(j) * v, u, v},
                 grey_one);
     CHECK(refusal([&] {
-              (void)make_patches(plane, {.size = 9});
+              (void)make_patches(World(plane), {.size = 9});
           }).starts_with("the number of patches is 0"));
 }
 
@@ -509,16 +511,16 @@ TEST_CASE("form_factors: rays from both patches, the smaller one's count for mor
     const auto white = stage.add(LambertianT<double>{});
     stage.add(QuadT<double>{V(0), {1, 0, 0}, {0, 1, 0}}, white);
     stage.add(QuadT<double>{{-1, -1, 1}, {0, 4, 0}, {3, 0, 0}}, white);
-    const Patches all = make_patches(stage, {.size = 9});
+    const Patches all = make_patches(World(stage), {.size = 9});
     REQUIRE(all.patches.size() == 2);
-    const IndexedScene<Stage<double>> indexed(stage);
+    const World indexed(stage);
     for (const std::uint64_t seed : {1u, 2u}) {
         std::array<double, 2> row{}, back{};
         shoot_rays(indexed, all, 0, 50, seed, row);
         shoot_rays(indexed, all, 1, 50, seed, back);
         REQUIRE(row[1] != back[0]);
         const auto factors = make_form_factors(
-            stage, all, {.analytic = false, .rays = 50, .seed = seed});
+            World(stage), all, {.analytic = false, .rays = 50, .seed = seed});
         const double wanted = (12 * row[1] + 1 * back[0]) / 13;
         CHECK(factors->row(0)[1] == doctest::Approx(wanted).epsilon(1e-14));
         CHECK(factors->row(1)[0] == factors->row(0)[1]);
@@ -536,8 +538,8 @@ TEST_CASE("form_factors: each patch, each pair and each seed has numbers of its 
     for (const double x : {0.4, 1.4})
         stage.add(SphereT<double>{.center{x, 0.5, 0.5}, .radius = 0.25},
                   stage.add(MirrorT<double>{}));
-    const Patches all = make_patches(stage, {.size = 1});
-    const IndexedScene<Stage<double>> indexed(stage);
+    const Patches all = make_patches(World(stage), {.size = 1});
+    const World indexed(stage);
     REQUIRE(all.patches.size() == 4);
     const auto share = [&](std::uint32_t i, std::uint32_t k, std::uint64_t seed) {
         return detail::visible_share(indexed, all, i, k, 500, seed);
@@ -552,8 +554,8 @@ TEST_CASE("form_factors: each patch, each pair and each seed has numbers of its 
     away.add(QuadT<double>{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, matt);      // upwards
     away.add(QuadT<double>{{-9, -9, 5}, {0, 20, 0}, {20, 0, 0}}, matt);  // above both
     away.add(QuadT<double>{{-9, -9, -5}, {20, 0, 0}, {0, 20, 0}}, matt); // below both
-    const Patches outer = make_patches(away, {.size = 30});
-    const IndexedScene<Stage<double>> around(away);
+    const Patches outer = make_patches(World(away), {.size = 30});
+    const World around(away);
     int asked = 0;
     for (std::uint32_t i = 0; i < outer.patches.size(); ++i)
         for (std::uint32_t k = 0; k < outer.patches.size(); ++k) {
@@ -569,7 +571,7 @@ TEST_CASE("form_factors: each patch, each pair and each seed has numbers of its 
 
     // By settings, too: rays and shadow rays by the seed that is asked for.
     const auto factors = [&](const FormFactorSettings& settings) {
-        return make_form_factors(stage, all, settings)->exchange;
+        return make_form_factors(World(stage), all, settings)->exchange;
     };
     for (const bool analytic : {false, true}) {
         const FormFactorSettings one{.analytic = analytic, .rays = 30, .seed = 1};
@@ -582,8 +584,8 @@ TEST_CASE("form_factors: each patch, each pair and each seed has numbers of its 
     const auto one = wide.add(LambertianT<double>{});
     wide.add(QuadT<double>{V(0), {8, 0, 0}, {0, 8, 0}}, one);
     wide.add(QuadT<double>{{-40, -40, 30}, {0, 88, 0}, {88, 0, 0}}, one);
-    const Patches many = make_patches(wide, {.size = 1.0});
-    const IndexedScene<Stage<double>> open(wide);
+    const Patches many = make_patches(World(wide), {.size = 1.0});
+    const World open(wide);
     double arrived = 0;
     std::vector<double> row(many.patches.size());
     for (std::uint32_t i = 0; i < 64; ++i) shoot_rays(open, many, i, 1, 1, row);
@@ -604,7 +606,7 @@ TEST_CASE("patches: how scenes are cut and form factors found if nothing is said
     CHECK(factors.seed == 1);
     CHECK(factors.threads == 0);
     const auto box = unit_box();
-    CHECK(refusal([&] { (void)make_patches(box, {.most = 65537}); }) ==
+    CHECK(refusal([&] { (void)make_patches(World(box), {.most = 65537}); }) ==
           "most is 65537; it must be at most 65536: their form factors take 34 GB.");
-    CHECK_NOTHROW((void)make_patches(box, {.size = 1, .most = 65536}));
+    CHECK_NOTHROW((void)make_patches(World(box), {.size = 1, .most = 65536}));
 }

@@ -25,7 +25,7 @@ namespace {
 const double limit = ljus_test::limit_of(20); ///< In standard errors.
 
 /// Matt walls, a ball of glass, a mirror on the back wall, a mixed ball, a quad lamp.
-Room mixed_room() {
+ClosedRoom mixed_room() {
     Room room;
     add_walls(room);
     const auto glass = room.add(Glass{.index = 1.5f});
@@ -38,7 +38,7 @@ Room mixed_room() {
         Quad{.corner{-0.7f, -0.9f, -0.95f}, .edge_u{1.4f, 0, 0}, .edge_v{0, 1.5f, 0}},
         mirror);
     add_lamps(room, Lamp::quad, 1);
-    return room;
+    return World(std::move(room));
 }
 
 /// A ray into the room, where all of its things are.
@@ -63,7 +63,8 @@ PathLog log_of(const Renderer& renderer, std::uint64_t seed, std::uint64_t path,
     auto stream = random_stream(ljus_test::test_seed(seed), Pass::camera, 0, path);
     const Ray ray = into_room(stream);
     PathLog log;
-    const Rgb sum = radiance(renderer, ray, stream, counts, log);
+    auto context = context_of(stream, counts, log);
+    const Rgb sum = radiance(renderer, ray, context);
     // The log holds all that was added.
     glm::dvec3 all(0);
     for (const PathLogLine& line : log.lines)
@@ -101,12 +102,14 @@ TEST_CASE("path log: the letters of a path that is known") {
     room.add(Quad{.corner{-9, 0, -9}, .edge_u{0, 0, 18}, .edge_v{18, 0, 0}}, white);
     room.add(Quad{.corner{-1, 2, -1}, .edge_u{2, 0, 0}, .edge_v{0, 0, 2}}, mirror);
     room.add(PointLight{.position{3, 1, 0}, .intensity = Rgb{1}});
-    const PathTracer<Room> tracer = make_path_tracer(room, {.max_depth = 2});
+    const World world(std::move(room));
+    const PathTracer tracer(world, {.max_depth = 2});
     auto stream = random_stream(ljus_test::test_seed(1), Pass::camera, 0, 0);
     Counts counts;
     PathLog log;
-    const Rgb seen = radiance(tracer, Ray{.origin{0, 1, 0}, .direction{0, 1, 0}},
-                              stream, counts, log);
+    auto context = context_of(stream, counts, log);
+    const Rgb seen =
+        radiance(tracer, Ray{.origin{0, 1, 0}, .direction{0, 1, 0}}, context);
     REQUIRE(log.lines.size() >= 2);
     CHECK(log.lines[0].path == "ES");
     CHECK(log.lines[0].what == "vertex");
@@ -129,7 +132,7 @@ TEST_CASE("path log: the letters of a path that is known") {
 }
 
 TEST_CASE("path log: each term of the photon mapper has the one owner of the table") {
-    const Room room = mixed_room();
+    const ClosedRoom room = mixed_room();
     for (const IndirectLight indirect : {IndirectLight::rays, IndirectLight::map,
                                          IndirectLight::photons, IndirectLight::none}) {
         PhotonMappingSettings settings;
@@ -137,8 +140,7 @@ TEST_CASE("path log: each term of the photon mapper has the one owner of the tab
         settings.split_glass = indirect != IndirectLight::map;
         settings.caustics = {.photons = 20000, .threads = 1};
         settings.general = {.photons = 20000, .threads = 1};
-        const auto maps = make_photon_maps(room, settings);
-        const auto mapper = make_photon_mapper(room, maps, settings);
+        const PhotonMapper mapper(room, settings);
         Counts counts;
         std::map<std::string, std::set<std::string>> owners;
         std::map<std::string, int> terms;
@@ -172,8 +174,8 @@ TEST_CASE("path log: each term of the photon mapper has the one owner of the tab
 TEST_CASE(
     "path log: the path tracer finds lamps by emission and by shadow rays, and by "
     "nothing else") {
-    const Room room = mixed_room();
-    const auto tracer = make_path_tracer(room);
+    const ClosedRoom room = mixed_room();
+    const PathTracer tracer(room);
     Counts counts;
     for (std::uint64_t path = 0; path < 4000; ++path) {
         const PathLog log = log_of(tracer, 2, path, counts);
@@ -192,7 +194,7 @@ TEST_CASE(
 TEST_CASE("path log: the two renderers bring the same light, class of paths by class") {
     // No class is missing, none is counted twice: E L, E S+ L, E D L, E D S+ L, E D D
     // L, E S+ D L, E D D S+ L, ... in one room with both maps' photons.
-    const Room room = mixed_room();
+    const ClosedRoom room = mixed_room();
     PhotonMappingSettings settings;
     settings.caustics_estimate.radius = 0.04f;
     const std::uint64_t paths = 30000;
@@ -206,7 +208,8 @@ TEST_CASE("path log: the two renderers bring the same light, class of paths by c
                 random_stream(ljus_test::test_seed(seed), Pass::camera, 0, path);
             const Ray ray = into_room(stream);
             PathLog log;
-            (void)radiance(renderer, ray, stream, counts, log);
+            auto context = context_of(stream, counts, log);
+            (void)radiance(renderer, ray, context);
             for (const PathLogLine& line : log.lines) {
                 if (line.what == "vertex") continue;
                 std::string name = class_of(line.path);
@@ -222,11 +225,10 @@ TEST_CASE("path log: the two renderers bring the same light, class of paths by c
     std::vector<std::map<std::string, double>> a, b;
     for (int seed = 1; seed <= seeds; ++seed) {
         const auto s = static_cast<std::uint64_t>(seed);
-        a.push_back(run(make_path_tracer(room), 100 + s));
+        a.push_back(run(PathTracer(room), 100 + s));
         settings.caustics = {
             .photons = 50000, .seed = ljus_test::test_seed(s), .threads = 1};
-        const auto maps = make_photon_maps(room, settings);
-        b.push_back(run(make_photon_mapper(room, maps, settings), s));
+        b.push_back(run(PhotonMapper(room, settings), s));
     }
     int compared = 0;
     std::set<std::string> found;
@@ -261,14 +263,14 @@ TEST_CASE("path log: a mirror and a ball of glass cast no shadow ray") {
     room.add(Sphere{.radius = 5}, mirror, Rgb{0}, true);
     room.add(Sphere{.center{0, 0, -2}, .radius = 1}, glass);
     room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{10}});
+    const World world(std::move(room));
     PhotonMappingSettings settings;
     settings.caustics.photons = 1000;
-    const auto maps = make_photon_maps(room, settings);
     const RenderSettings picture{.width = 16, .height = 16, .samples = 4, .threads = 1};
     const Camera camera = look_at({.position{0, 0, 1}, .target{0, 0, -2}});
     for (const Counts& counts :
-         {render(make_path_tracer(room), camera, picture).counts,
-          render(make_photon_mapper(room, maps, settings), camera, picture).counts}) {
+         {render(PathTracer(world), camera, picture).counts,
+          render(PhotonMapper(world, settings), camera, picture).counts}) {
         CHECK(counts.camera_rays == 16 * 16 * 4);
         CHECK(counts.bounce_rays > counts.camera_rays);
         CHECK(counts.shadow_rays == 0);
@@ -287,19 +289,20 @@ TEST_CASE("path log: a gather ray that reaches a lamp adds nothing") {
     room.add(Quad{.corner{-3, 1, -3}, .edge_u{6, 0, 0}, .edge_v{0, 0, 6}}, black,
              Rgb{2});
     room.add(Quad{.corner{4, 0, -9}, .edge_u{0, 3, 0}, .edge_v{0, 0, 18}}, mirror);
+    const World world(std::move(room));
     for (const IndirectLight indirect : {IndirectLight::rays, IndirectLight::map}) {
         PhotonMappingSettings settings;
         settings.indirect = indirect;
         settings.caustics.photons = 5000;
         settings.general.photons = 5000;
-        const auto maps = make_photon_maps(room, settings);
-        const auto mapper = make_photon_mapper(room, maps, settings);
+        const PhotonMapper mapper(world, settings);
         Counts counts;
         for (std::uint64_t path = 0; path < 2000; ++path) {
             auto stream = random_stream(ljus_test::test_seed(1), Pass::camera, 0, path);
             PathLog log;
+            auto context = context_of(stream, counts, log);
             (void)radiance(mapper, Ray{.origin{0, 0.5f, 0}, .direction{0, -1, 0}},
-                           stream, counts, log);
+                           context);
             for (const PathLogLine& line : log.lines) CHECK(line.what != "emission");
         }
     }
@@ -347,10 +350,9 @@ TEST_CASE("path log: a line is a vertex with its density, or a term without one"
 }
 
 TEST_CASE("path log: a term has the place that its path has come to") {
-    const Room room = mixed_room();
-    const auto maps = make_photon_maps(room, {.caustics{.photons = 2000}});
-    const auto mapper = make_photon_mapper(room, maps);
-    const auto tracer = make_path_tracer(room);
+    const ClosedRoom room = mixed_room();
+    const PhotonMapper mapper(room, {.caustics{.photons = 2000}});
+    const PathTracer tracer(room);
     int followed = 0, last = 0;
     const auto look = [&](const PathLog& log) {
         glm::dvec3 before{0, 0, 100};
@@ -389,15 +391,15 @@ TEST_CASE("path log: at glass that splits both ways are told from the eye") {
     room.add(Quad{.corner{-9, 1, -9}, .edge_u{0, 0, 18}, .edge_v{18, 0, 0}},
              room.add(Glass{.index = 1.5f}));
     room.add(PointLight{.position{0, 3, 2}, .intensity = Rgb{1}});
+    const World world(std::move(room));
     PhotonMappingSettings settings{.max_depth = 2, .split_glass = true};
     settings.caustics.photons = 0;
-    const auto maps = make_photon_maps(room, settings);
-    const auto mapper = make_photon_mapper(room, maps, settings);
+    const PhotonMapper mapper(world, settings);
     auto stream = random_stream(ljus_test::test_seed(1), Pass::camera, 0, 0);
     Counts counts;
     PathLog log;
-    (void)radiance(mapper, Ray{.origin{0, 2, 0}, .direction{0, -1, 0}}, stream, counts,
-                   log);
+    auto context = context_of(stream, counts, log);
+    (void)radiance(mapper, Ray{.origin{0, 2, 0}, .direction{0, -1, 0}}, context);
     int vertices = 0, terms = 0;
     for (const PathLogLine& line : log.lines) {
         if (line.what == "vertex") {

@@ -70,16 +70,16 @@ TEST_CASE("multiple importance: the shares of two strategies are the whole") {
     for (const MisHeuristic share : {MisHeuristic::balance, MisHeuristic::power})
         for (const float a : {1e-38f, 0.3f, 1.0f, 7.0f, largest})
             for (const float b : {1e-38f, 0.3f, 2.0f, 1e20f, largest}) {
-                const float of_a = detail::mis_weight(share, a, b),
-                            of_b = detail::mis_weight(share, b, a);
+                const float of_a = mis_weight(share, a, b),
+                            of_b = mis_weight(share, b, a);
                 CHECK(of_a + of_b == doctest::Approx(1));
                 CHECK((of_a >= 0 && of_b >= 0));
-                CHECK(detail::mis_weight(share, a, infinity) == 0.0f);
-                CHECK(detail::mis_weight(share, a, 0.0f) == 1.0f);
+                CHECK(mis_weight(share, a, infinity) == 0.0f);
+                CHECK(mis_weight(share, a, 0.0f) == 1.0f);
             }
-    CHECK(detail::balance_heuristic(1.0, 3.0) == 0.25);
-    CHECK(detail::power_heuristic(1.0, 3.0) == doctest::Approx(0.1));
-    CHECK(detail::power_heuristic(3.0, 1.0) == doctest::Approx(0.9));
+    CHECK(balance_heuristic(1.0, 3.0) == 0.25);
+    CHECK(power_heuristic(1.0, 3.0) == doctest::Approx(0.1));
+    CHECK(power_heuristic(3.0, 1.0) == doctest::Approx(0.9));
 }
 
 TEST_CASE("multiple importance: all ways to share a lamp's light have one mean") {
@@ -89,11 +89,10 @@ TEST_CASE("multiple importance: all ways to share a lamp's light have one mean")
         float roughness, radius;
     };
     for (const Case c : {Case{0.12f, 0.7f}, Case{0.5f, 0.05f}, Case{0.3f, 0.3f}}) {
-        const auto scene = plate(c.roughness, c.radius);
+        const World world(plate(c.roughness, c.radius));
         const auto seen = [&](PathTracingSettings settings, std::uint64_t seed) {
             settings.max_depth = 1;
-            return mean_radiance(make_path_tracer(scene, settings), 60000, seed,
-                                 to_plate);
+            return mean_radiance(PathTracer(world, settings), 60000, seed, to_plate);
         };
         const Mean both = seen({}, 1);
         const Mean power = seen({.heuristic = MisHeuristic::power}, 2);
@@ -127,13 +126,14 @@ TEST_CASE("multiple importance: in a box furnace no surface brings more than twi
         double most = 0;
     };
     const auto seen = [&](const PathTracingSettings& settings) {
-        const auto tracer = make_path_tracer(room.scene, settings);
+        const PathTracer tracer(room.world, settings);
         Seen all;
         Counts counts;
         for (std::uint64_t path = 0; path < 10000; ++path) {
             auto stream = random_stream(5, Pass::camera, 0, path);
             const Ray ray = in_furnace(stream);
-            const double value = double(radiance(tracer, ray, stream, counts).x);
+            auto context = context_of(stream, counts);
+            const double value = double(radiance(tracer, ray, context).x);
             all.mean.add(value);
             all.most = std::max(all.most, value);
         }
@@ -159,11 +159,10 @@ TEST_CASE("roulette: a hundred seeds have the furnace's mean, at every threshold
         double threshold, most;
     };
     for (const Case& c : {Case{1, 1}, Case{4, 1}, Case{1e-6, 0.7}}) {
-        const auto tracer =
-            make_path_tracer(room.scene, {.roulette_depth = 1,
-                                          .sample_lights = false,
-                                          .roulette_threshold = c.threshold,
-                                          .roulette_max = c.most});
+        const PathTracer tracer(room.world, {.roulette_depth = 1,
+                                             .sample_lights = false,
+                                             .roulette_threshold = c.threshold,
+                                             .roulette_max = c.most});
         double chi_square = 0;
         Mean all;
         for (std::uint64_t seed = 1; seed <= 100; ++seed) {
@@ -183,10 +182,10 @@ TEST_CASE("roulette: a hundred seeds have the furnace's mean, at every threshold
 TEST_CASE("roulette: the noise of a constant chance is the closed form's") {
     for (const double p : {0.5, 0.7, 0.9}) {
         const auto room = sphere_furnace(Rgb{1}, Rgb{0.5f});
-        const auto tracer = make_path_tracer(room.scene, {.roulette_depth = 1,
-                                                          .sample_lights = false,
-                                                          .roulette_threshold = 1e-9,
-                                                          .roulette_max = p});
+        const PathTracer tracer(room.world, {.roulette_depth = 1,
+                                             .sample_lights = false,
+                                             .roulette_threshold = 1e-9,
+                                             .roulette_max = p});
         const Mean seen = mean_radiance(tracer, 100000, 9, in_furnace);
         const double measured = seen.squares / (seen.count - 1);
         CAPTURE(p);
@@ -200,7 +199,7 @@ TEST_CASE("path tracing: the error falls with the root of the rays") {
     // 256 independent means of n paths: their RMS error is known to 4.4 %, and a slope
     // over six doublings to 0.015. Asked for within 0.06.
     const auto room = sphere_furnace(Rgb{1}, Rgb{0.6f});
-    const auto tracer = make_path_tracer(room.scene, {.roulette_depth = 1});
+    const PathTracer tracer(room.world, {.roulette_depth = 1});
     const auto rms = [&](int paths, std::uint64_t seed) {
         double squares = 0;
         for (std::uint64_t i = 0; i < 256; ++i) {
@@ -218,8 +217,7 @@ TEST_CASE("path tracing: the error falls with the root of the rays") {
 TEST_CASE("path tracing: settings that make no sense are refused with their value") {
     const auto room = sphere_furnace(Rgb{1}, Rgb{0.5f});
     const auto said = [&](const PathTracingSettings& settings) {
-        return ljus_test::refusal(
-            [&] { (void)make_path_tracer(room.scene, settings); });
+        return ljus_test::refusal([&] { (void)PathTracer(room.world, settings); });
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
     CHECK(said({.max_depth = 0}) == "max_depth is 0; it must be at least 1.");
@@ -233,7 +231,7 @@ TEST_CASE("path tracing: settings that make no sense are refused with their valu
     // The last that do, and those that are meant where nothing is said.
     CHECK(said({.max_depth = 1, .roulette_threshold = 0, .roulette_max = 1}).empty());
     CHECK(said({.roulette_max = 1e-9}).empty());
-    const PathTracingSettings silent = make_path_tracer(room.scene).settings;
+    const PathTracingSettings silent = PathTracer(room.world).settings();
     CHECK(silent.max_depth == 1000);
     CHECK(silent.roulette_depth == 4);
     CHECK(silent.sample_lights);

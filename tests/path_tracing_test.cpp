@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "ljus/geometry/moving.hpp"
+#include "ljus/lights/point_light.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
@@ -77,8 +78,8 @@ TEST_CASE_TEMPLATE("path tracing: in a furnace L = Le / (1 - albedo)", T, float,
                    double) {
     for (int tenths = 1; tenths <= 9; ++tenths) {
         const double albedo = tenths / 10.0;
-        const auto scene = furnace<T>(T(albedo));
-        const auto tracer = make_path_tracer(scene);
+        const World world(furnace<T>(T(albedo)));
+        const PathTracer tracer(world);
         const Mean seen = mean_radiance(tracer, 40000, 1, any_ray<T>);
         CAPTURE(albedo);
         CAPTURE(seen.mean);
@@ -96,11 +97,10 @@ TEST_CASE_TEMPLATE("path tracing: in a furnace every path of a given length brin
     for (const double albedo : {0.1, 0.5, 0.9})
         for (const int depth : {1, 2, 3, 7, 30})
             for (const bool shadow_rays : {true, false}) {
-                const auto scene = furnace<T>(T(albedo));
-                const auto tracer =
-                    make_path_tracer(scene, {.max_depth = depth,
-                                             .roulette_depth = no_roulette,
-                                             .sample_lights = shadow_rays});
+                const World world(furnace<T>(T(albedo)));
+                const PathTracer tracer(world, {.max_depth = depth,
+                                                .roulette_depth = no_roulette,
+                                                .sample_lights = shadow_rays});
                 // The lamp is seen, and then after 1, 2, ... depth reflections.
                 const double sum = (1 - std::pow(albedo, depth + 1)) / (1 - albedo);
                 CAPTURE(albedo);
@@ -118,7 +118,8 @@ TEST_CASE_TEMPLATE("path tracing: in a furnace every path of a given length brin
                     auto stream =
                         random_stream(ljus_test::test_seed(7), Pass::camera, 0, path);
                     const auto ray = any_ray<T>(stream);
-                    const double seen = double(radiance(tracer, ray, stream, counts).x);
+                    auto context = context_of(stream, counts);
+                    const double seen = double(radiance(tracer, ray, context).x);
                     worst = std::max(worst, std::abs(seen / sum - 1));
                 }
                 CHECK(worst < rounding);
@@ -128,7 +129,7 @@ TEST_CASE_TEMPLATE("path tracing: in a furnace every path of a given length brin
 TEST_CASE_TEMPLATE("path tracing: a ball of glass in a furnace is invisible", T, float,
                    double) {
     for (const double index : {1.5, 1.1, 2.4}) {
-        auto scene = furnace<T>(T(0));
+        Furnace<T> scene = furnace<T>(T(0));
         const auto glass = scene.add(GlassT<T>{.index = T(index)});
         scene.add(SphereT<T>{.center{T(0.5), T(-1), T(0.25)}, .radius = T(0.6)}, glass);
         CAPTURE(index);
@@ -141,11 +142,12 @@ TEST_CASE_TEMPLATE("path tracing: a ball of glass in a furnace is invisible", T,
         };
         // Path by path, if no path is ended by chance: what n^2 takes going in it gives
         // back going out.
-        const auto patient = make_path_tracer(scene, {.roulette_depth = no_roulette});
+        const World world(std::move(scene));
+        const PathTracer patient(world, {.roulette_depth = no_roulette});
         const Mean exact = mean_radiance(patient, 20000, 3, towards_ball);
         CHECK(exact.mean == doctest::Approx(1).epsilon(1e-5));
         CHECK(exact.error() < 1e-5);
-        const auto tracer = make_path_tracer(scene, {.roulette_depth = 1});
+        const PathTracer tracer(world, {.roulette_depth = 1});
         CHECK(std::abs(apart(mean_radiance(tracer, 20000, 5, towards_ball), 1.0)) <
               limit);
     }
@@ -167,7 +169,7 @@ TEST_CASE_TEMPLATE("path tracing: a matt ball embedded in glass in a furnace", T
     }
     for (const double albedo : {1.0, 0.5})
         for (const double impact : {0.0, 0.5, 0.8, 0.9}) {
-            auto scene = furnace<T>(T(0));
+            Furnace<T> scene = furnace<T>(T(0));
             const Vec3T<T> center{T(0.5), T(-1), T(0.25)};
             const auto glass = scene.add(GlassT<T>{.index = T(n)});
             const auto matt = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(albedo)}});
@@ -182,8 +184,8 @@ TEST_CASE_TEMPLATE("path tracing: a matt ball embedded in glass in a furnace", T
             const double share = fresnel_share(std::sqrt(1 - impact * impact), 1, n);
             const bool meets = impact / n < a;
             const double right = meets ? share + (1 - share) * ball / (n * n) : 1;
-            const auto tracer =
-                make_path_tracer(scene, {.roulette_depth = no_roulette});
+            const World world(std::move(scene));
+            const PathTracer tracer(world, {.roulette_depth = no_roulette});
             const Mean seen = mean_radiance(tracer, 30000, 11, ray);
             CAPTURE(albedo);
             CAPTURE(impact);
@@ -212,7 +214,8 @@ TEST_CASE_TEMPLATE("path tracing: a lamp embedded in glass looks n^2 times darke
         };
         const double share = fresnel_share(std::sqrt(1 - impact * impact), 1, n);
         const double right = impact / n < a ? (1 - share) * 4 / (n * n) : 0;
-        const Mean seen = mean_radiance(make_path_tracer(scene), 30000, 37, ray);
+        const World world(std::move(scene));
+        const Mean seen = mean_radiance(PathTracer(world), 30000, 37, ray);
         CAPTURE(impact);
         CAPTURE(seen.mean);
         CAPTURE(right);
@@ -239,7 +242,8 @@ TEST_CASE_TEMPLATE("path tracing: a spherical lamp lights a surface with pi L (R
                                glm::normalize(Vec3T<T>{T(0.02), T(0), T(-0.0001)})};
         };
         const double right = 0.5 / pi * (pi * 3 * ratio * ratio);
-        const auto tracer = make_path_tracer(scene);
+        const World world(std::move(scene));
+        const PathTracer tracer(world);
         const Mean seen = mean_radiance(tracer, 60000, 13, ray);
         CAPTURE(ratio);
         CAPTURE(seen.mean);
@@ -271,7 +275,8 @@ TEST_CASE_TEMPLATE("path tracing: a square lamp twice as far lights 0.2598 as mu
                            .direction = glm::normalize(Vec3T<T>{T(3), T(-3), T(0)})};
         };
         // E1 x E2 points down, to where the lamp shines.
-        const auto tracer = make_path_tracer(scene);
+        const World world(std::move(scene));
+        const PathTracer tracer(world);
         const Mean seen = mean_radiance(tracer, 200000, 17, ray);
         const double right = 4 * corner_form_factor(1, 1, h);
         CAPTURE(h);
@@ -314,7 +319,8 @@ TEST_CASE_TEMPLATE("path tracing: a slab of glass lets (1-R)/(1+R) through", T, 
                 thickness / std::sqrt(1 - std::pow(std::sin(angle) / n, 2));
             const double kept = std::exp(-alpha * way);
             const double right = (1 - r) * (1 - r) * kept / (1 - r * r * kept * kept);
-            const auto tracer = make_path_tracer(scene);
+            const World world(std::move(scene));
+            const PathTracer tracer(world);
             const Mean seen = mean_radiance(tracer, 60000, 19, ray);
             CAPTURE(degrees);
             CAPTURE(alpha);
@@ -374,17 +380,17 @@ RayT<T> into_room(RandomStream& stream) {
 
 TEST_CASE_TEMPLATE("path tracing: two lamps give the sum of what each gives", T, float,
                    double) {
-    const auto first = room<T>(true, false);
-    const auto second = room<T>(false, true);
-    const auto both = room<T>(true, true);
+    const World first(room<T>(true, false));
+    const World second(room<T>(false, true));
+    const World both(room<T>(true, true));
     for (const int channel : {0, 2}) {
         const long long paths = 60000;
         const Mean a =
-            mean_radiance(make_path_tracer(first), paths, 23, into_room<T>, channel);
+            mean_radiance(PathTracer(first), paths, 23, into_room<T>, channel);
         const Mean b =
-            mean_radiance(make_path_tracer(second), paths, 24, into_room<T>, channel);
+            mean_radiance(PathTracer(second), paths, 24, into_room<T>, channel);
         const Mean c =
-            mean_radiance(make_path_tracer(both), paths, 25, into_room<T>, channel);
+            mean_radiance(PathTracer(both), paths, 25, into_room<T>, channel);
         CAPTURE(a.mean);
         CAPTURE(b.mean);
         CAPTURE(c.mean);
@@ -396,13 +402,13 @@ TEST_CASE_TEMPLATE("path tracing: two lamps give the sum of what each gives", T,
 
 TEST_CASE_TEMPLATE("path tracing: roulette and shadow rays leave the mean as it is", T,
                    float, double) {
-    const auto scene = room<T>(true, true);
+    const World world(room<T>(true, true));
     const long long paths = 60000;
     for (const int depth : {1, 2, 1000}) {
         CAPTURE(depth);
         const auto mean = [&](PathTracingSettings settings, std::uint64_t seed) {
             settings.max_depth = depth;
-            return mean_radiance(make_path_tracer(scene, settings), paths, seed,
+            return mean_radiance(PathTracer(world, settings), paths, seed,
                                  into_room<T>);
         };
         const Mean usual = mean({}, 31);
@@ -421,7 +427,8 @@ TEST_CASE_TEMPLATE("path tracing: roulette and shadow rays leave the mean as it 
 
 TEST_CASE("path tracing: the plain one, path by path, in closed form") {
     using Hall =
-        Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>, MirrorT<double>>>;
+        Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>, MirrorT<double>>,
+              Lights<PointLightT<double>>>;
     using D3 = glm::dvec3;
     const QuadT<double> floor{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}}; // its normal is up
     const QuadT<double> ceiling{{-9, 4, -9}, {18, 0, 0}, {0, 0, 18}}; // is down
@@ -430,7 +437,9 @@ TEST_CASE("path tracing: the plain one, path by path, in closed form") {
     const auto seen = [](const Hall& hall, const RayT<double>& ray, int depth,
                          std::uint64_t path, Counts& counts) {
         auto stream = random_stream(ljus_test::test_seed(9), Pass::user, 0, path);
-        return D3(radiance(make_plain_path_tracer(hall, depth), ray, stream, counts));
+        const World world(hall);
+        auto context = context_of(stream, counts);
+        return D3(radiance(PlainPathTracer(world, depth), ray, context));
     };
     // A lamp seen straight, from its front, and in a mirror: once each.
     Hall lit;
@@ -509,12 +518,14 @@ TEST_CASE("path tracing: the plain one, path by path, in closed form") {
         sixth += counts.bounce_rays > 4;
     }
     CHECK(std::abs(sixth - games / 32.0) < 5 * std::sqrt(games / 32.0));
-    CHECK_NOTHROW((void)make_plain_path_tracer(grey, 1));
+    const World world(grey);
+    CHECK_NOTHROW((void)PlainPathTracer(world, 1));
 }
 
 TEST_CASE("path tracing: the log adds up, path by path, and names who carried what") {
     using Hall =
-        Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>, MirrorT<double>>>;
+        Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>, MirrorT<double>>,
+              Lights<PointLightT<double>>>;
     using D3 = glm::dvec3;
     Hall hall;
     const auto matt = hall.add(LambertianT<double>{.albedo{0.8, 0.4, 0.2}});
@@ -523,7 +534,8 @@ TEST_CASE("path tracing: the log adds up, path by path, and names who carried wh
     hall.add(QuadT<double>{{-9, 0, -9}, {18, 0, 0}, {0, 9, 0}}, mirror);
     hall.add(QuadT<double>{{-2, 4, -2}, {4, 0, 0}, {0, 0, 4}}, matt, D3{3, 4, 5});
     hall.add(PointLightT<double>{.position{3, 2, 1}, .intensity{8, 4, 2}});
-    const auto tracer = make_path_tracer(hall, {.max_depth = 6});
+    const World world(std::move(hall));
+    const PathTracer tracer(world, {.max_depth = 6});
     PathLog log; // one for all: each path begins anew
     int emissions = 0, shadows = 0;
     for (std::uint64_t path = 0; path < 300; ++path) {
@@ -532,7 +544,8 @@ TEST_CASE("path tracing: the log adds up, path by path, and names who carried wh
         const RayT<double> ray{.origin{0, 2, 3}, .direction = glm::normalize(way)};
         Counts counts;
         log.lines.clear();
-        const D3 seen(radiance(tracer, ray, stream, counts, log));
+        auto context = context_of(stream, counts, log);
+        const D3 seen(radiance(tracer, ray, context));
         D3 told{0};
         for (const PathLogLine& line : log.lines) {
             CHECK(line.path.size() <= 8); // E, six turns, L
@@ -553,7 +566,7 @@ TEST_CASE("path tracing: the log adds up, path by path, and names who carried wh
 TEST_CASE("path tracing: each heuristic has the weight that its formula says") {
     // Of densities 3 and 1: balance 3/4, power 9/10; and 1/4, 1/10 the other way.
     const auto weight = [](MisHeuristic heuristic, double a, double b) {
-        return detail::mis_weight(heuristic, a, b);
+        return mis_weight(heuristic, a, b);
     };
     const double infinite = std::numeric_limits<double>::infinity();
     for (const double scale : {1e-150, 1.0, 1e150}) {
@@ -575,10 +588,10 @@ TEST_CASE("path tracing: the plain one finds the same light") {
     using namespace ljus_test;
     for (const Ball ball : {Ball::lambertian, Ball::oren_nayar, Ball::mirror})
         for (const Lamp lamp : {Lamp::quad, Lamp::sphere, Lamp::point}) {
-            const RoomT<float> room = make_room<float>(ball, lamp, 2);
+            const ClosedRoom room = make_room<float>(ball, lamp, 2);
             const auto camera = room_camera<float>();
-            const auto plain = make_plain_path_tracer(room);
-            const auto fast = make_path_tracer(room);
+            const PlainPathTracer plain(room);
+            const PathTracer fast(room);
             CAPTURE(int(ball));
             CAPTURE(int(lamp));
             for (int pixel = 0; pixel < 64; ++pixel) {
@@ -591,7 +604,8 @@ TEST_CASE("path tracing: the plain one finds the same light") {
                         auto stream =
                             random_stream(ljus_test::test_seed(seed), Pass::user,
                                           std::uint64_t(pixel), path);
-                        const Rgb found = radiance(tracer, ray, stream, counts);
+                        auto context = context_of(stream, counts);
+                        const Rgb found = radiance(tracer, ray, context);
                         mean.add(double(found.x + found.y + found.z));
                     }
                     return mean;
@@ -600,31 +614,33 @@ TEST_CASE("path tracing: the plain one finds the same light") {
                 CHECK(std::abs(apart(mean_of(plain, 1), mean_of(fast, 2))) < 4);
             }
         }
-    const RoomT<float> empty;
-    CHECK_THROWS_WITH_AS((void)make_plain_path_tracer(empty, 0),
+    const ClosedRoom empty(RoomT<float>{});
+    CHECK_THROWS_WITH_AS((void)PlainPathTracer(empty, 0),
                          "max_depth is 0; it must be at least 1.",
                          std::invalid_argument);
-    CHECK(make_plain_path_tracer(empty, 1).max_depth == 1);
-    CHECK(make_plain_path_tracer(empty).max_depth == 100);
-    CHECK(PlainPathTracer<RoomT<float>>{detail::IndexedT<RoomT<float>>(empty)}
-              .max_depth == 100);
+    CHECK(PlainPathTracer(empty, 1).max_depth() == 1);
+    CHECK(PlainPathTracer(empty).max_depth() == 100);
+    CHECK(&PlainPathTracer(empty).world() == &empty);
+    static_assert(!std::is_constructible_v<PlainPathTracer<ClosedRoom>, ClosedRoom>);
+    static_assert(std::is_constructible_v<PlainPathTracer<ClosedRoom>, ClosedRoom&>);
 }
 
-TEST_CASE("path tracing: a ray for each turn is counted, and what leaves is black") {
+TEST_CASE("path tracing: a ray for each turn is counted, and what leaves "
+          "is black") {
     // In a furnace without roulette every path goes as far as it may: from the last
     // matt surface, too, to what its shadow ray left over.
-    const auto hall = furnace<double>(0.9);
+    const World hall(furnace<double>(0.9));
     for (const int depth : {1, 2, 7}) {
         Counts counts;
         auto stream = random_stream(ljus_test::test_seed(1), Pass::user, 0, 0);
+        auto context = context_of(stream, counts);
         (void)radiance(
-            make_path_tracer(hall, {.max_depth = depth, .roulette_depth = no_roulette}),
-            any_ray<double>(stream), stream, counts);
+            PathTracer(hall, {.max_depth = depth, .roulette_depth = no_roulette}),
+            any_ray<double>(stream), context);
         CHECK(counts.bounce_rays == std::uint64_t(depth));
         CHECK(counts.shadow_rays <= std::uint64_t(depth));
         counts = {};
-        (void)radiance(make_plain_path_tracer(hall, depth), any_ray<double>(stream),
-                       stream, counts);
+        (void)radiance(PlainPathTracer(hall, depth), any_ray<double>(stream), context);
         CHECK(counts.bounce_rays <= std::uint64_t(depth));
     }
     // A lamp in the void: rays that miss it bring nothing, with both tracers.
@@ -632,13 +648,15 @@ TEST_CASE("path tracing: a ray for each turn is counted, and what leaves is blac
     lamp.add(SphereT<double>{.radius = 1},
              lamp.add(LambertianT<double>{.albedo = RgbT<double>{0.5}}),
              RgbT<double>{1, 2, 3});
-    const auto fast = make_path_tracer(lamp);
-    const auto plain = make_plain_path_tracer(lamp);
+    const World world(std::move(lamp));
+    const PathTracer fast(world);
+    const PlainPathTracer plain(world);
     Counts counts;
     auto stream = random_stream(ljus_test::test_seed(1), Pass::user, 0, 0);
     const auto both = [&](const RayT<double>& ray) {
-        const auto a = radiance(fast, ray, stream, counts);
-        CHECK(radiance(plain, ray, stream, counts) == a);
+        auto context = context_of(stream, counts);
+        const auto a = radiance(fast, ray, context);
+        CHECK(radiance(plain, ray, context) == a);
         return a;
     };
     CHECK(both({.origin{0, 0, 5}, .direction{0, 0, -1}}) == RgbT<double>{1, 2, 3});
@@ -646,8 +664,8 @@ TEST_CASE("path tracing: a ray for each turn is counted, and what leaves is blac
     CHECK(both({.origin{0, 2, 5}, .direction{0, 0, -1}}) == RgbT<double>{0});
 }
 
-TEST_CASE(
-    "path tracing: a lamp's share by its number, its power and where it is then") {
+TEST_CASE("path tracing: a lamp's share by its number, its power and "
+          "where it is then") {
     // A path has met the second of three balls of light, which moves. Of radius r at a
     // distance d, a shadow ray chooses each direction within its cone with the density
     // 1 / (2 pi (1 - sqrt(1 - (r/d)^2))), and the ball by its share of all r^2 L.
@@ -665,7 +683,7 @@ TEST_CASE(
     for (const double time : {0.0, 0.25, 1.0}) {
         const D3 center{3, 4 * time, 0};
         const RayT<double> ray{.direction = glm::normalize(center), .time = time};
-        const auto index = index_scene(scene);
+        const auto index = World(scene);
         const auto hit = closest_hit(index, ray);
         REQUIRE(hit);
         const auto vertex = vertex_at(index, ray, *hit);
@@ -673,8 +691,8 @@ TEST_CASE(
         const double cosine = std::sqrt(1 - 0.25 / glm::dot(center, center));
         const double other = share / (2 * std::numbers::pi * (1 - cosine));
         const auto found = [&](MisHeuristic heuristic, double pdf, bool lights = true) {
-            const auto tracer = make_path_tracer(
-                index, {.sample_lights = lights, .heuristic = heuristic});
+            const PathTracer tracer(index,
+                                    {.sample_lights = lights, .heuristic = heuristic});
             const PathStateT<double> path{
                 .ray = ray, .throughput = throughput, .pdf = pdf};
             return detail::emitted(tracer, path, vertex);
@@ -702,7 +720,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("path tracing: what n^2 takes from a path in glass is no reason to end it") {
+TEST_CASE("path tracing: what n^2 takes from a path in glass is no "
+          "reason to end it") {
     // Glass that absorbs nothing, in light of radiance 1 that is black: each path
     // brings all of it, if roulette does not touch it.
     Furnace<double> room;
@@ -710,13 +729,14 @@ TEST_CASE("path tracing: what n^2 takes from a path in glass is no reason to end
              room.add(LambertianT<double>{.albedo = RgbT<double>{0}}), RgbT<double>{1},
              true);
     room.add(SphereT<double>{.radius = 1}, room.add(GlassT<double>{.index = 2.4}));
-    const auto tracer = make_path_tracer(room, {.roulette_depth = 1});
+    const World world(std::move(room));
+    const PathTracer tracer(world, {.roulette_depth = 1});
     for (std::uint64_t i = 0; i < 300; ++i) {
         auto stream = random_stream(1, Pass::user, 0, i);
         Counts counts;
-        const auto seen =
-            radiance(tracer, RayT<double>{.origin{0, 0.3, 1.9}, .direction{0, 0, -1}},
-                     stream, counts);
+        auto context = context_of(stream, counts);
+        const auto seen = radiance(
+            tracer, RayT<double>{.origin{0, 0.3, 1.9}, .direction{0, 0, -1}}, context);
         REQUIRE(seen.x == doctest::Approx(1).epsilon(1e-12));
     }
 }
@@ -734,11 +754,13 @@ TEST_CASE("path tracing: a path whose light is gone is not cut by the depth") {
             };
             wall(1, {1, 0, 0});
             wall(-1, second);
+            const World world(std::move(room));
             Counts counts;
             auto stream = random_stream(1, Pass::user, 0, 0);
-            (void)radiance(make_path_tracer(room, {.max_depth = depth,
-                                                   .roulette_depth = no_roulette}),
-                           RayT<double>{.direction{0, 0, 1}}, stream, counts);
+            auto context = context_of(stream, counts);
+            (void)radiance(
+                PathTracer(world, {.max_depth = depth, .roulette_depth = no_roulette}),
+                RayT<double>{.direction{0, 0, 1}}, context);
             CAPTURE(depth);
             const bool left = depth == 1 || second.x > 0;
             CHECK(counts.cut_paths == (left ? 1u : 0u));

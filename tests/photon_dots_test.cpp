@@ -50,7 +50,7 @@ Room wall(bool towards) {
 TEST_CASE("photon dots: a photon is seen on the side that it has come to, wherever the "
           "normal points") {
     for (const bool towards : {true, false}) {
-        const Room room = wall(towards);
+        const ClosedRoom room(wall(towards));
         CAPTURE(towards);
         const auto lit =
             photon_in_sight(room, front(), photon_at({1, 1, 0}, {0, 1, -1}), 100, 100);
@@ -70,24 +70,25 @@ TEST_CASE("photon dots: what stands in front hides a photon, glass too") {
         room.add(Sphere{.center{0.5f, 0.5f, 2.5f}, .radius = 0.1f},
                  ball == Ball::glass ? room.add(Glass{})
                                      : room.add(Lambertian{.albedo = Rgb{0.5f}}));
+        const World world(std::move(room));
         // The line to (1, 1, 0) goes through the ball's middle.
-        CHECK_FALSE(
-            photon_in_sight(room, front(), photon_at({1, 1, 0}, {0, 0, -1}), 100, 100));
-        CHECK(photon_in_sight(room, front(), photon_at({-1, 1, 0}, {0, 0, -1}), 100,
+        CHECK_FALSE(photon_in_sight(world, front(), photon_at({1, 1, 0}, {0, 0, -1}),
+                                    100, 100));
+        CHECK(photon_in_sight(world, front(), photon_at({-1, 1, 0}, {0, 0, -1}), 100,
                               100));
         // On the ball: its near half, from outside.
         const Vec3 near{0.5f, 0.5f, 2.6f}, far{0.5f, 0.5f, 2.4f};
-        CHECK(photon_in_sight(room, front(), photon_at(near, {0, 0, -1}), 100, 100));
+        CHECK(photon_in_sight(world, front(), photon_at(near, {0, 0, -1}), 100, 100));
         CHECK_FALSE(
-            photon_in_sight(room, front(), photon_at(near, {0, 0, 1}), 100, 100));
+            photon_in_sight(world, front(), photon_at(near, {0, 0, 1}), 100, 100));
         CHECK_FALSE(
-            photon_in_sight(room, front(), photon_at(far, {0, 0, -1}), 100, 100));
+            photon_in_sight(world, front(), photon_at(far, {0, 0, -1}), 100, 100));
     }
 }
 
 TEST_CASE("photon dots: of a room's photons those are seen that a ray finds") {
     // Independent: the photons of the wall that a camera inside of the room looks at.
-    const Room room = make_room<float>(Ball::mirror, Lamp::point, 1);
+    const ClosedRoom room = make_room<float>(Ball::mirror, Lamp::point, 1);
     std::vector<Photon> photons;
     int in_picture = 0;
     for (int i = 0; i < 40; ++i)
@@ -116,7 +117,7 @@ TEST_CASE("photon dots: of a room's photons those are seen that a ray finds") {
 }
 
 TEST_CASE("photon dots: a dot is a cone, and black ones are not drawn") {
-    const Room room = wall(true);
+    const ClosedRoom room(wall(true));
     const auto drawn = [&](float x, float y, const PhotonDotSettings& look) {
         Image image = make_image(40, 40);
         CHECK(add_photon_dots(image, room, front(), {photon_at({x, y, 0}, {0, 0, -1})},
@@ -163,14 +164,15 @@ TEST_CASE("photon dots: the drawing shows each surface in its colour, lamps brig
             .corner{x, 0.5f, 1}, .edge_u = towards ? a : b, .edge_v = towards ? b : a};
     };
     room.add(lamp(0.5f, true), black, Rgb{9});
-    room.add(lamp(-1.5f, false), black, Rgb{9}); // from behind it is dark
-    const Image image = scene_drawing(room, front(), 100, 100);
+    room.add(lamp(-1.5f, false), black, Rgb{9});
+    const World world(std::move(room)); // from behind it is dark
+    const Image image = scene_drawing(world, front(), 100, 100);
     CHECK(pixel(image, 50, 50).x == ljus_test::within(0.08, 0.01));
     CHECK(pixel(image, 62, 37) == Rgb{0.5f});
     CHECK(pixel(image, 37, 37) == Rgb{0});
     CHECK(pixel(image, 2, 2) == Rgb{0}); // nothing there
     // Each pixel by the ray through its middle.
-    const Room slope = wall(true);
+    const ClosedRoom slope(wall(true));
     const Image small = scene_drawing(slope, front(), 11, 9);
     for (int y = 0; y < 9; ++y)
         for (int x = 0; x < 11; ++x) {
@@ -183,7 +185,7 @@ TEST_CASE("photon dots: the drawing shows each surface in its colour, lamps brig
             CHECK(pixel(small, x, y).x ==
                   ljus_test::within(0.16 * (0.3 + 0.7 * cosine) * 0.5, 1e-5));
         }
-    CHECK_THROWS_AS((void)scene_drawing(room, front(), 0, 5), std::invalid_argument);
+    CHECK_THROWS_AS((void)scene_drawing(world, front(), 0, 5), std::invalid_argument);
 }
 
 TEST_CASE("photon dots: in the corners of a picture too, and just outside of none") {
@@ -191,14 +193,15 @@ TEST_CASE("photon dots: in the corners of a picture too, and just outside of non
     Room room;
     room.add(Quad{.corner{-50, -50, 0}, .edge_u{100, 0, 0}, .edge_v{0, 100, 0}},
              room.add(Lambertian{.albedo = Rgb{0.5f}}));
-    const Image drawn = scene_drawing(room, front(), 40, 30);
+    const World world(std::move(room));
+    const Image drawn = scene_drawing(world, front(), 40, 30);
     for (const Rgb& color : drawn.pixels) CHECK(max_component(color) > 0);
     const auto seen = [&](float x, float y) {
         const auto ray = primary_ray(front(), Vec2{x, y}, 100, 100);
-        const auto hit = closest_hit(room, ray);
+        const auto hit = closest_hit(world, ray);
         REQUIRE(hit);
         const Vec3 place = ray.origin + hit->at.t * ray.direction;
-        return photon_in_sight(room, front(), photon_at(place, {0, 0, -1}), 100, 100)
+        return photon_in_sight(world, front(), photon_at(place, {0, 0, -1}), 100, 100)
             .has_value();
     };
     for (const float near : {0.1f, 50.0f, 99.9f})
@@ -221,7 +224,7 @@ TEST_CASE("photon dots: in the corners of a picture too, and just outside of non
 
 TEST_CASE("photon dots: the drawing darkens by the cosine, as it says") {
     // 0.16 (0.3 + 0.7 cos) times the albedo, away from the middle of the picture.
-    const Room room = wall(true);
+    const ClosedRoom room(wall(true));
     const Image image = scene_drawing(room, front(), 100, 100);
     for (const int x : {50, 60, 68}) {
         const auto ray = primary_ray(front(), Vec2{float(x) + 0.5f, 50.5f}, 100, 100);
@@ -239,16 +242,17 @@ TEST_CASE("photon dots: two at one place add up, and the picture ends at its siz
     Room room;
     room.add(Quad{.corner{-50, -50, 0}, .edge_u{100, 0, 0}, .edge_v{0, 100, 0}},
              room.add(Lambertian{.albedo = Rgb{0.5f}}));
+    const World world(std::move(room));
     const Photon photon = photon_at({0.125f, 0.125f, 0}, {0, 0, -1});
     Image image = make_image(40, 40, Rgb{0.5f});
-    CHECK(add_photon_dots(image, room, front(), {photon, photon},
+    CHECK(add_photon_dots(image, world, front(), {photon, photon},
                           {.radius = 1, .brightness = 0.5f},
                           [](const Photon& p) { return dot_color(p); }) == 2);
     CHECK(glm::distance(pixel(image, 20, 19), Rgb{0.75f, 1, 1.5f}) < 1e-3f);
     // Ten pixels a unit from the middle (50, 50): the first column and row count, those
     // behind the last do not.
     const auto seen = [&](float x, float y) {
-        return photon_in_sight(room, front(), photon_at({x, y, 0}, {0, 0, -1}), 100,
+        return photon_in_sight(world, front(), photon_at({x, y, 0}, {0, 0, -1}), 100,
                                100)
             .has_value();
     };
@@ -271,7 +275,8 @@ TEST_CASE("photon dots: what mirrors or refracts is drawn grey") {
         if (ball == Ball::glass) room.add(all, room.add(Glass{}));
         if (ball == Ball::mixture)
             room.add(all, room.add(Mixture{.color{1, 0, 0}, .reflectivity = 0.5f}));
-        const Image image = scene_drawing(room, front(), 11, 11);
+        const World world(std::move(room));
+        const Image image = scene_drawing(world, front(), 11, 11);
         const Rgb& middle = pixel(image, 5, 5); // seen straight on
         for (const float channel : {middle.x, middle.y, middle.z})
             CHECK(channel == ljus_test::within(0.16 * 0.25, 1e-5));

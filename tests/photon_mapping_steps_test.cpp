@@ -10,10 +10,16 @@
 #include <string>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "ljus/materials/glossy.hpp"
+#include "ljus/math/stratified_stream.hpp"
+#include "ljus/render/budgeting.hpp"
+#include "ljus/render/gathering.hpp"
 #include "ljus/render/photon_mapping.hpp"
+#include "ljus/render/skipping.hpp"
+#include "support/refusal.hpp"
 #include "support/rooms.hpp"
 #include "support/seed.hpp"
 
@@ -28,6 +34,15 @@ struct Term {
     bool operator==(const Term&) const = default;
 };
 using Terms = std::vector<Term>;
+
+/// Writes down what light_at() adds.
+struct Witness {
+    Terms& seen;
+    Rgb throughput{1};
+    void operator()(const char* owner, const char* letters, const Rgb& light) const {
+        seen.push_back({owner, letters, light});
+    }
+};
 
 /// Settings that differ wherever one could be taken for another.
 PhotonMappingSettings distinct(IndirectLight indirect, DirectLight direct) {
@@ -61,6 +76,7 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
     room.add(Quad{{-0.5f, 0.9f, -0.5f}, {1, 0, 0}, {0, 0, 1}}, black, Rgb{9, 8, 7});
     room.add(Sphere{.center{1.5f, 0, 0}, .radius = 0.2f}, black, Rgb{2, 5, 9});
+    const World world(std::move(room));
     const Camera camera = look_at(View{.position{0, 0.8f, 1.5f}, .target{0, -1, 0}});
 
     const Rgb in_all{std::numbers::inv_pi_v<float>};
@@ -72,14 +88,14 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
             for (const bool skip : {false, true}) {
                 PhotonMappingSettings settings = distinct(indirect, direct);
                 if (skip) settings.skip.rule = SkipRule::any;
-                auto maps = make_photon_maps(room, settings);
-                add_irradiance_cache(maps, room, camera,
-                                     {.width = 30, .height = 30, .threads = 1},
-                                     settings);
+                PhotonMapper mapper(world, settings, abilities<Gathering, Skipping>);
+                mapper.fill_cache(camera, {.width = 30, .height = 30, .threads = 1});
+                const auto& maps = mapper.maps();
+                const auto& known = mapper.state<Gathering>();
+                const auto& verdicts = mapper.state<Skipping>().verdicts;
                 REQUIRE_FALSE(maps.caustics.empty());
                 REQUIRE_FALSE(maps.general.empty());
-                REQUIRE(maps.verdicts.empty() != skip);
-                const auto mapper = make_photon_mapper(room, maps, settings);
+                REQUIRE(verdicts.empty() != skip);
                 const bool gathers = detail::gathers(indirect);
                 for (int i = 0; i < 12; ++i) {
                     // Up and down, so that the floor is seen from both sides.
@@ -87,9 +103,9 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
                     const Ray ray{.origin{0.3f * float(i / 2) - 0.7f, -1 + 0.1f * side,
                                           0.05f * float(i)},
                                   .direction{0, -side, 0}};
-                    const auto hit = closest_hit(room, ray);
+                    const auto hit = closest_hit(world, ray);
                     REQUIRE(hit);
-                    const auto vertex = vertex_at(room, ray, *hit);
+                    const auto vertex = vertex_at(world, ray, *hit);
                     REQUIRE(vertex.wo.z * side > 0);
                     const Vec3 normal{0, side, 0};
                     const auto check_with = [&](const auto& material, bool diffuse,
@@ -98,11 +114,10 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
                         auto twin = stream;
                         Counts counts, cost;
                         Terms seen, right;
-                        auto add = [&](const char* owner, const char* letters,
-                                       const Rgb& light) {
-                            seen.push_back({owner, letters, light});
-                        };
-                        light_at(mapper, vertex, material, gather, stream, counts, add);
+                        auto context = context_of(stream, counts);
+                        auto plain = context_of(twin, cost);
+                        light_at(mapper, vertex, material, gather, context,
+                                 Witness{seen});
                         const auto ask = [&](const PhotonMap& map,
                                              const DensityEstimateSettings& how,
                                              PhotonKinds kinds) {
@@ -124,41 +139,41 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
                             caustics();
                         } else if (gather) {
                             ++cost.map_queries;
-                            const Rgb known = irradiance_at(
-                                maps.irradiance, vertex.point.position, normal);
+                            const Rgb irradiance = irradiance_at(
+                                known.points, vertex.point.position, normal);
                             right.push_back(
                                 {"irradiance points", "DL|D..DL|DS+L",
-                                 detail::reflected(material, vertex.wo, known,
+                                 detail::reflected(material, vertex.wo, irradiance,
                                                    Lobes::non_specular, twin)});
                         } else {
                             right.push_back(
                                 {"shadow ray", "DL",
-                                 detail::sample_all_lights(
-                                     mapper.scene, vertex, material, direct, 3, twin,
-                                     cost,
-                                     detail::verdicts_at(maps.verdicts, vertex))});
+                                 sample_all_lights(
+                                     world, vertex, material, {direct, 3}, plain,
+                                     detail::verdicts_at(verdicts, vertex))});
                             if (indirect == IndirectLight::photons)
                                 right.push_back(
                                     {"general map", "D..DL",
                                      ask(maps.general, settings.general_estimate,
                                          one_kind(PhotonKind::indirect))});
                             if (indirect == IndirectLight::cache && diffuse) {
-                                const Rgb known = irradiance_between(
-                                    mapper.scene, maps.irradiance, maps.cache, vertex,
-                                    settings.gather, twin, cost);
+                                const Rgb irradiance =
+                                    irradiance_between(world, known.points, known.cache,
+                                                       vertex, settings.gather, plain);
                                 if constexpr (std::is_same_v<decltype(material),
                                                              const Lambertian&>) {
-                                    right.push_back({"irradiance cache", "D..DL",
-                                                     known * in_all * matt.albedo});
+                                    right.push_back(
+                                        {"irradiance cache", "D..DL",
+                                         irradiance * in_all * matt.albedo});
                                     (void)next_3d<float>(twin);
                                 } else { // of its matt part, and of nothing else
                                     const auto part = sample(
                                         material, vertex.wo, next_3d<float>(twin),
                                         Transport::radiance, Lobes::diffuse);
-                                    right.push_back({"irradiance cache", "D..DL",
-                                                     part
-                                                         ? known * in_all * part->weight
-                                                         : Rgb{0}});
+                                    right.push_back(
+                                        {"irradiance cache", "D..DL",
+                                         part ? irradiance * in_all * part->weight
+                                              : Rgb{0}});
                                 }
                             }
                             caustics();
@@ -196,17 +211,18 @@ TEST_CASE("photon mapping: a path goes both ways eight times, and loses nothing"
     const auto glass = room.add(Glass{.index = 2.4f});
     room.add(Quad{{-50, -50, 0}, {100, 0, 0}, {0, 100, 0}}, glass);
     room.add(Quad{{-50, -50, -1}, {0, 100, 0}, {100, 0, 0}}, glass);
+    const World world(std::move(room));
     const Ray ray{.origin{0, 0, 1}, .direction{0, 0, -1}};
     for (const bool split : {false, true}) {
         PhotonMappingSettings settings{.roulette_depth = 1000, .split_glass = split};
         settings.caustics.photons = 0;
-        const auto maps = make_photon_maps(room, settings);
-        const auto mapper = make_photon_mapper(room, maps, settings);
+        const PhotonMapper mapper(world, settings);
         for (std::uint64_t i = 0; i < 50; ++i) {
             auto stream = random_stream(test_seed(1), Pass::user, 0, i);
             Counts counts;
             PathLog log;
-            const Rgb seen = radiance(mapper, ray, stream, counts, log);
+            auto context = context_of(stream, counts, log);
+            const Rgb seen = radiance(mapper, ray, context);
             CHECK(seen.x == doctest::Approx(1).epsilon(1e-5));
             const auto ends =
                 std::count_if(log.lines.begin(), log.lines.end(),
@@ -233,14 +249,15 @@ TEST_CASE("photon mapping: a path goes both ways eight times, and loses nothing"
         // From the first surface on roulette may end it, but the n^2 of glass is no
         // reason, and what has split off is in danger at a 16th of what it carries.
         settings.roulette_depth = 1;
-        const auto short_lived = make_photon_mapper(room, maps, settings);
+        const PhotonMapper short_lived(world, settings);
         int mirrored = 0;
         const double share = 1.4 * 1.4 / (3.4 * 3.4); // Fresnel's, head on
         for (std::uint64_t i = 0; i < 400; ++i) {
             auto stream = random_stream(test_seed(2), Pass::user, 0, i);
             Counts counts;
             PathLog log;
-            const Rgb seen = radiance(short_lived, ray, stream, counts, log);
+            auto context = context_of(stream, counts, log);
+            const Rgb seen = radiance(short_lived, ray, context);
             if (!split) CHECK(seen.x == doctest::Approx(1).epsilon(1e-5));
             for (const auto& line : log.lines)
                 if (split && line.path == "ESL") {
@@ -262,17 +279,18 @@ TEST_CASE("photon mapping: behind a matt surface a path goes one way at glass") 
     const auto glass = room.add(Glass{});
     room.add(Quad{{-50, -50, 0}, {100, 0, 0}, {0, 100, 0}}, glass);
     room.add(Quad{{-50, -50, -1}, {0, 100, 0}, {100, 0, 0}}, glass);
+    const World world(std::move(room));
     const Ray ray{.origin{0, 0, -2}, .direction{0, 0, -1}};
     const auto seen = [&](bool split) {
         PhotonMappingSettings settings{.split_glass = split};
         settings.caustics.photons = 0;
-        const auto maps = make_photon_maps(room, settings);
-        const auto mapper = make_photon_mapper(room, maps, settings);
+        const PhotonMapper mapper(world, settings);
         Rgb sum{0};
         Counts counts;
         for (std::uint64_t i = 0; i < 100; ++i) {
             auto stream = random_stream(test_seed(3), Pass::user, 0, i);
-            sum += radiance(mapper, ray, stream, counts);
+            auto context = context_of(stream, counts);
+            sum += radiance(mapper, ray, context);
         }
         return std::tuple(sum, counts.bounce_rays);
     };
@@ -296,15 +314,16 @@ TEST_CASE("photon mapping: behind a matt surface no branch is spared by roulette
         room.add(Quad{{-0.5f, -0.5f, 0}, {1, 0, 0}, {0, 1, 0}}, glass);
         room.add(Quad{{-0.5f, -0.5f, -1e-2f}, {0, 1, 0}, {1, 0, 0}}, glass);
         room.add(PointLight{.position{9, 0, -20}}); // or no indirect ray is sent
+        const World world(std::move(room));
         PhotonMappingSettings settings{.roulette_depth = 1, .split_glass = true};
         settings.caustics.photons = 0;
-        const auto maps = make_photon_maps(room, settings);
-        const auto mapper = make_photon_mapper(room, maps, settings);
+        const PhotonMapper mapper(world, settings);
         for (std::uint64_t i = 0; i < paths; ++i) {
             auto stream = random_stream(test_seed(8), Pass::user, 0, i);
             Counts counts;
-            (void)radiance(mapper, Ray{.origin{0, 0, 1}, .direction{0, 0, -1}}, stream,
-                           counts);
+            auto context = context_of(stream, counts);
+            (void)radiance(mapper, Ray{.origin{0, 0, 1}, .direction{0, 0, -1}},
+                           context);
             rays[bright].push_back(counts.bounce_rays);
         }
     }
@@ -325,7 +344,7 @@ TEST_CASE("photon mapping: behind a matt surface no branch is spared by roulette
 TEST_CASE("photon mapping: where a path ends that has gathered, and who shows a lamp") {
     // A matt room: an indirect ray that gathers where it ends goes no farther; a lamp
     // is seen by the camera alone.
-    const Room room = make_room<float>(Ball::lambertian, Lamp::quad, 2);
+    const ClosedRoom room = make_room<float>(Ball::lambertian, Lamp::quad, 2);
     const Camera camera = look_at(View{.position{0, -0.9f, 0.9f}, .target{0, 1, 0}});
     for (const auto& [way, least, most] : {std::tuple{IndirectLight::rays, 2, 100},
                                            {IndirectLight::map, 1, 1},
@@ -335,8 +354,7 @@ TEST_CASE("photon mapping: where a path ends that has gathered, and who shows a 
                                            {IndirectLight::none, 0, 0}}) {
         const IndirectLight indirect = way; // captured below
         PhotonMappingSettings settings = distinct(indirect, DirectLight::sampled);
-        const auto maps = make_photon_maps(room, settings);
-        const auto mapper = make_photon_mapper(room, maps, settings);
+        const PhotonMapper mapper(room, settings, abilities<Gathering>);
         std::uint64_t longest = 0;
         int seen = 0, lamps = 0;
         for (std::uint64_t i = 0; i < 400; ++i) {
@@ -345,7 +363,8 @@ TEST_CASE("photon mapping: where a path ends that has gathered, and who shows a 
                 camera, Vec2{float(i % 20) + 0.5f, float(i / 20) + 0.5f}, 20, 20);
             Counts counts;
             PathLog log;
-            (void)radiance(mapper, ray, stream, counts, log);
+            auto context = context_of(stream, counts, log);
+            (void)radiance(mapper, ray, context);
             // Where a cache is asked that has nothing, rays gather in its place.
             if (indirect != IndirectLight::cache)
                 longest = std::max(longest, counts.bounce_rays);
@@ -378,11 +397,12 @@ TEST_CASE("photon mapping: where a path ends that has gathered, and who shows a 
 TEST_CASE("photon mapping: behind a glossy surface all answer who gather there") {
     // A path goes on from a glossy floor, also if a cache has its diffuse light; where
     // it then meets a glossy ceiling it is gathered: no shadow ray, and no way on.
-    Scene<Shapes<Quad>, Materials<Glossy>> room;
+    Scene<Shapes<Quad>, Materials<Glossy>, Lights<PointLight>> room;
     const auto gloss = room.add(Glossy{.reflectance = Rgb{0.9f}, .roughness = 0.3f});
     room.add(Quad{{-9, -1, -9}, {0, 0, 18}, {18, 0, 0}}, gloss);
     room.add(Quad{{-9, 1, -9}, {18, 0, 0}, {0, 0, 18}}, gloss);
     room.add(PointLight{.position{0, 0.5f, 0}, .intensity = Rgb{1}});
+    const World world(std::move(room));
     for (const auto& [indirect, owner] :
          {std::pair{IndirectLight::rays, "shadow ray"},
           {IndirectLight::map, "general map"},
@@ -391,15 +411,14 @@ TEST_CASE("photon mapping: behind a glossy surface all answer who gather there")
         const std::string who = owner; // captured below
         CAPTURE(who);
         const auto settings = distinct(indirect, DirectLight::sampled);
-        const auto maps = make_photon_maps(room, settings);
-        const auto mapper = make_photon_mapper(room, maps, settings);
+        const PhotonMapper mapper(world, settings, abilities<Gathering>);
         int seconds = 0;
         for (std::uint64_t i = 0; i < 50; ++i) {
             auto stream = random_stream(test_seed(6), Pass::user, 0, i);
             Counts counts;
             PathLog log;
-            (void)radiance(mapper, Ray{.direction{0.2f, -1, 0.1f}}, stream, counts,
-                           log);
+            auto context = context_of(stream, counts, log);
+            (void)radiance(mapper, Ray{.direction{0.2f, -1, 0.1f}}, context);
             for (const auto& line : log.lines)
                 if (line.what != "vertex" && line.position.y > 0) {
                     CHECK(line.what == who);
@@ -426,15 +445,16 @@ TEST_CASE("photon mapping: what the depth cuts off is counted, what is black is 
             room.add(Quad{{-1e3f, 1, -1e3f}, {2e3f, 0, 0}, {0, 0, 2e3f}},
                      room.add(Lambertian{.albedo = Rgb{0.5f}}));
             room.add(PointLight{.intensity = Rgb{1}});
+            const World world(std::move(room));
             for (const int depth : {1, 2}) {
                 PhotonMappingSettings settings{.max_depth = depth,
                                                .indirect = indirect};
                 settings.general = settings.caustics = {.photons = 100, .threads = 1};
-                const auto maps = make_photon_maps(room, settings);
-                const auto mapper = make_photon_mapper(room, maps, settings);
+                const PhotonMapper mapper(world, settings);
                 auto stream = random_stream(test_seed(6), Pass::user, 0, 0);
                 Counts counts;
-                (void)radiance(mapper, Ray{.direction{0, -1, 0}}, stream, counts);
+                auto context = context_of(stream, counts);
+                (void)radiance(mapper, Ray{.direction{0, -1, 0}}, context);
                 CAPTURE(int(indirect));
                 CAPTURE(kind);
                 CAPTURE(depth);
@@ -461,13 +481,13 @@ TEST_CASE("photon mapping: what a red mirror and a green one leave goes no farth
              room.add(Mirror{.reflectance{0, 1, 0}}));
     room.add(Quad{{-1, -1, 1}, {0, 2, 0}, {2, 0, 0}},
              room.add(Mirror{.reflectance{1, 0, 0}}));
+    const World world(std::move(room));
     const PhotonMappingSettings settings{.roulette_depth = 100};
-    const auto maps = make_photon_maps(room, settings);
-    const auto mapper = make_photon_mapper(room, maps, settings);
+    const PhotonMapper mapper(world, settings);
     auto stream = random_stream(test_seed(7), Pass::user, 0, 0);
     Counts counts;
-    (void)radiance(mapper, Ray{.origin{0, 0, 0.5f}, .direction{0, 0, 1}}, stream,
-                   counts);
+    auto context = context_of(stream, counts);
+    (void)radiance(mapper, Ray{.origin{0, 0, 0.5f}, .direction{0, 0, 1}}, context);
     CHECK(counts.bounce_rays == 1);
     CHECK(counts.cut_paths == 0);
 }
@@ -476,15 +496,16 @@ TEST_CASE("photon mapping: roulette begins at the surface that is named") {
     // In a hall of mirrors that are all but black a path ends where it first may.
     Room room;
     room.add(Sphere{.radius = 1}, room.add(Mirror{.reflectance = Rgb{1e-3f}}));
+    const World world(std::move(room));
     for (const int depth : {1, 2, 4}) {
         PhotonMappingSettings settings{.roulette_depth = depth};
-        const auto maps = make_photon_maps(room, settings);
-        const auto mapper = make_photon_mapper(room, maps, settings);
+        const PhotonMapper mapper(world, settings);
         int later = 0;
         for (std::uint64_t i = 0; i < 50; ++i) {
             auto stream = random_stream(test_seed(3), Pass::user, 0, i);
             Counts counts;
-            (void)radiance(mapper, Ray{.direction{0, 0, 1}}, stream, counts);
+            auto context = context_of(stream, counts);
+            (void)radiance(mapper, Ray{.direction{0, 0, 1}}, context);
             later += counts.bounce_rays != std::uint64_t(depth - 1);
         }
         CHECK(later <= 1); // by a chance of one in a thousand each, or less
@@ -492,7 +513,7 @@ TEST_CASE("photon mapping: roulette begins at the surface that is named") {
 }
 
 TEST_CASE("photon mapping: by which lobes a path goes on until it is gathered") {
-    const Room matt = make_room<float>(Ball::lambertian, Lamp::quad, 1);
+    const ClosedRoom matt = make_room<float>(Ball::lambertian, Lamp::quad, 1);
     for (const auto& [indirect, lobes] :
          {std::pair{IndirectLight::rays, Lobes::all},
           {IndirectLight::map, Lobes::all},
@@ -501,8 +522,7 @@ TEST_CASE("photon mapping: by which lobes a path goes on until it is gathered") 
           {IndirectLight::none, Lobes::specular},
           {IndirectLight::cache, Lobes::glossy | Lobes::specular}}) {
         const auto settings = distinct(indirect, DirectLight::sampled);
-        const auto maps = make_photon_maps(matt, settings);
-        CHECK(make_photon_mapper(matt, maps, settings).bounces == lobes);
+        CHECK(PhotonMapper(matt, settings, abilities<Gathering>).bounces() == lobes);
     }
     // Where no photon says that light comes by an indirect ray, none is sent, but a
     // mirror below the matt part still mirrors: one ray in two.
@@ -510,18 +530,19 @@ TEST_CASE("photon mapping: by which lobes a path goes on until it is gathered") 
     half.add(Quad{{-9, -1, -9}, {0, 0, 18}, {18, 0, 0}},
              half.add(Mixture{.color = Rgb{0.5f}, .reflectivity = 0.5f}));
     half.add(PointLight{.position{0, 1, 0}, .intensity = Rgb{1}});
+    const World world(std::move(half));
     PhotonMappingSettings settings;
     settings.general = {.photons = 20000, .threads = 1};
     settings.caustics.photons = 0;
     settings.skip.indirect_rays = true;
-    const auto maps = make_photon_maps(half, settings);
-    REQUIRE(maps.verdicts.dark_known);
-    const auto mapper = make_photon_mapper(half, maps, settings);
+    const PhotonMapper mapper(world, settings, abilities<Skipping>);
+    REQUIRE(mapper.state<Skipping>().verdicts.dark_known);
     for (std::uint64_t i = 0; i < 100; ++i) {
         auto stream = random_stream(test_seed(4), Pass::user, 0, i);
         Counts counts;
         PathLog log;
-        (void)radiance(mapper, Ray{.direction{0, -1, 0}}, stream, counts, log);
+        auto context = context_of(stream, counts, log);
+        (void)radiance(mapper, Ray{.direction{0, -1, 0}}, context);
         CHECK(counts.skipped_bounces == 1);
         CHECK(counts.bounce_rays == 1);
         const auto mirrored =
@@ -529,5 +550,170 @@ TEST_CASE("photon mapping: by which lobes a path goes on until it is gathered") 
                 return line.what == "vertex" && line.path == "ES";
             });
         CHECK(mirrored == 1);
+    }
+}
+
+namespace {
+
+/// A few photons for each map.
+PhotonMappingSettings few_photons(IndirectLight indirect = IndirectLight::rays) {
+    PhotonMappingSettings settings{.indirect = indirect};
+    settings.caustics = {.photons = 2000, .seed = test_seed(4), .threads = 1};
+    settings.general = {.photons = 2000, .seed = test_seed(5), .threads = 1};
+    return settings;
+}
+
+} // namespace
+
+TEST_CASE("photon mapping: what takes an ability that is not listed is refused") {
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const auto said = [&](const PhotonMappingSettings& settings, auto listed) {
+        return refusal([&] { (void)PhotonMapper(room, settings, listed); });
+    };
+    const std::string gathering =
+        "indirect light by gathering takes an ability that is not listed: "
+        "abilities<Gathering> of ljus/render/gathering.hpp.";
+    for (const IndirectLight indirect : {IndirectLight::gather, IndirectLight::cache}) {
+        const auto settings = few_photons(indirect);
+        CHECK(said(settings, abilities<>) == gathering);
+        CHECK(said(settings, abilities<Skipping, Budgeting, StratifiedStream>) ==
+              gathering);
+        CHECK(said(settings, abilities<Gathering>).empty());
+        CHECK(said(settings, abilities<StratifiedStream, Gathering>).empty());
+    }
+    for (const Preset preset : {Preset::draft, Preset::fast})
+        CHECK(said(preset_settings(preset, 8, 8), abilities<>) == gathering);
+
+    const std::string skipping = "leaving out needless rays takes an ability that is "
+                                 "not listed: abilities<Skipping> "
+                                 "of ljus/render/skipping.hpp.";
+    for (const SkipRule rule : {SkipRule::any, SkipRule::enough, SkipRule::report}) {
+        auto settings = few_photons();
+        settings.skip.rule = rule;
+        CHECK(said(settings, abilities<Gathering, Budgeting>) == skipping);
+        CHECK(said(settings, abilities<Skipping>).empty());
+    }
+    auto dark = few_photons();
+    dark.skip.indirect_rays = true;
+    CHECK(said(dark, abilities<>) == skipping);
+    CHECK(said(dark, abilities<Skipping>).empty());
+
+    const std::string budgeting =
+        "a budget of caustic photons takes an ability that is not listed: "
+        "abilities<Budgeting> of ljus/render/budgeting.hpp.";
+    for (const CausticBudget budget :
+         {CausticBudget::equal, CausticBudget::flux, CausticBudget::area,
+          CausticBudget::brightness}) {
+        auto settings = few_photons();
+        settings.caustic_budget = budget;
+        CHECK(said(settings, abilities<Gathering, Skipping>) == budgeting);
+        CHECK(said(settings, abilities<Budgeting>).empty());
+        settings.caustics.shares = {1.0}; // there is nothing left to find
+        CHECK(said(settings, abilities<>).empty());
+    }
+    for (const IndirectLight indirect : {IndirectLight::rays, IndirectLight::map,
+                                         IndirectLight::photons, IndirectLight::none})
+        CHECK(said(few_photons(indirect), abilities<>).empty());
+
+    using Bare = PhotonMapper<ClosedRoom>;
+    using All = PhotonMapper<ClosedRoom, Gathering, StratifiedStream, Skipping>;
+    static_assert(std::is_same_v<Bare::Stream, RandomStream>);
+    static_assert(std::is_same_v<All::Stream, StratifiedStream>);
+    static_assert(All::has<Gathering> && All::has<Skipping> && !All::has<Budgeting>);
+    static_assert(!Bare::has<Gathering> && !Bare::has<Skipping>);
+}
+
+TEST_CASE("photon mapping: an ability that nobody asks for changes no byte") {
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 2);
+    const Camera camera = room_camera<float>();
+    const RenderSettings picture{.width = 12, .height = 9, .samples = 2, .threads = 1};
+    for (const IndirectLight indirect : {IndirectLight::rays, IndirectLight::map,
+                                         IndirectLight::photons, IndirectLight::none}) {
+        const PhotonMapper bare(room, few_photons(indirect));
+        PhotonMapper able(room, few_photons(indirect),
+                          abilities<Gathering, Skipping, Budgeting>);
+        able.fill_cache(camera, picture); // which is not asked for, either
+        CHECK(able.state<Gathering>().points.empty());
+        CHECK(able.state<Gathering>().cache.empty());
+        CHECK(able.state<Skipping>().verdicts.empty());
+        const auto one = render(bare, camera, picture);
+        const auto other = render(able, camera, picture);
+        CHECK(one.image.pixels == other.image.pixels);
+        CHECK(one.counts.rays() == other.counts.rays());
+        CHECK(one.counts.map_photons == other.counts.map_photons);
+    }
+}
+
+TEST_CASE("photon mapping: a mapper has the settings that it has chosen") {
+    Room open;
+    add_walls(open);
+    add_ball(open, Ball::glass);
+    open.add(Sphere{.center{-0.5f, 0.3f, 0}, .radius = 0.2f}, open.add(Mirror{}));
+    add_lamps(open, Lamp::quad, 1);
+    const World room(std::move(open));
+    PhotonMappingSettings settings = few_photons(IndirectLight::photons);
+    settings.caustic_budget = CausticBudget::flux;
+    settings.caustics_estimate.radius = settings.general_estimate.radius = 0;
+    const PhotonMapper mapper(room, settings, abilities<Budgeting>);
+    CHECK(&mapper.world() == &room);
+    const PhotonMappingSettings& chosen = mapper.settings();
+    CHECK(chosen.caustics_estimate.radius ==
+          float(typical_radius(mapper.maps().caustics, 32)));
+    CHECK(chosen.general_estimate.radius ==
+          float(typical_radius(mapper.maps().general, 64)));
+    CHECK(chosen.caustics_estimate.radius > 0);
+    CHECK(chosen.general_estimate.radius > 0);
+    CHECK(chosen.caustics.shares == caustic_shares(room, settings));
+    REQUIRE(chosen.caustics.shares.size() == 2);
+    CHECK(chosen.caustics.shares[0] + chosen.caustics.shares[1] == doctest::Approx(1));
+    CHECK(mapper.passes().caustics_map);
+    CHECK(mapper.passes().general_map);
+    CHECK_FALSE(mapper.passes().indirect_rays);
+    // What is chosen makes the same mapper again.
+    const PhotonMapper again(room, chosen);
+    CHECK(again.maps().caustics.records.size() ==
+          mapper.maps().caustics.records.size());
+    for (std::size_t i = 0; i < again.maps().caustics.records.size(); ++i)
+        REQUIRE(again.maps().caustics.records[i].flux ==
+                mapper.maps().caustics.records[i].flux);
+    // Who asks for no caustics map gets no shares, and no pilot has run.
+    settings.caustics.photons = 0;
+    CHECK(PhotonMapper(room, settings, abilities<Budgeting>)
+              .settings()
+              .caustics.shares.empty());
+}
+
+TEST_CASE("photon mapping: the maps can be asked in another way") {
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const Camera camera = room_camera<float>();
+    const RenderSettings picture{.width = 12, .height = 9, .samples = 2, .threads = 1};
+    PhotonMapper mapper(room, few_photons(IndirectLight::photons));
+    const auto before = render(mapper, camera, picture).image;
+    PhotonMappingSettings other = few_photons(IndirectLight::photons);
+    other.caustics_estimate = {.radius = 0.3f, .nearest = 20};
+    other.general_estimate = {.radius = 0.5f, .kernel = Kernel::cone};
+    mapper.set_estimates(other.caustics_estimate, other.general_estimate);
+    const auto after = render(mapper, camera, picture).image;
+    CHECK(after.pixels != before.pixels);
+    CHECK(after.pixels ==
+          render(PhotonMapper(room, other), camera, picture).image.pixels);
+    // A radius of 0 is chosen from the photons.
+    mapper.set_estimates({.radius = 0}, {.radius = 0});
+    CHECK(mapper.settings().caustics_estimate.radius ==
+          float(typical_radius(mapper.maps().caustics, 32)));
+    CHECK(mapper.settings().general_estimate.radius ==
+          float(typical_radius(mapper.maps().general, 64)));
+    // What gives no estimate is refused, and nothing is changed.
+    const auto kept = mapper.settings();
+    for (const auto& [caustics, general] :
+         {std::pair{DensityEstimateSettings{.radius = -1}, DensityEstimateSettings{}},
+          {DensityEstimateSettings{}, DensityEstimateSettings{.thickness = 0}}}) {
+        CHECK_FALSE(refusal([&, c = caustics, g = general] {
+                        mapper.set_estimates(c, g);
+                    }).empty());
+        CHECK(mapper.settings().caustics_estimate.radius ==
+              kept.caustics_estimate.radius);
+        CHECK(mapper.settings().general_estimate.thickness ==
+              kept.general_estimate.thickness);
     }
 }

@@ -126,7 +126,7 @@ TEST_CASE("photon mapping: equals path tracing, material by material and light b
                                     : lamp == Lamp::sphere ? ball == Ball::mixture
                                                            : ball == Ball::mirror))
                     continue;
-                const Room room = make_room<float>(ball, lamp, lamps);
+                const ClosedRoom room = make_room<float>(ball, lamp, lamps);
                 std::vector<bool> mask(size * size, true);
                 Blocks mapped, traced;
                 const std::uint64_t first = 1000 * ++cell;
@@ -143,7 +143,7 @@ TEST_CASE("photon mapping: equals path tracing, material by material and light b
                             trace_light(room, camera, size, size, 27000, test_seed(s)),
                             mask);
                     else
-                        traced.add(render(make_path_tracer(room), camera,
+                        traced.add(render(PathTracer(room), camera,
                                           {.width = size,
                                            .height = size,
                                            .samples = rays,
@@ -157,8 +157,7 @@ TEST_CASE("photon mapping: equals path tracing, material by material and light b
                     settings.caustics = {
                         .photons = 30000, .seed = test_seed(seed), .threads = 1};
                     settings.caustics_estimate = {.radius = 0.03f};
-                    const auto maps = make_photon_maps(room, settings);
-                    const auto mapper = make_photon_mapper(room, maps, settings);
+                    const PhotonMapper mapper(room, settings);
                     mapped.add(render(mapper, camera,
                                       {.width = size,
                                        .height = size,
@@ -214,7 +213,7 @@ namespace {
 
 /// A point light under a small mirror that throws a disc of light on the floor: from
 /// the floor it is a second point light, 1.5 above it, of 0.8 of the intensity.
-Room mirror_over_floor() {
+ClosedRoom mirror_over_floor() {
     Room room;
     const auto white = room.add(Lambertian{.albedo = Rgb{0.5f}});
     const auto mirror = room.add(Mirror{.reflectance = Rgb{0.8f}});
@@ -224,7 +223,7 @@ Room mirror_over_floor() {
                   .edge_v{0, 0, 0.34f}},
              mirror);
     room.add(PointLight{.position{0, 1, 0}, .intensity = Rgb{2}});
-    return room;
+    return World(std::move(room));
 }
 
 /// What an estimate with Epanechnikov's kernel makes of the light of that mirror right
@@ -245,7 +244,7 @@ double smoothed_radiance(double radius) {
 
 TEST_CASE("photon mapping: away from edges the bias falls with the square of the "
           "radius") {
-    const Room room = mirror_over_floor();
+    const ClosedRoom room = mirror_over_floor();
     const Ray down{.origin{0, 0.5f, 0}, .direction{0, -1, 0}};
     const auto hit = closest_hit(room, down);
     REQUIRE(hit);
@@ -301,7 +300,7 @@ TEST_CASE(
     // none: (4 L(r / 4) - L(r)) / 3, but for corners, where discs hang over two edges.
     const Camera camera = room_camera<float>();
     for (const Ball ball : {Ball::lambertian, Ball::glass}) {
-        const Room room = make_room<float>(ball, Lamp::quad, 1);
+        const ClosedRoom room = make_room<float>(ball, Lamp::quad, 1);
         const auto mean_of = [&](const auto& renderer, std::uint64_t seed) {
             const auto image = render(renderer, camera,
                                       {.width = size,
@@ -316,7 +315,7 @@ TEST_CASE(
         };
         Mean traced, straight, darker;
         for (std::uint64_t seed = 1; seed <= 32; ++seed)
-            traced.add(mean_of(make_path_tracer(room), 100 + seed));
+            traced.add(mean_of(PathTracer(room), 100 + seed));
         for (std::uint64_t seed = 1; seed <= 16; ++seed) {
             PhotonMappingSettings settings;
             settings.indirect = IndirectLight::map;
@@ -326,11 +325,11 @@ TEST_CASE(
                 .photons = 12000, .seed = test_seed(seed), .threads = 1};
             settings.caustics_estimate.radius = 0.03f;
             settings.general_estimate.radius = 0.16f;
-            const auto maps = make_photon_maps(room, settings);
-            const double broad =
-                mean_of(make_photon_mapper(room, maps, settings), seed);
+            PhotonMapper mapper(room, settings);
+            const double broad = mean_of(mapper, seed);
             settings.general_estimate.radius = 0.04f;
-            const double fine = mean_of(make_photon_mapper(room, maps, settings), seed);
+            mapper.set_estimates(settings.caustics_estimate, settings.general_estimate);
+            const double fine = mean_of(mapper, seed);
             straight.add((4 * fine - broad) / 3);
             darker.add((broad - fine) / traced.mean);
         }
@@ -390,14 +389,14 @@ TEST_CASE("photon mapping: a matt ball embedded in glass in a furnace") {
         room.add(Sphere{.radius = 2}, black, Rgb{1}, true);
         room.add(Sphere{.radius = 1}, glass);
         room.add(Sphere{.radius = float(a)}, matt);
+        const World world(std::move(room));
         Mean seen;
         for (std::uint64_t seed = 1; seed <= 16; ++seed) {
             PhotonMappingSettings settings;
             settings.caustics = {
                 .photons = 10000, .seed = test_seed(seed), .threads = 1};
             settings.caustics_estimate = way.gather;
-            const auto maps = make_photon_maps(room, settings);
-            const auto mapper = make_photon_mapper(room, maps, settings);
+            const PhotonMapper mapper(world, settings);
             // Towards the centre from all around.
             seen.add(mean_radiance(mapper, 2000, seed, [](RandomStream& stream) {
                          const Vec3 from =
@@ -444,6 +443,7 @@ TEST_CASE("photon mapping: lamps and matt balls within clear and coloured glass"
                 room.add(inner, white);
                 room.add(Sphere{.center{1.3f, 2.2f, 0}, .radius = 0.4f}, black, Rgb{5});
             }
+            const World world(std::move(room));
             // Onto the floor, or into the glass from above.
             const auto ray = [&](RandomStream& stream) {
                 const Vec2 u = 2.0f * next_2d<float>(stream) - Vec2{1};
@@ -454,15 +454,14 @@ TEST_CASE("photon mapping: lamps and matt balls within clear and coloured glass"
                 return Ray{.origin{1.8f * u.x, 0.01f, 1.8f * u.y},
                            .direction{0, -1, 0}};
             };
-            const Mean traced = mean_radiance(make_path_tracer(room), 200000, 1, ray);
+            const Mean traced = mean_radiance(PathTracer(world), 200000, 1, ray);
             Mean mapped;
             for (std::uint64_t seed = 1; seed <= 16; ++seed) {
                 PhotonMappingSettings settings;
                 settings.caustics = {
                     .photons = 10000, .seed = test_seed(seed), .threads = 1};
                 settings.caustics_estimate = {.radius = 0.1f};
-                const auto maps = make_photon_maps(room, settings);
-                const auto mapper = make_photon_mapper(room, maps, settings);
+                const PhotonMapper mapper(world, settings);
                 mapped.add(mean_radiance(mapper, 6000, seed, ray).mean);
             }
             CAPTURE(static_cast<int>(within));

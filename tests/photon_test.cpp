@@ -135,9 +135,12 @@ TEST_CASE("photon: roulette at its ends") {
 }
 
 TEST_CASE("photon: a pass that cannot be made is refused with a sentence") {
-    ljus::Scene<ljus::Shapes<ljus::Sphere>, ljus::Materials<ljus::Lambertian>> scene;
+    ljus::Scene<ljus::Shapes<ljus::Sphere>, ljus::Materials<ljus::Lambertian>,
+                ljus::Lights<ljus::PointLight>>
+        scene;
     const auto trace = [&](const ljus::PhotonPassSettings& pass) {
-        return ljus::trace_photons(scene, ljus::MapType::general, pass);
+        const ljus::World world(scene);
+        return ljus::trace_photons(world, ljus::MapType::general, pass);
     };
     CHECK_THROWS_WITH(
         (void)trace({}),

@@ -1,17 +1,16 @@
 /// \file plain_photon_mapper_test.cpp
-/// \brief The plain second pass of chapter 27 against the library's.
+/// \brief The plain second pass against PhotonMapper.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <type_traits>
 
 #include <doctest/doctest.h>
 
 #include <ljus/ljus.hpp>
+#include <ljus/render/plain_photon_mapping.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 
-#include "common/plain_photon_mapper.hpp"
 #include "support/seed.hpp"
 
 using namespace ljus;
@@ -64,16 +63,13 @@ Parts measure(const Renderer& renderer, const Camera& camera, int first_seed) {
 // further ones: none failed.
 TEST_CASE("the plain photon mapper has the mean of the library's") {
     const auto room = cornell_box();
-    const auto maps = make_photon_maps(
-        room.scene, {.caustics{.photons = 20'000, .seed = ljus_test::test_seed(1)}});
     const DensityEstimateSettings how{.radius = 0.1f};
-    using Room = std::remove_cvref_t<decltype(room.scene)>;
-    const examples::PlainPhotonMapper<Room> mapper{detail::IndexedT<Room>(room.scene),
-                                                   maps.caustics, how};
-    const auto plain = measure(mapper, room.camera, 1);
-    const auto full =
-        measure(make_photon_mapper(room.scene, maps, {.caustics_estimate = how}),
-                room.camera, 101);
+    const PhotonMapper mapper(
+        room.world, {.caustics{.photons = 20'000, .seed = ljus_test::test_seed(1)},
+                     .caustics_estimate = how});
+    const PlainPhotonMapper twin(room.world, mapper.maps().caustics, how);
+    const auto plain = measure(twin, room.camera, 1);
+    const auto full = measure(mapper, room.camera, 101);
     for (int part = 0; part < 9; ++part) {
         CAPTURE(part);
         const double error = std::sqrt(plain.error2[part] + full.error2[part]);

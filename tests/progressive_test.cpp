@@ -20,6 +20,8 @@
 #include "ljus/io/progressive_file.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
+#include "ljus/render/budgeting.hpp"
+#include "ljus/render/gathering.hpp"
 #include "ljus/render/progressive.hpp"
 #include "scratch_folder.hpp"
 #include "support/draws.hpp"
@@ -104,8 +106,9 @@ bool same_state(const ProgressiveState& a, const ProgressiveState& b) {
 }
 
 /// A point light under a square mirror, whose light on the floor ends at 0.8.
-using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Mirror>>;
-Stage window() {
+using Stage =
+    Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Mirror>, Lights<PointLight>>;
+World<Stage> window() {
     Stage room;
     room.add(Quad{.corner{-10, 0, -10}, .edge_u{0, 0, 20}, .edge_v{20, 0, 0}},
              room.add(Lambertian{.albedo = Rgb{0.5f}}));
@@ -113,7 +116,7 @@ Stage window() {
         Quad{.corner{-0.2f, 1.5f, -0.2f}, .edge_u{0.4f, 0, 0}, .edge_v{0, 0, 0.4f}},
         room.add(Mirror{.reflectance = Rgb{1}}));
     room.add(PointLight{.position{0, 1, 0}});
-    return room;
+    return World(std::move(room));
 }
 
 /// A camera that sees a small patch of that floor around (0, 0, 0).
@@ -256,7 +259,7 @@ TEST_CASE("progressive: the error of blocks has what their pixels share") {
 
 TEST_CASE("progressive: photons follow the closed form of the blur, pass by pass") {
     // The mean of the passes is the mean of the blurs of all their radii.
-    const Stage room = window();
+    const World<Stage> room = window();
     const Camera camera = patch_camera();
     const float radius = 0.7f;
     for (const double alpha : {1.0 / 3, 2.0 / 3}) {
@@ -300,7 +303,7 @@ TEST_CASE("progressive: photons follow the closed form of the blur, pass by pass
 }
 
 TEST_CASE("progressive: variance and squared bias fall with the predicted slopes") {
-    const Stage room = window();
+    const World<Stage> room = window();
     const Camera camera = patch_camera();
     // Variance: a small disc, so that almost all photons lie outside of it. Of each of
     // 48 runs the ratio that the radii say, of what two estimates of the error say.
@@ -360,6 +363,7 @@ TEST_CASE("progressive: both radii shrink, and no pass repeats another") {
     ljus_test::add_walls(room);
     ljus_test::add_ball(room, ljus_test::Ball::glass);
     ljus_test::add_lamps(room, ljus_test::Lamp::quad, 1);
+    const World world(std::move(room));
     const auto camera = ljus_test::room_camera<float>();
     PhotonMappingSettings settings{.indirect = IndirectLight::photons};
     settings.caustics = {.photons = 2000, .seed = test_seed(1)};
@@ -367,7 +371,7 @@ TEST_CASE("progressive: both radii shrink, and no pass repeats another") {
     const RenderSettings picture{
         .width = 12, .height = 9, .samples = 1, .seed = test_seed(1)};
     const auto pass = [&](const PhotonMappingSettings& how, long long i, double scale) {
-        return photon_mapping_pass(room, camera, how, picture, i, scale);
+        return photon_mapping_pass(world, camera, how, picture, i, scale);
     };
     // A pass is what it is, whatever came before.
     const auto hash = [](const auto& rendered) {
@@ -376,8 +380,9 @@ TEST_CASE("progressive: both radii shrink, and no pass repeats another") {
     CHECK(hash(pass(settings, 3, 0.5)) == hash(pass(settings, 3, 0.5)));
     CHECK(hash(pass(settings, 3, 0.5)) != hash(pass(settings, 4, 0.5)));
     // Where the camera's rays are all alike, it is the photons that differ.
-    const auto spot = [](long long i) {
-        return photon_mapping_pass(window(), patch_camera(0.01f),
+    const World<Stage> stage = window();
+    const auto spot = [&](long long i) {
+        return photon_mapping_pass(stage, patch_camera(0.01f),
                                    mirror_light(0.2f, 500, 1),
                                    {.width = 1, .height = 1, .samples = 1}, i, 1)
             .image.pixels[0]
@@ -416,7 +421,7 @@ TEST_CASE("progressive: both radii shrink, and no pass repeats another") {
         RenderSettings size = picture;
         size.threads = threads;
         return state_after(5, [&](long long i, double scale) {
-            return photon_mapping_pass(room, camera, how, size, i, scale);
+            return photon_mapping_pass(world, camera, how, size, i, scale);
         });
     };
     CHECK(same_state(run(1), run(3)));
@@ -432,7 +437,7 @@ TEST_CASE("progressive: both radii shrink, and no pass repeats another") {
     CHECK_FALSE(run_progressive(
         state, 1000000,
         [&](long long i, double scale) {
-            return photon_mapping_pass(room, camera, how, stopped, i, scale);
+            return photon_mapping_pass(world, camera, how, stopped, i, scale);
         },
         go_on));
     REQUIRE(state.passes > 0);
@@ -450,43 +455,48 @@ TEST_CASE("progressive: radii and shares are chosen once, for all passes") {
     ljus_test::add_walls(room);
     ljus_test::add_ball(room, ljus_test::Ball::glass);
     ljus_test::add_lamps(room, ljus_test::Lamp::quad, 1);
+    const World world(std::move(room));
     const auto camera = ljus_test::room_camera<float>();
     PhotonMappingSettings settings{.indirect = IndirectLight::photons,
                                    .caustic_budget = CausticBudget::area};
     settings.caustics = {.photons = 2000};
     settings.general = {.photons = 2000};
     settings.caustics_estimate.radius = settings.general_estimate.radius = 0;
-    const auto chosen = settings_for_passes(room, settings);
-    const auto maps = make_photon_maps(room, settings);
+    const auto chosen = settings_for_passes(world, settings, abilities<Budgeting>);
+    const PhotonMapper mapper(world, settings, abilities<Budgeting>);
+    const auto& maps = mapper.maps();
+    CHECK(chosen.caustics.shares == mapper.settings().caustics.shares);
     CHECK(chosen.caustics_estimate.radius == typical_radius(maps.caustics, 32));
     CHECK(chosen.general_estimate.radius == typical_radius(maps.general, 64));
     REQUIRE(chosen.caustics.shares.size() == 1);
     CHECK(chosen.caustics.shares[0] == doctest::Approx(1));
     // What was given stays; what is not asked for is not done.
     settings.caustics_estimate.radius = 0.1f;
-    CHECK(settings_for_passes(room, settings).caustics_estimate.radius == 0.1f);
+    CHECK(settings_for_passes(world, settings, abilities<Budgeting>)
+              .caustics_estimate.radius == 0.1f);
     settings.caustics.shares = {1.0};
-    CHECK(settings_for_passes(room, settings).caustics.shares ==
+    CHECK(settings_for_passes(world, settings).caustics.shares ==
           settings.caustics.shares);
     settings.caustics.shares.clear();
     settings.caustic_budget = CausticBudget::as_seen;
-    CHECK(settings_for_passes(room, settings).caustics.shares.empty());
+    CHECK(settings_for_passes(world, settings).caustics.shares.empty());
 
     // A pass that would choose its own radius would never shrink it.
     const RenderSettings picture{.width = 12, .height = 9, .samples = 1};
     CHECK(refusal([&] {
-              (void)photon_mapping_pass(room, camera, settings, picture, 1, 1);
+              (void)photon_mapping_pass(world, camera, settings, picture, 1, 1);
           }) == "general_estimate.radius is 0; it must be finite and above 0.");
     settings.caustics_estimate.radius = 0;
     CHECK(refusal([&] {
-              (void)photon_mapping_pass(room, camera, settings, picture, 1, 1);
+              (void)photon_mapping_pass(world, camera, settings, picture, 1, 1);
           }) == "caustics_estimate.radius is 0; it must be finite and above 0.");
 
     // A pass has the irradiance cache that it asks for: without it, it would gather
     // for each of its pixels.
     PhotonMappingSettings cached = chosen;
     cached.indirect = IndirectLight::cache;
-    const auto pass = photon_mapping_pass(room, camera, cached, picture, 1, 1);
+    const auto pass =
+        photon_mapping_pass(world, camera, cached, picture, 1, 1, abilities<Gathering>);
     CHECK(pass.counts.bounce_rays < 12u * 9u * std::uint64_t(cached.gather.rays) / 2);
 }
 
@@ -704,7 +714,7 @@ void check_kills(long long passes, const RenderPass& pass, double longest) {
 TEST_CASE("progressive: killed at any moment and resumed, the bytes are the same") {
     // Passes of photons, of some milliseconds each; one thread, since those of OpenMP
     // do not come along into a forked process.
-    const Stage room = window();
+    const World<Stage> room = window();
     const Camera camera = patch_camera();
     check_kills(
         40,
@@ -725,7 +735,7 @@ TEST_CASE("progressive: 150 passes take the memory of ten") {
         ::getrusage(RUSAGE_SELF, &usage);
         return double(usage.ru_maxrss) / 1024;
     };
-    const Stage room = window();
+    const World<Stage> room = window();
     const auto pass = [&, camera = patch_camera()](long long i, double scale) {
         return photon_mapping_pass(
             room, camera, mirror_light(0.05f, 12000, 1),
@@ -834,7 +844,8 @@ TEST_CASE("progressive: a radius that is not given is chosen, whichever it is") 
     PhotonMappingSettings settings{.indirect = IndirectLight::photons};
     settings.caustics = {.photons = 2000, .threads = 1};
     settings.general = {.photons = 2000, .threads = 1};
-    const auto maps = make_photon_maps(room, settings);
+    const PhotonMapper mapper(room, settings);
+    const auto& maps = mapper.maps();
     for (const float caustics : {0.0f, 0.2f})
         for (const float general : {0.0f, 0.4f}) {
             settings.caustics_estimate.radius = caustics;

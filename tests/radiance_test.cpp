@@ -151,10 +151,10 @@ TEST_CASE("radiance: what A sends to B, B sends to A") {
 }
 
 TEST_CASE("radiance: it stays the same along a ray, and irradiance does not") {
-    const auto scene = ljus::make_scene(
+    const ljus::World scene(ljus::make_scene(
         placed(ljus::Sphere{.center{0, 0, 0}, .radius = 0.5f},
-               ljus::Lambertian{.albedo = ljus::Rgb{0}}, ljus::Rgb{10}));
-    const auto tracer = make_path_tracer(scene);
+               ljus::Lambertian{.albedo = ljus::Rgb{0}}, ljus::Rgb{10})));
+    const ljus::PathTracer tracer(scene);
     for (const float r : {0.75f, 2.0f, 50.0f}) {
         const auto eye = ljus::look_at(
             {.position{0, 0, r}, .target{0, 0, 0}, .vfov_degrees = 0.01f});
@@ -184,7 +184,9 @@ TEST_CASE("radiance: a Lambertian lamp of radiance L sends out pi L on each squa
         sum += 7 * d.z / ljus::pdf_uniform_hemisphere(d) / 1000;
     }
     CHECK(sum == within(7 * pi, 1e-6));
-    const auto flux = ljus::detail::diffuse_flux(ljus::RgbT<double>(7), 3.0);
+    const ljus::QuadT<double> lamp{.edge_u{3, 0, 0}, .edge_v{0, 1, 0}};
+    const auto known = ljus::detail::make_lamp(lamp, ljus::RgbT<double>(7), false);
+    const auto flux = power(ljus::AreaLightT<ljus::QuadT<double>>{lamp, known});
     CHECK(flux.x == within(sum * 3, 1e-6));
     // And its intensity, radiance times the area as it is seen, adds up to the same.
     double all = 0;
@@ -213,11 +215,11 @@ TEST_CASE("radiance: far from a lamp of any shape the inverse square holds") {
 }
 
 TEST_CASE("radiance: a pixel that is taken apart adds up, whatever its filter") {
-    const auto scene = ljus::make_scene(
+    const ljus::World scene(ljus::make_scene(
         placed(ljus::Quad{{-1, 0, 1}, {2, 0, 0}, {0, 0, -2}}, ljus::Lambertian{}),
         placed(ljus::Sphere{.center{0, 1, 0}, .radius = 0.3f}, ljus::Lambertian{},
-               ljus::Rgb{5}));
-    const auto tracer = make_path_tracer(scene);
+               ljus::Rgb{5})));
+    const ljus::PathTracer tracer(scene);
     const auto camera = ljus::look_at({.position{0, 1, 4}, .target{0, 0.5f, 0}});
     for (const ljus::Filter filter :
          {ljus::Filter::box, ljus::Filter::gaussian, ljus::Filter::mitchell}) {

@@ -60,7 +60,7 @@ constexpr RadiositySolver solvers[] = {RadiositySolver::lu, RadiositySolver::jac
 
 TEST_CASE("radiosity: all solvers agree, and none takes longer than the bound") {
     const auto box = colored_box();
-    auto all = make_radiosity(box, {.patches = {.size = 0.34}});
+    auto all = make_radiosity(World(box), {.patches = {.size = 0.34}});
     REQUIRE(all);
     const auto right =
         solve_radiosity(all->factors, all->patches.patches, {.solver = solvers[0]});
@@ -92,8 +92,8 @@ TEST_CASE("radiosity: all solvers agree, and none takes longer than the bound") 
 TEST_CASE("radiosity: a solver that is stopped says so") {
     const auto box = colored_box();
     const auto all = make_radiosity(
-        box, {.patches = {.size = 0.5},
-              .solve = {.solver = RadiositySolver::jacobi, .max_sweeps = 3}});
+        World(box), {.patches = {.size = 0.5},
+                     .solve = {.solver = RadiositySolver::jacobi, .max_sweeps = 3}});
     CHECK(!all->solution.converged);
     CHECK(all->solution.residual.size() == 4);
     CHECK(all->solution.residual[0] == 1);
@@ -103,13 +103,14 @@ TEST_CASE("radiosity: a solver that is stopped says so") {
 
 TEST_CASE("radiosity: energy is kept by few rays as well, for they are symmetric") {
     const auto box = colored_box();
-    const auto all = make_radiosity(
-        box, {.patches = {.size = 0.34}, .factors = {.analytic = false, .rays = 20}});
+    const auto all =
+        make_radiosity(World(box), {.patches = {.size = 0.34},
+                                    .factors = {.analytic = false, .rays = 20}});
     CHECK(imbalance(*all) < 1e-10);
     // The rays as they came: each row is right, and the light of each patch is not that
     // which the others received from it.
     FormFactors rough = all->factors;
-    const IndexedScene<Cube> indexed(box);
+    const World indexed(box);
     for (std::size_t i = 0; i < rough.size(); ++i) {
         std::span row(rough.exchange.data() + i * rough.size(), rough.size());
         std::fill(row.begin(), row.end(), 0.0);
@@ -129,14 +130,14 @@ TEST_CASE("radiosity: furnaces") {
                                                           : RadiositySolver::lu};
         const auto box = box_furnace<double>(Color(1, 2, 0), Color(albedo));
         const auto all =
-            make_radiosity(box.scene, {.patches = {.size = 1}, .solve = solve});
+            make_radiosity(box.world, {.patches = {.size = 1}, .solve = solve});
         CHECK(all->solution.converged);
         for (const Color& b : all->solution.radiosity)
             CHECK(glm::distance(b * (1 - albedo), std::numbers::pi * Color(1, 2, 0)) <
                   1e-9);
         const auto ball = sphere_furnace<double>(Color(1), Color(albedo));
         const auto rays = make_radiosity(
-            ball.scene,
+            ball.world,
             {.patches = {.size = 1}, .factors = {.closed = true}, .solve = solve});
         for (const Color& b : rays->solution.radiosity)
             CHECK(b.x * (1 - albedo) ==
@@ -152,8 +153,9 @@ TEST_CASE("radiosity: a ball within a ball, by rays") {
     };
     scene.add(SphereT<double>{.radius = 2}, matt(0.5), Color(0), true);
     scene.add(SphereT<double>{.radius = 1}, matt(0.25), Color(1));
+    const World world(std::move(scene));
     const auto all = make_radiosity(
-        scene, {.patches = {.size = 1}, .factors = {.rays = 500, .closed = true}});
+        world, {.patches = {.size = 1}, .factors = {.rays = 500, .closed = true}});
     // B1 = pi + B2 / 4; B2 = (B1 / 4 + 3/4 B2) / 2.
     const double b2 = std::numbers::pi / (5 - 0.25), b1 = 5 * b2;
     Color inner(0), outer(0);
@@ -172,7 +174,7 @@ TEST_CASE("radiosity: the light of one lamp, without a bounce") {
     const auto black = two.add(LambertianT<double>{.albedo = Color(0)});
     two.add(QuadT<double>{Point(0), {1, 0, 0}, {0, 1, 0}}, black);
     two.add(QuadT<double>{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}}, black, Color(1));
-    const auto all = make_radiosity(two, {.patches = {.size = 1}});
+    const auto all = make_radiosity(World(two), {.patches = {.size = 1}});
     REQUIRE(all->map.irradiance.size() == 2);
     CHECK(all->map.irradiance[0].x ==
           doctest::Approx(std::numbers::pi * ljus_test::form_factor_facing(1, 1, 1))
@@ -189,27 +191,27 @@ TEST_CASE("radiosity: the light of one lamp, without a bounce") {
     const auto white = around.add(LambertianT<double>{.albedo = Color(1)});
     around.add(QuadT<double>{Point(0), {1, 0, 0}, {0, 1, 0}}, white);
     around.add(QuadT<double>{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, white, Color(1));
-    const auto away = make_radiosity(around);
+    const auto away = make_radiosity(World(around));
     for (const Color& light : away->map.irradiance) CHECK(light == Color(0));
 }
 
 TEST_CASE("radiosity: extremes") {
     const auto dark = box_furnace<double>(Color(0), Color(0.5));
-    const auto none = make_radiosity(dark.scene, {.patches = {.size = 1}});
+    const auto none = make_radiosity(dark.world, {.patches = {.size = 1}});
     CHECK(none->solution.converged);
     CHECK(none->solution.residual == std::vector<double>{0});
     for (const Color& b : none->solution.radiosity) CHECK(b == Color(0));
 
     const auto endless = box_furnace<double>(Color(1), Color(1));
     CHECK(
-        refusal([&] { (void)make_radiosity(endless.scene, {.patches = {.size = 1}}); })
+        refusal([&] { (void)make_radiosity(endless.world, {.patches = {.size = 1}}); })
             .ends_with(
                 "it must be below 1: take smaller albedos, more rays, or `closed` "
                 "factors."));
     // Nearly so: seven digits are lost to the condition of the equations, no more.
     const auto nearly = box_furnace<double>(Color(1), Color(1 - 1e-7));
     const auto much =
-        make_radiosity(nearly.scene, {.patches = {.size = 1},
+        make_radiosity(nearly.world, {.patches = {.size = 1},
                                       .solve = {.solver = RadiositySolver::lu}});
     for (const Color& b : much->solution.radiosity)
         CHECK(b.x * 1e-7 == doctest::Approx(std::numbers::pi).epsilon(1e-6));
@@ -217,10 +219,10 @@ TEST_CASE("radiosity: extremes") {
     const auto bright = box_furnace<double>(Color(1), Color(0.99));
     CHECK(refusal([&] {
               (void)make_radiosity(
-                  bright.scene,
+                  bright.world,
                   {.patches = {.size = 1}, .factors = {.analytic = false, .rays = 30}});
           }).starts_with("the largest share of its light"));
-    CHECK(make_radiosity(bright.scene,
+    CHECK(make_radiosity(bright.world,
                          {.patches = {.size = 1},
                           .factors = {.analytic = false, .rays = 30, .closed = true}}));
     // A scene of any size.
@@ -230,7 +232,7 @@ TEST_CASE("radiosity: extremes") {
         const Point x{size, 0, 0}, y{0, size, 0}, z{0, 0, size};
         scaled.add(QuadT<double>{Point(0), x, y}, grey);
         scaled.add(QuadT<double>{z, y, x}, grey, Color(1));
-        const auto all = make_radiosity(scaled, {.patches = {.size = size}});
+        const auto all = make_radiosity(World(scaled), {.patches = {.size = size}});
         const double f = ljus_test::form_factor_facing(1, 1, 1);
         CHECK(
             all->map.irradiance[0].x ==
@@ -240,7 +242,7 @@ TEST_CASE("radiosity: extremes") {
 
 TEST_CASE("radiosity: the same light as path tracing, as patches shrink") {
     // The irradiance on the four quarters of floor and red wall, in three ways.
-    const auto box = colored_box();
+    const World box(colored_box());
     const auto mean_of = [&](const Radiosity& all, std::uint32_t grid, int quarter) {
         const PatchGrid& cells = all.map.grids[grid];
         Color sum(0);
@@ -255,11 +257,11 @@ TEST_CASE("radiosity: the same light as path tracing, as patches shrink") {
     const auto coarse = make_radiosity(box, {.patches = {.size = 0.5}});
     const auto middle = make_radiosity(box, {.patches = {.size = 0.25}});
     const auto fine = make_radiosity(box, {.patches = {.size = 0.125}});
-    const auto tracer = make_path_tracer(box);
+    const PathTracer tracer(box);
     double worst = 0, first = 0, second = 0;
     for (const std::uint32_t grid : {0u, 2u})
         for (int quarter = 0; quarter < 4; ++quarter) {
-            const auto& quad = std::get<0>(box.shapes)[grid];
+            const auto& quad = std::get<0>(box.shapes())[grid];
             // The radiance that comes by the cosine, times pi, is irradiance.
             const auto ray = [&](RandomStream& stream) {
                 const auto u = next_2d<double>(stream);
@@ -433,9 +435,10 @@ TEST_CASE("radiosity: in which order the patches send, step by step") {
 }
 
 TEST_CASE("radiosity: how far a solver goes, and what it refuses, channel by channel") {
-    const auto box = colored_box();
-    const auto all = make_radiosity(box, {.patches = {.size = 0.5}});
-    CHECK(all->map.objects == box.size());
+    const World box(colored_box());
+    const RadiositySettings settings{.patches = {.size = 0.5}};
+    const auto all = make_radiosity(box, settings);
+    CHECK(all->map.key == light_map_key(box, settings));
     for (const RadiositySolver solver :
          {RadiositySolver::jacobi, RadiositySolver::gauss_seidel,
           RadiositySolver::shooting})

@@ -71,7 +71,7 @@ TEST_CASE("rays_per_pixel: where a curve comes down to an error") {
 TEST_CASE("rays_per_pixel: sixteen times the rays, a sixteenth of the variance") {
     const auto room = ljus_test::make_room<float>(ljus_test::Ball::lambertian,
                                                   ljus_test::Lamp::quad, 1);
-    const auto tracer = make_path_tracer(room);
+    const PathTracer tracer(room);
     // Of independent rays. A ratio of two such variances, over 576 pixels and 8 seeds,
     // scatters by some 4 %: a fifth is 5 standard errors.
     const double few = variance_of(tracer, 4, Sampling::random);
@@ -92,10 +92,8 @@ TEST_CASE("rays_per_pixel: rays do not take away the noise of photons") {
                 settings.general.photons = 1000;
                 settings.general.seed = ljus_test::test_seed(own ? seed : 1);
                 settings.general.threads = 1;
-                const auto maps = make_photon_maps(room, settings);
                 (own ? own_maps : one_map)
-                    .push_back(render(make_photon_mapper(room, maps, settings),
-                                      Camera{},
+                    .push_back(render(PhotonMapper(room, settings), Camera{},
                                       {.width = 16,
                                        .height = 16,
                                        .samples = rays,

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/ended_paths.hpp"
+#include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
 #include "ljus/scenes/furnaces.hpp"
@@ -45,14 +46,14 @@ TEST_CASE("recursion_depth: a limit of d surfaces loses albedo^(d + 1) of all li
             const double right = light_to(double(albedo), depth);
             // All paths are alike in a sphere: no noise but rounding.
             const auto ended =
-                pixels_of(examples::make_ended_paths(room.scene, Ending::depth, depth),
+                pixels_of(examples::make_ended_paths(room.world, Ending::depth, depth),
                           room.camera, 2);
             CHECK(ended.mean == doctest::Approx(right).epsilon(1e-3));
             // The path tracer of the library, which shares the lamp by its weights.
-            const auto tracer =
-                make_path_tracer(room.scene, {.max_depth = depth,
-                                              .roulette_depth = 1000,
-                                              .heuristic = MisHeuristic::shadow_rays});
+            const PathTracer tracer(room.world,
+                                    {.max_depth = depth,
+                                     .roulette_depth = 1000,
+                                     .heuristic = MisHeuristic::shadow_rays});
             CHECK(pixels_of(tracer, room.camera, 2).mean ==
                   doctest::Approx(right).epsilon(1e-3));
         }
@@ -68,7 +69,7 @@ TEST_CASE("recursion_depth: a threshold loses what comes after it is crossed") {
             while (std::pow(double(albedo), last) >= threshold) ++last;
             const auto room = sphere_furnace<float>(Rgb{1}, Rgb{albedo});
             const auto ended = pixels_of(
-                examples::make_ended_paths(room.scene, Ending::threshold, 0, threshold),
+                examples::make_ended_paths(room.world, Ending::threshold, 0, threshold),
                 room.camera, 2);
             CHECK(ended.mean ==
                   doctest::Approx(light_to(double(albedo), last)).epsilon(1e-3));
@@ -84,7 +85,7 @@ TEST_CASE("recursion_depth: roulette loses nothing, wherever it begins") {
     for (const int from : {1, 4})
         for (const double threshold : {1.0, 0.2}) {
             const auto found =
-                pixels_of(examples::make_ended_paths(room.scene, Ending::roulette, from,
+                pixels_of(examples::make_ended_paths(room.world, Ending::roulette, from,
                                                      threshold),
                           room.camera, 256);
             CHECK(std::abs(found.mean - 4) < 5 * found.error() + 1e-3);
@@ -98,8 +99,7 @@ TEST_CASE("recursion_depth: the depth of the photon mapper ends camera paths") {
     const auto room = sphere_furnace<float>(Rgb{1}, Rgb{0.5f});
     for (const int depth : {1, 2, 5}) {
         PhotonMappingSettings settings{.max_depth = depth, .roulette_depth = 1000};
-        const auto maps = make_photon_maps(room.scene, settings);
-        const auto mapper = make_photon_mapper(room.scene, maps, settings);
+        const PhotonMapper mapper(room.world, settings);
         CHECK(pixels_of(mapper, room.camera, 2).mean ==
               doctest::Approx(light_to(0.5, depth)).epsilon(1e-3));
     }

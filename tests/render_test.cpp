@@ -10,9 +10,15 @@
 #include <type_traits>
 #include <utility>
 
+#include "ljus/path/light_transport.hpp"
+#include "ljus/radiosity/light_map.hpp"
+#include "ljus/render/distributed.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
+#include "ljus/render/plain_path_tracing.hpp"
+#include "ljus/render/plain_photon_mapping.hpp"
 #include "ljus/render/render.hpp"
+#include "ljus/render/whitted.hpp"
 #include "support/refusal.hpp"
 #include "support/rooms.hpp"
 #include "support/within.hpp"
@@ -27,10 +33,9 @@ struct Probe {
     using Stream = RandomStream;
     bool bad = false; ///< Every fourth path is not a number.
 };
-template <std::floating_point T, typename Log = NoLog>
-RgbT<T> radiance(const Probe& probe, const RayT<T>& ray, RandomStream& stream, Counts&,
-                 Log&& = {}) {
-    if (probe.bad && next_1d<T>(stream) < T(0.25))
+template <std::floating_point T, typename Context>
+RgbT<T> radiance(const Probe& probe, const RayT<T>& ray, Context& context) {
+    if (probe.bad && next_1d<T>(context.stream) < T(0.25))
         return RgbT<T>{std::numeric_limits<T>::quiet_NaN()};
     return {ray.direction.x / -ray.direction.z, ray.direction.y / -ray.direction.z,
             T(1)};
@@ -40,10 +45,9 @@ RgbT<T> radiance(const Probe& probe, const RayT<T>& ray, RandomStream& stream, C
 struct Echo {
     using Stream = RandomStream;
 };
-template <std::floating_point T, typename Log = NoLog>
-RgbT<T> radiance(const Echo&, const RayT<T>&, RandomStream& stream, Counts&,
-                 Log&& = {}) {
-    return next_3d<T>(stream);
+template <std::floating_point T, typename Context>
+RgbT<T> radiance(const Echo&, const RayT<T>&, Context& context) {
+    return next_3d<T>(context.stream);
 }
 
 /// A renderer that answers with its numbers, at once or later; every eighth answer is
@@ -51,7 +55,7 @@ RgbT<T> radiance(const Echo&, const RayT<T>&, RandomStream& stream, Counts&,
 struct Late {
     using Stream = RandomStream;
     /// The answers that come later.
-    struct Later {
+    struct Batch {
         std::uint32_t item = 0;
         std::vector<std::pair<std::uint32_t, Rgb>> answers{};
         void finish(const Late&, Counts& counts, std::span<Rgb> samples) {
@@ -61,21 +65,47 @@ struct Late {
         }
     };
 };
-template <typename Log = NoLog>
-Rgb radiance(const Late&, const Ray&, RandomStream& stream, Counts& counts,
-             Log&& log = {}) {
+template <typename Context>
+Rgb radiance(const Late&, const Ray&, Context& context) {
     Rgb sum{0};
-    for (int i = static_cast<int>(3 * next_1d(stream)); i > 0; --i) {
-        Rgb light = next_3d(stream);
+    for (int i = static_cast<int>(3 * next_1d(context.stream)); i > 0; --i) {
+        Rgb light = next_3d(context.stream);
         if (light.x < 0.125f) light.x = std::numeric_limits<float>::quiet_NaN();
-        if constexpr (requires { log.answers; }) {
-            log.answers.push_back({log.item, light});
+        if constexpr (requires { context.batch.answers; }) {
+            context.batch.answers.push_back({context.batch.item, light});
         } else {
-            ++counts.map_queries;
+            ++context.counts.map_queries;
             sum += light;
         }
     }
     return sum;
+}
+
+/// A caustics map that was made by hand, and nothing else.
+struct HandMade {
+    using Stream = RandomStream;
+    using Batch = detail::CausticsBatch<float>;
+    const ClosedRoom* room = nullptr;
+    PhotonMapsT<float> known{};
+    PhotonMappingSettings how{};
+
+    const PhotonMapsT<float>& maps() const { return known; }
+    const PhotonMappingSettings& settings() const { return how; }
+};
+template <typename Context>
+Rgb radiance(const HandMade& mapper, const Ray& ray, Context& context) {
+    const auto hit = closest_hit(*mapper.room, ray);
+    if (!hit) return Rgb{0};
+    const Vertex vertex = vertex_at(*mapper.room, ray, *hit);
+    return visit_material_at(*mapper.room, vertex, [&](const auto& material) {
+        if (detail::put_off(context.batch, vertex, material, Rgb{1},
+                            mapper.how.caustics_estimate))
+            return Rgb{0};
+        ++context.counts.map_queries;
+        return estimate_radiance(mapper.known.caustics, vertex, material, vertex.wo,
+                                 mapper.how.caustics_estimate, light_kinds,
+                                 context.counts.map_photons);
+    });
 }
 
 /// The picture of a renderer whose every question is answered at once.
@@ -83,13 +113,13 @@ template <typename R>
 RenderedT<float> plain_picture(const R& renderer, const Camera& camera,
                                const RenderSettings& picture) {
     RenderedT<float> plain{.image = make_image(picture.width, picture.height)};
-    const Pattern pattern = make_pattern(picture.sampling, picture.samples);
+    const PictureRays rays(picture);
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) {
             RgbT<double> sum{0};
             for (int i = 0; i < picture.samples; ++i) {
-                const auto found = detail::trace_pixel(renderer, camera, picture,
-                                                       pattern, x, y, i, plain.counts);
+                const auto found =
+                    trace_pixel(renderer, camera, rays, {x, y, i}, plain.counts);
                 const Rgb sample = found.weight * found.radiance;
                 if (is_finite(sample))
                     sum += RgbT<double>(sample);
@@ -127,12 +157,11 @@ TEST_CASE("render: caustics that are asked for together are those asked one by o
     const Camera camera = room_camera<float>();
     for (const Ball ball : {Ball::glass, Ball::oren_nayar, Ball::mixture})
         for (const std::size_t nearest : {0u, 20u}) {
-            const Room room = make_room<float>(ball, Lamp::quad, 1);
+            const ClosedRoom room = make_room<float>(ball, Lamp::quad, 1);
             PhotonMappingSettings settings;
             settings.caustics.photons = 20000;
             settings.caustics_estimate = {.radius = 0.1f, .nearest = nearest};
-            const auto maps = make_photon_maps(room, settings);
-            const auto mapper = make_photon_mapper(room, maps, settings);
+            const PhotonMapper mapper(room, settings);
             for (const int samples : {1, 5, 70}) {
                 const RenderSettings picture{
                     .width = 21, .height = 16, .samples = samples, .threads = 2};
@@ -161,14 +190,13 @@ TEST_CASE("render: no ray of a picture has the numbers of another one") {
                                      .height = seed == 1 ? 16 : 25,
                                      .samples = 4,
                                      .seed = seed};
-        const Pattern pattern = make_pattern(picture.sampling, 4);
+        const PictureRays rays(picture);
         for (int y = 0; y < picture.height; ++y)
             for (int x = 0; x < picture.width; ++x)
                 for (int i = 0; i < 4; ++i) {
                     Counts counts;
                     const auto numbers =
-                        detail::trace_pixel(Echo{}, CameraT<double>{}, picture, pattern,
-                                            x, y, i, counts)
+                        trace_pixel(Echo{}, CameraT<double>{}, rays, {x, y, i}, counts)
                             .radiance;
                     seen.insert({numbers.x, numbers.y, numbers.z});
                     CHECK(counts.camera_rays == 1);
@@ -185,10 +213,10 @@ TEST_CASE("render: as many rays are traced as were asked for, from 1 to 1000") {
         CHECK(seen.counts.camera_rays == 2 * static_cast<std::uint64_t>(rays));
         CHECK(seen.counts.rejected == 0);
     }
-    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
     for (const int rays : {1, 2, 7, 8, 10, 64, 101}) {
         const auto seen =
-            render(make_path_tracer(room), camera,
+            render(PathTracer(room), camera,
                    {.width = 5, .height = 3, .samples = rays, .threads = 1});
         CHECK(seen.counts.camera_rays == 15 * static_cast<std::uint64_t>(rays));
     }
@@ -344,14 +372,14 @@ TEST_CASE("render: a strip for every 16 pixels of a row, the last one part of on
 
 TEST_CASE("render: neighbours do not look through the same places of their squares") {
     for (const Sampling sampling : {Sampling::sobol, Sampling::multi_jittered}) {
-        const RenderSettings picture{.width = 8, .height = 8, .samples = 16};
-        const Pattern pattern = make_pattern(sampling, 16);
+        const RenderSettings picture{
+            .width = 8, .height = 8, .samples = 16, .sampling = sampling};
+        const PictureRays rays(picture);
         std::set<int> cells; // of 16 x 16, into which the first ray of each pixel goes
         for (int y = 0; y < 8; ++y)
             for (int x = 0; x < 8; ++x) {
                 RandomStream stream;
-                const auto at =
-                    detail::place_of_ray<double>(picture, pattern, x, y, 0, stream);
+                const auto at = sample_pixel<double>(rays, {x, y, 0}, stream);
                 const Vec2T<double> rest = at.place - Vec2T<double>(x, y);
                 cells.insert(int(16 * rest.x));
             }
@@ -359,9 +387,9 @@ TEST_CASE("render: neighbours do not look through the same places of their squar
         std::set<int> by_seed;   // the same of one pixel in 64 pictures
         for (std::uint64_t seed = 1; seed <= 64; ++seed) {
             RandomStream stream;
-            const auto at = detail::place_of_ray<double>(
-                {.width = 8, .height = 8, .samples = 16, .seed = seed}, pattern, 0, 0,
-                0, stream);
+            RenderSettings other = picture;
+            other.seed = seed;
+            const auto at = sample_pixel<double>(PictureRays(other), {0, 0, 0}, stream);
             by_seed.insert(int(16 * at.place.x));
         }
         CHECK(by_seed.size() > 8);
@@ -374,20 +402,19 @@ TEST_CASE("render: a ray goes as far from its pixel as the filter reaches") {
         CAPTURE(int(filter));
         const RenderSettings picture{
             .width = 9, .height = 6, .samples = 256, .seed = 3, .filter = filter};
-        const Pattern pattern = make_pattern(picture.sampling, 256);
+        const PictureRays rays(picture);
         double farthest = 0, sum = 0;
         bool negative = false;
         for (int i = 0; i < 256; ++i) {
             RandomStream stream;
-            const auto at =
-                detail::place_of_ray<double>(picture, pattern, 7, 4, i, stream);
+            const auto at = sample_pixel<double>(rays, {7, 4, i}, stream);
             farthest = std::max(
                 {farthest, std::abs(at.place.x - 7.5), std::abs(at.place.y - 4.5)});
             sum += at.weight;
             negative = negative || at.weight < 0;
             // Its stream is past the two numbers of the place, and no others.
             RandomStream twin;
-            start_ray(twin, 3, 4 * 9 + 7, i, pattern);
+            start_ray(twin, 3, 4 * 9 + 7, i, rays.pattern);
             (void)next_2d<double>(twin);
             CHECK(next_1d<double>(stream) == next_1d<double>(twin));
         }
@@ -407,7 +434,7 @@ TEST_CASE("render: sums of samples and of their squares, each by its weight") {
             renderer, sums, cost);
         const auto add = [&](std::size_t pixel, const Rgb& light, float weight) {
             samples.add(pixel, [&](auto&) {
-                return detail::PixelSampleT<float>{light, weight};
+                return PixelSampleT<float>{light, weight};
             });
         };
         for (int i = 0; i < repetitions; ++i) {
@@ -441,6 +468,7 @@ TEST_CASE("render: of a caustics map only light is seen, asked together or not")
     room.add(Quad{{-9, -9, -3}, {18, 0, 0}, {0, 18, 0}},
              room.add(Lambertian{.albedo = Rgb{0.5f}}));
     room.add(PointLight{.position{0, 0, 9}, .intensity = Rgb{1}});
+    const World world(std::move(room));
     PhotonMappingSettings settings{.max_depth = 1};
     settings.caustics_estimate.radius = 1;
     const auto picture_of = [&](bool shadows) {
@@ -455,9 +483,8 @@ TEST_CASE("render: of a caustics map only light is seen, asked together or not")
                      .kind = shadow ? PhotonKind::shadow : PhotonKind::caustic,
                      .normal = small_normal(Vec3{0, 0, 1})});
         }
-        PhotonMapsT<float> maps;
-        maps.caustics = make_photon_map(photons);
-        const auto mapper = make_photon_mapper(room, maps, settings);
+        HandMade mapper{.room = &world, .how = settings};
+        mapper.known.caustics = make_photon_map(photons);
         const RenderSettings picture{
             .width = 9, .height = 9, .samples = 2, .threads = 1};
         const auto together = render(mapper, Camera{}, picture);
@@ -477,20 +504,20 @@ TEST_CASE("render: of a caustics map only light is seen, asked together or not")
 }
 
 TEST_CASE("render: one pixel's ray is the same alone as in the picture") {
-    const Room room = make_room<float>(Ball::mixture, Lamp::quad, 1);
-    const auto tracer = make_path_tracer(room);
+    const ClosedRoom room = make_room<float>(Ball::mixture, Lamp::quad, 1);
+    const PathTracer tracer(room);
     const Camera camera = room_camera<float>();
     const RenderSettings picture{
         .width = 24, .height = 9, .samples = 5, .seed = 8, .threads = 1};
     const auto seen = render(tracer, camera, picture);
-    const Pattern pattern = make_pattern(picture.sampling, picture.samples);
+    const PictureRays rays(picture);
     for (const auto& [x, y] : {std::pair{0, 0}, std::pair{17, 4}, std::pair{23, 8}}) {
         RgbT<double> sum{0}; // as the pixel loop adds
         Counts counts;
         PathLog log;
         for (int i = 0; i < picture.samples; ++i) {
-            const auto found = detail::trace_pixel(tracer, camera, picture, pattern, x,
-                                                   y, i, counts, log);
+            const auto found =
+                trace_pixel(tracer, camera, rays, {x, y, i}, counts, log);
             sum += RgbT<double>(found.weight * found.radiance);
         }
         CHECK(Rgb(sum / double(picture.samples)) == pixel(seen.image, x, y));
@@ -500,8 +527,8 @@ TEST_CASE("render: one pixel's ray is the same alone as in the picture") {
 }
 
 TEST_CASE("render: rows that are rendered apart are the whole, byte by byte") {
-    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
-    const auto tracer = make_path_tracer(room);
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const PathTracer tracer(room);
     const RenderSettings picture{
         .width = 21, .height = 13, .samples = 3, .seed = 4, .threads = 2};
     const auto whole = render(tracer, Camera{}, picture);
@@ -531,4 +558,44 @@ TEST_CASE("render: rows that are rendered apart are the whole, byte by byte") {
     CHECK_THROWS_WITH_AS((void)render_rows(tracer, Camera{}, picture, {5, 14}),
                          "the last row is 14; it must be at most the picture's height.",
                          std::invalid_argument);
+}
+
+namespace {
+
+/// Whether R can be made of a named X, and not of one that is gone at once.
+template <typename R, typename X, typename... More>
+constexpr bool refers_to = std::is_constructible_v<R, const X&, More...>&&
+                               std::is_constructible_v<R, X&, More...> &&
+                           !std::is_constructible_v<R, X, More...> &&
+                           !std::is_constructible_v<R, const X, More...>;
+
+using W = ClosedRoom;
+static_assert(refers_to<PathTracer<W>, W>);
+static_assert(refers_to<PathTracer<W>, W, PathTracingSettings>);
+static_assert(refers_to<PlainPathTracer<W>, W>);
+static_assert(refers_to<PlainPathTracer<W>, W, int>);
+static_assert(refers_to<WhittedTracer<W>, W>);
+static_assert(refers_to<WhittedTracer<W>, W, WhittedSettings>);
+static_assert(refers_to<DistributedTracer<W>, W>);
+static_assert(refers_to<DistributedTracer<W>, W, DistributedSettings>);
+static_assert(refers_to<PhotonMapper<W>, W>);
+static_assert(refers_to<PhotonMapper<W>, W, PhotonMappingSettings>);
+static_assert(refers_to<PlainPhotonMapper<W>, W, PhotonMap>);
+static_assert(refers_to<LightMapView<W>, W, LightMap>);
+static_assert(refers_to<OnlyPaths<PathTracer<W>>, PathTracer<W>, const char*>);
+static_assert(refers_to<PictureRays, RenderSettings>);
+
+} // namespace
+
+TEST_CASE("render: what a renderer refers to has a name, and is referred to") {
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const PathTracer tracer(room);
+    CHECK(&tracer.world() == &room);
+    CHECK(&PlainPathTracer(room).world() == &room);
+    CHECK(&WhittedTracer(room).world() == &room);
+    CHECK(&DistributedTracer(room).world() == &room);
+    CHECK(&PlainPhotonMapper(room, PhotonMap{}).world() == &room);
+    CHECK(&OnlyPaths(tracer, "EDL").whole() == &tracer);
+    const RenderSettings picture;
+    CHECK(&PictureRays(picture).picture == &picture);
 }

@@ -65,9 +65,8 @@ Means means(const Camera& camera, int rays, const MakeRenderer& with_renderer) {
 
 template <typename Scene>
 Means path_means(const Room<Scene>& room, int rays) {
-    return means(room.camera, rays, [&](std::uint64_t, const auto& use) {
-        use(make_path_tracer(room.scene));
-    });
+    return means(room.camera, rays,
+                 [&](std::uint64_t, const auto& use) { use(PathTracer(room.world)); });
 }
 
 template <typename Scene>
@@ -76,8 +75,7 @@ Means photon_means(const Room<Scene>& room, int rays, float radius) {
         const PhotonMappingSettings settings{
             .caustics = {.photons = 10'000, .seed = test_seed(seed)},
             .caustics_estimate = {.radius = radius}};
-        const auto maps = make_photon_maps(room.scene, settings);
-        use(make_photon_mapper(room.scene, maps, settings));
+        use(PhotonMapper(room.world, settings));
     });
 }
 
@@ -103,9 +101,10 @@ void check_both_renderers_agree(const Room<Scene>& room, int rays, float radius)
 }
 
 // How many quads, spheres and triangles, which is the order of the report's types.
-template <typename Scene>
-std::array<std::size_t, 3> counts_of(const Scene& scene) {
-    return {scene.objects[0].size(), scene.objects[1].size(), scene.objects[2].size()};
+template <AnyWorld W>
+std::array<std::size_t, 3> counts_of(const W& world) {
+    const auto& objects = world.objects();
+    return {objects[0].size(), objects[1].size(), objects[2].size()};
 }
 
 // Every quad and triangle that does not shine turns its normal to a point in the room.
@@ -133,11 +132,11 @@ struct ReportBall {
 };
 
 // The ball is there, of the material that the table of report_rooms.hpp makes of it.
-template <typename Scene>
-void check_ball(const Scene& scene, std::size_t number, const ReportBall& right) {
+template <AnyWorld W>
+void check_ball(const W& world, std::size_t number, const ReportBall& right) {
     CAPTURE(number);
-    const Sphere& ball = std::get<std::vector<Sphere>>(scene.shapes)[number];
-    const auto& object = scene.objects[1][number];
+    const Sphere& ball = std::get<std::vector<Sphere>>(world.shapes())[number];
+    const auto& object = world.objects()[1][number];
     CHECK(ball.center == right.center);
     CHECK(ball.radius == right.radius);
     CHECK(is_black(object.emission));
@@ -147,7 +146,7 @@ void check_ball(const Scene& scene, std::size_t number, const ReportBall& right)
         for (int i = 0; i < 3; ++i)
             CHECK(through[i] == doctest::Approx(std::max(right.color[i], 0.05f)));
     };
-    scene.visit_material(object.material, [&]<typename M>(const M& m) {
+    world.visit_material(object.material, [&]<typename M>(const M& m) {
         if constexpr (std::same_as<M, Lambertian>) {
             CHECK(right.reflectivity + right.transparency == 0);
             CHECK(m.albedo == 0.75f * right.color);
@@ -172,19 +171,19 @@ void check_ball(const Scene& scene, std::size_t number, const ReportBall& right)
 }
 
 // Seen from a point, a matt wall stands at this place and has this albedo.
-template <typename Scene>
-void check_wall(const Scene& scene, const Vec3& from, const Vec3& place,
+template <AnyWorld W>
+void check_wall(const W& world, const Vec3& from, const Vec3& place,
                 const Rgb& albedo) {
     CAPTURE(place.x);
     CAPTURE(place.y);
     CAPTURE(place.z);
     const Ray ray{.origin = from, .direction = place - from};
-    const auto hit = closest_hit(scene, ray);
+    const auto hit = closest_hit(world, ray);
     REQUIRE(hit);
     CHECK(hit->at.t == doctest::Approx(1).epsilon(1e-5));
-    const auto& object = scene.object(hit->object);
+    const auto& object = world.object(hit->object);
     CHECK(is_black(object.emission));
-    scene.visit_material(object.material, [&]<typename M>(const M& m) {
+    world.visit_material(object.material, [&]<typename M>(const M& m) {
         if constexpr (std::same_as<M, Lambertian>)
             for (int i = 0; i < 3; ++i)
                 CHECK(m.albedo[i] == doctest::Approx(albedo[i]).epsilon(1e-6));
@@ -193,16 +192,29 @@ void check_wall(const Scene& scene, const Vec3& from, const Vec3& place,
     });
 }
 
+// A light that is a quad, and its radiance.
+template <AnyWorld W>
+std::pair<Quad, Rgb> lamp_of(const W& world, std::uint32_t number) {
+    return world.visit_light(number, [](const auto& light) {
+        std::pair<Quad, Rgb> lamp;
+        if constexpr (std::same_as<std::remove_cvref_t<decltype(light)>,
+                                   AreaLightT<Quad>>)
+            lamp = {light.shape, light.lamp.radiance};
+        else
+            FAIL_CHECK("it is no square");
+        return lamp;
+    });
+}
+
 // A lamp is a square in the ceiling, from a corner.
-template <typename Scene>
-void check_lamp(const Scene& scene, std::size_t number, const Vec3& corner, float side,
+template <AnyWorld W>
+void check_lamp(const W& world, std::size_t number, const Vec3& corner, float side,
                 const Rgb& radiance) {
-    const Light& light = scene.lights[number];
-    const auto& quad = std::get<std::vector<Quad>>(scene.shapes)[light.object->index];
+    const auto [quad, emitted] = lamp_of(world, std::uint32_t(number));
     const Vec3 middle = corner + Vec3{side / 2, side / 2, 0};
     CHECK(glm::distance(point_at(quad, 0.5f, 0.5f).position, middle) < 1e-5f);
     CHECK(area(quad) == doctest::Approx(side * side));
-    CHECK(light.emission == radiance);
+    CHECK(emitted == radiance);
     CHECK(normal(quad).z == -1.0f);
 }
 
@@ -223,14 +235,14 @@ TEST_CASE(
 
 TEST_CASE("rooms: the final room has the report's objects") {
     const auto room = final_room();
-    CHECK(counts_of(room.scene) == std::array<std::size_t, 3>{8, 8, 6});
-    REQUIRE(room.scene.lights.size() == 2);
-    const SceneNeeds found = needs(room.scene);
+    CHECK(counts_of(room.world) == std::array<std::size_t, 3>{8, 8, 6});
+    REQUIRE(room.world.light_count() == 2);
+    const SceneNeeds found = needs(room.world);
     CHECK(found.specular == 5);
     CHECK(found.diffuse == 8 + 6 + 3);
     // Areas 4 and 1, the second one yellowish.
-    const Rgb big = room.scene.lights[0].flux;
-    const Rgb small = room.scene.lights[1].flux;
+    const Rgb big = room.world.powers()[0];
+    const Rgb small = room.world.powers()[1];
     CHECK(big.x == doctest::Approx(4 * double(small.x)));
     CHECK(small.z == doctest::Approx(0.65 * double(small.x)));
     CHECK(big.x == big.z);
@@ -238,14 +250,14 @@ TEST_CASE("rooms: the final room has the report's objects") {
 
 TEST_CASE("rooms: the other rooms of the report have theirs") {
     const auto all = all_materials_room();
-    CHECK(counts_of(all.scene) == std::array<std::size_t, 3>{7, 6, 6});
-    CHECK(all.scene.lights.size() == 1);
-    CHECK(needs(all.scene).specular == 3);
+    CHECK(counts_of(all.world) == std::array<std::size_t, 3>{7, 6, 6});
+    CHECK(all.world.light_count() == 1);
+    CHECK(needs(all.world).specular == 3);
 
     const auto glass = four_glass_room();
-    CHECK(counts_of(glass.scene) == std::array<std::size_t, 3>{7, 4, 2});
-    CHECK(glass.scene.lights.size() == 1);
-    CHECK(needs(glass.scene).specular == 4);
+    CHECK(counts_of(glass.world) == std::array<std::size_t, 3>{7, 4, 2});
+    CHECK(glass.world.light_count() == 1);
+    CHECK(needs(glass.world).specular == 4);
 }
 
 TEST_CASE("rooms: the report's walls, floor and ceiling face inwards") {
@@ -279,7 +291,7 @@ TEST_CASE("rooms: the report's walls, floor and ceiling face inwards") {
 
 TEST_CASE("rooms: the tetrahedron's normals are those of the report's program") {
     const auto room = final_room();
-    const auto& triangles = std::get<2>(room.scene.shapes);
+    const auto& triangles = std::get<2>(room.world.shapes());
     constexpr std::array<Vec3, 4> stored{
         Vec3{-2.8036f, 1.15f, 1.63f}, Vec3{0, 1.14f, -3.26f},
         Vec3{2.8036f, 1.15f, 1.63f}, Vec3{0, -3.44f, 0}};
@@ -290,21 +302,26 @@ TEST_CASE("rooms: the tetrahedron's normals are those of the report's program") 
 
 TEST_CASE("rooms: lamps shine downwards and reflect nothing") {
     const auto room = final_room();
-    for (const Light& light : room.scene.lights) {
-        REQUIRE(light.object);
-        const auto& quad = std::get<0>(room.scene.shapes)[light.object->index];
+    for (std::uint32_t light = 0; light < room.world.light_count(); ++light) {
+        REQUIRE(room.world.can_be_met(light));
+        const Quad quad = lamp_of(room.world, light).first;
         CHECK(normal(quad).z == -1.0f);
         CHECK(quad.corner.z < 5.0f);
-        const auto object = room.scene.object(*light.object);
-        CHECK(room.scene.visit_material(object.material, [](const auto& m) {
+    }
+    int lamps = 0;
+    for (const auto& object : room.world.objects()[0]) {
+        if (object.light == no_light) continue;
+        ++lamps;
+        CHECK(room.world.visit_material(object.material, [](const auto& m) {
             return is_black(evaluate(m, Vec3{0, 0, 1}, Vec3{0, 0, 1}));
         }));
     }
+    CHECK(lamps == 2);
 }
 
 TEST_CASE("rooms: coloured glass leaves the square of its colour in the middle") {
     const auto room = final_room();
-    const auto& glasses = std::get<1>(room.scene.materials);
+    const auto& glasses = std::get<1>(room.world.materials());
     REQUIRE(glasses.size() == 3);
     // Yellow, radius 1.5, its blue 0 raised to 0.05; purple, radius 0.5.
     const Rgb yellow = transmittance(glasses[0].absorption, 3.0f);
@@ -320,7 +337,7 @@ TEST_CASE("rooms: coloured glass leaves the square of its colour in the middle")
 TEST_CASE(
     "rooms: the thin glass mirrors and transmits as 0.6 to 1, and no more light") {
     const auto room = all_materials_room();
-    const auto& mixtures = std::get<3>(room.scene.materials);
+    const auto& mixtures = std::get<3>(room.world.materials());
     REQUIRE(mixtures.size() == 1);
     const auto share = detail::mixture_shares(mixtures[0], Vec3{0, 0, 1}, Lobes::all);
     CHECK(share.reflect / share.refract == doctest::Approx(0.6));
@@ -356,28 +373,28 @@ TEST_CASE("rooms: what stands where in the report's rooms, by its program's hist
     const auto last = final_room(), all = all_materials_room(),
                glass = four_glass_room();
     for (std::size_t i = 0; i < 4; ++i) {
-        check_ball(last.scene, i, matt[i]);
-        check_ball(all.scene, i, matt[i]);
-        check_ball(last.scene, 4 + i, in_final[i]);
-        check_ball(glass.scene, i, of_glass[i]);
+        check_ball(last.world, i, matt[i]);
+        check_ball(all.world, i, matt[i]);
+        check_ball(last.world, 4 + i, in_final[i]);
+        check_ball(glass.world, i, of_glass[i]);
     }
-    for (std::size_t i = 0; i < 2; ++i) check_ball(all.scene, 4 + i, in_all[i]);
+    for (std::size_t i = 0; i < 2; ++i) check_ball(all.world, 4 + i, in_all[i]);
     // A lamp of 2 by 2; the final room has a small yellowish one beside it.
     for (const auto* room : {&last, &all, &glass})
-        check_lamp(room->scene, 0, {5, -1, 4.999f}, 2, Rgb{30});
-    check_lamp(last.scene, 1, {4, 2, 4.999f}, 1, 30.0f * Rgb{1, 1, 0.65f});
+        check_lamp(room->world, 0, {5, -1, 4.999f}, 2, Rgb{30});
+    check_lamp(last.world, 1, {4, 2, 4.999f}, 1, 30.0f * Rgb{1, 1, 0.65f});
     // The tetrahedron, corner by corner.
     const Vec3 v[] = {
         {7, 5.09f, -1}, {7, 3.46f, 0.15f}, {6, 3.46f, -1.57f}, {8, 3.46f, -1.57f}};
     const int faces[][3] = {{0, 2, 1}, {0, 3, 2}, {1, 3, 0}, {2, 3, 1}};
     for (const auto* room : {&last, &all})
         for (std::size_t i = 0; i < 4; ++i) {
-            const auto& face = std::get<2>(room->scene.shapes)[2 + i];
+            const auto& face = std::get<2>(room->world.shapes())[2 + i];
             CHECK(face.v1 == v[faces[i][0]]);
             CHECK(face.v2 == v[faces[i][1]]);
             CHECK(face.v3 == v[faces[i][2]]);
-            const auto& object = room->scene.objects[2][2 + i];
-            const auto& cyan = std::get<0>(room->scene.materials);
+            const auto& object = room->world.objects()[2][2 + i];
+            const auto& cyan = std::get<0>(room->world.materials());
             CHECK(cyan[object.material.index].albedo == Rgb{0, 0.75f, 0.75f});
         }
 }
@@ -385,50 +402,50 @@ TEST_CASE("rooms: what stands where in the report's rooms, by its program's hist
 TEST_CASE("rooms: the report's walls, by rays to their middles and into the corners") {
     Scene<Shapes<Quad, Triangle>, Materials<Lambertian>> scene;
     add_report_room(scene);
+    const World world(std::move(scene));
     const Vec3 from{5, 0, 0};
     const Rgb green = 0.75f * Rgb{0.05f, 1, 0.05f}, blue = 0.75f * Rgb{0.05f, 0.05f, 1};
     const Rgb red = 0.75f * Rgb{1, 0.05f, 0.05f}, white{0.75f};
     const Rgb orange = 0.75f * Rgb{1, 0.25f, 0.05f};
     for (const float z : {-4.9f, 0.0f, 4.9f}) {
         for (const float x : {0.1f, 5.0f, 9.9f}) {
-            check_wall(scene, from, {x, 6, z}, green);
-            check_wall(scene, from, {x, -6, z}, orange);
+            check_wall(world, from, {x, 6, z}, green);
+            check_wall(world, from, {x, -6, z}, orange);
         }
         for (const float s : {0.02f, 0.5f, 0.98f}) {
-            check_wall(scene, from, {10 + 3 * s, 6 - 6 * s, z}, blue);
-            check_wall(scene, from, {13 - 3 * s, -6 * s, z}, red);
+            check_wall(world, from, {10 + 3 * s, 6 - 6 * s, z}, blue);
+            check_wall(world, from, {13 - 3 * s, -6 * s, z}, red);
         }
     }
     for (const float z : {-5.0f, 5.0f})
         for (const Vec3& place :
              {Vec3{0.1f, 5.9f, z}, Vec3{0.1f, -5.9f, z}, Vec3{5, 0, z},
               Vec3{9.9f, 5.9f, z}, Vec3{9.9f, -5.9f, z}, Vec3{12.9f, 0, z}})
-            check_wall(scene, from, place, white);
+            check_wall(world, from, place, white);
     // Behind the camera it is open.
-    CHECK_FALSE(closest_hit(scene, Ray{.origin = from, .direction{-1, 0, 0}}));
+    CHECK_FALSE(closest_hit(world, Ray{.origin = from, .direction{-1, 0, 0}}));
 }
 
 TEST_CASE("rooms: the Cornell boxes, number by number") {
     const auto check_box = [](const auto& room) {
-        const auto& scene = room.scene;
+        const auto& world = room.world;
         const Vec3 from{0, 1, 0};
         for (const float a : {-0.9f, 0.9f}) {
-            check_wall(scene, {0, 1, 0.9f}, {a, 0, 0.95f}, Rgb{0.75f});
-            check_wall(scene, from, {a, 2, -0.9f}, Rgb{0.75f});
-            check_wall(scene, from, {a, 1.9f, -1}, Rgb{0.75f});
-            check_wall(scene, from, {-1, 1.9f, a}, Rgb{0.63f, 0.06f, 0.05f});
-            check_wall(scene, from, {1, 1.9f, a}, Rgb{0.14f, 0.45f, 0.09f});
+            check_wall(world, {0, 1, 0.9f}, {a, 0, 0.95f}, Rgb{0.75f});
+            check_wall(world, from, {a, 2, -0.9f}, Rgb{0.75f});
+            check_wall(world, from, {a, 1.9f, -1}, Rgb{0.75f});
+            check_wall(world, from, {-1, 1.9f, a}, Rgb{0.63f, 0.06f, 0.05f});
+            check_wall(world, from, {1, 1.9f, a}, Rgb{0.14f, 0.45f, 0.09f});
         }
-        CHECK_FALSE(closest_hit(scene, Ray{.origin = from, .direction{0, 0, 1}}));
-        REQUIRE(scene.lights.size() == 1);
-        const Light& light = scene.lights[0];
-        const auto& lamp = std::get<0>(scene.shapes)[light.object->index];
+        CHECK_FALSE(closest_hit(world, Ray{.origin = from, .direction{0, 0, 1}}));
+        REQUIRE(world.light_count() == 1);
+        const auto [lamp, radiance] = lamp_of(world, 0);
         CHECK(glm::distance(point_at(lamp, 0.5f, 0.5f).position, Vec3{0, 1.99f, 0}) <
               1e-6f);
         CHECK(area(lamp) == doctest::Approx(0.25));
         CHECK(normal(lamp).y == -1.0f);
-        CHECK(light.emission == Rgb{17, 13, 8});
-        const auto& balls = std::get<std::vector<Sphere>>(scene.shapes);
+        CHECK(radiance == Rgb{17, 13, 8});
+        const auto& balls = std::get<std::vector<Sphere>>(world.shapes());
         REQUIRE(balls.size() == 2);
         CHECK(balls[0].center == Vec3{-0.42f, 0.38f, -0.3f});
         CHECK(balls[1].center == Vec3{0.42f, 0.38f, 0.3f});
@@ -441,13 +458,13 @@ TEST_CASE("rooms: the Cornell boxes, number by number") {
     };
     const auto box = cornell_box();
     check_box(box);
-    CHECK(std::get<1>(box.scene.materials)[0].reflectance == Rgb{0.95f});
-    CHECK(std::get<2>(box.scene.materials)[0].index == 1.5f);
-    CHECK(is_black(std::get<2>(box.scene.materials)[0].absorption));
+    CHECK(std::get<1>(box.world.materials())[0].reflectance == Rgb{0.95f});
+    CHECK(std::get<2>(box.world.materials())[0].index == 1.5f);
+    CHECK(is_black(std::get<2>(box.world.materials())[0].absorption));
     const auto matt = matt_cornell_box();
     check_box(matt);
-    CHECK(std::get<0>(matt.scene.materials)[3].albedo == Rgb{0.2f, 0.35f, 0.7f});
-    CHECK(std::get<0>(matt.scene.materials)[4].albedo == Rgb{0.7f});
+    CHECK(std::get<0>(matt.world.materials())[3].albedo == Rgb{0.2f, 0.35f, 0.7f});
+    CHECK(std::get<0>(matt.world.materials())[4].albedo == Rgb{0.7f});
 }
 
 TEST_CASE("rooms: a furnace is closed and shines inwards from all its walls") {
@@ -458,9 +475,9 @@ TEST_CASE("rooms: a furnace is closed and shines inwards from all its walls") {
             const float r = std::sqrt(1 - z * z);
             const Ray ray{.origin{0.1f, -0.2f, 0.3f},
                           .direction{r * std::cos(phi), r * std::sin(phi), z}};
-            const auto hit = closest_hit(room.scene, ray);
+            const auto hit = closest_hit(room.world, ray);
             missed += !hit;
-            if (hit) dark += !vertex_at(room.scene, ray, *hit).emits();
+            if (hit) dark += !vertex_at(room.world, ray, *hit).emits();
         }
         CHECK(missed == 0);
         CHECK(dark == 0);

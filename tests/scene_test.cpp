@@ -13,9 +13,12 @@
 #include <vector>
 
 #include "ljus/geometry/metaballs.hpp"
+#include "ljus/lights/point_light.hpp"
+#include "ljus/lights/sun_light.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
+#include "ljus/scene/world.hpp"
 #include "support/refusal.hpp"
 
 using namespace ljus;
@@ -26,8 +29,8 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 
-using Room =
-    Scene<Shapes<Sphere, Quad, Triangle>, Materials<Lambertian, Glass, Mirror>>;
+using Room = Scene<Shapes<Sphere, Quad, Triangle>, Materials<Lambertian, Glass, Mirror>,
+                   Lights<PointLight, SunLight>>;
 
 /// What a scene can add, as the compiler sees it.
 template <typename S, typename... Args>
@@ -39,15 +42,53 @@ static_assert(Takes<Room, Sphere, MaterialId> && Takes<Room, Quad, MaterialId, R
               Takes<Room, Triangle, MaterialId, Rgb, bool> && Takes<Room, Glass> &&
               Takes<Room, PointLight>);
 // What is not listed gives a sentence, which tests/checks/short_errors.sh asks for.
-static_assert(Room::lists<Triangle> && Room::lists<Mirror> &&
+static_assert(Room::lists<Triangle> && Room::lists<Mirror> && Room::lists<SunLight> &&
               !Room::lists<SphereT<double>> && !Room::lists<LambertianT<double>>);
 using Small = Scene<Shapes<Sphere>, Materials<Lambertian>>;
-static_assert(Small::lists<Sphere> && !Small::lists<Quad> && !Small::lists<Glass>);
+static_assert(Small::lists<Sphere> && !Small::lists<Quad> && !Small::lists<Glass> &&
+              !Small::lists<PointLight>);
 static_assert(detail::each_once<> && detail::each_once<int> &&
               detail::each_once<int, char> && !detail::each_once<int, char, int> &&
               !detail::each_once<char, int, int>);
 
+/// What a light is worked out to be; that of an object, else a lamp without an area.
+template <AnyWorld W>
+LampT<typename W::Scalar> lamp_of(const W& world, std::uint32_t number) {
+    return world.visit_light(number, [](const auto& light) {
+        if constexpr (requires { light.lamp; })
+            return light.lamp;
+        else
+            return LampT<typename W::Scalar>{};
+    });
+}
+
+/// The sphere around the scene, as a sun knows it.
+template <AnyWorld W>
+SphereT<typename W::Scalar> around(const W& world, std::uint32_t number) {
+    return world.visit_light(number, [](const auto& light) {
+        if constexpr (requires { light.around; })
+            return light.around;
+        else
+            return SphereT<typename W::Scalar>{};
+    });
+}
+
 } // namespace
+
+TEST_CASE("scene: numbers are equal when type and index are") {
+    CHECK(MaterialId{1, 2} == MaterialId{1, 2});
+    CHECK(MaterialId{1, 2} != MaterialId{2, 1});
+    CHECK(ObjectId{0, 3} == ObjectId{0, 3});
+    CHECK(ObjectId{0, 3} != ObjectId{0, 4});
+    CHECK(ObjectId{0, 3} != ObjectId{1, 3});
+}
+
+TEST_CASE("scene: without more said an object neither emits nor is inside out") {
+    const ObjectT<float> object{.material = {1, 2}};
+    CHECK(is_black(object.emission));
+    CHECK_FALSE(object.inside_out);
+    CHECK(object.light == std::numeric_limits<std::uint32_t>::max());
+}
 
 TEST_CASE("scene: what is added is found again, as its own type") {
     Room room;
@@ -69,21 +110,24 @@ TEST_CASE("scene: what is added is found again, as its own type") {
     CHECK(room.size() == 4);
     CHECK(Room{}.size() == 0);
 
-    CHECK(room.object(ball).material == clear);
-    CHECK(room.object(small).material == white);
-    CHECK(room.object(floor).material == grey);
+    const World world(room);
+    CHECK(world.size() == 4);
+    CHECK(World(Room{}).size() == 0);
+    CHECK(world.object(ball).material == clear);
+    CHECK(world.object(small).material == white);
+    CHECK(world.object(floor).material == grey);
     const auto area_of = [&](ObjectId id) {
-        return room.visit_shape(id, [](const auto& shape) { return area(shape); });
+        return world.visit_shape(id, [](const auto& shape) { return area(shape); });
     };
     CHECK(double(area_of(small)) == doctest::Approx(3.14159265));
     CHECK(area_of(floor) == 1.0f);
     CHECK(area_of(face) == 0.5f);
     const auto kind_of = [&](MaterialId id) {
-        return room.visit_material(id, [](const auto& m) { return lobes(m); });
+        return world.visit_material(id, [](const auto& m) { return lobes(m); });
     };
     CHECK(kind_of(white) == Lobes::diffuse);
     CHECK(kind_of(clear) == Lobes::specular);
-    room.visit_material(grey, [](const auto& m) {
+    world.visit_material(grey, [](const auto& m) {
         using M = std::remove_cvref_t<decltype(m)>;
         static_assert(Material<M>);
         if constexpr (std::is_same_v<M, Lambertian>)
@@ -96,9 +140,10 @@ TEST_CASE("scene: what is added is found again, as its own type") {
 TEST_CASE("scene: visitors may return references") {
     Small scene;
     const auto id = scene.add(Sphere{}, scene.add(Lambertian{}));
-    decltype(auto) shape = scene.visit_shape(
+    const World world(std::move(scene));
+    decltype(auto) shape = world.visit_shape(
         id, [](const auto& s) -> const auto& { return s; });
-    CHECK(&shape == std::get<0>(scene.shapes).data());
+    CHECK(&shape == std::get<0>(world.shapes()).data());
 }
 
 TEST_CASE("scene: lights are numbered as they come") {
@@ -110,18 +155,34 @@ TEST_CASE("scene: lights are numbered as they come") {
     room.add(PointLight{.position{1, 2, 3}, .intensity = Rgb{7}});
     room.add(Sphere{}, black);
     const auto bulb = room.add(Sphere{}, black, Rgb{1}, true);
-    REQUIRE(room.lights.size() == 3);
-    CHECK(room.lights[0].object == lamp);
-    CHECK(room.lights[0].emission == Rgb{0, 0, 5});
-    CHECK(room.object(lamp).light == 0);
-    CHECK(room.object(lamp).emission == Rgb{0, 0, 5});
-    CHECK_FALSE(room.lights[1].object);
-    CHECK(room.lights[1].position == Vec3{1, 2, 3});
-    CHECK(room.lights[1].emission == Rgb{7});
-    CHECK(room.lights[2].object == bulb);
-    CHECK(room.object(bulb).light == 2);
-    CHECK(room.object(bulb).inside_out);
-    CHECK(is_black(room.object({0, 0}).emission));
+    CHECK(room.light_count() == 3);
+    const World world(std::move(room));
+    REQUIRE(world.light_count() == 3);
+    CHECK(world.can_be_met(0));
+    CHECK(lamp_of(world, 0).radiance == Rgb{0, 0, 5});
+    CHECK(world.object(lamp).light == 0);
+    CHECK(world.object(lamp).emission == Rgb{0, 0, 5});
+    CHECK_FALSE(world.can_be_met(1));
+    world.visit_light(1, []<typename L>(const L& light) {
+        if constexpr (std::is_same_v<L, PointLight>) {
+            CHECK(light.position == Vec3{1, 2, 3});
+            CHECK(light.intensity == Rgb{7});
+        } else {
+            CHECK(false);
+        }
+    });
+    CHECK(world.can_be_met(2));
+    CHECK(world.object(bulb).light == 2);
+    CHECK(world.object(bulb).inside_out);
+    CHECK(lamp_of(world, 2).inside_out);
+    CHECK_FALSE(lamp_of(world, 0).inside_out);
+    // A lamp refers to the shape of its object.
+    const void* shape = world.visit_light(2, [](const auto& light) -> const void* {
+        if constexpr (requires { light.shape; }) return &light.shape;
+        return nullptr;
+    });
+    CHECK(shape == &std::get<0>(world.shapes())[bulb.index]);
+    CHECK(is_black(world.object({0, 0}).emission));
 }
 
 namespace glowing {
@@ -156,9 +217,15 @@ TEST_CASE("scene: what a material emits is added to what the shape emits") {
     const auto glow = scene.add(glowing::Glow{});
     const auto alone = scene.add(Sphere{}, glow);
     const auto both = scene.add(Sphere{}, glow, Rgb{1, 1, 0});
-    CHECK(scene.object(alone).emission == Rgb{2, 0, 0});
-    CHECK(scene.object(both).emission == Rgb{3, 1, 0});
-    CHECK(scene.lights.size() == 2);
+    // A scene keeps what it was given; a world knows the sum.
+    CHECK(scene.objects[0][both.index].emission == Rgb{1, 1, 0});
+    CHECK(scene.light_count() == 2);
+    const World world(std::move(scene));
+    CHECK(world.object(alone).emission == Rgb{2, 0, 0});
+    CHECK(world.object(both).emission == Rgb{3, 1, 0});
+    REQUIRE(world.light_count() == 2);
+    CHECK(lamp_of(world, 0).radiance == Rgb{2, 0, 0});
+    CHECK(lamp_of(world, 1).radiance == Rgb{3, 1, 0});
 }
 
 TEST_CASE("scene: every bad input is one sentence with its name and value") {
@@ -211,7 +278,9 @@ TEST_CASE("scene: every bad input is one sentence with its name and value") {
 
     // Nothing of that is in the scene now.
     CHECK(room.size() == before);
-    CHECK(room.lights.empty());
+    CHECK(room.light_count() == 0);
+    CHECK(room.order.empty());
+    CHECK(std::get<0>(room.lights).empty());
     CHECK(std::get<0>(room.materials).size() == 1);
     for (const auto& objects : room.objects) CHECK(objects.empty());
 }
@@ -219,7 +288,8 @@ TEST_CASE("scene: every bad input is one sentence with its name and value") {
 TEST_CASE("scene: a sun shines on all that there is, whenever it was added") {
     // Balls in two corners of a box from (-1, 2, 3) to (3, 8, 15), one of them beyond
     // the other in each coordinate, and one within: half its diagonal is 7.
-    using Sky = Scene<Shapes<SphereT<double>>, Materials<LambertianT<double>>>;
+    using Sky = Scene<Shapes<SphereT<double>>, Materials<LambertianT<double>>,
+                      Lights<SunLightT<double>>>;
     const Vec3T<double> low{-1, 2, 3}, high{3, 8, 15};
     for (int turn = 0; turn < 4; ++turn)
         for (const bool low_first : {true, false}) {
@@ -236,9 +306,11 @@ TEST_CASE("scene: a sun shines on all that there is, whenever it was added") {
             sun(2);
             sky.add(SphereT<double>{{1, 5, 9}, 1}, grey);
             sun(3);
-            REQUIRE(sky.lights.size() == 1);
-            CHECK(glm::distance(sky.lights[0].position, Vec3T<double>{1, 5, 9}) < 1e-9);
-            CHECK(sky.lights[0].radius == doctest::Approx(7.007));
+            const World world(std::move(sky));
+            REQUIRE(world.light_count() == 1);
+            CHECK(glm::distance(around(world, 0).center, Vec3T<double>{1, 5, 9}) <
+                  1e-9);
+            CHECK(around(world, 0).radius == doctest::Approx(7.007));
         }
 }
 
@@ -254,7 +326,7 @@ TEST_CASE("scene: what cannot be a light is refused as one, and shines on nobody
     CHECK(refusal([&] {
               scene.add(shape, grey, Rgb{1});
           }).find("the radiance of a shape of unknown area is (1, 1, 1)") == 0);
-    CHECK(scene.lights.empty());
+    CHECK(scene.light_count() == 0);
     CHECK(scene.size() == 0);
     // One past the last type, and one past the last material.
     CHECK(refusal([&] {
@@ -276,17 +348,19 @@ TEST_CASE("scene: an object knows its light, a flat light its normal and area") 
                                     matt, Rgb{1}, true);
     const ObjectId later = room.add(Quad{}, matt);
     const ObjectId ball = room.add(Sphere{}, matt, Rgb{1});
-    CHECK(room.object(dark).light == detail::no_light);
-    CHECK(room.object(later).light == detail::no_light);
-    CHECK(room.object(lamp).light == 1);
-    CHECK(room.object(wedge).light == 2);
-    CHECK(room.object(ball).light == 3);
+    const World world(std::move(room));
+    CHECK(world.object(dark).light == no_light);
+    CHECK(world.object(later).light == no_light);
+    CHECK(world.object(lamp).light == 1);
+    CHECK(world.object(wedge).light == 2);
+    CHECK(world.object(ball).light == 3);
     // Of the shape itself: where it is inside out, sample_light() turns it.
-    CHECK(room.lights[1].direction == Vec3{0, -1, 0});
-    CHECK(room.lights[1].area == 6);
-    CHECK(room.lights[2].direction == Vec3{0, 0, 1});
-    CHECK(room.lights[2].area == 4);
-    CHECK(room.lights[3].area == 0); // asked for its solid angle
+    CHECK(lamp_of(world, 1).normal == Vec3{0, -1, 0});
+    CHECK(lamp_of(world, 1).area == 6);
+    CHECK(lamp_of(world, 2).normal == Vec3{0, 0, 1});
+    CHECK(lamp_of(world, 2).area == 4);
+    CHECK(lamp_of(world, 3).normal == Vec3{0}); // there is no one normal
+    CHECK(double(lamp_of(world, 3).area) == doctest::Approx(12.566371));
 }
 
 TEST_CASE("scene: which types it lists, asked one by one") {
@@ -300,24 +374,32 @@ TEST_CASE("scene: which types it lists, asked one by one") {
     CHECK(Room::any_material(is(Lambertian{})));
     CHECK(Room::any_material(is(Mirror{})));
     CHECK_FALSE(Room::any_material(is(Sphere{})));
-    // A box around all shapes, from the first on; lights have no place in it.
+    const auto is_sun = []<typename L>() {
+        return std::is_same_v<L, SunInSceneT<float>>;
+    };
+    CHECK(Room::any_light(is_sun));
+    CHECK_FALSE(Small::any_light(is_sun));
+    CHECK_FALSE(Room::any_light(is(Sphere{})));
+}
+
+TEST_CASE("scene: a world has a box around all shapes, in which lights have no place") {
     Room room;
     const auto grey = room.add(Lambertian{});
+    const auto low = [&] { return World(room).box().low; };
+    const auto high = [&] { return World(room).box().high; };
     room.add(PointLight{.position{99, 99, 99}});
-    CHECK((room.low == Vec3{0} && room.high == Vec3{0}));
+    CHECK((low() == Vec3{0} && high() == Vec3{0}));
     room.add(Sphere{{5, 6, 7}, 1}, grey);
-    CHECK((room.low == Vec3{4, 5, 6} && room.high == Vec3{6, 7, 8}));
+    CHECK((low() == Vec3{4, 5, 6} && high() == Vec3{6, 7, 8}));
     room.add(Sphere{{5, 5, 9}, 2}, grey);
-    CHECK((room.low == Vec3{3, 3, 6} && room.high == Vec3{7, 7, 11}));
-    CHECK(room.suns.empty());
+    CHECK((low() == Vec3{3, 3, 6} && high() == Vec3{7, 7, 11}));
     room.add(SunLight{});
-    CHECK(room.suns == std::vector<std::uint32_t>{1});
-    CHECK(room.lights[1].position == Vec3{5, 5, 8.5f});
+    CHECK(around(World(room), 1).center == Vec3{5, 5, 8.5f});
     room.add(SunLight{.irradiance = Rgb{0}}); // dark: none
-    CHECK(room.suns.size() == 1);
-    // A refused shape leaves the box and the suns as they were.
+    CHECK(World(room).light_count() == 2);
+    // A refused shape leaves all as it was.
     CHECK_THROWS_AS(room.add(Sphere{{50, 0, 0}, 1}, grey, Rgb{-1}),
                     std::invalid_argument);
-    CHECK(room.high == Vec3{7, 7, 11});
-    CHECK(room.lights[1].position == Vec3{5, 5, 8.5f});
+    CHECK(high() == Vec3{7, 7, 11});
+    CHECK(around(World(room), 1).center == Vec3{5, 5, 8.5f});
 }

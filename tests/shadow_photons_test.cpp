@@ -15,8 +15,8 @@
 #include "ljus/inspect/survey.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/photons/verdict_grid.hpp"
-#include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
+#include "ljus/render/skipping.hpp"
 #include "support/mean.hpp"
 #include "support/refusal.hpp"
 #include "support/rooms.hpp"
@@ -45,7 +45,7 @@ Verdict verdict_of(const VerdictGrid& grid, const SurfacePoint& point, int side,
                    std::size_t light = 0) {
     return grid.verdict(grid.place_of(point, side), light);
 }
-std::vector<Photon> photons_of(const Room& room, long long count,
+std::vector<Photon> photons_of(const ClosedRoom& room, long long count,
                                std::uint64_t seed = 1) {
     return trace_photons(room, MapType::general,
                          {.photons = count, .seed = test_seed(seed), .threads = 1})
@@ -54,7 +54,7 @@ std::vector<Photon> photons_of(const Room& room, long long count,
 
 /// A floor, a lamp 2 above it, and between them a plate that ends at x = 0: from the
 /// point (x, 0, z) of the floor the part 1/2 + x of the lamp is seen.
-Room half_plane(bool floor_up = true, bool second_lamp = false) {
+ClosedRoom half_plane(bool floor_up = true, bool second_lamp = false) {
     Room room;
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
@@ -69,7 +69,7 @@ Room half_plane(bool floor_up = true, bool second_lamp = false) {
     if (second_lamp) // behind the plate, a thousandth as strong
         room.add(Quad{.corner{-2, 2, -0.5f}, .edge_u{1, 0, 0}, .edge_v{0, 0, 1}}, black,
                  Rgb{0.005f});
-    return room;
+    return World(std::move(room));
 }
 double seen_part(double x) {
     return std::min(1.0, std::max(0.0, 0.5 + x));
@@ -185,7 +185,8 @@ TEST_CASE("shadow photons: the grid says what its photons say, counted one by on
     add_walls(room);
     add_ball(room, Ball::lambertian);
     add_lamps(room, Lamp::quad, 2);
-    const auto photons = photons_of(room, 8000);
+    const World world(std::move(room));
+    const auto photons = photons_of(world, 8000);
     const PhotonMap map = make_photon_map(photons);
     for (const SkipSettings& skip :
          {enough, any, SkipSettings{.rule = SkipRule::report},
@@ -253,7 +254,8 @@ TEST_CASE("shadow photons: the grid has the same bytes for any number of threads
     add_walls(room);
     add_ball(room, Ball::glass);
     add_lamps(room, Lamp::sphere, 2);
-    const auto photons = photons_of(room, 20000);
+    const World world(std::move(room));
+    const auto photons = photons_of(world, 20000);
     SkipSettings skip = enough;
     skip.indirect_rays = true;
     const VerdictGrid one = make_verdict_grid(photons, 2, skip, 1);
@@ -306,11 +308,12 @@ TEST_CASE("shadow photons: the round shadow of a ball under a point light") {
     room.add(Quad{.corner{-2, 0, -2}, .edge_u{0, 0, 4}, .edge_v{4, 0, 0}}, grey);
     room.add(Sphere{.center{0, 1, 0}, .radius = 0.3f}, grey);
     room.add(PointLight{.position{0, 3, 0}, .intensity = Rgb{1}});
+    const World world(std::move(room));
     // The cone around the ball meets the floor in a circle.
     const double sine = 0.3 / 2, edge = 3 * sine / std::sqrt(1 - sine * sine);
     int known = 0, wrong = 0, points = 0;
     for (int seed = 1; seed <= 8; ++seed) {
-        const auto photons = photons_of(room, 200000, std::uint64_t(seed));
+        const auto photons = photons_of(world, 200000, std::uint64_t(seed));
         const VerdictGrid grid = make_verdict_grid(photons, 1, enough);
         for (int i = 0; i < 100; ++i)
             for (int j = 0; j < 100; ++j) {
@@ -410,25 +413,28 @@ TEST_CASE("shadow photons: what is known to be lit has the same bytes without ra
     room.add(Quad{.corner{-0.2f, 1, -0.2f}, .edge_u{0.4f, 0, 0}, .edge_v{0, 0, 0.4f}},
              black, Rgb{5});
     room.add(PointLight{.position{0.5f, 1, 0}, .intensity = Rgb{1}});
+    const World world(std::move(room));
     const Camera camera = look_at({.position{0, 2, 2}, .target{0, 0, 0}});
     for (const int rays : {1, 4}) {
         PhotonMappingSettings settings = skipping(SkipRule::none);
         settings.shadow_rays = rays;
-        const auto no_maps = make_photon_maps(room, settings);
-        CHECK(no_maps.verdicts.empty());
-        const auto with =
-            render(make_photon_mapper(room, no_maps, settings), camera, small);
-        CHECK(with.counts.skipped_rays == 0);
+        const PhotonMapper all(world, settings, abilities<Skipping>);
+        CHECK(all.state<Skipping>().verdicts.empty());
+        const auto before = render(all, camera, small);
+        CHECK(before.counts.skipped_rays == 0);
+        // Nothing is asked for: a mapper that is able to skip is as one that is not.
+        const auto unable = render(PhotonMapper(world, settings), camera, small);
+        CHECK(unable.image.pixels == before.image.pixels);
+        CHECK(unable.counts.shadow_rays == before.counts.shadow_rays);
         settings.skip.rule = SkipRule::enough;
-        const auto maps = make_photon_maps(room, settings);
-        CHECK(maps.general.empty()); // nobody else asks for it
-        const auto without =
-            render(make_photon_mapper(room, maps, settings), camera, small);
-        CHECK(without.image.pixels == with.image.pixels);
-        CHECK(without.counts.shadow_rays + without.counts.skipped_rays ==
-              with.counts.shadow_rays);
-        CHECK(without.counts.shadow_rays * 20 < with.counts.shadow_rays);
-        CHECK(without.counts.bounce_rays == with.counts.bounce_rays);
+        const PhotonMapper few(world, settings, abilities<Skipping>);
+        CHECK(few.maps().general.empty()); // nobody else asks for it
+        const auto after = render(few, camera, small);
+        CHECK(after.image.pixels == before.image.pixels);
+        CHECK(after.counts.shadow_rays + after.counts.skipped_rays ==
+              before.counts.shadow_rays);
+        CHECK(after.counts.shadow_rays * 20 < before.counts.shadow_rays);
+        CHECK(after.counts.bounce_rays == before.counts.bounce_rays);
     }
 }
 
@@ -437,14 +443,13 @@ TEST_CASE("shadow photons: fewer rays, the same picture, for any number of threa
     add_walls(room);
     add_ball(room, Ball::mixture);
     add_lamps(room, Lamp::quad, 2);
+    const World world(std::move(room));
     PhotonMappingSettings settings = skipping(SkipRule::none, 300000);
-    const auto none = make_photon_maps(room, settings);
-    const auto all =
-        render(make_photon_mapper(room, none, settings), room_camera<float>(), small);
+    const auto all = render(PhotonMapper(world, settings), room_camera<float>(), small);
     settings.skip.rule = SkipRule::enough;
-    const auto maps = make_photon_maps(room, settings);
-    const auto some =
-        render(make_photon_mapper(room, maps, settings), room_camera<float>(), small);
+    const PhotonMapper mapper(world, settings, abilities<Skipping>);
+    const auto& bits = mapper.state<Skipping>().verdicts.known.bits;
+    const auto some = render(mapper, room_camera<float>(), small);
     const double left =
         double(some.counts.shadow_rays) / double(all.counts.shadow_rays);
     CHECK(left < 0.5);
@@ -461,10 +466,9 @@ TEST_CASE("shadow photons: fewer rays, the same picture, for any number of threa
         other.general.threads = other.caustics.threads = threads;
         RenderSettings picture = small;
         picture.threads = threads;
-        const auto again = make_photon_maps(room, other);
-        CHECK(again.verdicts.known.bits == maps.verdicts.known.bits);
-        const auto same = render(make_photon_mapper(room, again, other),
-                                 room_camera<float>(), picture);
+        const PhotonMapper again(world, other, abilities<Skipping>);
+        CHECK(again.state<Skipping>().verdicts.known.bits == bits);
+        const auto same = render(again, room_camera<float>(), picture);
         CHECK(same.image.pixels == some.image.pixels);
         CHECK(same.counts.skipped_rays == some.counts.skipped_rays);
     }
@@ -472,15 +476,16 @@ TEST_CASE("shadow photons: fewer rays, the same picture, for any number of threa
     // photons only if it is told to.
     settings.indirect = IndirectLight::map;
     settings.general.shadow_photons = false;
-    const auto both = make_photon_maps(room, settings);
-    CHECK_FALSE(both.general.empty());
-    CHECK_FALSE(both.verdicts.empty());
-    for (std::size_t i = 0; i < both.general.records.size(); ++i)
-        REQUIRE(both.general.records[i].kind != PhotonKind::shadow);
+    const PhotonMapper both(world, settings, abilities<Skipping>);
+    CHECK_FALSE(both.maps().general.empty());
+    CHECK_FALSE(both.state<Skipping>().verdicts.empty());
+    for (std::size_t i = 0; i < both.maps().general.records.size(); ++i)
+        REQUIRE(both.maps().general.records[i].kind != PhotonKind::shadow);
     settings.general.shadow_photons = true;
-    const auto kept = make_photon_maps(room, settings);
-    CHECK(kept.verdicts.known.bits == both.verdicts.known.bits);
-    CHECK(kept.general.records.size() > both.general.records.size());
+    const PhotonMapper kept(world, settings, abilities<Skipping>);
+    CHECK(kept.state<Skipping>().verdicts.known.bits ==
+          both.state<Skipping>().verdicts.known.bits);
+    CHECK(kept.maps().general.records.size() > both.maps().general.records.size());
 }
 
 TEST_CASE(
@@ -489,7 +494,7 @@ TEST_CASE(
     // photons say that all is lit.
     const auto photons = photons_of(half_plane(true, true), 400000);
     const SurfacePoint point = floor_point(0.8f, 0);
-    const Room room = half_plane(true, true);
+    const ClosedRoom room = half_plane(true, true);
     for (const float y : {-0.4f, 0.0f, 0.4f}) // the faint lamp is hidden here, indeed
         for (const float x : {-1.9f, -1.1f})
             CHECK(occluded(room, Ray{.origin = point.position,
@@ -525,32 +530,35 @@ TEST_CASE("shadow photons: the survey says why") {
     Room room;
     add_walls(room);
     add_lamps(room, Lamp::quad, 1);
+    const World world(std::move(room));
     PhotonMappingSettings settings;
-    Plan plan = survey(room, settings);
+    Plan plan = survey(world, settings);
     CHECK_FALSE(plan.skipped_rays.on);
     CHECK(plan.skipped_rays.why == "no rule was asked for");
     CHECK_FALSE(plan.skipped_bounces.on);
     settings.skip.rule = SkipRule::enough;
     settings.general.photons = 58;
-    plan = survey(room, settings);
+    plan = survey(world, settings);
     CHECK_FALSE(plan.skipped_rays.on);
     CHECK(plan.skipped_rays.why == "58 photons, and each light takes 59");
-    CHECK(make_photon_maps(room, settings).verdicts.empty());
+    const PhotonMapper too_few(world, settings, abilities<Skipping>);
+    CHECK(too_few.state<Skipping>().verdicts.empty());
     settings.general.photons = 1000;
     settings.skip.indirect_rays = true;
-    plan = survey(room, settings);
+    plan = survey(world, settings);
     CHECK(plan.skipped_rays.on);
     CHECK(plan.shadow_photons.on);
     CHECK_FALSE(plan.general_map.on);
     CHECK(plan.skipped_bounces.on);
     settings.general.photons = 0;
-    CHECK_FALSE(survey(room, settings).skipped_rays.on);
-    CHECK_FALSE(survey(room, settings).skipped_bounces.on);
+    CHECK_FALSE(survey(world, settings).skipped_rays.on);
+    CHECK_FALSE(survey(world, settings).skipped_bounces.on);
     Room dark;
     add_walls(dark);
+    const World dark_world(std::move(dark));
     settings.general.photons = 1000;
-    CHECK_FALSE(survey(dark, settings).skipped_rays.on);
-    CHECK(survey(dark, settings).skipped_rays.why == "nothing is lit");
+    CHECK_FALSE(survey(dark_world, settings).skipped_rays.on);
+    CHECK(survey(dark_world, settings).skipped_rays.why == "nothing is lit");
 }
 
 // --- Indirect rays -------------------------------------------------------------------
@@ -569,6 +577,7 @@ TEST_CASE("shadow photons: no indirect ray where no indirect photon is near") {
     room.add(
         Quad{.corner{-1.2f, 0.99f, 0.4f}, .edge_u{0.2f, 0, 0}, .edge_v{0, 0, 0.2f}},
         black, Rgb{50});
+    const World world(std::move(room));
     const Camera into_dark =
         look_at({.position{0.1f, 0.5f, 0.5f}, .target{2, 0.5f, 0.5f}});
     const Camera into_light =
@@ -576,9 +585,8 @@ TEST_CASE("shadow photons: no indirect ray where no indirect photon is near") {
     PhotonMappingSettings settings;
     settings.general.photons = 20000;
     settings.skip.indirect_rays = true;
-    const auto maps = make_photon_maps(room, settings);
-    REQUIRE(maps.verdicts.dark_known);
-    const auto mapper = make_photon_mapper(room, maps, settings);
+    const PhotonMapper mapper(world, settings, abilities<Skipping>);
+    REQUIRE(mapper.state<Skipping>().verdicts.dark_known);
     const auto dark = render(mapper, into_dark, small);
     CHECK(dark.counts.bounce_rays == 0);
     CHECK(dark.counts.skipped_bounces == dark.counts.camera_rays);
@@ -589,13 +597,11 @@ TEST_CASE("shadow photons: no indirect ray where no indirect photon is near") {
     // With few photons some places miss theirs, and the picture can only be darker.
     PhotonMappingSettings all = settings;
     all.skip.indirect_rays = false;
-    const auto none = make_photon_maps(room, all);
-    const auto right = render(make_photon_mapper(room, none, all), into_light, small);
+    const auto right = render(PhotonMapper(world, all), into_light, small);
     settings.general.photons = 200;
     settings.skip.radius = 0.1f;
-    const auto few = make_photon_maps(room, settings);
     const auto poor =
-        render(make_photon_mapper(room, few, settings), into_light, small);
+        render(PhotonMapper(world, settings, abilities<Skipping>), into_light, small);
     CHECK(poor.counts.skipped_bounces > 100);
     double sum = 0, should = 0;
     for (std::size_t i = 0; i < poor.image.pixels.size(); ++i) {
@@ -606,7 +612,7 @@ TEST_CASE("shadow photons: no indirect ray where no indirect photon is near") {
     CHECK(sum < 0.95 * should);
 
     // A place next to an indirect photon is never called dark, whatever its brick.
-    const auto photons = photons_of(room, 300);
+    const auto photons = photons_of(world, 300);
     SkipSettings skip{.indirect_rays = true, .radius = 0.05f};
     const VerdictGrid grid = make_verdict_grid(photons, 1, skip);
     for (const Photon& photon : photons) {
@@ -692,13 +698,16 @@ TEST_CASE("shadow photons: extremes") {
         room.add(PointLight{.position{0, 0.9f, 0}, .intensity = Rgb{1}});
         room.add(PointLight{.position{0, -0.5f, 0}, .intensity = Rgb{1}});
         room.add(Sphere{.center{0, -0.5f, 0}, .radius = 0.1f}, grey); // around it
-        const VerdictGrid grid = make_verdict_grid(photons_of(room, 100000), 2, enough);
+        const VerdictGrid grid =
+            make_verdict_grid(photons_of(World(room), 100000), 2, enough);
         const SurfacePoint floor{.position{0.7f, -1, 0.7f}, .normal{0, 1, 0}};
         CHECK(verdict_of(grid, floor, 1, 0) == Verdict::lit);
         CHECK(verdict_of(grid, floor, 1, 1) == Verdict::shadow);
         // One of no power sends no photon, and nothing is known of it.
         room.add(PointLight{.position{0.5f, 0, 0.5f}, .intensity = Rgb{0}});
-        const VerdictGrid more = make_verdict_grid(photons_of(room, 100000), 3, enough);
+        const World world(std::move(room));
+        const VerdictGrid more =
+            make_verdict_grid(photons_of(world, 100000), 3, enough);
         CHECK(verdict_of(more, floor, 1, 2) == Verdict::unknown);
     }
     SUBCASE("the two sides of a thin wall, and the floor at its foot") {
@@ -707,7 +716,9 @@ TEST_CASE("shadow photons: extremes") {
         room.add(Quad{.corner{-1, 0, -1}, .edge_u{0, 0, 2}, .edge_v{2, 0, 0}}, grey);
         room.add(Quad{.corner{0, 0, -1}, .edge_u{0, 2, 0}, .edge_v{0, 0, 2}}, grey);
         room.add(PointLight{.position{-0.8f, 0.8f, 0}, .intensity = Rgb{1}});
-        const VerdictGrid grid = make_verdict_grid(photons_of(room, 100000), 1, enough);
+        const World closed(std::move(room));
+        const VerdictGrid grid =
+            make_verdict_grid(photons_of(closed, 100000), 1, enough);
         const SurfacePoint wall{.position{0, 0.5f, 0}, .normal{1, 0, 0}};
         CHECK(verdict_of(grid, wall, -1) == Verdict::lit);
         CHECK(verdict_of(grid, wall, 1) == Verdict::unknown); // turned away from it
@@ -720,7 +731,8 @@ TEST_CASE("shadow photons: extremes") {
         add_walls(room);
         add_ball(room, Ball::lambertian);
         add_lamps(room, Lamp::quad, 1);
-        const auto traced = trace_photons(room, MapType::general, {.photons = 50000});
+        const World closed(std::move(room));
+        const auto traced = trace_photons(closed, MapType::general, {.photons = 50000});
         const auto grid = make_verdict_grid(traced.photons, 1, enough);
         int known = 0;
         for (std::size_t i = 0; i < traced.photons.size(); i += 50) {

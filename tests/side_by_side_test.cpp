@@ -75,7 +75,7 @@ void same(const std::vector<Mean>& a, const std::vector<Mean>& b, double bias) {
 
 /// A table below a lamp so small that its middle stands for it. All is flat: rays from
 /// patches of a ball would hardly ever meet such a lamp.
-Cornell small_lamp_box() {
+World<Cornell> small_lamp_box() {
     Cornell scene;
     add_cornell_walls(scene);
     const auto matt = scene.add(Lambertian{.albedo = Rgb{0.7f}});
@@ -83,7 +83,7 @@ Cornell small_lamp_box() {
     const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
     scene.add(Quad{{-0.02f, 1.9f, -0.02f}, {0.04f, 0, 0}, {0, 0, 0.04f}}, black,
               Rgb{2000});
-    return scene;
+    return World(std::move(scene));
 }
 
 PhotonMappingSettings mapping(IndirectLight indirect, std::uint64_t seed,
@@ -99,7 +99,7 @@ PhotonMappingSettings mapping(IndirectLight indirect, std::uint64_t seed,
 } // namespace
 
 TEST_CASE("side_by_side: direct light of a small lamp, by all renderers") {
-    const Cornell scene = small_lamp_box();
+    const World<Cornell> scene = small_lamp_box();
     const Camera camera = cornell_camera();
     constexpr std::array direct{light_path_expression("EDL")};
     const auto of = [&](const auto& renderer, std::uint64_t seed) {
@@ -110,7 +110,7 @@ TEST_CASE("side_by_side: direct light of a small lamp, by all renderers") {
         for (std::uint64_t seed = 1; seed <= 32; ++seed) mean.add(of(renderer, seed));
         return mean;
     };
-    const Mean truth = mean_of(make_path_tracer(scene));
+    const Mean truth = mean_of(PathTracer(scene));
     const auto close = [&](const std::string& name, const Mean& mean, double bias) {
         CAPTURE(name);
         CAPTURE(mean.mean);
@@ -124,13 +124,12 @@ TEST_CASE("side_by_side: direct light of a small lamp, by all renderers") {
     };
     // The middle of a lamp of size 0.04 at distance 1 or so:
     // (0.04)^2 is what it misses.
-    close("Whitted", mean_of(make_whitted(scene)), 0.002);
-    close("distributed rays", mean_of(make_distributed(scene)), 0);
+    close("Whitted", mean_of(WhittedTracer(scene)), 0.002);
+    close("distributed rays", mean_of(DistributedTracer(scene)), 0);
     for (const auto indirect :
          {IndirectLight::rays, IndirectLight::map, IndirectLight::photons}) {
         const auto settings = mapping(indirect, 1, 0.3f);
-        const auto maps = make_photon_maps(scene, settings);
-        close("photon mapping", mean_of(make_photon_mapper(scene, maps, settings)), 0);
+        close("photon mapping", mean_of(PhotonMapper(scene, settings)), 0);
     }
     // Radiosity: what the lamp's patches send, received by
     // patches of 0.25, not blended.
@@ -138,8 +137,8 @@ TEST_CASE("side_by_side: direct light of a small lamp, by all renderers") {
     const auto factors = make_form_factors(scene, patches, {.threads = 1});
     std::vector<RgbT<double>> lamp;
     for (const Patch& patch : patches.patches) lamp.push_back(patch.emitted);
-    const auto view = make_light_map_view(
-        scene, make_light_map(scene, patches, *factors, lamp), {.smooth = false});
+    const LightMapView view(scene, make_light_map(scene, patches, *factors, lamp),
+                            {.smooth = false});
     close("radiosity", mean_of(view), 0.02);
 }
 
@@ -147,10 +146,10 @@ TEST_CASE("side_by_side: the matt room, by all renderers that carry its light") 
     const auto room = matt_cornell_box();
     const auto image = [&](const auto& renderer, std::uint64_t seed, int rays) {
         // But for the lamp itself, whose edge in the picture is the largest noise.
-        return render(only_paths(renderer, "ED.*L"), room.camera, picture(seed, rays))
+        return render(OnlyPaths(renderer, "ED.*L"), room.camera, picture(seed, rays))
             .image;
     };
-    const auto tracer = make_path_tracer(room.scene);
+    const PathTracer tracer(room.world);
     const auto truth = blocks(32, [&](auto seed) { return image(tracer, seed, 12); });
     const auto mapped = [&](IndirectLight indirect, float radius, int rays) {
         return blocks(24, [&](std::uint64_t seed) {
@@ -158,9 +157,7 @@ TEST_CASE("side_by_side: the matt room, by all renderers that carry its light") 
             settings.general.photons = settings.caustics.photons = 10000;
             // A map with direct photons in it, too, which must not be counted again.
             settings.keep_general_map = indirect == IndirectLight::photons;
-            const auto maps = make_photon_maps(room.scene, settings);
-            return image(make_photon_mapper(room.scene, maps, settings), seed + 40,
-                         rays);
+            return image(PhotonMapper(room.world, settings), seed + 40, rays);
         });
     };
     SUBCASE("indirect rays on and on: no bias") {
@@ -182,16 +179,16 @@ TEST_CASE("side_by_side: the matt room, by all renderers that carry its light") 
     }
     SUBCASE("radiosity: 2 % with patches of 0.25") {
         const auto all = make_radiosity(
-            room.scene, {.patches = {.size = 0.25},
+            room.world, {.patches = {.size = 0.25},
                          .factors = {.analytic = false, .rays = 512, .threads = 1}});
-        const auto view = make_light_map_view(room.scene, all->map, {.smooth = false});
+        const LightMapView view(room.world, all->map, {.smooth = false});
         same(blocks(16, [&](auto seed) { return image(view, seed, 4); }), truth, 0.02);
     }
     SUBCASE("what Whitted and distributed rays leave out") {
         for (const auto& seen :
-             {blocks(2, [&](auto s) { return image(make_whitted(room.scene), s, 8); }),
+             {blocks(2, [&](auto s) { return image(WhittedTracer(room.world), s, 8); }),
               blocks(2, [&](auto s) {
-                  return image(make_distributed(room.scene), s, 8);
+                  return image(DistributedTracer(room.world), s, 8);
               })})
             for (std::size_t i = 0; i < seen.size(); ++i)
                 CHECK(seen[i].mean < 0.9 * truth[i].mean);
@@ -224,25 +221,23 @@ TEST_CASE("side_by_side: classes are measured, and add up to the picture") {
             result += sums[i].y > 0 ? '1' : '0';
         return result;
     };
-    CHECK(carries(means(make_whitted(room.scene))) == "11100");
-    CHECK(carries(means(make_distributed(room.scene))) == "11100");
-    CHECK(carries(means(make_path_tracer(room.scene))) == "11111");
+    CHECK(carries(means(WhittedTracer(room.world))) == "11100");
+    CHECK(carries(means(DistributedTracer(room.world))) == "11100");
+    CHECK(carries(means(PathTracer(room.world))) == "11111");
     for (const auto indirect : {IndirectLight::map, IndirectLight::photons}) {
         const auto settings = mapping(indirect, 1, 0.2f);
-        const auto maps = make_photon_maps(room.scene, settings);
-        CHECK(carries(means(make_photon_mapper(room.scene, maps, settings))) ==
-              "11111");
+        CHECK(carries(means(PhotonMapper(room.world, settings))) == "11111");
     }
     const auto all = make_radiosity(
-        room.scene, {.patches = {.size = 0.5},
+        room.world, {.patches = {.size = 0.5},
                      .factors = {.analytic = false, .rays = 64, .threads = 1}});
     // A light map answers for E D+ L at once; its shortest path is E D L.
-    CHECK(carries(means(make_light_map_view(room.scene, all->map))) == "11000");
+    CHECK(carries(means(LightMapView(room.world, all->map))) == "11000");
 
     // The same for any number of threads; and a picture that cannot be is refused.
     RenderSettings threads = one;
     threads.threads = 3;
-    const auto tracer = make_path_tracer(room.scene);
+    const PathTracer tracer(room.world);
     CHECK(class_means(tracer, room.camera, one, classes) ==
           class_means(tracer, room.camera, threads, classes));
     for (const char* const what : {"width", "height", "samples"}) {
@@ -273,13 +268,12 @@ TEST_CASE("side_by_side: what maps hold does not know who looks") {
     // answer for is the same, to the rounding of the point.
     const auto room = matt_cornell_box();
     const auto settings = mapping(IndirectLight::photons, 1, 0.3f);
-    const auto maps = make_photon_maps(room.scene, settings);
-    const auto mapper =
-        only_paths(make_photon_mapper(room.scene, maps, settings), "ES*D.*DL");
+    const PhotonMapper whole(room.world, settings);
+    const OnlyPaths mapper(whole, "ES*D.*DL");
     const auto solved = make_radiosity(
-        room.scene, {.patches = {.size = 0.5},
+        room.world, {.patches = {.size = 0.5},
                      .factors = {.analytic = false, .rays = 64, .threads = 1}});
-    const auto view = make_light_map_view(room.scene, solved->map);
+    const LightMapView view(room.world, solved->map);
     const Vec3 point{-0.3f, 0, 0.6f}; // no ball is in the way
     double first_map = 0, first_patch = 0;
     for (int side = 0; side < 5; ++side) {
@@ -287,8 +281,9 @@ TEST_CASE("side_by_side: what maps hold does not know who looks") {
         const Ray ray{.origin = eye, .direction = glm::normalize(point - eye)};
         auto stream = random_stream(1, Pass::camera, 0, std::uint64_t(side));
         Counts counts;
-        const double of_map = double(radiance(mapper, ray, stream, counts).x);
-        const double of_patch = double(radiance(view, ray, stream, counts).x);
+        auto context = context_of(stream, counts);
+        const double of_map = double(radiance(mapper, ray, context).x);
+        const double of_patch = double(radiance(view, ray, context).x);
         if (side == 0) {
             first_map = of_map;
             first_patch = of_patch;

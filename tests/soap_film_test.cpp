@@ -52,7 +52,7 @@ SoapFilm strong() {
 }
 
 /// A closed box with a lamp below the ceiling, a bubble, and a mirror within it.
-Room room_with(const SoapFilm* film, bool mirror = false) {
+World<Room> room_with(const SoapFilm* film, bool mirror = false) {
     Room room;
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
@@ -67,7 +67,7 @@ Room room_with(const SoapFilm* film, bool mirror = false) {
     if (mirror)
         room.add(Sphere{.center{0.1f, 0, -0.3f}, .radius = 0.25f},
                  room.add(Mirror{.reflectance = Rgb{0.8f}}));
-    return room;
+    return World(std::move(room));
 }
 
 Camera camera_of_room() {
@@ -174,14 +174,13 @@ TEST_CASE("thin sheets: the survey says whether there are any") {
     const auto without = survey(room_with(nullptr), PhotonMappingSettings{});
     CHECK_FALSE(without.thin_film.on);
     CHECK(without.thin_film.why == "no material is one");
-    CHECK_FALSE(
-        detail::lists_thin_surfaces<Scene<Shapes<Sphere>, Materials<Lambertian>>>);
+    CHECK_FALSE(detail::lists_thin_surfaces<
+                World<Scene<Shapes<Sphere>, Materials<Lambertian>>>>);
 }
 
 TEST_CASE("thin sheets: a lamp is seen through a bubble by T of each wall") {
     const SoapFilm film{.thickness = 300, .scale = 0.7f};
-    const Room room = room_with(&film);
-    const detail::IndexedT<Room> indexed(room);
+    const World<Room> room = room_with(&film);
     Draws draws{test_seed(1)};
     int hits = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -202,25 +201,25 @@ TEST_CASE("thin sheets: a lamp is seen through a bubble by T of each wall") {
             ++hits;
         }
         const auto seen = visibility(
-            indexed, SurfacePoint{.position = a, .normal = glm::normalize(b - a)},
+            room, SurfacePoint{.position = a, .normal = glm::normalize(b - a)},
             SurfacePoint{.position = b, .normal = glm::normalize(a - b)});
         REQUIRE(max_component(glm::abs(glm::dvec3(seen) - right)) < 2e-3);
     }
     CHECK(hits > 1000);
 
     // What is no sheet blocks, behind one or before one.
-    const Room mirror = room_with(&film, true);
+    const World<Room> mirror = room_with(&film, true);
     const SurfacePoint low{.position{0.1f, 0, -0.95f}, .normal{0, 0, 1}};
     const SurfacePoint high{.position{0.1f, 0, 0.9f}, .normal{0, 0, -1}};
     CHECK(is_black(visibility(mirror, low, high)));
     CHECK(is_black(visibility(mirror, high, low)));
-    const Room empty = room_with(nullptr);
+    const World<Room> empty = room_with(nullptr);
     CHECK(visibility(empty, low, high) == Rgb{1});
 }
 
 TEST_CASE("thin sheets: what a path meets, by chance, is in the mean what light does") {
     const SoapFilm film = strong();
-    const Room room = room_with(&film);
+    const World<Room> room = room_with(&film);
     const Ray ray{.origin{0.2f, -0.9f, -0.2f}, .direction{0, 1, 0}};
     Mean stopped[3], through[3];
     for (std::uint64_t path = 0; path < 70000; ++path) {
@@ -256,12 +255,12 @@ TEST_CASE("thin sheets: a bubble in a furnace cannot be seen") {
         SoapFilm film = film_of<float>(color, 300);
         film.scale = 1;
         room.add(Sphere{}, room.add(film));
-        const auto tracer = make_path_tracer(room);
+        const World world(std::move(room));
+        const PathTracer tracer(world);
         PhotonMappingSettings settings;
         settings.caustics = {.photons = 20000, .seed = test_seed(1)};
         settings.caustics_estimate.radius = 0.8f;
-        const auto maps = make_photon_maps(room, settings);
-        const auto mapper = make_photon_mapper(room, maps, settings);
+        const PhotonMapper mapper(world, settings);
         const auto ray = [](RandomStream& stream) {
             const auto u = next_2d<float>(stream);
             return Ray{.origin{0, -3, 0},
@@ -285,7 +284,7 @@ TEST_CASE("thin sheets: a bubble in a furnace cannot be seen") {
 
 TEST_CASE("thin sheets: who owns which path") {
     const SoapFilm film = strong();
-    const Room room = room_with(&film, true);
+    const World<Room> room = room_with(&film, true);
     const auto camera = camera_of_room();
     const RenderSettings picture{
         .width = 24, .height = 24, .samples = 32, .seed = 3, .threads = 1};
@@ -293,8 +292,7 @@ TEST_CASE("thin sheets: who owns which path") {
     settings.caustics = {.photons = 20000, .threads = 1};
     settings.caustics_estimate.radius = 0.1f;
     settings.max_depth = 4;
-    const auto maps = make_photon_maps(room, settings);
-    const auto mapper = make_photon_mapper(room, maps, settings);
+    const PhotonMapper mapper(room, settings);
     std::set<std::string> found;
     for (int y = 4; y < 24; y += 4)
         for (int x = 4; x < 24; x += 4)
@@ -315,7 +313,7 @@ TEST_CASE("thin sheets: who owns which path") {
     }
     CHECK(caustic);
     // A photon that went straight on is no caustic one.
-    const Room without = room_with(&film);
+    const World<Room> without = room_with(&film);
     const auto general =
         trace_photons(without, MapType::general, {.photons = 20000, .threads = 1});
     double direct = 0, emitted = 0;
@@ -336,7 +334,7 @@ TEST_CASE("thin sheets: who owns which path") {
 TEST_CASE("thin sheets: photon mapping equals path tracing in a room with a bubble") {
     // A mirror in the bubble: caustics of both, and of the one through the other.
     const SoapFilm film = strong();
-    const Room room = room_with(&film, true);
+    const World<Room> room = room_with(&film, true);
     const auto camera = camera_of_room();
     constexpr int size = 24, high = size / 4;
     Mean mapped[4][3], traced[4][3];
@@ -352,15 +350,13 @@ TEST_CASE("thin sheets: photon mapping equals path tracing in a room with a bubb
         const std::uint64_t seed = test_seed(run);
         RenderSettings picture{
             .width = size, .height = size, .samples = 25, .seed = seed, .threads = 1};
-        take(render(make_path_tracer(room), camera, picture).image, traced);
+        take(render(PathTracer(room), camera, picture).image, traced);
         PhotonMappingSettings settings;
         settings.caustics = {.photons = 20000, .seed = seed, .threads = 1};
         settings.caustics_estimate.radius = 0.03f;
-        const auto maps = make_photon_maps(room, settings);
         picture.seed = seed + 100;
         picture.samples = 9;
-        take(render(make_photon_mapper(room, maps, settings), camera, picture).image,
-             mapped);
+        take(render(PhotonMapper(room, settings), camera, picture).image, mapped);
     }
     double worst = 1, squared = 0;
     for (int band = 0; band < 4; ++band)

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "ljus/accel/mesh.hpp"
 #include "ljus/geometry/metaballs.hpp"
@@ -15,8 +16,12 @@
 #include "ljus/materials/mixture.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/materials/textured.hpp"
+#include "ljus/render/budgeting.hpp"
+#include "ljus/render/gathering.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
+#include "ljus/render/skipping.hpp"
+#include "support/refusal.hpp"
 #include "support/rooms.hpp"
 
 using namespace ljus;
@@ -81,7 +86,7 @@ Rgb emission(const Fog&) {
 } // namespace user
 
 TEST_CASE("survey: counts what a scene is made of") {
-    const Room room = make_room<float>(Ball::mixture, Lamp::quad, 2);
+    const ClosedRoom room = make_room<float>(Ball::mixture, Lamp::quad, 2);
     const SceneNeeds found = needs(room);
     CHECK(found.objects == 6 + 1 + 2);
     CHECK(found.diffuse == 6 + 1 + 2); // the mixture is both
@@ -95,11 +100,12 @@ TEST_CASE("survey: counts what a scene is made of") {
 }
 
 TEST_CASE("survey: each pass is on or off for a reason that is printed") {
-    const Room matt = make_room<float>(Ball::oren_nayar, Lamp::sphere, 1);
-    const Room glass = make_room<float>(Ball::glass, Lamp::sphere, 1);
+    const ClosedRoom matt = make_room<float>(Ball::oren_nayar, Lamp::sphere, 1);
+    const ClosedRoom glass = make_room<float>(Ball::glass, Lamp::sphere, 1);
     Room dark;
     add_walls(dark);
     add_ball(dark, Ball::mirror);
+    const World world(std::move(dark));
 
     PhotonMappingSettings settings;
     Plan plan = survey(glass, settings);
@@ -124,7 +130,12 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     CHECK(plan.tree.why == "8 objects, a tree finds the first on a ray");
     Room one;
     one.add(Sphere{}, one.add(Lambertian{}));
-    CHECK_FALSE(survey(one, settings).tree.on);
+    one.add(Sphere{}, one.add(Lambertian{}));
+    plan = survey(World(one), settings); // of two
+    CHECK_FALSE(plan.tree.on);
+    CHECK(plan.tree.why == "2 object(s), a loop asks each");
+    one.add(Sphere{}, one.add(Lambertian{}));
+    CHECK(survey(World(one), settings).tree.on); // of three
 
     plan = survey(matt, settings);
     CHECK_FALSE(plan.caustics_map.on);
@@ -172,13 +183,13 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     CHECK_FALSE(plan.indirect_rays.on);
     CHECK(plan.indirect_rays.why == "not asked for");
 
-    plan = survey(dark, PhotonMappingSettings{});
+    plan = survey(world, PhotonMappingSettings{});
     CHECK_FALSE(plan.shadow_rays.on);
     CHECK(plan.shadow_rays.why == "the scene has no light");
     CHECK_FALSE(plan.indirect_rays.on);
     CHECK_FALSE(plan.caustics_map.on);
     CHECK(plan.caustics_map.why == "nothing is lit");
-    CHECK(make_photon_maps(dark, PhotonMappingSettings{}).caustics.empty());
+    CHECK(PhotonMapper(world).maps().caustics.empty());
 
     for (const PlanItem* item : plan.items()) {
         CHECK(std::string(item->pass).size() > 0);
@@ -190,13 +201,14 @@ TEST_CASE("survey: without a diffuse surface nothing is lit, whatever shines") {
     Room hall;
     hall.add(Sphere{}, hall.add(Mirror{}));
     hall.add(PointLight{.position{0, 5, 0}, .intensity = Rgb{1}});
+    const World world(std::move(hall));
     PhotonMappingSettings settings{.indirect = IndirectLight::photons,
                                    .keep_general_map = true};
-    const SceneNeeds found = needs(hall);
+    const SceneNeeds found = needs(world);
     CHECK(found.diffuse == 0);
     CHECK(found.specular == 1);
     CHECK(found.lights == 1);
-    const Plan plan = survey(hall, settings);
+    const Plan plan = survey(world, settings);
     for (const PlanItem* item :
          {&plan.shadow_rays, &plan.indirect_rays, &plan.caustics_map, &plan.general_map,
           &plan.shadow_photons, &plan.thin_film, &plan.tree}) {
@@ -240,26 +252,28 @@ TEST_CASE("survey: the lines as they are printed, and one photon is enough") {
 
 TEST_CASE("survey: what the plan leaves out is not done") {
     Room dark;
-    add_walls(dark); // nothing is lit, so no ray looks for light
-    const PhotonMapsT<float> none{};
-    const auto mapper = make_photon_mapper(dark, none);
-    CHECK(mapper.bounces == Lobes::specular);
+    add_walls(dark);
+    const World world(std::move(dark)); // nothing is lit, so no ray looks for light
+    const PhotonMapper mapper(world);
+    CHECK(mapper.bounces() == Lobes::specular);
     const auto picture =
         render(mapper, room_camera<float>(), {.width = 4, .height = 4, .samples = 2});
     CHECK(picture.counts.rays() == picture.counts.camera_rays);
     Room lit;
     add_walls(lit);
     add_lamps(lit, Lamp::quad, 1);
-    CHECK(make_photon_mapper(lit, none).bounces == Lobes::all);
+    const World lit_world(std::move(lit));
+    CHECK(PhotonMapper(lit_world).bounces() == Lobes::all);
 }
 
 TEST_CASE("survey: settings that give no picture are refused") {
-    const auto refused = [](auto change) {
+    const ClosedRoom empty{Room{}};
+    const auto refused = [&](auto change) {
         PhotonMappingSettings settings;
         change(settings);
-        CHECK_THROWS_AS(check(settings), std::invalid_argument);
-        CHECK_THROWS_AS((void)make_photon_maps(Room{}, settings),
-                        std::invalid_argument);
+        const std::string sentence = refusal([&] { check(settings); });
+        CHECK_FALSE(sentence.empty());
+        CHECK(refusal([&] { (void)PhotonMapper(empty, settings); }) == sentence);
     };
     CHECK_NOTHROW(check(PhotonMappingSettings{}));
     refused([](PhotonMappingSettings& s) { s.max_depth = 0; });
@@ -276,8 +290,8 @@ TEST_CASE("survey: settings that give no picture are refused") {
 }
 
 TEST_CASE("survey: a hook that is misspelt shows") {
-    const Scene<Shapes<user::Ball, Quad>, Materials<user::Fog, Glass>> scene;
-    const Plan plan = survey(scene, PhotonMappingSettings{});
+    const World world(Scene<Shapes<user::Ball, Quad>, Materials<user::Fog, Glass>>{});
+    const Plan plan = survey(world, PhotonMappingSettings{});
     REQUIRE(plan.types.size() == 4);
     CHECK(plan.types[0] ==
           "shape 1          has meets, area; without bounds (its sphere's box), "
@@ -333,17 +347,18 @@ TEST_CASE("survey: the hooks of the house's own types") {
 }
 
 TEST_CASE("survey: where float stops holding, it says so, with the digits left") {
-    const auto remarks = [](const auto& scene) {
-        return survey(scene, PhotonMappingSettings{}).remarks;
+    const auto remarks = [](const auto& world) {
+        return survey(world, PhotonMappingSettings{}).remarks;
     };
     const auto moved = [](auto far, auto radius) {
         using T = decltype(far);
-        Scene<Shapes<SphereT<T>>, Materials<LambertianT<T>>> scene;
+        Scene<Shapes<SphereT<T>>, Materials<LambertianT<T>>, Lights<PointLightT<T>>>
+            scene;
         const auto white = scene.add(LambertianT<T>{});
         scene.add(SphereT<T>{.center{T(0), T(0), T(0)}, .radius = T(1)}, white);
         scene.add(SphereT<T>{.center{T(0), -far, T(0)}, .radius = radius}, white);
         scene.add(PointLightT<T>{.intensity = RgbT<T>(T(1))});
-        return scene;
+        return World(std::move(scene));
     };
     CHECK(remarks(moved(1e4f, 1.0f)).empty());
     CHECK(remarks(moved(1e7f, 1e4f)).empty()); // a large thing may be far away
@@ -361,14 +376,15 @@ TEST_CASE("survey: where float stops holding, it says so, with the digits left")
         "coordinates reach 1e+14 times the smallest radius, 1: double keeps 1 digit of "
         "it; move the scene towards the origin");
     // Whichever comes first, and however large what comes later is.
-    Scene<Shapes<Sphere>, Materials<Lambertian>> turned;
+    Scene<Shapes<Sphere>, Materials<Lambertian>, Lights<PointLight>> turned;
     const auto grey = turned.add(Lambertian{});
     turned.add(PointLight{.intensity = Rgb{1}});
     turned.add(Sphere{.center{0, -1e5f, 0}, .radius = 1}, grey);
     turned.add(Sphere{.radius = 0.5f}, grey);
-    CHECK(remarks(turned) == remarks(moved(1e5f, 1.0f)));
+    CHECK(remarks(World(turned)) == remarks(moved(1e5f, 1.0f)));
     turned.add(Sphere{.center{1e6f, 0, 0}, .radius = 1e6f}, grey);
-    CHECK(remarks(turned) == remarks(moved(1e5f, 1.0f)));
+    const World world(std::move(turned));
+    CHECK(remarks(world) == remarks(moved(1e5f, 1.0f)));
     // All corners are one point: no digit is left, and no ratio to say it by.
     const auto point = [](auto far) {
         using T = decltype(far);
@@ -376,7 +392,8 @@ TEST_CASE("survey: where float stops holding, it says so, with the digits left")
         const Vec3T<T> corner{far, -far, far};
         scene.add(TriangleT<T>{.v1 = corner, .v2 = corner, .v3 = corner},
                   scene.add(LambertianT<T>{}));
-        return detail::digits_remark(scene);
+        const World closed(std::move(scene));
+        return detail::digits_remark(closed);
     };
     CHECK(point(100.0f) ==
           "an object is so small or so far away that float keeps nothing of its size; "
@@ -388,7 +405,7 @@ TEST_CASE("survey: where float stops holding, it says so, with the digits left")
     const auto far = moved(1e5f, 1.0f);
     const Plan plan = survey(far, PhotonMappingSettings{});
     CHECK(to_text(plan).ends_with("\nremark          " + plan.remarks[0] + "\n"));
-    CHECK(make_photon_maps(far).remarks == plan.remarks[0] + "\n");
+    CHECK(PhotonMapper(far).maps().remarks == plan.remarks[0] + "\n");
 }
 
 TEST_CASE("survey: lengths whose squares leave the range, and a gloss, by what it is") {
@@ -396,7 +413,8 @@ TEST_CASE("survey: lengths whose squares leave the range, and a gloss, by what i
         using T = decltype(radius);
         Scene<Shapes<SphereT<T>>, Materials<LambertianT<T>>> scene;
         scene.add(SphereT<T>{.radius = radius}, scene.add(LambertianT<T>{}));
-        return detail::digits_remark(scene);
+        const World world(std::move(scene));
+        return detail::digits_remark(world);
     };
     CHECK(said(0.9e9f).empty());
     CHECK(said(2e9f) ==
@@ -412,7 +430,8 @@ TEST_CASE("survey: lengths whose squares leave the range, and a gloss, by what i
             scene.add(Sphere{.radius = 5e8f}, grey);
             scene.add(Sphere{.center = center, .radius = 5e8f}, grey);
             scene.add(Sphere{.radius = 5e8f}, grey);
-            CHECK(detail::digits_remark(scene) == said(2e9f));
+            const World closed(std::move(scene));
+            CHECK(detail::digits_remark(closed) == said(2e9f));
         }
     CHECK(said(0.9e75).empty());
     CHECK(said(2e75) ==
@@ -422,7 +441,8 @@ TEST_CASE("survey: lengths whose squares leave the range, and a gloss, by what i
     for (const float roughness : {0.0f, 0.3f}) {
         Scene<Shapes<Sphere>, Materials<Glossy>> scene;
         scene.add(Sphere{}, scene.add(Glossy{.roughness = roughness}));
-        const SceneNeeds found = needs(scene);
+        const World closed(std::move(scene));
+        const SceneNeeds found = needs(closed);
         CHECK(found.objects == 1);
         CHECK(found.diffuse == (roughness > 0 ? 1 : 0));
         CHECK(found.specular == (roughness > 0 ? 0 : 1));
@@ -452,21 +472,23 @@ TEST_CASE("survey: lengths whose squares leave the range, and a gloss, by what i
 TEST_CASE("survey: a scene without a lamp is said to be black, and it is") {
     Scene<Shapes<Sphere>, Materials<Lambertian>> scene;
     scene.add(Sphere{.center{0, 0, -3}}, scene.add(Lambertian{}));
-    const Plan plan = survey(scene, PhotonMappingSettings{});
+    const World black(scene);
+    const Plan plan = survey(black, PhotonMappingSettings{});
     REQUIRE(plan.remarks.size() == 1);
     CHECK(plan.remarks[0] ==
           "the scene has no light, and the picture will be black: add an object with a "
           "radiance, or a point light");
     // It stands in the plan, and the first pass says it again.
     CHECK(to_text(plan).ends_with("\nremark          " + plan.remarks[0] + "\n"));
-    const auto maps = make_photon_maps(scene);
-    CHECK(maps.remarks == plan.remarks[0] + "\n");
-    const auto black = render(make_photon_mapper(scene, maps), look_at({}),
-                              {.width = 8, .height = 6, .samples = 4});
-    for (const Rgb& pixel : black.image.pixels) CHECK(pixel == Rgb{0});
+    const PhotonMapper mapper(black);
+    CHECK(mapper.maps().remarks == plan.remarks[0] + "\n");
+    const auto seen =
+        render(mapper, look_at({}), {.width = 8, .height = 6, .samples = 4});
+    for (const Rgb& pixel : seen.image.pixels) CHECK(pixel == Rgb{0});
     // One lamp, and there is nothing to say.
     scene.add(Sphere{.center{0, 3, -3}}, scene.add(Lambertian{}), Rgb{1});
-    CHECK(survey(scene, PhotonMappingSettings{}).remarks.empty());
+    const World world(std::move(scene));
+    CHECK(survey(world, PhotonMappingSettings{}).remarks.empty());
 }
 
 TEST_CASE("survey: a lobe that shadow rays do not find is named") {
@@ -475,7 +497,8 @@ TEST_CASE("survey: a lobe that shadow rays do not find is named") {
         scene.add(Sphere{}, scene.add(Lambertian{}), Rgb{1});
         scene.add(Sphere{.center{3, 0, 0}},
                   scene.add(Glossy{.reflectance = Rgb{1}, .roughness = roughness}));
-        return survey(scene, PhotonMappingSettings{.direct = direct}).remarks;
+        const World world(std::move(scene));
+        return survey(world, PhotonMappingSettings{.direct = direct}).remarks;
     };
     REQUIRE(remarks(0.01f, DirectLight::sampled).size() == 1);
     CHECK(remarks(0.01f, DirectLight::sampled)[0].find("1 object(s) are nearly") == 0);
@@ -487,14 +510,16 @@ TEST_CASE("survey: a lobe that shadow rays do not find is named") {
     CHECK(remarks(0.01f, DirectLight::mis).empty());
     CHECK(remarks(0.01f, DirectLight::analytic).empty());
     // Objects are counted, and not their materials.
-    Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glossy>> three;
+    Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glossy>, Lights<PointLight>>
+        three;
     const auto polished = three.add(Glossy{.reflectance = Rgb{1}, .roughness = 0.01f});
     three.add(Sphere{}, polished);
     three.add(Sphere{.center{3, 0, 0}}, polished);
     three.add(Quad{}, polished);
     three.add(Quad{.corner{0, 5, 0}}, three.add(Glossy{.roughness = 0.5f}));
     three.add(PointLight{.intensity = Rgb{1}});
-    const auto said = survey(three, PhotonMappingSettings{}).remarks;
+    const World three_world(std::move(three));
+    const auto said = survey(three_world, PhotonMappingSettings{}).remarks;
     REQUIRE(said.size() == 1);
     CHECK(said[0].starts_with("3 object(s) are nearly mirrors"));
 }
@@ -504,7 +529,7 @@ TEST_CASE("survey: which passes each way of indirect light needs, and from how m
     const auto passes = [&](IndirectLight indirect, int depth, long long photons) {
         PhotonMappingSettings settings{.max_depth = depth, .indirect = indirect};
         settings.general.photons = photons;
-        return detail::choose_passes(found, settings);
+        return choose_passes(found, settings);
     };
     struct Row {
         IndirectLight indirect;
@@ -548,7 +573,7 @@ TEST_CASE("survey: which passes each way of indirect light needs, and from how m
         PhotonMappingSettings settings;
         settings.general.photons = photons;
         settings.skip = {.rule = SkipRule::enough, .indirect_rays = true};
-        const auto run = detail::choose_passes(found, settings);
+        const auto run = choose_passes(found, settings);
         CHECK(run.skipped_rays == (photons == 118));
         CHECK(run.shadow_photons == (photons == 118));
         CHECK(run.skipped_bounces == (photons > 0));
@@ -556,9 +581,9 @@ TEST_CASE("survey: which passes each way of indirect light needs, and from how m
         CHECK(skip.rule == (photons == 118 ? SkipRule::enough : SkipRule::none));
         CHECK(skip.indirect_rays == (photons > 0));
         settings.indirect = IndirectLight::none;
-        CHECK_FALSE(detail::choose_passes(found, settings).skipped_bounces);
+        CHECK_FALSE(choose_passes(found, settings).skipped_bounces);
         settings.skip = {};
-        CHECK_FALSE(detail::choose_passes(found, settings).skipped_rays);
+        CHECK_FALSE(choose_passes(found, settings).skipped_rays);
     }
     // Without lights, or without a diffuse surface, nothing is done.
     for (const SceneNeeds& dark :
@@ -566,16 +591,17 @@ TEST_CASE("survey: which passes each way of indirect light needs, and from how m
           SceneNeeds{.objects = 3, .specular = 3, .lights = 1}}) {
         PhotonMappingSettings settings{.indirect = IndirectLight::cache};
         settings.skip = {.rule = SkipRule::any, .indirect_rays = true};
-        const auto run = detail::choose_passes(dark, settings);
+        const auto run = choose_passes(dark, settings);
         CHECK_FALSE((run.shadow_rays || run.caustics_map || run.general_map ||
                      run.shadow_photons || run.skipped_rays || run.skipped_bounces ||
                      run.irradiance || run.cache));
     }
     Scene<Shapes<Sphere>, Materials<Lambertian, SoapFilm>> bubble;
     bubble.add(Sphere{}, bubble.add(Lambertian{}));
-    CHECK_FALSE(needs(bubble).films);
+    CHECK_FALSE(needs(World(bubble)).films);
     bubble.add(SoapFilm{});
-    CHECK(needs(bubble).films);
+    const World world(std::move(bubble));
+    CHECK(needs(world).films);
 }
 
 TEST_CASE("survey: every reason, in the order in which they are printed") {

@@ -152,16 +152,16 @@ TEST_CASE(
 
 TEST_CASE("texture: in a white furnace a textured floor emits as its fields do") {
     // Open to a sky of radiance 1: what comes back is the albedo of the place.
-    const auto scene = make_scene(
+    const World scene(make_scene(
         placed(Sphere{.radius = 50}, Lambertian{.albedo = Rgb{0}}, Rgb{1}, true),
         placed(Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}},
                Textured<Lambertian, PictureTexture>{
                    {.albedo = Rgb{1}},
                    {.image = four(),
-                    .map{.origin{-1, -1, 0}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}}}}));
+                    .map{.origin{-1, -1, 0}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}}}})));
     const auto camera = look_at(
         {.position{0, 0, 5}, .target{0, 0, 0}, .up{0, 1, 0}, .vfov_degrees = 15});
-    const auto image = render(make_path_tracer(scene), camera,
+    const auto image = render(PathTracer(scene), camera,
                               {.width = 32, .height = 32, .samples = 64, .threads = 1})
                            .image;
     // Columns and rows 8 and 24 see the middles of the pixels, nearly.
@@ -248,7 +248,7 @@ TEST_CASE("texture: a UvMap looks up by the shape's own coordinates, and repeats
     const Ray ray{.origin{0.75f, 0.75f, 1}, .direction{0, 0, -1}};
     const Quad wall{.corner{0, 0, 0}, .edge_u{1, 0, 0}, .edge_v{0, 1, 0}};
     const auto uv_of = [&](const auto& material) {
-        const auto scene = make_scene(placed(wall, material));
+        const World scene(make_scene(placed(wall, material)));
         return vertex_at(scene, ray, *closest_hit(scene, ray)).uv;
     };
     CHECK(uv_of(paper) == Vec2{0.75f, 0.75f});

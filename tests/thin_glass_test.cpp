@@ -111,20 +111,20 @@ TEST_CASE_TEMPLATE("thin glass: samples are reflected, the rest goes straight on
 TEST_CASE("thin glass: a lamp is seen through it, and its shadow has its colour") {
     using namespace ljus;
     const ThinGlass pane{.tint{0.5f, 1, 0.25f}};
-    const auto scene = make_scene(placed(Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, pane),
-                                  placed(Sphere{.center{0, 0, 9}}, Lambertian{}));
+    const World scene(make_scene(placed(Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, pane),
+                                 placed(Sphere{.center{0, 0, 9}}, Lambertian{})));
     const SurfacePoint from{.position{0, 0, -1}}, to{.position{0, 0, 1}};
     const auto straight_through = detail::pane_shares(pane, 1.0f).transmitted;
     CHECK(visibility(scene, from, to) == straight_through);
     const SurfacePoint beside{.position{3, 0, 1}};
     CHECK(visibility(scene, from, beside) == Rgb{1});
     // The checker decides for each place; a plain pane behind glass would not.
-    const auto board = make_scene(
+    const World board(make_scene(
         placed(Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}},
                Textured<ThinGlass, Checker>{{},
                                             {.map{.edge_u{1, 0, 0}, .edge_v{0, 1, 0}},
                                              .even = Rgb{1},
-                                             .odd = Rgb{0}}}));
+                                             .odd = Rgb{0}}})));
     const auto at = [&](float x) {
         return visibility(board, SurfacePoint{.position{x, 0.2f, -1}},
                           SurfacePoint{.position{x, 0.2f, 1}});

@@ -9,6 +9,8 @@
 #include <string>
 
 #include "ljus/accel/mesh.hpp"
+#include "ljus/lights/spot_light.hpp"
+#include "ljus/lights/sun_light.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
@@ -26,14 +28,14 @@ constexpr double pi = std::numbers::pi;
 
 /// Where photons of a pass lie on one object's plane: sums of flux, over blocks of
 /// paths so that there is an error.
-template <typename Scene, typename Where>
-Mean stored_flux(const Scene& scene, MapType law, const PhotonPassSettings& pass,
-                 int seeds, Where where) {
+template <AnyWorld W, typename Where>
+Mean stored_flux(const W& world, MapType law, const PhotonPassSettings& pass, int seeds,
+                 Where where) {
     Mean mean;
     for (int seed = 1; seed <= seeds; ++seed) {
         PhotonPassSettings one = pass;
         one.seed = ljus_test::test_seed(static_cast<std::uint64_t>(seed));
-        const auto traced = trace_photons(scene, law, one);
+        const auto traced = trace_photons(world, law, one);
         double sum = 0;
         for (const auto& photon : traced.photons)
             if (where(photon)) sum += double(photon.flux.x);
@@ -83,7 +85,7 @@ TEST_CASE("tracing: absorbed + escaped + cut + roulette = emitted") {
         for (const Lamp lamp : {Lamp::quad, Lamp::sphere, Lamp::point})
             for (const int bounces : {1, 3, 1000})
                 for (const MapType law : {MapType::general, MapType::caustics}) {
-                    const Room room = make_room<float>(ball, lamp, 2);
+                    const ClosedRoom room = make_room<float>(ball, lamp, 2);
                     const auto traced = trace_photons(
                         room, law,
                         {.photons = 3000, .max_bounces = bounces, .threads = 1});
@@ -95,7 +97,7 @@ TEST_CASE("tracing: absorbed + escaped + cut + roulette = emitted") {
     add_ball(open, Ball::mixture);
     add_lamps(open, Lamp::quad, 2);
     const auto traced =
-        trace_photons(open, MapType::general, {.photons = 3000, .threads = 1});
+        trace_photons(World(open), MapType::general, {.photons = 3000, .threads = 1});
     check_balance(traced.audit);
     CHECK(traced.audit.escaped.x > 0.1 * traced.audit.emitted.x);
 }
@@ -103,9 +105,9 @@ TEST_CASE("tracing: absorbed + escaped + cut + roulette = emitted") {
 TEST_CASE("tracing: all the lights' flux is emitted, and roulette moves none of it in "
           "the mean") {
     for (const Ball ball : {Ball::oren_nayar, Ball::glass, Ball::mixture}) {
-        const Room room = make_room<float>(ball, Lamp::sphere, 2);
+        const ClosedRoom room = make_room<float>(ball, Lamp::sphere, 2);
         glm::dvec3 flux(0);
-        for (const auto& light : room.lights) flux += glm::dvec3(light.flux);
+        for (const Rgb& power : room.powers()) flux += glm::dvec3(power);
         Mean emitted[3], roulette[3];
         for (std::uint64_t seed = 1; seed <= 64; ++seed) {
             const auto traced = trace_photons(
@@ -127,7 +129,7 @@ TEST_CASE("tracing: all the lights' flux is emitted, and roulette moves none of 
         for (std::uint64_t path = 0; path < 2000; ++path) {
             auto stream =
                 random_stream(ljus_test::test_seed(3), Pass::general_photons, 0, path);
-            const auto flight = emit(room, light_choice(room.lights), stream);
+            const auto flight = emit(room, room.light_choice(), stream);
             sum.add(double(flight.flux.x + flight.flux.y + flight.flux.z));
         }
         CHECK(sum.mean == doctest::Approx(flux.x + flux.y + flux.z).epsilon(1e-5));
@@ -148,9 +150,10 @@ TEST_CASE("tracing: the first hits of a lamp's photons share its flux by the for
     box.add(Quad{.corner{0, 0, float(b)}, .edge_u = x, .edge_v = y}, black);
     box.add(Quad{.corner{0, 0, 0}, .edge_u = z, .edge_v = y}, black);
     box.add(Quad{.corner{float(a), 0, 0}, .edge_u = z, .edge_v = y}, black);
+    const World closed(std::move(box));
     const double flux = pi * a * b;
     const auto flux_where = [&](auto where) {
-        return stored_flux(box, MapType::general,
+        return stored_flux(closed, MapType::general,
                            {.photons = 20000, .shadow_photons = false, .threads = 1},
                            16, where);
     };
@@ -223,6 +226,7 @@ TEST_CASE("tracing: a caustic has the power that the glass was given") {
         else // radius 0.1, seen from the ball's centre with intensity L pi r^2
             scene.add(Sphere{.center{0, 3, 0}, .radius = 0.1f}, black,
                       Rgb{float(2 / (pi * 0.01))});
+        const World world(std::move(scene));
         // Between two Lambertian spheres: the flux on a ball from a point at distance d
         // is I 2 pi (1 - cos), and from a lamp the mean of that over its face; to
         // second order in the lamp's radius they agree, and here within 1e-4.
@@ -230,7 +234,7 @@ TEST_CASE("tracing: a caustic has the power that the glass was given") {
         const auto everywhere = [](const Photon&) { return true; };
         const PhotonPassSettings pass{.photons = 20000, .threads = 1};
         const Mean caustic =
-            stored_flux(scene, MapType::caustics, pass, 16, everywhere);
+            stored_flux(world, MapType::caustics, pass, 16, everywhere);
         CAPTURE(point_light);
         CAPTURE(caustic.mean);
         CAPTURE(2 * solid);
@@ -248,18 +252,16 @@ TEST_CASE("tracing: a caustic has the power that the glass was given") {
         for (std::uint64_t seed = 1; seed <= 16; ++seed) {
             blind.seed = ljus_test::test_seed(seed);
             double sum = 0;
-            const LightChoice choice = light_choice(scene.lights);
-            FluxAudit audit;
-            std::vector<Photon> out;
+            detail::PhotonBlockT<float> out;
             for (std::uint64_t path = 0; path < 100000; ++path) {
                 auto stream =
                     random_stream(ljus_test::test_seed(seed), Pass::user, 0, path);
-                auto flight = emit(scene, choice, stream);
+                auto flight = emit(world, world.light_choice(), stream);
                 flight.flux /= 100000.0f;
-                detail::trace_photon(scene, MapType::caustics, flight, std::nullopt,
-                                     blind, stream, out, audit);
+                detail::trace_photon(world, MapType::caustics, {flight}, blind, stream,
+                                     out);
             }
-            for (const Photon& photon : out) sum += double(photon.flux.x);
+            for (const Photon& photon : out.photons) sum += double(photon.flux.x);
             found.add(sum);
         }
         CAPTURE(found.mean);
@@ -274,9 +276,10 @@ TEST_CASE("tracing: a caustic has the power that the glass was given") {
         Quad{.corner{-1.2f, -1.5f, -1.2f}, .edge_u{0, 0, 2.4f}, .edge_v{2.4f, 0, 0}},
         black);
     scene.add(PointLight{.position{0, 2000, 0}, .intensity = Rgb{4e6f}}); // E = 1
+    const World world(std::move(scene));
     for (const double radius : {0.1, 0.4, 0.9}) {
         const Mean through = stored_flux(
-            scene, MapType::caustics, {.photons = 20000, .threads = 1}, 16,
+            world, MapType::caustics, {.photons = 20000, .threads = 1}, 16,
             [&](const Photon& p) {
                 return double(p.position.x * p.position.x +
                               p.position.z * p.position.z) < radius * radius;
@@ -311,6 +314,7 @@ TEST_CASE("tracing: aimed photons equal blind ones, whatever their targets") {
                        .edge_v{0, 1.8f, -0.1f}},
                   mirror);
         add_lamps(scene, lamp, 2);
+        const World world(std::move(scene));
         Mean aimed[2], blind[2];
         for (std::uint64_t seed = 1; seed <= 24; ++seed) {
             const auto half = [](const Photon& p) { return p.position.y < -0.999f; };
@@ -326,22 +330,20 @@ TEST_CASE("tracing: aimed photons equal blind ones, whatever their targets") {
             };
             add(aimed,
                 trace_photons(
-                    scene, MapType::caustics,
+                    world, MapType::caustics,
                     {.photons = 6000, .seed = ljus_test::test_seed(seed), .threads = 1})
                     .photons);
-            const LightChoice choice = light_choice(scene.lights);
-            FluxAudit audit;
-            std::vector<Photon> out;
+            detail::PhotonBlockT<float> out;
             const int paths = 8000;
             for (std::uint64_t path = 0; path < paths; ++path) {
                 auto stream =
                     random_stream(ljus_test::test_seed(seed), Pass::user, 0, path);
-                auto flight = emit(scene, choice, stream);
+                auto flight = emit(world, world.light_choice(), stream);
                 flight.flux /= float(paths);
-                detail::trace_photon(scene, MapType::caustics, flight, std::nullopt,
-                                     PhotonPassSettings{}, stream, out, audit);
+                detail::trace_photon(world, MapType::caustics, {flight},
+                                     PhotonPassSettings{}, stream, out);
             }
-            add(blind, out);
+            add(blind, out.photons);
         }
         for (const int i : {0, 1}) {
             CAPTURE(static_cast<int>(lamp));
@@ -358,17 +360,17 @@ TEST_CASE("tracing: the kinds of photons are those of their paths") {
     // The walk of a photon is done again beside trace_photon(), from the
     // same random numbers, with its path spelt out; the photons must be
     // those whose path the law owns.
-    const Room room = make_room<float>(Ball::mixture, Lamp::quad, 2);
-    const LightChoice choice = light_choice(room.lights);
+    const ClosedRoom room = make_room<float>(Ball::mixture, Lamp::quad, 2);
+    const LightChoice& choice = room.light_choice();
     int seen[3] = {};
     for (std::uint64_t path = 0; path < 4000; ++path) {
         for (const MapType law : {MapType::general, MapType::caustics}) {
             auto stream = random_stream(ljus_test::test_seed(5), Pass::user, 0, path);
             const auto flight = emit(room, choice, stream);
-            std::vector<Photon> out;
-            FluxAudit audit;
-            detail::trace_photon(room, law, flight, std::nullopt,
-                                 {.shadow_photons = false}, stream, out, audit);
+            detail::PhotonBlockT<float> block;
+            detail::trace_photon(room, law, {flight}, {.shadow_photons = false}, stream,
+                                 block);
+            const std::vector<Photon>& out = block.photons;
 
             std::vector<std::pair<std::string, Vec3>> expected;
             auto again = random_stream(ljus_test::test_seed(5), Pass::user, 0, path);
@@ -429,7 +431,7 @@ TEST_CASE("tracing: the kinds of photons are those of their paths") {
 }
 
 TEST_CASE("tracing: shadow photons lie behind the first surface") {
-    const Room room = make_room<float>(Ball::glass, Lamp::sphere, 2);
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::sphere, 2);
     const auto traced =
         trace_photons(room, MapType::general, {.photons = 2000, .threads = 1});
     std::size_t shadows = 0;
@@ -441,7 +443,8 @@ TEST_CASE("tracing: shadow photons lie behind the first surface") {
                        .direction = -photon.direction};
         const auto hit = closest_hit(room, back);
         REQUIRE(hit);
-        CHECK(room.lights[photon.light].object != hit->object);
+        CHECK(photon.light < 2);
+        CHECK(room.object(hit->object).light != photon.light);
     }
     CHECK(shadows > 100);
     const auto without =
@@ -451,12 +454,12 @@ TEST_CASE("tracing: shadow photons lie behind the first surface") {
 }
 
 TEST_CASE("tracing: no photons, no light, no target") {
-    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
     for (const MapType law : {MapType::general, MapType::caustics})
         CHECK(trace_photons(room, law, {.photons = 0}).photons.empty());
     CHECK_THROWS_AS((void)trace_photons(room, MapType::general, {.photons = -1}),
                     std::invalid_argument);
-    const Room matt = make_room<float>(Ball::lambertian, Lamp::quad, 1);
+    const ClosedRoom matt = make_room<float>(Ball::lambertian, Lamp::quad, 1);
     const auto none =
         trace_photons(matt, MapType::caustics, {.photons = 1000000, .give_up = 600});
     CHECK(none.photons.empty());
@@ -471,7 +474,7 @@ TEST_CASE("tracing: no photons, no light, no target") {
               .emitted == 10);
     Room dark;
     add_walls(dark);
-    CHECK_THROWS_AS((void)trace_photons(dark, MapType::general, {}),
+    CHECK_THROWS_AS((void)trace_photons(World(dark), MapType::general, {}),
                     std::invalid_argument);
 }
 
@@ -493,7 +496,7 @@ bool same(const TracedPhotonsT<float>& a, const TracedPhotonsT<float>& b) {
 } // namespace
 
 TEST_CASE("tracing: the same photons for 1 to 4 threads, by chance and evenly spread") {
-    const Room room = make_room<float>(Ball::glass, Lamp::quad, 2);
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 2);
     for (const MapType law : {MapType::general, MapType::caustics})
         for (const PhotonSampling numbers :
              {PhotonSampling::random, PhotonSampling::sobol}) {
@@ -512,17 +515,19 @@ TEST_CASE("tracing: spots and suns balance, and their photons are what paths fin
     // A floor patch beside a matt ball and a wall, lit by a sun and a spot: all photons
     // that are stored on it, against the path tracer's rule by hand: the mean over the
     // patch of E, direct and after one bounce and more.
-    RoomT<float> open;
-    const auto grey = open.add(Lambertian{.albedo = Rgb{0.6f}});
-    open.add(Quad{.corner{-2, 0, -2}, .edge_u{0, 0, 4}, .edge_v{4, 0, 0}}, grey);
-    open.add(Quad{.corner{-2, 0, -2}, .edge_u{4, 0, 0}, .edge_v{0, 2, 0}}, grey);
-    open.add(Sphere{.center{0.2f, 0.5f, 0}, .radius = 0.4f}, grey);
-    open.add(SunLight{.direction{-1, -2, -0.5f}, .irradiance{3, 2, 1}});
-    open.add(SpotLight{.position{-1, 1.5f, 1},
-                       .direction{1, -1.2f, -1},
-                       .intensity{1, 2, 4},
-                       .inner_degrees = 15,
-                       .outer_degrees = 35});
+    Scene<Shapes<Sphere, Quad>, Materials<Lambertian>, Lights<SpotLight, SunLight>>
+        scene;
+    const auto grey = scene.add(Lambertian{.albedo = Rgb{0.6f}});
+    scene.add(Quad{.corner{-2, 0, -2}, .edge_u{0, 0, 4}, .edge_v{4, 0, 0}}, grey);
+    scene.add(Quad{.corner{-2, 0, -2}, .edge_u{4, 0, 0}, .edge_v{0, 2, 0}}, grey);
+    scene.add(Sphere{.center{0.2f, 0.5f, 0}, .radius = 0.4f}, grey);
+    scene.add(SunLight{.direction{-1, -2, -0.5f}, .irradiance{3, 2, 1}});
+    scene.add(SpotLight{.position{-1, 1.5f, 1},
+                        .direction{1, -1.2f, -1},
+                        .intensity{1, 2, 4},
+                        .inner_degrees = 15,
+                        .outer_degrees = 35});
+    const World open(std::move(scene));
     const auto on_patch = [](const Vec3& p) {
         return p.y < 1e-3f && p.x > -1 && p.x < 0 && p.z > -1 && p.z < 0;
     };
@@ -557,7 +562,7 @@ TEST_CASE("tracing: spots and suns balance, and their photons are what paths fin
                 const Vec3 n =
                     at.frame.normal *
                     (glm::dot(at.frame.normal, ray.direction) < 0 ? 1.0f : -1.0f);
-                for (const auto& light : open.lights) {
+                for (std::uint32_t light = 0; light < 2; ++light) {
                     const auto s =
                         sample_light(open, light, at.point.position, Vec2{0.5f});
                     if (!s || !(glm::dot(s->wi, n) > 0)) continue;
@@ -585,7 +590,7 @@ TEST_CASE("tracing: spots and suns balance, and their photons are what paths fin
 }
 
 TEST_CASE("tracing: through a ball of glass a sun sends what parallel light does") {
-    Room scene;
+    Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass>, Lights<SunLight>> scene;
     const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
     const auto glass = scene.add(Glass{.index = 1.5f});
     scene.add(Sphere{.center{0, 0, 0}, .radius = 1}, glass);
@@ -593,10 +598,11 @@ TEST_CASE("tracing: through a ball of glass a sun sends what parallel light does
         Quad{.corner{-1.2f, -1.5f, -1.2f}, .edge_u{0, 0, 2.4f}, .edge_v{2.4f, 0, 0}},
         black);
     scene.add(SunLight{.direction{0, -1, 0}, .irradiance = Rgb{1}});
+    const World world(std::move(scene));
     for (const PhotonSampling numbers :
          {PhotonSampling::random, PhotonSampling::sobol}) {
         const Mean through =
-            stored_flux(scene, MapType::caustics,
+            stored_flux(world, MapType::caustics,
                         {.photons = 20000, .numbers = numbers, .threads = 1}, 16,
                         [&](const Photon& p) {
                             return double(p.position.x * p.position.x +
@@ -619,9 +625,10 @@ TEST_CASE("tracing: roulette leaves the flux in a furnace as it is, over 100 see
         room.add(Sphere{.radius = 1}, wall, Rgb{0}, true);
         room.add(PointLight{.position{0.3f, 0, 0},
                             .intensity = Rgb{float(0.25 / std::numbers::pi)}});
+        const World world(std::move(room));
         Mean arrived;
         for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-            const auto traced = trace_photons(room, MapType::general,
+            const auto traced = trace_photons(world, MapType::general,
                                               {.photons = 1000,
                                                .seed = ljus_test::test_seed(seed),
                                                .shadow_photons = false,
@@ -640,7 +647,7 @@ TEST_CASE("tracing: roulette leaves the flux in a furnace as it is, over 100 see
 }
 
 TEST_CASE("tracing: memory is foretold, and refused in a sentence before it is taken") {
-    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
     for (const MapType law : {MapType::general, MapType::caustics})
         for (const PhotonSampling numbers :
              {PhotonSampling::random, PhotonSampling::sobol})
@@ -671,7 +678,8 @@ TEST_CASE("tracing: memory is foretold, and refused in a sentence before it is t
 }
 
 TEST_CASE("tracing: a pass that stores nothing gives up and says why") {
-    const auto sentence = [](const Room& room, MapType law) {
+    const auto sentence = [](const Room& open, MapType law) {
+        const World room(open);
         const PhotonPassSettings pass{.photons = 1000000, .give_up = 4096};
         const auto traced = trace_photons(room, law, pass);
         CHECK(traced.photons.empty());
@@ -680,8 +688,7 @@ TEST_CASE("tracing: a pass that stores nothing gives up and says why") {
         check_balance(traced.audit);
         // As if all had been sent: those that were stand for the others.
         if (law == MapType::general)
-            CHECK(traced.audit.emitted.x ==
-                  within(double(room.lights[0].flux.x), 1e-4));
+            CHECK(traced.audit.emitted.x == within(double(room.powers()[0].x), 1e-4));
         return traced.remark;
     };
     Room hidden; // a wall between the lamp and the glass
@@ -705,12 +712,13 @@ TEST_CASE("tracing: a pass that stores nothing gives up and says why") {
     CHECK(sentence(nowhere, MapType::general).find("100 % left the scene") !=
           std::string::npos);
     // A pass that has stored one photon goes on; one that ends before it says nothing.
-    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
     const auto all =
         trace_photons(room, MapType::general, {.photons = 6000, .give_up = 1});
     CHECK(all.emitted == 6000);
     CHECK(all.remark.empty());
-    CHECK(trace_photons(nowhere, MapType::general, {.photons = 4000}).remark.empty());
+    CHECK(trace_photons(World(nowhere), MapType::general, {.photons = 4000})
+              .remark.empty());
 }
 
 TEST_CASE("tracing: lamps and scenes of any size") {
@@ -727,7 +735,7 @@ TEST_CASE("tracing: lamps and scenes of any size") {
             room.add(Sphere{.center = s * Vec3{0, 1.2f, 0}, .radius = s * r}, grey,
                      Rgb{1});
             const auto traced = trace_photons(
-                room, MapType::general,
+                World(room), MapType::general,
                 {.photons = 20000, .shadow_photons = false, .threads = 1});
             check_balance(traced.audit);
             double direct = 0;
@@ -744,10 +752,10 @@ TEST_CASE("tracing: lamps and scenes of any size") {
 }
 
 TEST_CASE("tracing: one photon, and numbers that make no sense") {
-    const Room room = make_room<float>(Ball::lambertian, Lamp::quad, 1);
+    const ClosedRoom room = make_room<float>(Ball::lambertian, Lamp::quad, 1);
     const auto one = trace_photons(room, MapType::general, {.photons = 1});
     REQUIRE(!one.photons.empty());
-    CHECK(one.photons[0].flux == room.lights[0].flux);
+    CHECK(one.photons[0].flux == room.powers()[0]);
     for (const PhotonPassSettings& pass :
          {PhotonPassSettings{.photons = -1}, PhotonPassSettings{.max_bounces = 0},
           PhotonPassSettings{.max_memory = 0},
@@ -755,9 +763,9 @@ TEST_CASE("tracing: one photon, and numbers that make no sense") {
           PhotonPassSettings{.give_up = 0}})
         CHECK_THROWS_AS((void)trace_photons(room, MapType::general, pass),
                         std::invalid_argument);
-    Scene<Shapes<Sphere>, Materials<Lambertian>> empty;
+    Scene<Shapes<Sphere>, Materials<Lambertian>, Lights<SunLight>> empty;
     empty.add(SunLight{});
-    CHECK_THROWS_WITH_AS((void)trace_photons(empty, MapType::general, {}),
+    CHECK_THROWS_WITH_AS((void)trace_photons(World(empty), MapType::general, {}),
                          doctest::Contains("power of all lights"),
                          std::invalid_argument);
 }
@@ -865,7 +873,7 @@ TEST_CASE("tracing: a shadow photon on each matt surface behind the first") {
     const EmittedPhotonT<float> photon{
         .ray{.origin{0, 0, 1}, .direction{0, 0, -1}}, .flux = Rgb{2}, .light = 5};
     std::vector<Photon> out;
-    detail::trace_shadow(scene, photon, SurfacePoint{},
+    detail::trace_shadow(World(scene), photon, SurfacePoint{},
                          random_stream(1, Pass::user, 0, 0), out);
     REQUIRE(out.size() == 32); // all but the mirror
     for (std::size_t i = 0; i < 32; ++i) {
@@ -880,7 +888,7 @@ TEST_CASE("tracing: a shadow photon on each matt surface behind the first") {
 }
 
 TEST_CASE("tracing: only kinds that are kept, and nothing without flux") {
-    const Room room = make_room<float>(Ball::glass, Lamp::quad, 2);
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 2);
     std::size_t kinds[4] = {};
     for (const Photon& photon :
          trace_photons(room, MapType::general, {.photons = 500, .threads = 1}).photons)
@@ -904,7 +912,7 @@ TEST_CASE("tracing: only kinds that are kept, and nothing without flux") {
     dark.add(Sphere{.radius = 0.4f}, dark.add(Glass{.absorption = Rgb{1e9f}}));
     dark.add(PointLight{.position{0, 0.9f, 0}});
     const auto traced =
-        trace_photons(dark, MapType::caustics, {.photons = 2000, .threads = 1});
+        trace_photons(World(dark), MapType::caustics, {.photons = 2000, .threads = 1});
     check_balance(traced.audit);
     CHECK(traced.photons.size() > 10); // by reflection
     for (const Photon& photon : traced.photons) REQUIRE(photon.flux.x > 0);
@@ -917,7 +925,7 @@ TEST_CASE("tracing: in a disc below a point light lies the flux of its cone") {
              room.add(Lambertian{.albedo = Rgb{0}}));
     room.add(PointLight{.position{0, 3, 0}, .intensity{2, 4, 8}});
     PhotonPassSettings pass{.photons = 20000, .max_bounces = 1};
-    const auto traced = trace_photons(room, MapType::general, pass);
+    const auto traced = trace_photons(World(room), MapType::general, pass);
     glm::dvec3 in_disc{0}, sum{0};
     for (const auto& photon : traced.photons) {
         if (photon.kind != PhotonKind::direct) continue;
@@ -1051,6 +1059,7 @@ TEST_CASE("tracing: one photon's way, step by step") {
         room.add(QuadT<double>{{-9, 2, 9}, {18, 0, 0}, {0, 0, -18}}, glass);
     const auto floor =
         room.add(QuadT<double>{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}}, black);
+    const World slab(std::move(room));
     const EmittedPhotonT<double> photon{
         .ray{.origin{0, 5, 0}, .direction{0, -1, 0}, .time = 0.5},
         .flux{4, 2, 1},
@@ -1059,10 +1068,11 @@ TEST_CASE("tracing: one photon's way, step by step") {
     int landed = 0;
     for (std::uint64_t i = 0; i < 400; ++i) {
         auto stream = random_stream(ljus_test::test_seed(6), Pass::user, 0, i);
-        std::vector<PhotonT<double>> out;
-        FluxAudit audit;
-        detail::trace_photon(room, MapType::caustics, photon, top, {.max_bounces = 10},
-                             stream, out, audit);
+        detail::PhotonBlockT<double> block;
+        detail::trace_photon(slab, MapType::caustics, {photon, top},
+                             {.max_bounces = 10}, stream, block);
+        const FluxAudit& audit = block.audit;
+        const std::vector<PhotonT<double>>& out = block.photons;
         CHECK(audit.emitted == D3{4, 2, 1});
         CHECK(audit.cut == D3{0});
         CHECK(out.size() <= 1);
@@ -1081,28 +1091,26 @@ TEST_CASE("tracing: one photon's way, step by step") {
     CHECK(std::abs(landed - 384) < 5 * std::sqrt(400 * 0.96 * 0.04));
     // The limit cuts it within the glass; another target than the one it met, at once.
     auto stream = random_stream(ljus_test::test_seed(6), Pass::user, 0, 0);
-    std::vector<PhotonT<double>> out;
-    FluxAudit limited, missed;
-    detail::trace_photon(room, MapType::caustics, photon, top, {.max_bounces = 1},
-                         stream, out, limited);
-    CHECK(glm::distance(limited.cut, D3{4, 2, 1}) < 1e-12);
-    detail::trace_photon(room, MapType::caustics, photon, floor, {.max_bounces = 10},
-                         stream, out, missed);
-    CHECK(missed.cut == D3{4, 2, 1});
-    CHECK(out.empty());
+    detail::PhotonBlockT<double> limited, missed, stacked;
+    detail::trace_photon(slab, MapType::caustics, {photon, top}, {.max_bounces = 1},
+                         stream, limited);
+    CHECK(glm::distance(limited.audit.cut, D3{4, 2, 1}) < 1e-12);
+    CHECK(limited.photons.empty());
+    detail::trace_photon(slab, MapType::caustics, {photon, floor}, {.max_bounces = 10},
+                         stream, missed);
+    CHECK(missed.audit.cut == D3{4, 2, 1});
+    CHECK(missed.photons.empty());
     // Shadow photons: one for each matt surface behind the first, at the photon's time.
     RoomT<double> stack;
     for (const double y : {3.0, 2.0, 1.0, 0.0})
         stack.add(QuadT<double>{{-9, y, 9}, {18, 0, 0}, {0, 0, -18}},
                   y == 2 ? stack.add(MirrorT<double>{})
                          : stack.add(LambertianT<double>{.albedo = D3{0}}));
-    FluxAudit audit;
-    detail::trace_photon(stack, MapType::general, photon, {},
-                         {.max_bounces = 10, .shadow_photons = true}, stream, out,
-                         audit);
-    REQUIRE(out.size() == 3);
+    detail::trace_photon(World(stack), MapType::general, {photon},
+                         {.max_bounces = 10, .shadow_photons = true}, stream, stacked);
+    REQUIRE(stacked.photons.size() == 3);
     int shadows = 0;
-    for (const auto& one : out) {
+    for (const auto& one : stacked.photons) {
         CHECK(one.flux == D3{4, 2, 1});
         CHECK(one.light == 3);
         const bool direct = std::abs(one.position.y - 3) < 1e-6;
@@ -1121,8 +1129,9 @@ TEST_CASE("tracing: lights get photons by their power, or as many each") {
     const float unit = float(0.25 / std::numbers::pi);
     room.add(PointLight{.position{1, 0, 0}, .intensity = Rgb{unit}});
     room.add(PointLight{.position{0, 1, 0}, .intensity = Rgb{9 * unit}});
+    const World world(std::move(room));
     for (const bool equal : {false, true}) {
-        const auto traced = trace_photons(room, MapType::general,
+        const auto traced = trace_photons(world, MapType::general,
                                           {.photons = 4000,
                                            .shadow_photons = false,
                                            .equal_lights = equal,
@@ -1142,9 +1151,8 @@ TEST_CASE("tracing: lights get photons by their power, or as many each") {
 }
 
 TEST_CASE("tracing: each path has the numbers of its seed, map, repetition and place") {
-    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
-    const detail::IndexedT<Room> scene(room);
-    const LightChoice choice = light_choice(room.lights);
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const LightChoice& choice = room.light_choice();
     const auto targets = specular_objects(room);
     for (const MapType map : {MapType::general, MapType::caustics})
         for (const PhotonSampling numbers :
@@ -1157,27 +1165,24 @@ TEST_CASE("tracing: each path has the numbers of its seed, map, repetition and p
                                           .threads = 1};
             const Pass part = map == MapType::general ? Pass::general_photons
                                                       : Pass::caustics_photons;
-            std::vector<Photon> right;
-            FluxAudit audit;
+            detail::PhotonBlockT<float> block;
             for (std::uint64_t path = 0; path < 40; ++path) {
                 SobolStream stream =
                     numbers == PhotonSampling::sobol
                         ? sobol_stream(5, part, 3, path)
                         : detail::without_points(random_stream(5, part, 3, path));
-                EmittedPhotonT<float> photon;
-                std::optional<ObjectId> target;
+                detail::SentPhotonT<float> sent;
                 if (map == MapType::general) {
-                    photon = emit(scene, choice, stream);
+                    sent.photon = emit(room, choice, stream);
                 } else {
-                    const auto aimed = aim(scene, choice, targets, stream);
+                    const auto aimed = aim(room, choice, targets, stream);
                     if (!aimed) continue;
-                    photon = aimed->photon;
-                    target = aimed->target;
+                    sent = {aimed->photon, aimed->target};
                 }
-                photon.flux /= 40.0f;
-                detail::trace_photon(scene, map, photon, target, pass, stream, right,
-                                     audit);
+                sent.photon.flux /= 40.0f;
+                detail::trace_photon(room, map, sent, pass, stream, block);
             }
+            const std::vector<Photon>& right = block.photons;
             const auto traced = trace_photons(room, map, pass);
             REQUIRE(traced.photons.size() == right.size());
             REQUIRE(!right.empty());
@@ -1189,7 +1194,7 @@ TEST_CASE("tracing: each path has the numbers of its seed, map, repetition and p
 }
 
 TEST_CASE("tracing: progress ascends through all stages of a pass") {
-    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
     std::vector<long long> heard;
     const auto watch = [&](long long done, long long all) {
         CHECK(all == 12); // blocks of 512
@@ -1218,7 +1223,7 @@ TEST_CASE("tracing: progress ascends through all stages of a pass") {
     empty.add(PointLight{.intensity = Rgb{1}});
     calls = 0;
     const auto nothing = trace_photons(
-        empty, MapType::general,
+        World(empty), MapType::general,
         {.photons = 6000, .give_up = 3000, .threads = 1, .progress = stop});
     CHECK(calls == 1);
     CHECK_FALSE(nothing.complete);
@@ -1228,13 +1233,15 @@ TEST_CASE("tracing: progress ascends through all stages of a pass") {
 }
 
 TEST_CASE("tracing: as many lights as 16 bits can number, and no more") {
-    Light light;
-    light.flux = Rgb{1};
-    std::vector<Light> lights(65536, light);
-    CHECK_NOTHROW((void)detail::start_pass(PhotonPassSettings{}, lights));
-    lights.push_back(light);
+    const auto start = [](std::size_t lights) {
+        LightChoice choice;
+        for (std::size_t i = 0; i < lights; ++i)
+            choice.cumulative.push_back(double(i + 1));
+        return detail::start_pass<float>(PhotonPassSettings{}, choice);
+    };
+    CHECK(start(65536).cumulative.size() == 65536);
     CHECK_THROWS_WITH_AS(
-        (void)detail::start_pass(PhotonPassSettings{}, lights),
+        (void)start(65537),
         "the number of lights is 65537; it must be at most 65536, because a photon has "
         "16 bits for its light's number.",
         std::invalid_argument);
@@ -1247,11 +1254,12 @@ TEST_CASE("tracing: a shadow falls where things are when the light passes") {
     scene.add(Moving<Quad>{{{4.5f, -0.5f, -1}, {1, 0, 0}, {0, 1, 0}}, {-5, 0, 0}},
               grey);
     scene.add(Quad{{-9, -9, -2}, {18, 0, 0}, {0, 18, 0}}, grey);
+    const World world(std::move(scene));
     for (const float time : {0.0f, 0.5f, 1.0f}) {
         const EmittedPhotonT<float> photon{
             .ray{.origin{0, 0, 1}, .direction{0, 0, -1}, .time = time}, .flux = Rgb{1}};
         std::vector<Photon> out;
-        detail::trace_shadow(scene, photon, SurfacePoint{},
+        detail::trace_shadow(world, photon, SurfacePoint{},
                              random_stream(1, Pass::user, 0, 0), out);
         CHECK(out.size() == (time == 1 ? 2 : 1));
     }

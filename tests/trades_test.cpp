@@ -255,7 +255,7 @@ TEST_CASE("trades: a picture for some seconds takes these seconds") {
         double time = 0;
         int told = 0;
         const auto kept = keep(
-            room.scene, room.camera, {.width = 8, .height = 6, .threads = 1},
+            room.world, room.camera, {.width = 8, .height = 6, .threads = 1},
             Promise{.seconds = seconds}, Clock{&time}, true, [&](const auto& before) {
                 ++told;
                 CHECK(before.pictures == 0);
@@ -274,13 +274,13 @@ TEST_CASE("trades: a picture for an error stops when it is there") {
     double time = 0;
     const auto nobody = [](const auto&) {};
     const auto kept =
-        keep(room.scene, room.camera, {.width = 12, .height = 12, .threads = 1},
+        keep(room.world, room.camera, {.width = 12, .height = 12, .threads = 1},
              Promise{.error = 0.05}, Clock{&time}, true, nobody);
     CHECK(kept.error() <= 0.05);
     CHECK(kept.noise > 0);
     CHECK(kept.pictures >= 2);
     CHECK_THROWS_WITH_AS(
-        (void)keep(room.scene, room.camera, {.width = 4, .height = 4, .threads = 1},
+        (void)keep(room.world, room.camera, {.width = 4, .height = 4, .threads = 1},
                    Promise{.error = 1e-9}, Clock{&time, 1.0}, true, nobody),
         doctest::Contains("--error is 1e-09; the least bias of all settings is "
                           "0.00022 here"),
@@ -290,14 +290,14 @@ TEST_CASE("trades: a picture for an error stops when it is there") {
 TEST_CASE("trades: without mirrors and glass the exact way has no bias") {
     const auto room = matt_cornell_box();
     double time = 0;
-    const auto found = examples::pilot(room.scene, room.camera,
+    const auto found = examples::pilot(room.world, room.camera,
                                        {.width = 8, .height = 8, .threads = 1},
                                        Promise{.seconds = 8}, Clock{&time});
     REQUIRE(found.size() == 3);
     CHECK(found[2].bias == 0);
     CHECK(found[0].noise > 0);
     // No patience: one way is tried all the same.
-    CHECK(examples::pilot(room.scene, room.camera,
+    CHECK(examples::pilot(room.world, room.camera,
                           {.width = 8, .height = 8, .threads = 1},
                           Promise{.seconds = 1e-3}, Clock{&time})
               .size() == 1);

@@ -15,7 +15,7 @@
 #include "ljus/geometry/shape.hpp"
 #include "ljus/geometry/watertight.hpp"
 #include "ljus/materials/lambertian.hpp"
-#include "ljus/scene/index.hpp"
+#include "ljus/scene/world.hpp"
 #include "support/leaks.hpp"
 
 using namespace ljus;
@@ -48,7 +48,7 @@ template <typename Test>
 Leaks leaks(const ClosedMesh& closed, Aim aim, long rays) {
     const Mesh mesh = mesh_of(closed);
     const Triangles triangles = scene_of(closed);
-    const auto scene = index_scene<Test>(triangles);
+    const auto scene = World(triangles, compute_in<Test>);
     Leaks sum;
     ljus_test::count_leaks(closed, aim, rays, [&](const Ray& ray) {
         sum.mesh_first += !intersect<Test>(ray, mesh);
@@ -110,7 +110,8 @@ TEST_CASE("tree leaks: a room of loose quads, at its edges and corners, by defau
                     v[b] = (cut[piece / 3 + 1] - cut[piece / 3]) * size[b];
                     quads.add(Quad{.corner = corner, .edge_u = u, .edge_v = v}, grey);
                 }
-        const auto scene = index_scene(quads);
+        const World quads_world(std::move(quads));
+        const auto scene = World(quads_world);
         ljus_test::Numbers n;
         long leaks = 0;
         for (int i = 0; i < 500000; ++i) {
@@ -130,7 +131,7 @@ TEST_CASE("tree leaks: a room of loose quads, at its edges and corners, by defau
             const Ray ray{.origin = origin, .direction = low + at * size - origin};
             leaks += !closest_hit(scene, ray);
             leaks += !occluded(scene, ray);
-            leaks += !closest_hit(quads, ray);
+            leaks += !closest_hit(quads_world, ray);
         }
         CAPTURE(moved);
         CHECK(leaks == 0);

@@ -12,8 +12,8 @@
 #include "ljus/materials/textured.hpp"
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/next_vertex.hpp"
-#include "ljus/scene/index.hpp"
 #include "ljus/scene/make_scene.hpp"
+#include "ljus/scene/world.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
 
@@ -26,11 +26,12 @@ TEST_CASE("vertex: a lamp emits along its normal, and to no other side") {
     room.add(Quad{.corner{-1, -1, 0}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}}, black,
              Rgb{3});                                                      // normal +z
     room.add(Sphere{.center{10, 0, 0}, .radius = 1}, black, Rgb{1}, true); // inwards
+    const World world(std::move(room));
     const auto seen = [&](const Vec3& from, const Vec3& direction) {
         const Ray ray{.origin = from, .direction = direction};
-        const auto hit = closest_hit(room, ray);
+        const auto hit = closest_hit(world, ray);
         REQUIRE(hit);
-        return vertex_at(room, ray, *hit);
+        return vertex_at(world, ray, *hit);
     };
     CHECK(seen({0, 0, 1}, {0, 0, -1}).emits());
     CHECK(seen({0, 0, 1}, {0, 0, -1}).wo.z == doctest::Approx(1));
@@ -94,17 +95,18 @@ TEST_CASE("vertex: roulette leaves the mean as it was") {
 }
 
 TEST_CASE("vertex: the surface at a hit, seen from its outer side") {
-    const auto scene = make_scene(
-        placed(Sphere{{0, 0, -5}, 1}, Lambertian{}, Rgb{2}),
-        placed(Sphere{{0, 0, -5}, 50}, Lambertian{.albedo = Rgb{0.25f}}, Rgb{0}, true));
+    const World world(
+        make_scene(placed(Sphere{{0, 0, -5}, 1}, Lambertian{}, Rgb{2}),
+                   placed(Sphere{{0, 0, -5}, 50}, Lambertian{.albedo = Rgb{0.25f}},
+                          Rgb{0}, true)));
     const Ray ray; // along -z
-    const auto ball = vertex_at(scene, ray, *closest_hit(scene, ray));
+    const auto ball = vertex_at(world, ray, *closest_hit(world, ray));
     CHECK(ball.point.position == Vec3{0, 0, -4});
     CHECK(ball.point.normal == Vec3{0, 0, 1});
     CHECK(ball.object.emission == Rgb{2});
     CHECK(ball.frame.normal == ball.point.normal);
     const Ray away{.direction = {0, 0, 1}};
-    const auto room = vertex_at(scene, away, *closest_hit(scene, away));
+    const auto room = vertex_at(world, away, *closest_hit(world, away));
     CHECK(room.point.position == Vec3{0, 0, 45});
     CHECK(room.point.normal == Vec3{0, 0, -1}); // it points inwards
     CHECK(room.object.material == MaterialId{0, 1});
@@ -120,12 +122,12 @@ using D3 = glm::dvec3;
 const D3 fog{0.1, 0.2, 0.3}; ///< What the glass of the tests below absorbs.
 
 /// A slab of glass between z = -2 and z = 0, its normals outwards.
-RoomT<double> slab() {
+ClosedRoomT<double> slab() {
     RoomT<double> room;
     const auto glass = room.add(GlassT<double>{.index = 1.5, .absorption = fog});
     room.add(QuadT<double>{{-1e5, -1e5, 0}, {2e5, 0, 0}, {0, 2e5, 0}}, glass);
     room.add(QuadT<double>{{-1e5, -1e5, -2}, {0, 2e5, 0}, {2e5, 0, 0}}, glass);
-    return room;
+    return ClosedRoomT<double>(std::move(room));
 }
 
 /// A vertex at the origin whose shading normal leans by 0.3 to +x from the surface's
@@ -144,7 +146,7 @@ VertexT<double> leaning(const D3& back) {
 TEST_CASE("vertex: a path through glass carries what its ways and Snell say") {
     // A path knows by its turns where it is; the test by the place. Camera paths gain
     // and lose n^2, photons do not.
-    const auto scene = slab();
+    const auto world = slab();
     int inside_reflections = 0, left = 0;
     for (const Transport transport : {Transport::radiance, Transport::flux})
         for (std::uint64_t seed = 0; seed < 400; ++seed) {
@@ -156,7 +158,7 @@ TEST_CASE("vertex: a path through glass carries what its ways and Snell say") {
             D3 from = ray.origin, way{0};
             bool was_inside = false;
             while (path.depth < 12) {
-                const auto vertex = next_vertex(scene, path, stream);
+                const auto vertex = next_vertex(world, path, stream);
                 if (!vertex) break;
                 const D3 place = vertex->point.position;
                 const bool inside =
@@ -175,7 +177,7 @@ TEST_CASE("vertex: a path through glass carries what its ways and Snell say") {
                             doctest::Approx((2 + c) * scale * std::exp(-way[c]))
                                 .epsilon(1e-9));
                 const int depth = path.depth;
-                REQUIRE(scene.visit_material(
+                REQUIRE(world.visit_material(
                     vertex->object.material, [&](const auto& material) {
                         return continue_path(path, *vertex, material, transport,
                                              Lobes::all, stream);
@@ -210,12 +212,12 @@ TEST_CASE("vertex: a path through glass carries what its ways and Snell say") {
 }
 
 TEST_CASE("vertex: a path that begins in glass is in it, and outside it is not") {
-    const auto scene = slab();
+    const auto world = slab();
     auto stream = random_stream(1, Pass::user, 0, 0);
     for (const double z : {-0.5, 0.5, -2.5}) {
         const double up = z < -2 ? 1 : z > 0 ? -1 : 1; // towards the slab
         PathStateT<double> path{.ray{.origin{0, 0, z}, .direction{0, 0, up}}};
-        const auto vertex = next_vertex(scene, path, stream);
+        const auto vertex = next_vertex(world, path, stream);
         REQUIRE(vertex);
         const bool inside = z == -0.5;
         CHECK(vertex->medium == (inside ? fog : D3{0}));
@@ -233,7 +235,7 @@ TEST_CASE("vertex: a path that begins in glass is in it, and outside it is not")
         const D3 u{0, 18, 0}, v{18, 0, 0}; // u x v = -z
         room.add(QuadT<double>{{-9, -9, 0}, behind ? v : u, behind ? u : v},
                  room.add(LambertianT<double>{}));
-        const auto vertex = next_vertex(room, path, stream);
+        const auto vertex = next_vertex(World(room), path, stream);
         REQUIRE(vertex);
         CHECK((vertex->wo.z < 0) == behind);
         CHECK(vertex->medium == fog);
@@ -246,6 +248,7 @@ TEST_CASE("vertex: a matt surface sends a path on by the cosine, times its albed
     RoomT<double> room;
     const LambertianT<double> matt{.albedo{0.8, 0.5, 0.2}};
     room.add(QuadT<double>{{-9, -9, 0}, {18, 0, 0}, {0, 18, 0}}, room.add(matt));
+    const World world(std::move(room));
     for (const double side : {1.0, -1.0})
         for (const double stop : {1.0, 0.25}) {
             D3 mean{0};
@@ -255,7 +258,7 @@ TEST_CASE("vertex: a matt surface sends a path on by the cosine, times its albed
                     random_stream(test_seed(2), Pass::user, 0, std::uint64_t(i));
                 PathStateT<double> path{
                     .ray{.origin{0, 0, side}, .direction{0, 0, -side}, .time = 0.5}};
-                auto vertex = next_vertex(room, path, stream);
+                auto vertex = next_vertex(world, path, stream);
                 REQUIRE(vertex);
                 vertex->stop_probability = stop;
                 REQUIRE(continue_path(path, *vertex, matt, Transport::radiance,
@@ -284,13 +287,13 @@ TEST_CASE("vertex: a matt surface sends a path on by the cosine, times its albed
     // A black lobe, or one that is not asked for, ends it.
     auto stream = random_stream(2, Pass::user, 0, 0);
     PathStateT<double> path{.ray{.origin{0, 0, 1}, .direction{0, 0, -1}}};
-    const auto vertex = next_vertex(room, path, stream);
+    const auto vertex = next_vertex(world, path, stream);
     CHECK_FALSE(continue_path(path, *vertex, matt, Transport::radiance, Lobes::specular,
                               stream));
 }
 
 TEST_CASE("vertex: at a boundary a path splits by Fresnel's share") {
-    const auto scene = slab();
+    const auto world = slab();
     const GlassT<double> glass{.index = 1.5, .absorption = fog};
     for (const int depth : {0, 3, 40}) {
         auto stream = random_stream(1, Pass::user, 0, 0);
@@ -298,7 +301,7 @@ TEST_CASE("vertex: at a boundary a path splits by Fresnel's share") {
                                 .throughput{2, 3, 4},
                                 .depth = depth,
                                 .branch = 5};
-        const auto vertex = next_vertex(scene, path, stream);
+        const auto vertex = next_vertex(world, path, stream);
         REQUIRE(vertex);
         const auto other = split_path(path, *vertex, glass);
         REQUIRE(other);
@@ -328,7 +331,7 @@ TEST_CASE("vertex: at a boundary a path splits by Fresnel's share") {
     auto stream = random_stream(1, Pass::user, 0, 0);
     // From within, beyond the critical angle, and at a matt surface, there is one way.
     PathStateT<double> steep{.ray{.origin{0, 0, -1}, .direction{0.8, 0, 0.6}}};
-    const auto total = next_vertex(scene, steep, stream);
+    const auto total = next_vertex(world, steep, stream);
     REQUIRE(total);
     CHECK_FALSE(split_path(steep, *total, glass));
     CHECK(steep.ray.direction.z == 0.6);
@@ -411,9 +414,9 @@ TEST_CASE("vertex: panes in the way let a path pass, or stop it by what they ref
     const auto at_height = [](double z) {
         return QuadT<double>{{-9, -9, z}, {18, 0, 0}, {0, 18, 0}};
     };
-    const auto scene =
-        make_scene(placed(at_height(0), LambertianT<double>{}),
-                   placed(at_height(1), pane), placed(at_height(2), pane));
+    const World world(make_scene(placed(at_height(0), LambertianT<double>{}),
+                                 placed(at_height(1), pane),
+                                 placed(at_height(2), pane)));
     int stopped[3] = {};
     const int paths = 20000;
     for (int i = 0; i < paths; ++i) {
@@ -423,7 +426,7 @@ TEST_CASE("vertex: panes in the way let a path pass, or stop it by what they ref
             .throughput{2, 3, 4},
             .medium = fog,
             .depth = 1};
-        const auto vertex = next_vertex(scene, path, stream);
+        const auto vertex = next_vertex(world, path, stream);
         REQUIRE(vertex);
         const double z = std::round(vertex->point.position.z);
         const int panes = 2 - int(z); // that it has passed
@@ -448,16 +451,16 @@ TEST_CASE("vertex: panes in the way let a path pass, or stop it by what they ref
     for (std::uint64_t i = 0; i < 50; ++i) {
         auto stream = random_stream(test_seed(9), Pass::user, 0, i);
         PathStateT<double> path{.ray{.origin{0, 0, 0.5}, .direction{0, 0, 1}}};
-        left = left || !next_vertex(scene, path, stream);
+        left = left || !next_vertex(world, path, stream);
     }
     CHECK(left);
     const auto point = [](double z) {
         return SurfacePointT<double>{.position{0, 0, z}, .normal{0, 0, 1}};
     };
-    const D3 through = visibility(scene, point(0.5), point(3));
+    const D3 through = visibility(world, point(0.5), point(3));
     CHECK(glm::distance(through, passed * passed) < 1e-9);
-    CHECK(visibility(scene, point(2.5), point(3)) == D3{1});
-    CHECK(visibility(scene, point(-1), point(3)) == D3{0});
+    CHECK(visibility(world, point(2.5), point(3)) == D3{1});
+    CHECK(visibility(world, point(-1), point(3)) == D3{0});
 }
 
 TEST_CASE("vertex: a way is blocked by the thousandth pane") {
@@ -470,13 +473,14 @@ TEST_CASE("vertex: a way is blocked by the thousandth pane") {
         };
         scene.add(at_height(-1), scene.add(LambertianT<double>{}));
         for (int i = 0; i < panes; ++i) scene.add(at_height(i), clear);
+        const World world(std::move(scene));
         auto stream = random_stream(1, Pass::user, 0, 0);
         PathStateT<double> path{.ray{.origin{0, 0, 1000.5}, .direction{0, 0, -1}}};
-        CHECK(next_vertex(scene, path, stream).has_value() == (panes < 1000));
+        CHECK(next_vertex(world, path, stream).has_value() == (panes < 1000));
         const auto point = [](double z) {
             return SurfacePointT<double>{.position{0, 0, z}, .normal{0, 0, 1}};
         };
-        CHECK(visibility(scene, point(1000.5), point(-0.5)).x ==
+        CHECK(visibility(world, point(1000.5), point(-0.5)).x ==
               doctest::Approx(panes < 1000 ? 1 : 0));
     }
 }
@@ -504,20 +508,20 @@ TEST_CASE("vertex: roulette's threshold and its largest probability") {
 
 TEST_CASE("vertex: what a slanted pane lets through, and what glass hides") {
     // At 60 degrees, and by Fresnel there: all turns within, T = (1 - r) / (1 + r).
-    const auto scene =
+    const World world(
         make_scene(placed(QuadT<double>{{-9, -9, 1}, {18, 0, 0}, {0, 18, 0}},
                           ThinGlassT<double>{}),
                    placed(QuadT<double>{{-9, -9, -1}, {18, 0, 0}, {0, 18, 0}},
-                          LambertianT<double>{}));
+                          LambertianT<double>{})));
     const double c = 0.5, t = std::sqrt(1 - 0.75 / 2.25);
     const double s = (c - 1.5 * t) / (c + 1.5 * t), p = (1.5 * c - t) / (1.5 * c + t);
     const double r = (s * s + p * p) / 2;
     const auto point = [](double x, double z) {
         return SurfacePointT<double>{.position{x, 0, z}, .normal{0, 0, 1}};
     };
-    const D3 seen = visibility(scene, point(0, 0), point(2.5 * std::sqrt(3.0), 2.5));
+    const D3 seen = visibility(world, point(0, 0), point(2.5 * std::sqrt(3.0), 2.5));
     CHECK(glm::distance(seen, D3{(1 - r) / (1 + r)}) < 1e-9);
-    CHECK(visibility(scene, point(0, 0), point(0, -3)) == D3{0});
+    CHECK(visibility(world, point(0, 0), point(0, -3)) == D3{0});
     // A scene that lists no thin surface: all or nothing.
     const auto glass = slab();
     CHECK(visibility(glass, point(0, 1), point(0, 3)) == D3{1});
@@ -525,27 +529,27 @@ TEST_CASE("vertex: what a slanted pane lets through, and what glass hides") {
 }
 
 TEST_CASE("vertex: a path has a time if something can move, and draws it once") {
-    Scene<Shapes<Moving<Sphere>, Quad>, Materials<Lambertian>> moving;
-    const Room still;
+    const World moving(Scene<Shapes<Moving<Sphere>, Quad>, Materials<Lambertian>>{});
+    const World still(Room{});
     double sum = 0;
     for (std::uint64_t i = 0; i < 1000; ++i) {
         auto stream = random_stream(test_seed(5), Pass::user, 0, i), twin = stream,
              other = stream;
         const Ray ray{.origin{1, 2, 3}, .time = 0.75f};
-        const PathState path = detail::camera_path(moving, ray, stream);
+        const PathState path = camera_path(moving, ray, stream);
         REQUIRE(path.ray.time == next_1d<float>(twin));
         REQUIRE(path.ray.origin == ray.origin);
         REQUIRE(next_1d<float>(stream) == next_1d<float>(twin));
         sum += double(path.ray.time);
         auto same = other;
-        REQUIRE(detail::camera_path(still, ray, other).ray.time == 0);
+        REQUIRE(camera_path(still, ray, other).ray.time == 0);
         REQUIRE(next_1d<float>(other) == next_1d<float>(same));
     }
     CHECK(std::abs(sum / 1000 - 0.5) < 5 / std::sqrt(12000.0));
 }
 
-TEST_CASE("vertex: an index knows the frames of flat shapes") {
-    // What it has worked out once is what a scene works out for each ray.
+TEST_CASE("vertex: a world knows the frames of flat shapes") {
+    // What it has worked out once is what the shape says for each ray.
     Scene<Shapes<Quad, Sphere, Triangle>, Materials<Lambertian>> room;
     const auto matt = room.add(Lambertian{});
     for (const bool inside_out : {false, true}) {
@@ -556,7 +560,7 @@ TEST_CASE("vertex: an index knows the frames of flat shapes") {
         room.add(Triangle{{x, -2, 0.5f}, {x + 1, -2, 0}, {x, -1, 0.3f}}, matt, Rgb{},
                  inside_out);
     }
-    const auto indexed = index_scene(room);
+    const World world(std::move(room));
     RandomStream numbers = random_stream(test_seed(7), Pass::user, 0, 0);
     int hits = 0;
     for (int i = 0; i < 400; ++i) {
@@ -564,34 +568,42 @@ TEST_CASE("vertex: an index knows the frames of flat shapes") {
         const float side = i % 2 == 0 ? 5.0f : -5.0f;
         const Ray ray{.origin{7 * u.x - 0.5f, 4 * u.y - 2.5f, side},
                       .direction{0, 0, -side / 5}};
-        const auto hit = closest_hit(room, ray);
+        const auto hit = closest_hit(world, ray);
         if (!hit) continue;
         ++hits;
-        const Vertex one = vertex_at(room, ray, *hit);
-        const Vertex other = vertex_at(indexed, ray, *hit);
-        REQUIRE(one.point.position == other.point.position);
-        REQUIRE(one.point.normal == other.point.normal);
-        REQUIRE(one.point.error == other.point.error);
-        REQUIRE(one.frame.tangent == other.frame.tangent);
-        REQUIRE(one.frame.bitangent == other.frame.bitangent);
-        REQUIRE(one.frame.normal == other.frame.normal);
-        REQUIRE(one.wo == other.wo);
-        REQUIRE(one.emits() == other.emits());
+        const bool inside_out = world.object(hit->object).inside_out;
+        const Vertex found = vertex_at(world, ray, *hit);
+        const SurfacePoint point =
+            world.visit_shape(hit->object, [&](const auto& shape) {
+                return surface_point(shape, ray, hit->at);
+            });
+        const Vec3 normal = inside_out ? -point.normal : point.normal;
+        const Frame frame = frame_around(normal);
+        REQUIRE(found.point.position == point.position);
+        REQUIRE(found.point.normal == normal);
+        REQUIRE(found.point.error == point.error);
+        REQUIRE(found.frame.tangent == frame.tangent);
+        REQUIRE(found.frame.bitangent == frame.bitangent);
+        REQUIRE(found.frame.normal == frame.normal);
+        REQUIRE(found.wo == to_local(frame, -ray.direction));
+        REQUIRE(found.emits() ==
+                (hit->object.type == 0 && glm::dot(normal, ray.direction) < 0));
     }
     CHECK(hits > 50);
     // A lamp's normal and area, too.
-    const auto& lamp = std::get<std::vector<Quad>>(room.shapes)[0];
-    CHECK(room.lights[0].direction == normal(lamp));
-    CHECK(room.lights[0].area == area(lamp));
-    Light unknown = room.lights[0];
-    unknown.area = 0;
+    const auto& lamp = std::get<0>(world.shapes())[0];
+    world.visit_light(0, [&](const auto& light) {
+        CHECK(light.lamp.normal == normal(lamp));
+        CHECK(light.lamp.area == area(lamp));
+    });
     const Vec3 from{0.3f, 0.2f, 2};
-    const auto known = sample_light(room, room.lights[0], from, Vec2{0.3f, 0.8f});
-    const auto worked_out = sample_light(room, unknown, from, Vec2{0.3f, 0.8f});
-    REQUIRE((known && worked_out));
-    CHECK(known->pdf == worked_out->pdf);
-    CHECK(known->weight == worked_out->weight);
-    CHECK(known->point.normal == worked_out->point.normal);
+    const auto known = sample_light(world, 0, from, Vec2{0.3f, 0.8f});
+    REQUIRE(known);
+    const SeenPointT<float> seen = sample_towards(lamp, from, Vec2{0.3f, 0.8f});
+    CHECK(known->pdf == seen.pdf);
+    CHECK(known->weight == Rgb{2} / seen.pdf);
+    CHECK(known->point.position == seen.point.position);
+    CHECK(known->point.normal == seen.point.normal);
 }
 
 TEST_CASE("vertex: coordinates of a texture, for those that look up by them") {
@@ -606,7 +618,8 @@ TEST_CASE("vertex: coordinates of a texture, for those that look up by them") {
     scene.add(other, paper);
     const auto uv = [&](float x) {
         const Ray ray{.origin{x, 0.5f, 1}, .direction{0, 0, -1}};
-        return vertex_at(scene, ray, *closest_hit(scene, ray)).uv;
+        const World world(scene);
+        return vertex_at(world, ray, *closest_hit(world, ray)).uv;
     };
     CHECK(uv(13) == Vec2{0.75f, 0.25f});
     CHECK(uv(3) == Vec2{0}); // nobody asks
@@ -615,11 +628,11 @@ TEST_CASE("vertex: coordinates of a texture, for those that look up by them") {
     CHECK(uv(23).x != uv(17).x);
     CHECK(glm::distance(uv(23), map_coordinates(GlobeMap{}, Vec3{0.6f, 0, 0.8f})) <
           1e-6f);
-    CHECK(detail::uses_uv(scene, paper));
-    CHECK_FALSE(detail::uses_uv(scene, plain));
+    CHECK(detail::uses_uv(World(scene), paper));
+    CHECK_FALSE(detail::uses_uv(World(scene), plain));
     Scene<Shapes<Quad>, Materials<Lambertian>> bare;
     const auto id = bare.add(Lambertian{});
-    CHECK_FALSE(detail::uses_uv(bare, id));
+    CHECK_FALSE(detail::uses_uv(World(bare), id));
 }
 
 TEST_CASE(
@@ -743,7 +756,7 @@ TEST_CASE("vertex: what two normals disagree about is sampled again, as it was a
 }
 
 TEST_CASE("vertex: the numbers of a bounce are those of its place in the tree") {
-    const auto scene = slab();
+    const auto world = slab();
     for (const int depth : {0, 7})
         for (const std::uint64_t branch :
              {std::uint64_t(0), std::uint64_t(1) << 20, std::uint64_t(3) << 44}) {
@@ -752,7 +765,7 @@ TEST_CASE("vertex: the numbers of a bounce are those of its place in the tree") 
             PathStateT<double> path{.ray{.origin{0, 0, 1}, .direction{0, 0, -1}},
                                     .depth = depth,
                                     .branch = branch};
-            REQUIRE(next_vertex(scene, path, stream));
+            REQUIRE(next_vertex(world, path, stream));
             CHECK(path.branch == branch);
             start_bounce(twin, branch + std::uint64_t(depth) + 1);
             CHECK(next_1d<double>(stream) == next_1d<double>(twin));
@@ -767,6 +780,7 @@ TEST_CASE("vertex: what stands in the way does so at its time") {
     const auto check_in = [&](auto scene) {
         const auto matt = scene.add(LambertianT<double>{});
         scene.add(Moving<QuadT<double>>{wall, {10, 0, 0}}, matt);
+        const World world(std::move(scene));
         for (const double time : {0.0, 0.25, 0.5, 1.0})
             for (const double x : {0.0, 2.5, 5.0, 10.0}) {
                 const SurfacePointT<double> from{.position{x, 0, 0}, .normal{0, 0, 1}};
@@ -774,14 +788,14 @@ TEST_CASE("vertex: what stands in the way does so at its time") {
                 const bool hidden = std::abs(x - 10 * time) < 1;
                 CAPTURE(time);
                 CAPTURE(x);
-                CHECK(visibility(scene, from, to, time).x ==
+                CHECK(visibility(world, from, to, time).x ==
                       doctest::Approx(hidden ? 0 : 1));
-                CHECK(visibility(scene, to, from, time).x ==
+                CHECK(visibility(world, to, from, time).x ==
                       doctest::Approx(hidden ? 0 : 1));
                 auto stream = random_stream(4, Pass::user, 1, 2);
                 PathStateT<double> path{
                     .ray{.origin{x, 0, 3}, .direction{0, 0, -1}, .time = time}};
-                const auto vertex = next_vertex(scene, path, stream);
+                const auto vertex = next_vertex(world, path, stream);
                 CHECK(vertex.has_value() == hidden);
                 if (vertex) CHECK(vertex->time == time);
             }
@@ -882,12 +896,13 @@ TEST_CASE("vertex: a material is what it is at that place") {
     scene.add(
         QuadT<double>{{5, 0, 0}, {4, 0, 0}, {0, 2, 0}},
         scene.add(Paper{{.albedo = D3{1}}, {.even{0.9, 0.8, 0.7}, .odd = D3{0.2}}}));
+    const World world(std::move(scene));
     for (int i = 0; i < 64; ++i) {
         const int column = i % 8, row = i / 8;
         const RayT<double> ray{.origin{5 + (column + 0.3) / 2, (row + 0.3) / 4, 1},
                                .direction{0, 0, -1}};
-        const auto vertex = vertex_at(scene, ray, *closest_hit(scene, ray));
-        const D3 albedo = visit_material_at(scene, vertex, [](const auto& material) {
+        const auto vertex = vertex_at(world, ray, *closest_hit(world, ray));
+        const D3 albedo = visit_material_at(world, vertex, [](const auto& material) {
             return std::numbers::pi * evaluate(material, D3{0, 0, 1}, D3{0.6, 0, 0.8});
         });
         const bool even = (column / 4 + row / 4) % 2 == 0;

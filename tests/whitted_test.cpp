@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ljus/image/texture.hpp"
+#include "ljus/lights/point_light.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
@@ -36,7 +37,8 @@ using Floor = Textured<LambertianT<T>, CheckerT<T>>;
 
 template <typename T>
 using BallScene = Scene<Shapes<SphereT<T>, QuadT<T>>,
-                        Materials<MirrorT<T>, GlassT<T>, LambertianT<T>, Floor<T>>>;
+                        Materials<MirrorT<T>, GlassT<T>, LambertianT<T>, Floor<T>>,
+                        Lights<PointLightT<T>>>;
 
 const D3 ball_center{0.3, 1.25, -0.2}, light_place{-3, 6, 4};
 constexpr double ball_radius = 1, light_intensity = 100, half_floor = 20;
@@ -58,6 +60,14 @@ BallScene<T> ball_scene(const Material& material) {
     scene.add(PointLightT<T>{.position = Vec3T<T>(light_place),
                              .intensity = RgbT<T>{T(light_intensity)}});
     return scene;
+}
+
+/// What a renderer finds along a ray.
+template <typename Renderer, std::floating_point T, typename Log = const NoLog>
+RgbT<T> seen_along(const Renderer& renderer, const RayT<T>& ray, RandomStream& stream,
+                   Counts& counts, Log& log = detail::no_log) {
+    auto context = context_of(stream, counts, log);
+    return radiance(renderer, ray, context);
 }
 
 template <typename T>
@@ -154,8 +164,8 @@ struct Worst {
 template <typename T, typename Material>
 Worst compare(const Material& material, bool glass, int depth, double margin) {
     constexpr int size = 38;
-    const auto scene = ball_scene<T>(material);
-    const auto tracer = make_whitted(scene, {.max_depth = depth});
+    const World world(ball_scene<T>(material));
+    const WhittedTracer tracer(world, {.max_depth = depth});
     const CameraT<T> in_t = camera<T>();
     const CameraT<double> exact = camera<double>();
     Worst worst;
@@ -178,7 +188,7 @@ Worst compare(const Material& material, bool glass, int depth, double margin) {
                 continue;
             }
             const auto ray = primary_ray(in_t, Vec2T<T>(at), size, size);
-            const auto seen = radiance(tracer, ray, stream, counts);
+            const auto seen = seen_along(tracer, ray, stream, counts);
             const double error = std::abs(double(seen.x) - right.radiance);
             worst.error = std::max(worst.error, error);
             worst.beyond += error > 1e-5;
@@ -238,40 +248,40 @@ TEST_CASE("whitted: a ball of glass over a checkered floor, depth by depth") {
 
 TEST_CASE("whitted: one ball of glass costs 1 + 2d rays") {
     // At each turn one of the two rays leaves for good, the other stays within.
-    const auto scene = ball_scene<double>(GlassT<double>{glass_index});
+    const World world(ball_scene<double>(GlassT<double>{glass_index}));
     for (int d = 0; d <= 12; ++d) {
         Counts counts{.camera_rays = 1};
         RandomStream stream;
-        (void)radiance(make_whitted(scene, {.max_depth = d}), at_the_ball<double>(),
-                       stream, counts);
+        (void)seen_along(WhittedTracer(world, {.max_depth = d}), at_the_ball<double>(),
+                         stream, counts);
         CAPTURE(d);
         CHECK(counts.camera_rays + counts.bounce_rays == std::uint64_t(1 + 2 * d));
     }
 }
 
 TEST_CASE("whitted: a mirror costs one ray, a matt floor none but its shadow ray") {
-    const auto scene = ball_scene<double>(MirrorT<double>{});
+    const World world(ball_scene<double>(MirrorT<double>{}));
     RandomStream stream;
     Counts counts;
-    (void)radiance(make_whitted(scene), at_the_ball<double>(), stream, counts);
+    (void)seen_along(WhittedTracer(world), at_the_ball<double>(), stream, counts);
     CHECK(counts.bounce_rays == 1);
     CHECK(counts.shadow_rays == 0); // it is mirrored into the sky
     const RayT<double> down{.origin{4, 3, 4}, .direction{0, -1, 0}};
     counts = {};
-    (void)radiance(make_whitted(scene), down, stream, counts);
+    (void)seen_along(WhittedTracer(world), down, stream, counts);
     CHECK(counts.bounce_rays == 0);
     CHECK(counts.shadow_rays == 1);
     // A mirror asks no light, and without a light nobody is asked.
     counts = {};
     const RayT<double> up{.origin{0.3, 5, -0.2}, .direction{0, -1, 0}};
-    (void)radiance(make_whitted(scene), up, stream, counts);
+    (void)seen_along(WhittedTracer(world), up, stream, counts);
     CHECK(counts.shadow_rays == 0);
     // The depth cuts a path at the mirror, and none at the floor, which sends none on.
     for (const int depth : {0, 1})
         for (const auto& ray : {at_the_ball<double>(), down}) {
             counts = {};
-            (void)radiance(make_whitted(scene, {.max_depth = depth}), ray, stream,
-                           counts);
+            (void)seen_along(WhittedTracer(world, {.max_depth = depth}), ray, stream,
+                             counts);
             const bool mirror = ray.direction != down.direction;
             CHECK(counts.cut_paths == (mirror && depth == 0 ? 1u : 0u));
             CHECK(counts.bounce_rays == (mirror && depth > 0 ? 1u : 0u));
@@ -282,24 +292,27 @@ TEST_CASE("whitted: the tree doubles only if every ray meets glass again") {
     // Two flat boundaries of index 1.5, one glass above, one below, and between them
     // the gap: a ray in the gap meets glass for ever, what has left never again.
     using Two = Scene<Shapes<QuadT<double>>, Materials<GlassT<double>>>;
-    Two gap;
-    const auto glass = gap.add(GlassT<double>{1.5});
-    gap.add(QuadT<double>{{-50, 0, 50}, {100, 0, 0}, {0, 0, -100}}, glass);
-    gap.add(QuadT<double>{{-50, 1, 50}, {0, 0, -100}, {100, 0, 0}}, glass);
+    Two two;
+    const auto glass = two.add(GlassT<double>{1.5});
+    two.add(QuadT<double>{{-50, 0, 50}, {100, 0, 0}, {0, 0, -100}}, glass);
+    two.add(QuadT<double>{{-50, 1, 50}, {0, 0, -100}, {100, 0, 0}}, glass);
     // Nested balls: every ray within meets one of the two shells again.
     using Shells = Scene<Shapes<SphereT<double>>, Materials<GlassT<double>>>;
-    Shells room;
-    const auto clear = room.add(GlassT<double>{1.01}); // no total reflection head on
-    for (int i = 1; i <= 12; ++i) room.add(SphereT<double>{.radius = double(i)}, clear);
+    Shells shells;
+    const auto clear = shells.add(GlassT<double>{1.01}); // no total reflection head on
+    for (int i = 1; i <= 12; ++i)
+        shells.add(SphereT<double>{.radius = double(i)}, clear);
+    const World gap(std::move(two));
+    const World room(std::move(shells));
     const RayT<double> ray{.origin{0, 0.5, 0}, .direction{0.0, 1.0, 0.0}};
     for (const int d : {1, 2, 3, 4, 5}) {
         CAPTURE(d);
         Counts counts{.camera_rays = 1};
         RandomStream stream;
-        (void)radiance(make_whitted(gap, {.max_depth = d}), ray, stream, counts);
+        (void)seen_along(WhittedTracer(gap, {.max_depth = d}), ray, stream, counts);
         CHECK(counts.camera_rays + counts.bounce_rays == std::uint64_t(1 + 2 * d));
         counts = {.camera_rays = 1};
-        (void)radiance(make_whitted(room, {.max_depth = d}), ray, stream, counts);
+        (void)seen_along(WhittedTracer(room, {.max_depth = d}), ray, stream, counts);
         CHECK(counts.camera_rays + counts.bounce_rays ==
               (std::uint64_t(2) << d) - 1); // 1 + 2 + 4 + ... + 2^d
     }
@@ -308,14 +321,14 @@ TEST_CASE("whitted: the tree doubles only if every ray meets glass again") {
 TEST_CASE("whitted: roulette has the mean of both branches, at a ray for each turn") {
     // Two means, of which one is a false alarm in 250 000 runs; with 20 further seeds
     // there was none.
-    const auto scene = ball_scene<double>(GlassT<double>{glass_index});
+    const World world(ball_scene<double>(GlassT<double>{glass_index}));
     for (const int depth : {2, 5}) {
         Counts counts;
         RandomStream stream;
-        const double both = radiance(make_whitted(scene, {.max_depth = depth}),
-                                     at_the_ball<double>(), stream, counts)
+        const double both = seen_along(WhittedTracer(world, {.max_depth = depth}),
+                                       at_the_ball<double>(), stream, counts)
                                 .x;
-        const auto one = make_whitted(scene, {.max_depth = depth, .both_ways = false});
+        const WhittedTracer one(world, {.max_depth = depth, .both_ways = false});
         const auto seen = mean_radiance(
             one, 20000, 5, [](RandomStream&) { return at_the_ball<double>(); });
         CAPTURE(depth);
@@ -325,7 +338,7 @@ TEST_CASE("whitted: roulette has the mean of both branches, at a ray for each tu
         CHECK(seen.error() > 0); // it is a lottery
         CHECK(std::abs(apart(seen, both)) < ljus_test::once_in_a_million);
         counts = {};
-        (void)radiance(one, at_the_ball<double>(), stream, counts);
+        (void)seen_along(one, at_the_ball<double>(), stream, counts);
         CHECK(counts.bounce_rays <= std::uint64_t(depth));
     }
 }
@@ -335,7 +348,8 @@ TEST_CASE("whitted: every path is L D? S* E, the ambient light apart") {
     const auto lamp = scene.add(Lambertian{.albedo = Rgb{0.5f}});
     scene.add(Quad{{-1, 5, -1}, {2, 0, 0}, {0, 0, 2}}, lamp, Rgb{20});
     scene.add(Sphere{.center{-2, 0.6f, 1}, .radius = 0.6f}, scene.add(Mirror{}));
-    const auto tracer = make_whitted(scene, {.max_depth = 4});
+    const World world(std::move(scene));
+    const WhittedTracer tracer(world, {.max_depth = 4});
     PathLog log;
     Counts counts;
     RandomStream stream;
@@ -345,7 +359,7 @@ TEST_CASE("whitted: every path is L D? S* E, the ambient light apart") {
         for (int x = 0; x < 24; ++x) {
             const auto ray = primary_ray(
                 camera<float>(), Vec2{float(x) + 0.5f, float(y) + 0.5f}, 24, 24);
-            sum += radiance(tracer, ray, stream, counts, log);
+            sum += seen_along(tracer, ray, stream, counts, log);
         }
     for (const PathLogLine& line : log.lines) {
         if (line.what == "vertex") continue;
@@ -374,7 +388,8 @@ TEST_CASE("whitted: a lamp with a size lights from its middle, or is only seen")
     const auto seen = [&](const Room& room, const WhittedSettings& settings) {
         RandomStream stream;
         Counts counts;
-        return radiance(make_whitted(room, settings), ray, stream, counts).x;
+        const World world(room);
+        return seen_along(WhittedTracer(world, settings), ray, stream, counts).x;
     };
     const auto floor_only = [] {
         Room room;
@@ -403,18 +418,21 @@ TEST_CASE("whitted: a lamp with a size lights from its middle, or is only seen")
 
 TEST_CASE("whitted: a point light lights where lamps with a size do not, both sides") {
     // I cos / d^2 times albedo / pi, from above and, by a light below, from below.
-    using Room = Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>>>;
+    using Room = Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>>,
+                       Lights<PointLightT<double>>>;
     Room room;
     const auto matt = room.add(LambertianT<double>{.albedo = RgbT<double>{0.5}});
     room.add(QuadT<double>{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}}, matt);
     room.add(PointLightT<double>{.position{3, 4, 0}, .intensity = RgbT<double>{50}});
     room.add(PointLightT<double>{.position{0, -2, 0}, .intensity = RgbT<double>{8}});
+    const World world(std::move(room));
     for (const bool lamps : {true, false}) {
         RandomStream stream;
         Counts counts;
         const auto seen = [&](double side) {
             const RayT<double> ray{.origin{0, side, 0}, .direction{0, -side, 0}};
-            return radiance(make_whitted(room, {.lamps = lamps}), ray, stream, counts)
+            return seen_along(WhittedTracer(world, {.lamps = lamps}), ray, stream,
+                              counts)
                 .x;
         };
         CHECK(seen(1) == doctest::Approx(0.5 / pi * 50 / 25 * 0.8).epsilon(1e-12));
@@ -436,6 +454,7 @@ TEST_CASE("whitted: ambient light comes along the normal, on both sides") {
             room.add(floor, room.add(OrenNayarT<double>{albedo, sigma}));
         else
             room.add(floor, room.add(LambertianT<double>{.albedo = albedo}));
+        const World world(std::move(room));
         for (const D3& from :
              {D3{-1, 1, 0.5}, D3{1, 1, 1}, D3{1, -1, -0.5}, D3{-1, -1, -1}})
             for (const float ambient : {0.25f, 1.0f}) {
@@ -445,8 +464,8 @@ TEST_CASE("whitted: ambient light comes along the normal, on both sides") {
                 const RayT<double> ray{.origin = from,
                                        .direction = -glm::normalize(from)};
                 const auto seen =
-                    radiance(make_whitted(room, {.ambient = Rgb{ambient}}), ray, stream,
-                             counts, log);
+                    seen_along(WhittedTracer(world, {.ambient = Rgb{ambient}}), ray,
+                               stream, counts, log);
                 for (int i = 0; i < 3; ++i)
                     CHECK(seen[i] ==
                           doctest::Approx(double(ambient) * albedo[i] * (rough ? a : 1))
@@ -461,12 +480,13 @@ TEST_CASE("whitted: ambient light comes along the normal, on both sides") {
 TEST_CASE("whitted: straight through a ball of glass, the log says ESSD") {
     // Head on each boundary reflects 0.04; what has turned back within leaves later.
     auto scene = ball_scene<double>(GlassT<double>{glass_index});
-    const auto tracer = make_whitted(scene, {.max_depth = 4, .ambient = Rgb{0.5f}});
+    const World world(std::move(scene));
+    const WhittedTracer tracer(world, {.max_depth = 4, .ambient = Rgb{0.5f}});
     const RayT<double> ray{.origin = ball_center + D3{0, 3, 0}, .direction{0, -1, 0}};
     RandomStream stream;
     Counts counts;
     PathLog log;
-    (void)radiance(tracer, ray, stream, counts, log);
+    (void)seen_along(tracer, ray, stream, counts, log);
     std::vector<std::string> ambient;
     for (const PathLogLine& line : log.lines)
         if (line.what == "ambient") {
@@ -483,7 +503,8 @@ TEST_CASE("whitted: the log names both branches of glass, and adds up ray by ray
     // Lambert's floor under a ball of glass, all of it lit: the tree's leaves.
     auto scene = ball_scene<double>(GlassT<double>{glass_index});
     scene.add(PointLightT<double>{.position{2, 3, 1}, .intensity = RgbT<double>{30}});
-    const auto tracer = make_whitted(scene, {.max_depth = 4, .ambient = Rgb{0.1f}});
+    const World world(std::move(scene));
+    const WhittedTracer tracer(world, {.max_depth = 4, .ambient = Rgb{0.1f}});
     RandomStream stream;
     Counts counts;
     for (int y = 0; y < 12; ++y)
@@ -491,7 +512,7 @@ TEST_CASE("whitted: the log names both branches of glass, and adds up ray by ray
             PathLog log;
             const auto ray =
                 primary_ray(camera<double>(), Vec2T<double>{x + 0.5, y + 0.5}, 12, 12);
-            const auto seen = radiance(tracer, ray, stream, counts, log);
+            const auto seen = seen_along(tracer, ray, stream, counts, log);
             D3 told{0};
             std::size_t depth = 0;
             for (const PathLogLine& line : log.lines) {
@@ -509,17 +530,19 @@ TEST_CASE("whitted: the log names both branches of glass, and adds up ray by ray
 }
 
 TEST_CASE("whitted: a black mirror and a mirror among lights cost nothing") {
-    using Hall = Scene<Shapes<QuadT<double>>, Materials<MirrorT<double>>>;
+    using Hall = Scene<Shapes<QuadT<double>>, Materials<MirrorT<double>>,
+                       Lights<PointLightT<double>>>;
     for (const double share : {0.0, 0.5}) {
         Hall hall;
         hall.add(QuadT<double>{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}},
                  hall.add(MirrorT<double>{.reflectance = RgbT<double>{share}}));
         hall.add(
             PointLightT<double>{.position{0, 4, 0}, .intensity = RgbT<double>{50}});
+        const World world(std::move(hall));
         Counts counts;
         RandomStream stream;
         const RayT<double> ray{.origin{1, 1, 0}, .direction{0, -1, 0}};
-        CHECK(is_black(radiance(make_whitted(hall), ray, stream, counts)));
+        CHECK(is_black(seen_along(WhittedTracer(world), ray, stream, counts)));
         CHECK(counts.bounce_rays == (share > 0 ? 1 : 0));
         CHECK(counts.shadow_rays == 0);
     }
@@ -532,30 +555,31 @@ TEST_CASE("whitted: what two lamps send is the sum of each") {
         for (int i = 1; i < lamps; ++i)
             scene.add(PointLightT<double>{.position{-3, 6, 4},
                                           .intensity = RgbT<double>{light_intensity}});
+        const World world(std::move(scene));
         RandomStream stream;
         Counts counts;
-        return radiance(make_whitted(scene), ray, stream, counts).x;
+        return seen_along(WhittedTracer(world), ray, stream, counts).x;
     };
     CHECK(seen(3) == doctest::Approx(3 * seen(1)).epsilon(1e-14));
 }
 
 TEST_CASE("whitted: at the extremes") {
-    const auto glass = ball_scene<float>(Glass{float(glass_index)});
-    CHECK_THROWS_WITH_AS((void)make_whitted(glass, {.max_depth = -1}),
+    const World glass(ball_scene<float>(Glass{float(glass_index)}));
+    CHECK_THROWS_WITH_AS((void)WhittedTracer(glass, {.max_depth = -1}),
                          "max_depth is -1; it must be within [0, 1000].",
                          std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)make_whitted(glass, {.max_depth = 1001}),
+    CHECK_THROWS_WITH_AS((void)WhittedTracer(glass, {.max_depth = 1001}),
                          "max_depth is 1001; it must be within [0, 1000].",
                          std::invalid_argument);
     const auto said = [&](const WhittedSettings& settings) {
-        return ljus_test::refusal([&] { (void)make_whitted(glass, settings); });
+        return ljus_test::refusal([&] { (void)WhittedTracer(glass, settings); });
     };
     const float nan = std::numeric_limits<float>::quiet_NaN();
     CHECK(said({.ambient{0, -1, 0}}).find("whitted.ambient is (0, -1, 0); ") == 0);
     CHECK(said({.ambient{0, 0, nan}}).find("whitted.ambient is (0, 0, NaN); ") == 0);
     CHECK(said({.max_depth = 0}).empty());
     CHECK(said({.max_depth = 1000}).empty());
-    const WhittedSettings silent = make_whitted(glass).settings;
+    const WhittedSettings silent = WhittedTracer(glass).settings();
     CHECK(silent.max_depth == 5);
     CHECK(silent.both_ways);
     CHECK(silent.lamps);
@@ -565,8 +589,9 @@ TEST_CASE("whitted: at the extremes") {
          {Vec3{0.5f, 0, 1.5f}, Vec3(ball_center), Vec3{1, 2.6f, 6}}) {
         auto scene = ball_scene<float>(Glass{float(glass_index)});
         scene.add(PointLight{.position = place, .intensity = Rgb{5}});
+        const World world(std::move(scene));
         const auto seen =
-            render(make_whitted(scene, {.max_depth = 8}), camera<float>(),
+            render(WhittedTracer(world, {.max_depth = 8}), camera<float>(),
                    {.width = 16, .height = 16, .samples = 2, .threads = 1});
         CHECK(seen.counts.rejected == 0);
     }
@@ -576,20 +601,22 @@ TEST_CASE("whitted: at the extremes") {
     const auto mirror = hall.add(Mirror{});
     hall.add(Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, mirror);
     hall.add(Quad{{-1, -1, 1}, {0, 2, 0}, {2, 0, 0}}, mirror);
+    const World between(std::move(hall));
     Counts counts;
     RandomStream stream;
     const Ray across{.origin{0, 0, 0.5f}, .direction{0, 0, 1}};
-    (void)radiance(make_whitted(hall, {.max_depth = 1000}), across, stream, counts);
+    (void)seen_along(WhittedTracer(between, {.max_depth = 1000}), across, stream,
+                     counts);
     CHECK(counts.bounce_rays == 1000);
 }
 
 TEST_CASE("whitted: what is black sends no ray on") {
     // Nothing comes through glass as dark as this: one ray mirrored, one that ends.
-    const auto scene = ball_scene<double>(
-        GlassT<double>{.index = glass_index, .absorption = RgbT<double>{1e6}});
+    const World world(ball_scene<double>(
+        GlassT<double>{.index = glass_index, .absorption = RgbT<double>{1e6}}));
     RandomStream stream;
     Counts counts;
-    (void)radiance(make_whitted(scene, {.max_depth = 9}), at_the_ball<double>(), stream,
-                   counts);
+    (void)seen_along(WhittedTracer(world, {.max_depth = 9}), at_the_ball<double>(),
+                     stream, counts);
     CHECK(counts.bounce_rays == 2);
 }

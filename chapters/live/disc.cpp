@@ -20,7 +20,6 @@ constexpr double lamp_radiance = 8;
 
 struct Figure {
     examples::TwoRooms rooms = examples::two_rooms();
-    ljus::detail::IndexedT<examples::Boxes> scene{rooms.scene}; ///< It refers to it.
     ljus::PhotonMap map;
     std::vector<float> on_floor; ///< x and z of the floor's photons.
 };
@@ -30,7 +29,8 @@ std::array<double, 2 * (steps + 1)> curve; // as it is, then corrected
 /// The floor at a place: a ray straight down says what it is.
 ljus::Vertex floor_at(double x, double z) {
     const ljus::Ray down{.origin{float(x), 0.1f, float(z)}, .direction{0, -1, 0}};
-    return vertex_at(figure->scene, down, *closest_hit(figure->scene, down));
+    return vertex_at(figure->rooms.world, down,
+                     *closest_hit(figure->rooms.world, down));
 }
 
 struct Estimates {
@@ -44,7 +44,7 @@ Estimates estimate_at(double x, double z, double radius) {
         {.radius = float(radius)}, one_kind(ljus::PhotonKind::direct), gathered);
     const double plain = double(sent.x) * std::numbers::pi / lamp_radiance;
     const double part = double(ljus::detail::part_on_surface(
-        figure->scene, floor, floor.point.normal, float(radius)));
+        figure->rooms.world, floor, floor.point.normal, float(radius)));
     return {plain, plain / part};
 }
 
@@ -63,7 +63,7 @@ extern "C" {
 /// \return How many lie there.
 [[gnu::used]] int trace(int photons, int seed) {
     figure = std::make_unique<Figure>();
-    const auto traced = trace_photons(figure->rooms.scene, ljus::MapType::general,
+    const auto traced = trace_photons(figure->rooms.world, ljus::MapType::general,
                                       {.photons = photons,
                                        .seed = static_cast<std::uint64_t>(seed),
                                        .max_bounces = 1,
@@ -89,7 +89,7 @@ extern "C" {
 /// The part of the disc that the library's correction divides by.
 [[gnu::used]] double part_of_disc(double x, double z, double radius) {
     const ljus::Vertex floor = floor_at(inside(x), z);
-    return double(ljus::detail::part_on_surface(figure->scene, floor,
+    return double(ljus::detail::part_on_surface(figure->rooms.world, floor,
                                                 floor.point.normal, float(radius)));
 }
 

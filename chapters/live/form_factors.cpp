@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "ljus/geometry/quad.hpp"
@@ -24,7 +25,7 @@ constexpr int most_rays = 128;
 struct Figure {
     Quad floor{{-0.5f, -0.5f, 0}, {1, 0, 0}, {0, 1, 0}};
     Quad other;
-    Scene scene;
+    std::optional<ljus::World<Scene>> world; ///< Both of them.
     ljus::Patches patches;
     std::uint32_t to = ljus::no_grid; ///< The other patch, if it is in sight.
     ljus::Estimate rays, pairs;
@@ -68,10 +69,12 @@ extern "C" {
     const Vec3 y(0, float(side), 0);
     const Vec3 up = float(side) * Vec3(std::cos(angle), 0, std::sin(angle));
     f.other = Quad{Vec3(x, 0, z) - 0.5f * (y + up), y, up};
-    const auto white = f.scene.add(ljus::Lambertian{});
-    f.scene.add(f.floor, white);
-    f.scene.add(f.other, white);
-    f.patches = make_patches(f.scene, {.size = 100});
+    Scene scene;
+    const auto white = scene.add(ljus::Lambertian{});
+    scene.add(f.floor, white);
+    scene.add(f.other, white);
+    f.world.emplace(std::move(scene));
+    f.patches = make_patches(*f.world, {.size = 100});
     const std::uint32_t grid = front_of(f.patches, 1);
     if (grid != ljus::no_grid) f.to = f.patches.grids[grid].first;
 }
@@ -92,7 +95,7 @@ extern "C" {
     for (int step = 0; step < steps; ++step) {
         const auto number = static_cast<std::uint64_t>(f.rays.count);
         row.assign(row.size(), 0.0);
-        ljus::shoot_rays(f.scene, f.patches, from, batch, number, row);
+        ljus::shoot_rays(*f.world, f.patches, from, batch, number, row);
         add(f.rays, f.to == ljus::no_grid ? 0 : row[f.to]); // area 1
         double sum = 0;
         for (int i = 0; i < batch; ++i) {

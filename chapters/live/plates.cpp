@@ -14,7 +14,7 @@ namespace {
 
 using ljus::Rgb;
 using Room = decltype(examples::veach_plates());
-using Tracer = decltype(ljus::make_path_tracer(std::declval<const Room&>().scene));
+using Tracer = ljus::PathTracer<decltype(Room::world)>;
 
 constexpr int width = 156, height = 104, ways = 3;
 constexpr std::size_t pixels = std::size_t(width) * height;
@@ -41,6 +41,10 @@ struct Sums {
 };
 
 struct Figure {
+    explicit Figure(Room of) : room(std::move(of)) {
+        for (const auto& s : settings) tracers.emplace_back(room.world, s);
+    }
+
     Room room;
     std::vector<Tracer> tracers; ///< Of the room: it stays where it is.
     std::vector<Sums> sums = std::vector<Sums>(ways * pixels);
@@ -90,10 +94,7 @@ extern "C" {
     auto roughness = examples::plate_roughness;
     for (float& r : roughness)
         r = std::min(1.0f, std::max(0.01f, r * float(factor)));
-    figure = std::make_unique<Figure>();
-    figure->room = examples::veach_plates(roughness);
-    for (const auto& s : settings)
-        figure->tracers.push_back(ljus::make_path_tracer(figure->room.scene, s));
+    figure = std::make_unique<Figure>(examples::veach_plates(roughness));
     bytes.fill(0);
 }
 
@@ -101,16 +102,15 @@ extern "C" {
 /// \return The pictures, 4 bytes per pixel.
 [[gnu::used]] const unsigned char* trace_row(int shares) {
     Figure& f = *figure;
-    const ljus::RenderSettings picture{
+    static const ljus::RenderSettings picture{
         .width = width, .height = height, .samples = 4096};
-    static const auto pattern = make_pattern(picture.sampling, picture.samples);
+    static const ljus::PictureRays rays(picture);
     ljus::Counts counts;
     for (int way = 0; way < ways; ++way) {
         for (int x = 0; x < width; ++x) {
             ShareLog log;
-            (void)ljus::detail::trace_pixel(f.tracers[std::size_t(way)], f.room.camera,
-                                            picture, pattern, x, f.row, f.samples,
-                                            counts, log);
+            (void)ljus::trace_pixel(f.tracers[std::size_t(way)], f.room.camera, rays,
+                                    {x, f.row, f.samples}, counts, log);
             Sums& s = f.sums[place_of(way, x, f.row)];
             s.by_shadow_rays += log.by_shadow_rays;
             s.by_paths += log.by_paths;

@@ -24,15 +24,15 @@
 
 namespace {
 
-using Room = ljus::Room<ljus::ReportSceneT<float>>;
-using Mapper = ljus::PhotonMapper<ljus::ReportSceneT<float>>;
+using Scene = ljus::ReportSceneT<float>;
+using World = ljus::World<Scene>;
+using Mapper = ljus::PhotonMapper<World>;
 
 // --- The two passes
 
-Room room;
-ljus::PhotonMappingSettings settings;
-ljus::PhotonMapsT<float> maps;
-std::optional<Mapper> mapper;
+ljus::Camera camera;
+std::optional<World> world;
+std::optional<Mapper> mapper; // of the world
 std::string carried; // a light path expression; none: all paths
 ljus::Counts counts;
 ljus::Image rendered;
@@ -41,7 +41,25 @@ ljus::Image rendered;
 template <typename F>
 auto with_renderer(const F& f) {
     if (carried.empty()) return f(*mapper);
-    return f(only_paths(*mapper, carried));
+    return f(ljus::OnlyPaths(*mapper, carried));
+}
+
+// The room, with another index of its balls of glass.
+World with_index(const World& room, double index) {
+    Scene scene;
+    scene.materials = room.materials();
+    for (auto& glass : std::get<std::vector<ljus::Glass>>(scene.materials))
+        glass.index = static_cast<float>(index);
+    std::size_t type = 0;
+    const auto add = [&](const auto& shapes) {
+        for (std::size_t i = 0; i < shapes.size(); ++i) {
+            const auto& object = room.objects()[type][i];
+            scene.add(shapes[i], object.material, object.emission);
+        }
+        ++type;
+    };
+    std::apply([&](const auto&... shapes) { (add(shapes), ...); }, room.shapes());
+    return ljus::World(std::move(scene));
 }
 
 ljus::RenderSettings picture(int width, int height, double seed) {
@@ -90,11 +108,10 @@ extern "C" {
                              int indirect, double seed) {
     using Who = ljus::IndirectLight;
     constexpr std::array who{Who::rays, Who::map, Who::photons, Who::none};
-    room.scene = ljus::final_room().scene;
-    if (index > 0)
-        for (auto& glass : std::get<std::vector<ljus::Glass>>(room.scene.materials))
-            glass.index = static_cast<float>(index);
-    settings = {};
+    mapper.reset();
+    world.emplace(ljus::final_room().world);
+    if (index > 0) world.emplace(with_index(*world, index));
+    ljus::PhotonMappingSettings settings;
     settings.max_depth = depth;
     settings.split_glass = true;
     settings.indirect = who[static_cast<std::size_t>(indirect)];
@@ -105,10 +122,8 @@ extern "C" {
     }
     settings.caustics_estimate.radius = static_cast<float>(radius);
     settings.general_estimate.radius = static_cast<float>(3 * radius);
-    mapper.reset();
-    maps = make_photon_maps(room.scene, settings);
-    mapper.emplace(make_photon_mapper(room.scene, maps, settings));
-    return double(maps.caustics.records.size());
+    mapper.emplace(*world, settings);
+    return double(mapper->maps().caustics.records.size());
 }
 
 /// The camera at a distance from the room's middle; angles in degrees, 0 and 0 straight
@@ -118,7 +133,7 @@ extern "C" {
     const ljus::Vec3 middle{6, 0, 0};
     const ljus::Vec3 way{-std::cos(a) * std::cos(b), std::sin(a) * std::cos(b),
                          std::sin(b)};
-    room.camera = look_at(ljus::View{.position = middle + float(distance) * way,
+    camera = look_at(ljus::View{.position = middle + float(distance) * way,
                                      .target = middle,
                                      .up{0, 0, 1},
                                      .vfov_degrees = 53.130102f});
@@ -141,7 +156,7 @@ extern "C" {
 [[gnu::used]] const float* render_rows(int width, int height, double seed, int first,
                                        int last) {
     rendered = with_renderer([&](const auto& renderer) {
-        auto some = ljus::render_rows(renderer, room.camera,
+        auto some = ljus::render_rows(renderer, camera,
                                       picture(width, height, seed), {first, last});
         counts = some.counts;
         return some.image;
@@ -156,15 +171,16 @@ extern "C" {
 /// colour, five floats each. Returns how many.
 [[gnu::used]] int find_dots(int width, int height) {
     dots.clear();
-    const std::size_t count = maps.caustics.records.size();
+    const ljus::PhotonMap& caustics = mapper->maps().caustics;
+    const std::size_t count = caustics.records.size();
     const std::size_t step = count / 20000 + 1;
     for (std::size_t i = 0; i < count; i += step) {
-        const auto record = maps.caustics.records[i];
-        const ljus::Photon photon{.position = maps.caustics.tree.point(i),
+        const auto record = caustics.records[i];
+        const ljus::Photon photon{.position = caustics.tree.point(i),
                                   .direction = record.direction,
                                   .flux = record.flux};
         const auto place =
-            photon_in_sight(mapper->scene, room.camera, photon, width, height);
+            photon_in_sight(*world, camera, photon, width, height);
         if (!place) continue;
         const ljus::Rgb color = dot_color(photon);
         dots.insert(dots.end(), {place->x, place->y, color.x, color.y, color.z});
@@ -181,13 +197,12 @@ extern "C" {
     ljus::PathLog log;
     ljus::Counts ignored;
     const auto one = picture(width, height, seed);
-    const auto pattern = make_pattern(one.sampling, one.samples);
-    (void)ljus::detail::trace_pixel(*mapper, room.camera, one, pattern, x, y, 0,
-                                    ignored, log);
+    const ljus::PictureRays ray(one);
+    (void)ljus::trace_pixel(*mapper, camera, ray, {x, y, 0}, ignored, log);
     text = "[";
     for (const ljus::PathLogLine& line : log.lines) {
         const ljus::Vec3 position(line.position);
-        const auto place = project(room.camera, position, width, height);
+        const auto place = project(camera, position, width, height);
         text.append(text.size() > 1 ? ",\n" : "\n").append("{\"what\":\"");
         text.append(line.what).append("\",\"path\":\"").append(line.path);
         print("\",\"value\":[%.6g,%.6g,%.6g],\"pdf\":%.6g", line.value.x, line.value.y,
@@ -282,7 +297,7 @@ extern "C" {
             sum += channel(color, static_cast<std::size_t>(number));
         return sum / double(rendered.pixels.size());
     }
-    if (number == 3) return double(maps.caustics.records.size());
+    if (number == 3) return double(mapper->maps().caustics.records.size());
     if (number == 4) return rays();
     const ljus::Rgb& color = pixel(rendered, 4 + number % 2, 7);
     if (number < 7) return color.x;

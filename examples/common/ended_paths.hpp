@@ -5,7 +5,9 @@
 
 #include <cstdint>
 
-#include "ljus/render/path_tracing.hpp"
+#include "ljus/path/continue_path.hpp"
+#include "ljus/path/direct_light.hpp"
+#include "ljus/ref.hpp"
 
 namespace examples {
 
@@ -17,28 +19,27 @@ enum class Ending : std::uint8_t {
 };
 
 /// A path tracer without multiple importance sampling, whose paths end in one of three
-/// ways. It refers to the scene.
-template <ljus::SceneLike S>
+/// ways. Its world must outlive it.
+template <ljus::AnyWorld W>
 struct EndedPaths {
     using Stream = ljus::RandomStream; ///< What render() gives it to draw from.
-    ljus::PathTracer<S> tracer;        ///< The scene, and its lights by power.
+    ljus::Ref<W> world;                ///< What is rendered.
     Ending ending = Ending::depth;     ///< How paths end.
     int depth = 4;                     ///< Surfaces, or from where on roulette plays.
     float threshold = 1; ///< What a path must carry to go on, or to be safe.
 };
 
 /// Makes one.
-/// \param scene      Must outlive it.
+/// \param world      Must outlive it.
 /// \param ending     How paths end.
 /// \param depth      Surfaces on a path, for Ending::depth; from where on
 ///                   roulette plays.
 /// \param threshold  What a path must carry to go on, or to be safe from roulette.
 /// \return The renderer.
-template <ljus::SceneLike S>
-[[nodiscard]] EndedPaths<S> make_ended_paths(const S& scene, Ending ending,
+template <ljus::AnyWorld W>
+[[nodiscard]] EndedPaths<W> make_ended_paths(const W& world, Ending ending,
                                              int depth = 4, double threshold = 1) {
-    return {make_path_tracer(scene, {.heuristic = ljus::MisHeuristic::shadow_rays}),
-            ending, depth, float(threshold)};
+    return {world, ending, depth, float(threshold)};
 }
 
 /// Whether a path goes on from a surface.
@@ -47,8 +48,8 @@ template <ljus::SceneLike S>
 /// \param stream  One number is drawn for roulette.
 /// \return Whether.
 // [goes on]
-template <typename S>
-[[nodiscard]] bool goes_on(const EndedPaths<S>& paths, ljus::PathState& path,
+template <typename W>
+[[nodiscard]] bool goes_on(const EndedPaths<W>& paths, ljus::PathState& path,
                            ljus::RandomStream& stream) {
     switch (paths.ending) {
     case Ending::depth:
@@ -63,30 +64,42 @@ template <typename S>
 }
 // [goes on]
 
+/// What a path gets from one light, chosen by power: all that a shadow ray finds.
+template <typename W, typename M>
+ljus::Rgb one_light(const W& world, const ljus::PathState& path,
+                    const ljus::Vertex& vertex, const M& material, auto& context) {
+    const auto chosen = choose_light(world.light_choice(), next_1d(context.stream));
+    return path.throughput *
+           direct_light(world, chosen.light, vertex, material, next_2d(context.stream),
+                        ljus::MisT<float>{}, context.counts) /
+           chosen.probability;
+}
+
 /// The radiance that one path finds: emission until it has met a diffuse surface and
 /// after mirrors and glass, and one shadow ray at each diffuse surface.
-template <typename S, typename Log>
-ljus::Rgb radiance(const EndedPaths<S>& paths, const ljus::Ray& ray,
-                   ljus::RandomStream& stream, ljus::Counts& counts, Log&&) {
-    const auto& scene = paths.tracer.scene;
+template <typename W>
+ljus::Rgb radiance(const EndedPaths<W>& paths, const ljus::Ray& ray, auto& context) {
+    const W& world = paths.world.get();
     ljus::Rgb sum{0};
-    auto path = ljus::detail::camera_path(scene, ray, stream);
+    auto path = ljus::camera_path(world, ray, context.stream);
     // A path of mirrors that lose nothing must end as well.
     while (path.depth < 10000) {
-        const auto vertex = next_vertex(scene, path, stream);
+        const auto vertex = next_vertex(world, path, context.stream);
         if (!vertex) break;
-        if (vertex->emits()) sum += ljus::detail::emitted(paths.tracer, path, *vertex);
+        const bool shadow_ray_came_before = path.pdf > 0;
+        if (vertex->emits() && !shadow_ray_came_before)
+            sum += path.throughput * vertex->object.emission;
         const auto at_material = [&](const auto& material) {
             if (has(lobes(material), ljus::Lobes::non_specular) &&
-                !scene.lights.empty())
-                sum += ljus::detail::sample_one_light(paths.tracer, path, *vertex,
-                                                      material, stream, counts);
+                world.light_count() > 0)
+                sum += one_light(world, path, *vertex, material, context);
             return continue_path(path, *vertex, material, ljus::Transport::radiance,
-                                 ljus::Lobes::all, stream);
+                                 ljus::Lobes::all, context.stream);
         };
-        if (!visit_material_at(scene, *vertex, at_material)) break;
-        if (ljus::is_black(path.throughput) || !goes_on(paths, path, stream)) break;
-        ++counts.bounce_rays;
+        if (!visit_material_at(world, *vertex, at_material)) break;
+        if (ljus::is_black(path.throughput) || !goes_on(paths, path, context.stream))
+            break;
+        ++context.counts.bounce_rays;
     }
     return sum;
 }

@@ -36,7 +36,8 @@ template <std::floating_point T>
 using ExtremeSceneT =
     ljus::Scene<ljus::Shapes<ljus::QuadT<T>, ljus::SphereT<T>, ljus::TriangleT<T>>,
                 ljus::Materials<ljus::LambertianT<T>, ljus::GlassT<T>, ljus::MirrorT<T>,
-                                ljus::MixtureT<T>, ljus::GlossyT<T>, ljus::EonT<T>>>;
+                                ljus::MixtureT<T>, ljus::GlossyT<T>, ljus::EonT<T>>,
+                ljus::Lights<ljus::PointLightT<T>>>;
 
 namespace detail {
 
@@ -117,17 +118,16 @@ template <std::floating_point T>
     using namespace ljus;
     const auto from = final_room<double>();
     const detail::Placed<T> place{how};
-    Room<ExtremeSceneT<T>> room{.camera = report_camera<T>()};
-    room.camera.position = place(report_camera<double>().position);
+    ExtremeSceneT<T> scene;
 
     std::vector<std::vector<MaterialId>> ids;
     const auto add_materials = [&](const auto& array) {
         ids.emplace_back();
         for (const auto& material : array)
-            ids.back().push_back(detail::add_material<T>(room.scene, how, material));
+            ids.back().push_back(detail::add_material<T>(scene, how, material));
     };
     std::apply([&](const auto&... arrays) { (add_materials(arrays), ...); },
-               from.scene.materials);
+               from.world.materials());
 
     const double flux = 30 * (4 + 1) * std::numbers::pi; // of the report's lamps
     const double ceiling = 5; // z; its normals point down into the room
@@ -141,31 +141,32 @@ template <std::floating_point T>
             radiance = RgbT<double>(flux / std::numbers::pi / (12 * 10 + 12 * 3 / 2.0));
         }
         const MaterialId id = ids[object.material.type][object.material.index];
-        room.scene.add(place(shape), id,
-                       RgbT<T>(shines ? radiance : RgbT<double>(0.0)));
+        scene.add(place(shape), id, RgbT<T>(shines ? radiance : RgbT<double>(0.0)));
     };
     std::size_t type = 0;
     const auto add_shapes = [&](const auto& array) {
         for (std::size_t i = 0; i < array.size(); ++i)
-            add_shape(array[i], from.scene.objects[type][i]);
+            add_shape(array[i], from.world.objects()[type][i]);
         ++type;
     };
     std::apply([&](const auto&... arrays) { (add_shapes(arrays), ...); },
-               from.scene.shapes);
+               from.world.shapes());
 
     if (how.lamp >= 0 && how.lamp < Extreme::ceiling) {
         const Vec3T<double> at{6, 0, 4};
         const double s = how.scale, r = how.lamp;
         if (r > 0)
-            room.scene.add(
+            scene.add(
                 place(SphereT<double>{at, r}),
-                room.scene.add(LambertianT<T>{.albedo = RgbT<T>(T(0))}),
+                scene.add(LambertianT<T>{.albedo = RgbT<T>(T(0))}),
                 RgbT<T>(T(flux / (4 * std::numbers::pi * std::numbers::pi * r * r))));
         else
-            room.scene.add(PointLightT<T>{
+            scene.add(PointLightT<T>{
                 place(at), RgbT<T>(T(s * s * flux / (4 * std::numbers::pi)))});
     }
-    return room;
+    CameraT<T> camera = report_camera<T>();
+    camera.position = place(report_camera<double>().position);
+    return {World(std::move(scene)), camera};
 }
 
 /// How an extreme is rendered.
@@ -204,16 +205,16 @@ template <std::floating_point T>
     mapping.caustics.threads = settings.threads;
     mapping.caustics_estimate.radius = float(how.scale * settings.radius);
     mapping.caustics_estimate.nearest = settings.nearest;
-    const auto maps = make_photon_maps(room.scene, mapping);
-    const auto mapper = make_photon_mapper(room.scene, maps, mapping);
+    const PhotonMapper mapper(room.world, mapping);
+    const PhotonMapT<T>& caustics = mapper.maps().caustics;
     return {render(mapper, room.camera,
                    {.width = settings.width,
                     .height = settings.height,
                     .samples = settings.samples,
                     .seed = settings.seed,
                     .threads = settings.threads}),
-            maps.remarks, maps.caustics.records.size(),
-            maps.caustics.tree.bytes() + maps.caustics.records.bytes()};
+            mapper.maps().remarks, caustics.records.size(),
+            caustics.tree.bytes() + caustics.records.bytes()};
 }
 
 } // namespace examples

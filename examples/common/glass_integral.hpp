@@ -45,7 +45,7 @@ enum class Points { random, strata, owen };
 /// One number of n.
 // [where numbers come from]
 inline double number(Points points, int i, int n, std::uint64_t seed,
-              ljus::RandomStream& stream) {
+                     ljus::RandomStream& stream) {
     if (points == Points::strata) return (i + next_1d<double>(stream)) / n;
     if (points == Points::owen) {
         auto sobol = ljus::sobol_stream(seed, ljus::Pass::user, 0, std::uint64_t(i));

@@ -33,7 +33,7 @@ struct Oracle {
 /// the next program. Their names hold the fingerprint of a small picture of the room,
 /// so that a room or a path tracer that has changed is rendered anew.
 /// \param name     Of the room, for the files.
-/// \param room     With a `scene` and a `camera`.
+/// \param room     With a `world` and a `camera`.
 /// \param size     Width and height in pixels.
 /// \param rays     Rays a pixel, shared out among the pieces.
 /// \param options  Folder and threads; the seed is the oracle's own.
@@ -43,7 +43,7 @@ template <typename Room>
                                  int rays, const Options& options) {
     constexpr int pieces = 8;
     const int part = std::max(1, rays / pieces);
-    const auto tracer = make_path_tracer(room.scene);
+    const ljus::PathTracer tracer(room.world);
     const auto shot = [&](int side, int samples, std::uint64_t seed) {
         ProgressBar bar("reference of " + name, options.quiet);
         auto result = render(tracer, room.camera,

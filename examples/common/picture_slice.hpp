@@ -22,7 +22,7 @@
 
 #include "fingerprint.hpp"
 #include "ljus/io/binary_file.hpp"
-#include "ljus/path/counts.hpp"
+#include "ljus/path/renderer.hpp"
 #include "ljus/render/render.hpp"
 
 namespace examples {

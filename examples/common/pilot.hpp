@@ -13,11 +13,18 @@
 #include "convergence.hpp"
 #include "ljus/inspect/survey.hpp"
 #include "ljus/math/stratified_stream.hpp"
-#include "ljus/render/photon_mapping.hpp"
+#include "ljus/render/budgeting.hpp"
+#include "ljus/render/gathering.hpp"
+#include "ljus/render/skipping.hpp"
 #include "promise.hpp"
 #include "terminal.hpp"
 
 namespace examples {
+
+/// What recipes may ask of a photon mapper.
+inline constexpr auto recipe_abilities =
+    ljus::abilities<ljus::StratifiedStream, ljus::Gathering, ljus::Skipping,
+                    ljus::Budgeting>;
 
 /// A picture by a recipe, and how long it took.
 template <std::floating_point T>
@@ -31,41 +38,39 @@ struct Shot {
 };
 
 /// Makes one picture.
-/// \param scene    The scene, or an IndexedScene.
-/// \param camera   Its camera.
+/// \param world    The closed scene.
+/// \param camera   Any camera.
 /// \param recipe   Photons and rays.
 /// \param picture  Size, seed, threads, progress; its samples are not looked at.
 /// \param now      A clock, in seconds.
 /// \param map_seed Of the photons, if it is not that of the picture.
 /// \return The picture; not complete if the progress callback stopped it.
-template <ljus::SceneLike S, template <std::floating_point> typename AnyCamera,
-          std::floating_point T, typename Clock>
-[[nodiscard]] Shot<T> shoot(const S& scene, const AnyCamera<T>& camera,
-                            const Recipe& recipe, ljus::RenderSettings picture,
-                            Clock&& now, std::optional<std::uint64_t> map_seed = {}) {
-    Shot<T> shot{.settings = recipe.settings};
+template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
+[[nodiscard]] Shot<typename C::Scalar>
+shoot(const W& world, const C& camera, const Recipe& recipe,
+      ljus::RenderSettings picture, Clock&& now,
+      std::optional<std::uint64_t> map_seed = {}) {
+    Shot<typename C::Scalar> shot{.settings = recipe.settings};
     for (auto* pass : {&shot.settings.caustics, &shot.settings.general}) {
         pass->seed = map_seed.value_or(picture.seed);
         pass->threads = picture.threads;
         pass->progress = picture.progress;
     }
     const double begin = now();
-    auto maps = make_photon_maps(scene, shot.settings);
+    ljus::PhotonMapper mapper(world, shot.settings, recipe_abilities);
+    const auto& maps = mapper.maps();
     shot.remarks = maps.remarks;
     shot.bytes = double(maps.caustics.tree.bytes() + maps.caustics.records.bytes() +
                         maps.general.tree.bytes() + maps.general.records.bytes());
     const double middle = now();
-    if (maps.complete)
-        add_irradiance_cache(maps, scene, camera, picture, shot.settings);
-    const auto mapper =
-        ljus::make_photon_mapper<ljus::StratifiedStream>(scene, maps, shot.settings);
-    shot.settings = mapper.settings;
+    if (maps.complete) mapper.fill_cache(camera, picture);
+    shot.settings = mapper.settings();
     picture.samples = recipe.rays;
     if (maps.complete)
         shot.rendered = render(mapper, camera, picture);
     else
         shot.rendered.complete = false;
-    shot.rendered.counts += maps.cache.counts;
+    shot.rendered.counts += mapper.template state<ljus::Gathering>().cache.counts;
     shot.photons = middle - begin;
     shot.rest = now() - middle;
     return shot;
@@ -120,10 +125,10 @@ struct PilotRun {
 };
 
 /// What a pilot begins with.
-/// \param scene    The scene.
+/// \param world    The closed scene.
 /// \param picture  The large picture.
-template <ljus::SceneLike S>
-[[nodiscard]] PilotRun make_pilot(const S& scene, const ljus::RenderSettings& picture) {
+template <ljus::AnyWorld W>
+[[nodiscard]] PilotRun make_pilot(const W& world, const ljus::RenderSettings& picture) {
     PilotRun run{.small = picture,
                  .all = double(picture.width) * double(picture.height),
                  .large = recipes(picture.width, picture.height)};
@@ -133,7 +138,7 @@ template <ljus::SceneLike S>
     run.pixels = double(run.small.width) * double(run.small.height);
     for (const Recipe& recipe : recipes(run.small.width, run.small.height))
         run.trials.push_back({.recipe = recipe});
-    if (survey(scene, run.large.back().settings).caustics_map.on) {
+    if (survey(world, run.large.back().settings).caustics_map.on) {
         run.trials.push_back({.recipe = run.trials.back().recipe}); // the judge
         run.trials.back().recipe.settings.caustics.photons *= 8;
     } else {
@@ -145,16 +150,16 @@ template <ljus::SceneLike S>
 /// Makes one more small picture by a recipe.
 /// \param run     The pilot.
 /// \param i       Which of its trials.
-/// \param scene   The scene.
-/// \param camera  Its camera.
+/// \param world   The closed scene.
+/// \param camera  Any camera.
 /// \param seed    Of the large picture.
 /// \param now     A clock, in seconds.
-template <ljus::SceneLike S, typename Camera, typename Clock>
-void try_again(PilotRun& run, std::size_t i, const S& scene, const Camera& camera,
+template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
+void try_again(PilotRun& run, std::size_t i, const W& world, const C& camera,
                std::uint64_t seed, Clock& now) {
     Trial& trial = run.trials[i];
     run.small.seed = seed_of(seed, -1 - trial.state.passes);
-    const auto shot = shoot(scene, camera, trial.recipe, run.small, now);
+    const auto shot = shoot(world, camera, trial.recipe, run.small, now);
     stop_if_asked();
     add_pass(trial.state, shot.rendered.image);
     auto& kept = trial.pictures.emplace_back(
@@ -201,23 +206,22 @@ void try_again(PilotRun& run, std::size_t i, const S& scene, const Camera& camer
 /// The estimate is unbiased itself, since it multiplies differences of different seeds
 /// only; it shrinks with the root of the photons, and is weighed with what the book
 /// knows.
-/// \param scene    The scene, or an IndexedScene.
-/// \param camera   Its camera.
+/// \param world    The closed scene.
+/// \param camera   Any camera.
 /// \param picture  The one that is promised.
 /// \param promise  It goes on for an eighth of the time that the promise will take, and
 ///                 for 10 s at most if that is not promised. After it no recipe is
 ///                 tried if seconds are promised, and the judge not after half of it.
 /// \param now      A clock, in seconds.
 /// \return A forecast for each recipe that was tried, for the picture itself.
-template <ljus::SceneLike S, template <std::floating_point> typename AnyCamera,
-          std::floating_point T, typename Clock>
-[[nodiscard]] std::vector<Forecast> pilot(const S& scene, const AnyCamera<T>& camera,
+template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
+[[nodiscard]] std::vector<Forecast> pilot(const W& world, const C& camera,
                                           const ljus::RenderSettings& picture,
                                           const Promise& promise, Clock&& now) {
     constexpr std::size_t least = 3, most = 64; // pictures by each
-    detail::PilotRun run = detail::make_pilot(scene, picture);
+    detail::PilotRun run = detail::make_pilot(world, picture);
     const auto try_again = [&](std::size_t i) {
-        detail::try_again(run, i, scene, camera, picture.seed, now);
+        detail::try_again(run, i, world, camera, picture.seed, now);
     };
     const double begin = now();
     const auto patience = [&](const std::vector<Forecast>& found) {

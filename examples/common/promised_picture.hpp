@@ -29,8 +29,8 @@ struct Kept {
 };
 
 /// Keeps a promise: a pilot, a choice, and pictures until it is kept.
-/// \param scene    The scene, or an IndexedScene.
-/// \param camera   Its camera.
+/// \param world    The closed scene.
+/// \param camera   Any camera.
 /// \param picture  Size, seed, threads.
 /// \param promise  Seconds, or an error.
 /// \param now      A clock, in seconds; it began at 0 when the promise was given.
@@ -39,15 +39,15 @@ struct Kept {
 /// \return The picture.
 /// \throws Interrupted  after Ctrl-C.
 /// \throws std::invalid_argument  for an error that is below the bias of all recipes.
-template <ljus::SceneLike S, template <std::floating_point> typename AnyCamera,
-          std::floating_point T, typename Clock, typename Tell>
-[[nodiscard]] Kept<T> keep(const S& scene, const AnyCamera<T>& camera,
-                           ljus::RenderSettings picture, const Promise& promise,
-                           Clock&& now, bool quiet, Tell&& tell) {
+template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock, typename Tell>
+[[nodiscard]] Kept<typename C::Scalar>
+keep(const W& world, const C& camera, ljus::RenderSettings picture,
+     const Promise& promise, Clock&& now, bool quiet, Tell&& tell) {
+    using T = typename C::Scalar;
     Kept<T> kept;
     auto go_on = [](long long, long long) { return stop_signal() == 0; };
     picture.progress = go_on;
-    kept.found = pilot(scene, camera, picture, promise, now);
+    kept.found = pilot(world, camera, picture, promise, now);
     kept.choice = choose(kept.found, promise, promise.seconds - now());
     kept.recipe = recipes(picture.width, picture.height)[kept.choice.recipe];
     const Forecast found = kept.forecast();
@@ -71,7 +71,7 @@ template <ljus::SceneLike S, template <std::floating_point> typename AnyCamera,
     // [keep]
     for (bool done = false; !done;) {
         picture.seed = seed_of(seed, kept.pictures);
-        auto shot = shoot(scene, camera, kept.recipe, picture, now);
+        auto shot = shoot(world, camera, kept.recipe, picture, now);
         stop_if_asked();
         add_pass(state, shot.rendered.image);
         ++kept.pictures;

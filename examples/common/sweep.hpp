@@ -201,18 +201,17 @@ inline void save_reference(const std::string& folder, const std::string& name,
 template <typename Room>
 [[nodiscard]] auto shoot_setting(const Room& room, const Setting& setting,
                                  ljus::RenderSettings picture, std::uint64_t map_seed) {
-    using T = typename std::remove_cvref_t<decltype(room.scene)>::Scalar;
+    using T = typename std::remove_cvref_t<decltype(room.world)>::Scalar;
     picture.sampling = setting.sampling;
     if (!setting.paths)
-        return shoot(room.scene, room.camera, setting.recipe, picture,
+        return shoot(room.world, room.camera, setting.recipe, picture,
                      processor_seconds, map_seed);
     Shot<T> shot;
     picture.samples = setting.recipe.rays;
     const double begin = processor_seconds();
-    shot.rendered =
-        render(ljus::make_path_tracer(room.scene,
-                                      {.max_depth = setting.recipe.settings.max_depth}),
-               room.camera, picture);
+    shot.rendered = render(
+        ljus::PathTracer(room.world, {.max_depth = setting.recipe.settings.max_depth}),
+        room.camera, picture);
     shot.rest = processor_seconds() - begin;
     return shot;
 }

@@ -5,7 +5,7 @@
 
 #include "ljus/geometry/quad.hpp"
 #include "ljus/materials/lambertian.hpp"
-#include "ljus/scene/scene.hpp"
+#include "ljus/scene/world.hpp"
 
 namespace examples {
 
@@ -15,17 +15,14 @@ using Boxes = ljus::Scene<ljus::Shapes<ljus::Quad>, ljus::Materials<ljus::Lamber
 /// Two rooms, open in front, with a wall between them that has no thickness; a lamp in
 /// the left one.
 struct TwoRooms {
-    Boxes scene; ///< Walls, floor, ceiling, and the lamp.
-    /// Of radiance 8; under the ceiling, facing down.
-    ljus::Quad lamp{
-        .corner{-0.7f, 0.999f, 0.3f}, .edge_u{0.4f, 0, 0}, .edge_v{0, 0, 0.4f}};
+    ljus::World<Boxes> world; ///< Walls, floor, ceiling, and the lamp.
+    ljus::Quad lamp;          ///< Of radiance 8; under the ceiling, facing down.
 };
 
 /// Makes the two rooms.
 inline TwoRooms two_rooms() {
     using ljus::Lambertian, ljus::Quad, ljus::Rgb, ljus::Vec3;
-    TwoRooms rooms;
-    Boxes& scene = rooms.scene;
+    Boxes scene;
     const auto white = scene.add(Lambertian{.albedo = Rgb{0.75f}});
     const auto red = scene.add(Lambertian{.albedo = Rgb{0.75f, 0.3f, 0.2f}});
     const auto blue = scene.add(Lambertian{.albedo = Rgb{0.2f, 0.4f, 0.75f}});
@@ -37,8 +34,10 @@ inline TwoRooms two_rooms() {
     scene.add(Quad{.corner{-1, 0, 0}, .edge_u = y, .edge_v = z}, red);
     scene.add(Quad{.corner{1, 0, 0}, .edge_u = z, .edge_v = y}, blue);
     scene.add(Quad{.corner{0, 0, 0}, .edge_u = y, .edge_v = z}, white); // between
-    scene.add(rooms.lamp, black, Rgb{8});
-    return rooms;
+    const Quad lamp{
+        .corner{-0.7f, 0.999f, 0.3f}, .edge_u{0.4f, 0, 0}, .edge_v{0, 0, 0.4f}};
+    scene.add(lamp, black, Rgb{8});
+    return {ljus::World(std::move(scene)), lamp};
 }
 
 } // namespace examples

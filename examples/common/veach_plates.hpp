@@ -11,8 +11,7 @@
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/scene/camera.hpp"
 #include "ljus/scene/scene.hpp"
-#include "ljus/scene/camera.hpp"
-#include "ljus/scene/query.hpp"
+#include "ljus/scenes/room.hpp"
 
 namespace examples {
 
@@ -27,10 +26,9 @@ constexpr std::array lamp_radius{0.0333f, 0.1f, 0.3f, 0.9f};
 /// \return The scene and its camera.
 inline auto veach_plates(const std::array<float, 4>& roughness = plate_roughness) {
     using ljus::Quad, ljus::Rgb, ljus::Sphere, ljus::Vec3;
-    ljus::Room<ljus::Scene<ljus::Shapes<Quad, Sphere>,
-                           ljus::Materials<ljus::Lambertian, ljus::Glossy>>>
-        room;
-    auto& scene = room.scene;
+    ljus::Scene<ljus::Shapes<Quad, Sphere>,
+                ljus::Materials<ljus::Lambertian, ljus::Glossy>>
+        scene;
     const Vec3 eye{0, 2, 15}, x{1, 0, 0};
     const std::array middles{Vec3{0, -2.4f, -0.1f}, Vec3{0, -3.06f, 0.9f},
                              Vec3{0, -3.6f, 2.2f}, Vec3{0, -3.9f, 3.6f}};
@@ -53,9 +51,10 @@ inline auto veach_plates(const std::array<float, 4>& roughness = plate_roughness
     const auto wall = scene.add(ljus::Lambertian{.albedo = Rgb{0.3f}});
     scene.add(Quad{{-10, -4.2f, 10}, {20, 0, 0}, {0, 0, -12}}, wall);
     scene.add(Quad{{-10, -4.2f, -2}, {20, 0, 0}, {0, 12, 0}}, wall);
-    room.camera = look_at(
-        ljus::View{.position = eye, .target{0, -1.8f, 2.5f}, .vfov_degrees = 26});
-    return room;
+    return ljus::Room{
+        ljus::World(std::move(scene)),
+        look_at(
+            ljus::View{.position = eye, .target{0, -1.8f, 2.5f}, .vfov_degrees = 26})};
 }
 
 } // namespace examples

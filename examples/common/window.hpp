@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "ljus/geometry/quad.hpp"
+#include "ljus/lights/point_light.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
-#include "ljus/scene/make_light.hpp"
 
 namespace examples {
 
@@ -56,6 +56,6 @@ struct Strip {
     }
 };
 inline constexpr Strip middle{"middle", -0.5, 0.5}; ///< The light is smooth there.
-inline constexpr Strip edge{"edge", 1.2, 2.8}; ///< Across the end of the light.
+inline constexpr Strip edge{"edge", 1.2, 2.8};      ///< Across the end of the light.
 
 } // namespace examples

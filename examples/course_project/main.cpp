@@ -32,10 +32,9 @@ MyScene make_my_scene() {
 
 int main() {
     try {
-        const MyScene scene = make_my_scene();
+        const World world(make_my_scene());
         const Camera camera = look_at({.position{0, 2.2f, 7}, .target{0, 1, 0}});
-        const auto maps = make_photon_maps(scene);
-        const auto renderer = make_photon_mapper(scene, maps);
+        const PhotonMapper renderer(world);
         const auto picture =
             render(renderer, camera, {.width = 320, .height = 240, .samples = 9});
         save_png(picture.image, "picture.png");

@@ -50,22 +50,22 @@ detail::make_bvh8(const detail::BvhNodesT<float>&, std::uint32_t);
 // Paths.
 LJUS_CORE_EXTERN template SeenPointT<float> sample_towards(const Sphere&, const Vec3&,
                                                            const Vec2&);
-LJUS_CORE_EXTERN template std::optional<detail::ScatteredT<float>>
+LJUS_CORE_EXTERN template std::optional<ScatteredT<float>>
 scatter(const VertexT<float>&, const Lambertian&, const Vec3&, Transport, Lobes);
-LJUS_CORE_EXTERN template std::optional<detail::ScatteredT<float>>
+LJUS_CORE_EXTERN template std::optional<ScatteredT<float>>
 scatter(const VertexT<float>&, const OrenNayar&, const Vec3&, Transport, Lobes);
-LJUS_CORE_EXTERN template std::optional<detail::ScatteredT<float>>
+LJUS_CORE_EXTERN template std::optional<ScatteredT<float>>
 scatter(const VertexT<float>&, const Mirror&, const Vec3&, Transport, Lobes);
-LJUS_CORE_EXTERN template std::optional<detail::ScatteredT<float>>
+LJUS_CORE_EXTERN template std::optional<ScatteredT<float>>
 scatter(const VertexT<float>&, const Glass&, const Vec3&, Transport, Lobes);
 LJUS_CORE_EXTERN template std::optional<PathStateT<float>>
 split_path(PathStateT<float>&, const VertexT<float>&, const Glass&);
 
 // Photons.
-LJUS_CORE_EXTERN template LightChoice light_choice(const std::vector<LightT<float>>&);
+LJUS_CORE_EXTERN template LightChoice light_choice(const std::vector<Rgb>&);
 namespace detail {
-LJUS_CORE_EXTERN template LightChoice start_pass(const PhotonPassSettings&,
-                                                 const std::vector<LightT<float>>&);
+LJUS_CORE_EXTERN template LightChoice start_pass<float>(const PhotonPassSettings&,
+                                                        LightChoice);
 LJUS_CORE_EXTERN template TracedPhotonsT<float>
 run_pass(MapType, const PhotonPassSettings&, BlockTracerT<float>);
 } // namespace detail

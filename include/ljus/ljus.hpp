@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/ljus.hpp
-/// \brief What a first program needs: all shapes, all materials, scenes, cameras, the
-/// renderers, PNG. What else there is, each header of its own gives.
+/// \brief What a first program needs: all shapes, lights and materials, scenes,
+/// cameras, the renderers, PNG. What else there is, each header of its own gives.
 
 #include "ljus/geometry/box.hpp"
 #include "ljus/geometry/isosurface.hpp"
@@ -11,6 +11,10 @@
 #include "ljus/geometry/quad.hpp"
 #include "ljus/geometry/sphere.hpp"
 #include "ljus/geometry/triangle.hpp"
+
+#include "ljus/lights/point_light.hpp"
+#include "ljus/lights/spot_light.hpp"
+#include "ljus/lights/sun_light.hpp"
 
 #include "ljus/materials/compensated_glossy.hpp"
 #include "ljus/materials/eon.hpp"

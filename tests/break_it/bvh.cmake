@@ -59,10 +59,14 @@ ljus_break_it(NAME triangle-bvh-start HEADER accel/triangle_bvh.hpp TEST bvh8
     CASES "wide bvh: rays from the surfaces*")
 
 # Of two types of shapes the second is numbered as the first.
-ljus_break_it(NAME indexed-scene-type HEADER scene/index.hpp TEST index
-    FROM "++type;"
-    TO   "type += 0;"
-    CASES "indexed scene: in double*")
+ljus_break_it(NAME world-type HEADER scene/world.hpp TEST world
+    FROM "all.push_back({type, i});
+            }
+            ++type;"
+    TO   "all.push_back({type, i});
+            }
+            type += 0;"
+    CASES "world: in double*")
 
 # The first child of a wide node's two gets all places but one, whatever they cost.
 ljus_break_it(NAME bvh-collapse HEADER accel/detail/bvh8_build.hpp TEST bvh8

@@ -1,12 +1,12 @@
 # The flux of a photon is not divided by its object's share.
-ljus_break_it(NAME caustic_budget-flux HEADER photons/detail/aim_by_share.hpp
+ljus_break_it(NAME caustic_budget-flux HEADER photons/aiming.hpp
     TEST caustic_budget
     FROM "if (aimed) aimed->photon.flux /= static_cast<T>(shares[chosen]);"
     TO   ""
     CASES "caustic_budget: any shares*")
 
 # A share of 0 is chosen where rounding leaves something over.
-ljus_break_it(NAME caustic_budget-zero HEADER photons/detail/aim_by_share.hpp
+ljus_break_it(NAME caustic_budget-zero HEADER photons/aiming.hpp
     TEST caustic_budget
     FROM "if (!(shares[k] > 0)) continue;"
     TO   ""
@@ -73,7 +73,7 @@ ljus_break_it(NAME budget-pilot-dark HEADER photons/budget.hpp TEST caustic_budg
     CASES "caustic_budget: the pilot's numbers*")
 
 # The light of a pilot is that of the picture's own first photons.
-ljus_break_it(NAME budget-pilot-light HEADER render/photon_maps.hpp TEST caustic_budget
+ljus_break_it(NAME budget-pilot-light HEADER render/budgeting.hpp TEST caustic_budget
     FROM "pass.iteration = ~pass.iteration;"
     TO   ""
     CASES "caustic_budget: the pilot of the other light*")

@@ -29,19 +29,19 @@ ljus_break_it(NAME caustics-k HEADER photons/irradiance_estimate.hpp TEST causti
     CASES "caustics: k nearest*")
 
 # Photons that were aimed at one ball and meet another first count for both.
-ljus_break_it(NAME caustics-overlap HEADER photons/photon_path.hpp TEST caustics
-    FROM "vertex->id != *target"
+ljus_break_it(NAME caustics-overlap HEADER photons/tracing.hpp TEST caustics
+    FROM "vertex->id != *sent.target"
     TO   "false"
     CASES "caustics: overlapping targets*")
 
 # The cosine at the lamp, which a point light does not have.
-ljus_break_it(NAME caustics-lamp-cosine HEADER photons/detail/aim_steps.hpp TEST caustics
+ljus_break_it(NAME caustics-lamp-cosine HEADER lights/area_light.hpp TEST caustics
     FROM "cosine * std::numbers::inv_pi_v<T>"
     TO   "std::numbers::inv_pi_v<T>"
     CASES "caustics: overlapping targets*")
 
 # Points of a mirror as if they were directions.
-ljus_break_it(NAME caustics-area HEADER photons/detail/aim_steps.hpp TEST caustics
+ljus_break_it(NAME caustics-area HEADER photons/aiming.hpp TEST caustics
     FROM "return {glm::normalize(seen.point.position - from), seen.pdf};"
     TO   "return {glm::normalize(seen.point.position - from), pdf_uniform_cone(aim.cone.one_minus_cos)};"
     CASES "caustics: a mirror ball*")

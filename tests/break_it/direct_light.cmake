@@ -5,47 +5,47 @@ ljus_break_it(NAME direct-light-cosine HEADER path/direct_light.hpp TEST direct_
     CASES "direct light: a point light*")
 
 # The inverse square, as the report's program has it.
-ljus_break_it(NAME direct-light-distance HEADER scene/light.hpp TEST direct_light
-    FROM ".weight = share * light.emission / distance2"
-    TO   ".weight = share * light.emission"
+ljus_break_it(NAME direct-light-distance HEADER lights/light.hpp TEST direct_light
+    FROM ".weight = sent / distance2"
+    TO   ".weight = sent"
     CASES "direct light: a point light*")
 
 # The density of the point of a lamp.
-ljus_break_it(NAME direct-light-pdf HEADER scene/light.hpp TEST direct_light
-    FROM "sample->weight = light.emission / pdf;"
-    TO   "sample->weight = light.emission;"
+ljus_break_it(NAME direct-light-pdf HEADER lights/area_light.hpp TEST direct_light
+    FROM "sample->weight = light.lamp.radiance / pdf;"
+    TO   "sample->weight = light.lamp.radiance;"
     CASES "direct light: lamps give*")
 
 # A lamp that shines on both sides.
-ljus_break_it(NAME direct-light-side HEADER scene/light.hpp TEST direct_light
+ljus_break_it(NAME direct-light-side HEADER lights/area_light.hpp TEST direct_light
     FROM "glm::dot(sample->wi, point.normal) < T(0) && "
     TO   ""
     CASES "direct light: no ray*")
 
 # Nothing hides anything.
 ljus_break_it(NAME direct-light-shadow HEADER path/direct_light.hpp TEST direct_light
-    FROM "visibility(scene, point, sampled->point, vertex.time);"
+    FROM "visibility(world, point, sampled->point, vertex.time);"
     TO   "RgbT<T>{T(1)};"
     CASES "direct light: what stands between*")
 
 # The test for visibility the wrong way round, at one kind of light: what is hidden from it
 # is lit.
 ljus_break_it(NAME direct-light-inverted HEADER path/direct_light.hpp TEST direct_light
-    FROM "visible = visibility(scene, point, sampled->point, vertex.time);"
-    TO   "visible = visibility(scene, point, sampled->point, vertex.time);
-        if (light.kind == LightKind::point) visible = RgbT<T>{T(1)} - visible;"
+    FROM "visible = visibility(world, point, sampled->point, vertex.time);"
+    TO   "visible = visibility(world, point, sampled->point, vertex.time);
+        if (!world.can_be_met(light)) visible = RgbT<T>{T(1)} - visible;"
     CASES "direct light: what stands between*")
 
 # The lamp where it was when the shutter opened.
 ljus_break_it(NAME direct-light-lamp-time HEADER path/direct_light.hpp TEST direct_light
-    FROM "sample_light(scene, light, point.position, u, vertex.time)"
-    TO   "sample_light(scene, light, point.position, u)"
+    FROM "sample_light(world, light, point.position, u, vertex.time)"
+    TO   "sample_light(world, light, point.position, u)"
     CASES "direct light: a lamp? and what stands*")
 
 # The mirror of a mixture has its part in the density of its matt part.
 ljus_break_it(NAME all-lights-lobes HEADER path/all_lights.hpp TEST all_lights
-    FROM "pdf(material, vertex.wo, wi, Lobes::non_specular)"
-    TO   "pdf(material, vertex.wo, wi)"
+    FROM ".lobes = Lobes::non_specular}"
+    TO   ".lobes = Lobes::all}"
     CASES "all lights: of a material that is part mirror*")
 
 # Where no ray is needed, the fog is forgotten with it.
@@ -62,6 +62,8 @@ ljus_break_it(NAME all-lights-cells HEADER path/all_lights.hpp TEST all_lights
 
 # Where normals lean, what a ray finds is weighed as if it were flux.
 ljus_break_it(NAME all-lights-found-flux HEADER path/all_lights.hpp TEST all_lights
-    FROM "next_3d<T>(stream), Transport::radiance"
-    TO   "next_3d<T>(stream), Transport::flux"
+    FROM "scatter(vertex, material, next_3d<T>(context.stream),
+                              Transport::radiance,"
+    TO   "scatter(vertex, material, next_3d<T>(context.stream),
+                              Transport::flux,"
     CASES "all lights: what a ray finds*")

@@ -1,14 +1,14 @@
 # One point of the lamp for all rays: Whitted's hard shadow, not a penumbra.
 ljus_break_it(NAME distributed-rays-hard-shadow HEADER render/distributed.hpp
     TEST distributed_rays
-    FROM "direct_light(scene, light, vertex, material, u, whole, counts)"
-    TO   "direct_light(scene, light, vertex, material, Vec2T<T>{T(0.5)}, whole, counts)"
+    FROM "direct_light(world, light, vertex, material, u, MisT<T>{},"
+    TO   "direct_light(world, light, vertex, material, Vec2T<T>{T(0.5)}, MisT<T>{},"
     CASES "distributed rays: the penumbra*")
 
 # A lamp in gloss has two owners: the shadow ray and the reflected one.
 ljus_break_it(NAME distributed-rays-two-owners HEADER render/distributed.hpp
     TEST distributed_rays
-    FROM "if (gloss && light.object) continue;"
+    FROM "if (gloss && met) continue;"
     TO   ""
     CASES "distributed rays: gloss sees*")
 
@@ -22,8 +22,8 @@ ljus_break_it(NAME distributed-rays-matt HEADER render/distributed.hpp
 # The depth counts one turn too many.
 ljus_break_it(NAME distributed-rays-depth HEADER render/distributed.hpp
     TEST distributed_rays
-    FROM "if (path.depth > tracer.settings.max_depth) {"
-    TO   "if (path.depth > tracer.settings.max_depth + 1) {"
+    FROM "if (path.depth > tracer.settings().max_depth) {"
+    TO   "if (path.depth > tracer.settings().max_depth + 1) {"
     CASES "distributed rays: every path*")
 
 # Nothing moves.
@@ -43,8 +43,8 @@ ljus_break_it(NAME distributed-rays-bounds HEADER geometry/moving.hpp
 # Shadow rays run through the scene as it was when the shutter opened.
 ljus_break_it(NAME distributed-rays-shadow-time HEADER path/direct_light.hpp
     TEST distributed_rays
-    FROM "visibility(scene, point, sampled->point, vertex.time);"
-    TO   "visibility(scene, point, sampled->point);")
+    FROM "visibility(world, point, sampled->point, vertex.time);"
+    TO   "visibility(world, point, sampled->point);")
 
 # Pixels, not planes: sharp on a sphere around the lens.
 ljus_break_it(NAME lens-camera-sphere HEADER scene/lens_camera.hpp TEST lens_camera

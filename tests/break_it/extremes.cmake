@@ -5,19 +5,19 @@ ljus_break_it(NAME extremes-epsilon HEADER geometry/surface_point.hpp TEST extre
     CASES "extremes: at every power*")
 
 # A light that is near is none: in a small room every light is near.
-ljus_break_it(NAME extremes-near-light HEADER scene/light.hpp TEST extremes
+ljus_break_it(NAME extremes-near-light HEADER lights/light.hpp TEST extremes
     FROM "if (!(distance2 > T(0))) return std::nullopt;"
     TO   "if (!(distance2 > T(1e-6))) return std::nullopt;"
     CASES "extremes: lamps*")
 
 # Far from the origin, float keeps silent.
-ljus_break_it(NAME extremes-silence HEADER render/detail/scene_remarks.hpp TEST extremes
+ljus_break_it(NAME extremes-silence HEADER render/passes.hpp TEST extremes
     FROM "if (digits >= 3) {"
     TO   "if (digits >= 0) {"
     CASES "extremes: far*")
 
 # A scene that is too large for float, and nobody says so.
-ljus_break_it(NAME extremes-too-large HEADER render/detail/scene_remarks.hpp TEST extremes
+ljus_break_it(NAME extremes-too-large HEADER render/passes.hpp TEST extremes
     FROM "reach = std::max(reach, max_component(far));"
     TO   ""
     CASES "extremes: from a millionth*")

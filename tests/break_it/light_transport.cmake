@@ -1,7 +1,7 @@
 # The report's g: no surface casts a shadow.
 ljus_break_it(NAME transport-visibility HEADER path/light_transport.hpp
     TEST light_transport
-    FROM "if (!(squared > T(0)) || occluded(scene, spawn_ray_to(x, other))) return T(0);"
+    FROM "if (!(squared > T(0)) || occluded(world, spawn_ray_to(x, other))) return T(0);"
     TO   "if (!(squared > T(0))) return T(0);"
     CASES "light_transport: g is*")
 
@@ -33,6 +33,6 @@ ljus_break_it(NAME class-empty HEADER path/light_path_expression.hpp TEST light_
 
 # A renderer that carries some paths is said to cost nothing.
 ljus_break_it(NAME only-paths-counts HEADER path/light_transport.hpp TEST light_transport
-    FROM [[(void)radiance(renderer.whole, ray, stream, counts, log);]]
-    TO   [[Counts none; (void)radiance(renderer.whole, ray, stream, none, log);]]
+    FROM "auto own = context_of(context.stream, context.counts, log);"
+    TO   "Counts none; auto own = context_of(context.stream, none, log);"
     CASES "light_transport: the parts of a picture*")

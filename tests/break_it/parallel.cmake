@@ -1,8 +1,8 @@
 # Rows of a machine's part that are traced as if they were the first ones: each strip
 # shows the top of the picture.
 ljus_break_it(NAME parallel-rows HEADER render/render.hpp TEST render
-    FROM "rows.first + row, i, cost, log"
-    TO   "row, i, cost, log"
+    FROM "{x, rows.first + row, i}"
+    TO   "{x, row, i}"
     CASES "render: rows that are*")
 
 # Blocks in turns: two threads are given the same one where one had it.
@@ -68,9 +68,9 @@ ljus_break_it(NAME parallel-last-block HEADER parallel.hpp TEST parallel
 # One stream of random numbers for all threads: whoever comes first draws first, and no
 # picture can be made again.
 ljus_break_it(NAME render-shared-stream HEADER render/render.hpp TEST render
-    FROM "start_ray(stream, picture.seed, pixel, number, pattern);"
+    FROM "start_ray(stream, picture.seed, pixel, at.number, rays.pattern);"
     TO   "static std::uint64_t drawn = 0;
-    start_ray(stream, picture.seed, drawn++, 0, pattern);"
+    start_ray(stream, picture.seed, drawn++, 0, rays.pattern);"
     CASES "render: rows that are*")
 
 # Whoever said stop is asked again by each block that was under way.

@@ -8,8 +8,9 @@ ljus_break_it(NAME path-tracing-light-choice HEADER render/path_tracing.hpp
 # A lamp that is met counts in full, though shadow rays have counted it.
 ljus_break_it(NAME path-tracing-emission-weight HEADER render/path_tracing.hpp
     TEST path_tracing
-    FROM "return mis_weight(settings.heuristic, path.pdf, other) * all;"
-    TO   "return T(other > T(0) ? 1 : 0) * all;"
+    FROM "return mis_weight(settings.heuristic, path.pdf,
+                      pdf() * probability_of<T>(tracer.world().light_choice(), light));"
+    TO   "return T(pdf() > T(0) ? 1 : 0);"
     CASES "path tracing: in a furnace every*")
 
 # The last surface's lamp, seen by nobody but its shadow ray, which is weighed down.
@@ -34,15 +35,15 @@ ljus_break_it(NAME path-tracing-medium HEADER path/next_vertex.hpp TEST path_tra
 # A lamp that the path meets is taken for the only one.
 ljus_break_it(NAME path-tracing-light-density HEADER render/path_tracing.hpp
     TEST path_strategies
-    FROM "detail::probability_of<T>(tracer.lights, vertex.object.light);"
-    TO   "T(1);"
+    FROM "pdf() * probability_of<T>(tracer.world().light_choice(), light)"
+    TO   "pdf()"
     CASES "multiple importance: all ways*")
 
 # Shadow rays are believed, and the lamp that a path meets is counted as well.
 ljus_break_it(NAME path-tracing-shadow-rays-alone HEADER render/path_tracing.hpp
     TEST path_strategies
-    FROM "if (settings.heuristic == MisHeuristic::shadow_rays) return RgbT<T>{T(0)};"
-    TO   "if (settings.heuristic == MisHeuristic::shadow_rays) return all;"
+    FROM "if (settings.heuristic == MisHeuristic::shadow_rays) return T(0);"
+    TO   "if (settings.heuristic == MisHeuristic::shadow_rays) return T(1);"
     CASES "multiple importance: all ways*")
 
 # Squares on one side only.

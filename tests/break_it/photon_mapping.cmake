@@ -5,7 +5,7 @@ ljus_break_it(NAME photon-mapping-n2 HEADER materials/glass.hpp TEST photon_mapp
     CASES "photon mapping: a matt ball embedded*")
 
 # Flux that enters glass as if it were radiance.
-ljus_break_it(NAME photon-mapping-flux HEADER photons/photon_path.hpp TEST photon_mapping
+ljus_break_it(NAME photon-mapping-flux HEADER photons/tracing.hpp TEST photon_mapping
     FROM "continue_path(path, vertex, material, Transport::flux, which, stream)"
     TO   "continue_path(path, vertex, material, Transport::radiance, which, stream)"
     CASES "photon mapping: a matt ball embedded*")
@@ -44,19 +44,19 @@ ljus_break_it(NAME photon-mapping-start HEADER path/next_vertex.hpp TEST photon_
 
 # The plan says that nothing is lit, and rays look for light all the same.
 ljus_break_it(NAME photon-mapping-plan HEADER render/photon_mapping.hpp TEST survey
-    FROM "detail::choose_passes(needs(scene), settings).indirect_rays"
-    TO   "settings.max_depth > 0"
+    FROM "return passes_.indirect_rays"
+    TO   "return settings_.max_depth > 0"
     CASES "survey: what the plan leaves out*")
 
 # Caustics that come later without what the path is worth, and all samples' to the first
 # one of them.
-ljus_break_it(NAME later-throughput HEADER render/detail/later_caustics.hpp TEST render
+ljus_break_it(NAME later-throughput HEADER render/detail/caustics_batch.hpp TEST render
     FROM "place.throughput * light"
     TO   "light"
     CASES "render: caustics that*")
 ljus_break_it(NAME later-item HEADER render/detail/sample_sums.hpp TEST render
-    FROM "later_.item = static_cast<std::uint32_t>(count_);"
-    TO   "later_.item = 0;"
+    FROM "batch_.item = static_cast<std::uint32_t>(count_);"
+    TO   "batch_.item = 0;"
     CASES "render: answers that come*")
 ljus_break_it(NAME later-left HEADER render/render.hpp TEST render
     FROM "samples.finish();"
@@ -70,10 +70,10 @@ ljus_break_it(NAME render-one-pattern HEADER render/render.hpp TEST render
     CASES "render: neighbours*")
 
 # The irradiance cache's light through the clear part of a mixture, too.
-ljus_break_it(NAME photon-mapping-cache-lobes HEADER render/photon_mapping.hpp
+ljus_break_it(NAME photon-mapping-cache-lobes HEADER render/gathering.hpp
     TEST photon_mapping_steps
-    FROM "Lobes::diffuse, stream));"
-    TO   "Lobes::all, stream));"
+    FROM "irradiance, Lobes::diffuse,"
+    TO   "irradiance, Lobes::all,"
     CASES "photon mapping: who answers*")
 
 # Both ways at glass behind a matt surface, too: the same light, for more rays.

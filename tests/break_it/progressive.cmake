@@ -39,13 +39,13 @@ ljus_break_it(NAME progressive-stopped HEADER render/progressive.hpp TEST progre
     CASES "progressive: both radii*")
 
 # The distance from the old mean, squared, as if it were that from the new one.
-ljus_break_it(NAME progressive-squares HEADER render/detail/pass_sums.hpp TEST progressive
+ljus_break_it(NAME progressive-squares HEADER render/progressive.hpp TEST progressive
     FROM "away * away * (n / (n + 1))"
     TO   "away * away"
     CASES "progressive: the estimated error*")
 
 # The scatter of one pass as if it were that of the mean.
-ljus_break_it(NAME progressive-error HEADER render/detail/pass_sums.hpp TEST progressive
+ljus_break_it(NAME progressive-error HEADER render/progressive.hpp TEST progressive
     FROM "(n * (n - 1))"
     TO   "(n - 1)"
     CASES "progressive: the estimated error*")
@@ -74,10 +74,10 @@ ljus_break_it(NAME progressive-chosen HEADER render/progressive.hpp TEST progres
     TO   ""
     CASES "progressive: radii and shares*")
 
-# A pilot with every pass.
-ljus_break_it(NAME progressive-shares HEADER render/progressive.hpp TEST progressive
-    FROM "settings.caustics.shares = caustic_shares(scene, settings);"
-    TO   ";"
+# What the pilot has found is forgotten.
+ljus_break_it(NAME progressive-shares HEADER render/photon_mapping.hpp TEST progressive
+    FROM "settings_.caustics.shares = caustic_shares(world.get(), settings_);"
+    TO   "(void)caustic_shares(world.get(), settings_);"
     CASES "progressive: radii and shares*")
 
 # The general map's photons are the same in each pass.

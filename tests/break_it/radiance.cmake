@@ -30,8 +30,8 @@ ljus_break_it(NAME radiance-filter-middle HEADER image/filter.hpp TEST filter
 
 # The pixel loop forgets what a ray counts.
 ljus_break_it(NAME radiance-filter-render HEADER render/render.hpp TEST filter
-    FROM "return {radiance(renderer, ray, stream, counts, log), at.weight};"
-    TO   "return {radiance(renderer, ray, stream, counts, log), T(1)};"
+    FROM "return {radiance(renderer, ray, context), sample.weight};"
+    TO   "return {radiance(renderer, ray, context), T(1)};"
     CASES "filter: a picture of a wave*")
 
 # The cosine law and the inverse square law, where a lamp's point is drawn.
@@ -45,9 +45,9 @@ ljus_break_it(NAME radiance-inverse-square HEADER geometry/solid_angle.hpp TEST 
     CASES "radiance: the density*")
 
 # 2 pi, the solid angle, in place of pi, which has the cosine in it.
-ljus_break_it(NAME radiance-exitance HEADER scene/light.hpp TEST radiance
-    FROM "return std::numbers::pi_v<T> * area * radiance;"
-    TO   "return T(2) * std::numbers::pi_v<T> * area * radiance;"
+ljus_break_it(NAME radiance-exitance HEADER lights/area_light.hpp TEST radiance
+    FROM "RgbT<T>{std::numbers::pi_v<T> * light.lamp.area"
+    TO   "RgbT<T>{T(2) * std::numbers::pi_v<T> * light.lamp.area"
     CASES "radiance: a Lambertian lamp*")
 
 # What comes later counts without the filter's weight.
@@ -58,8 +58,8 @@ ljus_break_it(NAME radiance-filter-later HEADER render/detail/sample_sums.hpp TE
 
 # Rows as far apart as the picture is high: pixels that share their numbers.
 ljus_break_it(NAME radiance-pixel-number HEADER render/render.hpp TEST render
-    FROM "static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.width)"
-    TO   "static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.height)"
+    FROM "static_cast<std::uint64_t>(at.y) * static_cast<std::uint64_t>(picture.width)"
+    TO   "static_cast<std::uint64_t>(at.y) * static_cast<std::uint64_t>(picture.height)"
     CASES "render: no ray of a picture*")
 
 # The squares of samples without what the filter counts them.
@@ -69,7 +69,7 @@ ljus_break_it(NAME radiance-squares HEADER render/detail/sample_sums.hpp TEST re
     CASES "render: sums of samples*")
 
 # Shadow photons of a map made by hand shine, if many samples ask together.
-ljus_break_it(NAME radiance-later-kinds HEADER render/detail/later_caustics.hpp TEST render
+ljus_break_it(NAME radiance-later-kinds HEADER render/detail/caustics_batch.hpp TEST render
     FROM "light_kinds, counts.map_photons, found,"
     TO   "all_kinds, counts.map_photons, found,"
     CASES "render: of a caustics map*")

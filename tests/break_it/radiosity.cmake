@@ -48,7 +48,7 @@ ljus_break_it(NAME patches-upper HEADER radiosity/patch_grid.hpp TEST patches
 
 # Nothing ever stands between two patches.
 ljus_break_it(NAME form-factors-visible HEADER radiosity/patch_rays.hpp TEST patches
-    FROM "if (!occluded(scene, spawn_ray_to(a, b))) visible += weight;"
+    FROM "if (!occluded(world, spawn_ray_to(a, b))) visible += weight;"
     TO   "visible += weight;"
     CASES "form_factors: what stands between")
 
@@ -102,8 +102,8 @@ ljus_break_it(NAME light-map-pi HEADER radiosity/light_map.hpp TEST light_map
 
 # A wall shows its front's light on its back.
 ljus_break_it(NAME light-map-side HEADER radiosity/light_map.hpp TEST light_map
-    FROM "view.grid_of[hit->object.type][hit->object.index][side.back];"
-    TO   "view.grid_of[hit->object.type][hit->object.index][0];"
+    FROM "view.grid_of()[hit->object.type][hit->object.index][side.back];"
+    TO   "view.grid_of()[hit->object.type][hit->object.index][0];"
     CASES "light_map: what a ray finds")
 
 # A file that was cut short or damaged is taken for a light map.

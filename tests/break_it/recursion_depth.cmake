@@ -1,11 +1,11 @@
 # Rays by the variance and not by its root.
-ljus_break_it(NAME adaptive-root HEADER render/detail/ray_shares.hpp TEST adaptive
+ljus_break_it(NAME adaptive-root HEADER render/adaptive.hpp TEST adaptive
     FROM "wanted[i] = scale * std::sqrt(parts[i].variance);"
     TO   "wanted[i] = scale * parts[i].variance;"
     CASES "adaptive: rays are shared*")
 
 # Parts that have enough already count as if they had an error still.
-ljus_break_it(NAME adaptive-settled HEADER render/detail/ray_shares.hpp TEST adaptive
+ljus_break_it(NAME adaptive-settled HEADER render/adaptive.hpp TEST adaptive
     FROM "error += part.pixels * part.variance / part.rays;"
     TO   "error += 0;"
     CASES "adaptive: rays are shared*")
@@ -17,7 +17,7 @@ ljus_break_it(NAME adaptive-mean HEADER render/adaptive.hpp TEST adaptive
     CASES "adaptive: it stops at the target*")
 
 # Absolute in place of relative: dark pixels do not count.
-ljus_break_it(NAME adaptive-relative HEADER render/detail/adaptive_blocks.hpp
+ljus_break_it(NAME adaptive-relative HEADER render/adaptive.hpp
     TEST adaptive
     FROM "variance / (mean * mean + epsilon)"
     TO   "variance / epsilon"
@@ -36,13 +36,13 @@ ljus_break_it(NAME adaptive-forgotten HEADER render/adaptive.hpp TEST adaptive
     CASES "adaptive: in two stages*")
 
 # The limit for the mean is not kept.
-ljus_break_it(NAME adaptive-limit HEADER render/detail/adaptive_blocks.hpp TEST adaptive
+ljus_break_it(NAME adaptive-limit HEADER render/adaptive.hpp TEST adaptive
     FROM "spare -= cost * blocks[i].wanted;"
     TO   ""
     CASES "adaptive: the limit for the mean*")
 
 # All get more as soon as one pixel does.
-ljus_break_it(NAME adaptive-disagreement HEADER render/detail/adaptive_blocks.hpp
+ljus_break_it(NAME adaptive-disagreement HEADER render/adaptive.hpp
     TEST adaptive
     FROM "> rule.disagreement;"
     TO   ">= 0;"
@@ -56,8 +56,8 @@ ljus_break_it(NAME depth-roulette HEADER path/path_state.hpp TEST recursion_dept
 
 # One surface fewer than was asked for.
 ljus_break_it(NAME depth-limit HEADER render/path_tracing.hpp TEST recursion_depth
-    FROM "path.depth > settings.max_depth, counts"
-    TO   "path.depth >= settings.max_depth, counts"
+    FROM "path.depth > settings.max_depth, context.counts"
+    TO   "path.depth >= settings.max_depth, context.counts"
     CASES "recursion_depth: a limit*")
 
 # One surface fewer on a path of the photon mapper.
@@ -67,7 +67,7 @@ ljus_break_it(NAME depth-photons HEADER render/photon_mapping.hpp TEST recursion
     CASES "recursion_depth: the depth of*")
 
 # A last batch that there are not rays enough for.
-ljus_break_it(NAME adaptive-last-batch HEADER render/detail/adaptive_blocks.hpp
+ljus_break_it(NAME adaptive-last-batch HEADER render/adaptive.hpp
     TEST adaptive
     FROM "std::floor(spare / cost * (1 + 1e-9))"
     TO   "std::ceil(spare / cost)"
@@ -80,14 +80,14 @@ ljus_break_it(NAME adaptive-second-stage HEADER render/adaptive.hpp TEST adaptiv
     CASES "adaptive: of two stages the second*")
 
 # Rounding in a share of rays is a batch more.
-ljus_break_it(NAME adaptive-rounding HEADER render/detail/adaptive_blocks.hpp
+ljus_break_it(NAME adaptive-rounding HEADER render/adaptive.hpp
     TEST adaptive
     FROM "std::ceil(lacking / rule.more - 1e-6)"
     TO   "std::ceil(lacking / rule.more)"
     CASES "adaptive: batches fit*")
 
 # A target that cannot be met any more takes rays away.
-ljus_break_it(NAME adaptive-target-missed HEADER render/detail/ray_shares.hpp TEST adaptive
+ljus_break_it(NAME adaptive-target-missed HEADER render/adaptive.hpp TEST adaptive
     FROM "if (target > 0 && allowed > 0)"
     TO   "if (target > 0)"
     CASES "adaptive: rays are shared out*")

@@ -78,7 +78,7 @@ ljus_break_it(NAME shadow-photons-near HEADER photons/detail/verdict_bits.hpp TE
 
 # Photons by power although only shadow rays are asked about.
 ljus_break_it(NAME shadow-photons-equal HEADER photons/tracing.hpp TEST shadow_photons
-    FROM "for (std::size_t i = 0; pass.equal_lights && i < lights.size(); ++i)"
+    FROM "for (std::size_t i = 0; pass.equal_lights && i < lights; ++i)"
     TO   "for (std::size_t i = 0; pass.equal_lights && i + 1 < 1; ++i)"
     CASES "shadow photons: the report asks*")
 

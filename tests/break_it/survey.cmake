@@ -1,17 +1,17 @@
 # The digits of the largest thing, and not of the one that has fewest.
-ljus_break_it(NAME survey-digits HEADER render/detail/scene_remarks.hpp TEST survey
+ljus_break_it(NAME survey-digits HEADER render/passes.hpp TEST survey
     FROM "if (!(ratio > most)) continue;"
     TO   "if (ratio > most) continue;"
     CASES "survey: where float stops*")
 
 # Every gloss is called a mirror.
-ljus_break_it(NAME survey-narrow HEADER render/detail/scene_remarks.hpp TEST survey
+ljus_break_it(NAME survey-narrow HEADER render/passes.hpp TEST survey
     FROM "Lobes::glossy) > T(1000)"
     TO   "Lobes::glossy) > T(0)"
     CASES "survey: a lobe that*")
 
 # Ten times as narrow before anybody is warned.
-ljus_break_it(NAME survey-narrower HEADER render/detail/scene_remarks.hpp TEST survey
+ljus_break_it(NAME survey-narrower HEADER render/passes.hpp TEST survey
     FROM "> T(1000)"
     TO   "> T(10000)"
     CASES "survey: a lobe*")
@@ -24,7 +24,7 @@ ljus_break_it(NAME survey-skip-unchecked HEADER render/photon_mapping_settings.h
     CASES "survey: settings that give no picture*")
 
 # How far a scene reaches, along one axis alone.
-ljus_break_it(NAME survey-reach HEADER render/detail/scene_remarks.hpp TEST survey
+ljus_break_it(NAME survey-reach HEADER render/passes.hpp TEST survey
     FROM "std::max(reach, max_component(far))"
     TO   "std::max(reach, far.x)"
     CASES "survey: lengths whose squares*")

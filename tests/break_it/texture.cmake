@@ -32,8 +32,8 @@ ljus_break_it(NAME textured-hook HEADER path/vertex.hpp TEST texture
 
 # The shape's coordinates never worked out: an image in its own first pixel's colour.
 ljus_break_it(NAME texture-no-uv HEADER path/vertex.hpp TEST texture
-    FROM "if (detail::uses_uv(scene, vertex.object.material))"
-    TO   "if (!detail::uses_uv(scene, vertex.object.material))"
+    FROM "if (detail::uses_uv(world, vertex.object.material))"
+    TO   "if (!detail::uses_uv(world, vertex.object.material))"
     CASES "texture: a UvMap*")
 
 # A ball by the coordinates of its hit, which has none.

@@ -1,5 +1,5 @@
 # As the report's program has it: survivors carry no more than before.
-ljus_break_it(NAME tracing-roulette HEADER photons/photon_path.hpp TEST tracing
+ljus_break_it(NAME tracing-roulette HEADER photons/tracing.hpp TEST tracing
     FROM "reflected / probability"
     TO   "reflected"
     CASES "tracing: all the lights' flux*")
@@ -13,33 +13,33 @@ ljus_break_it(NAME tracing-stored HEADER photons/tracing.hpp TEST tracing
     CASES "tracing: a caustic has*")
 
 # What the glass has focused is kept by both maps.
-ljus_break_it(NAME tracing-owner HEADER photons/photon_path.hpp TEST tracing
+ljus_break_it(NAME tracing-owner HEADER photons/tracing.hpp TEST tracing
     FROM "const bool owned = (kind == PhotonKind::caustic) == caustics && keep.has(kind);"
     TO   "const bool owned = true;"
     CASES "tracing: the kinds*")
 
 # Where cones overlap, photons count for whatever they meet.
-ljus_break_it(NAME tracing-target HEADER photons/photon_path.hpp TEST tracing
-    FROM "first && target && vertex->id != *target"
+ljus_break_it(NAME tracing-target HEADER photons/tracing.hpp TEST tracing
+    FROM "first && sent.target && vertex->id != *sent.target"
     TO   "false"
     CASES "tracing: aimed photons*")
 
 # Aimed photons carry as much as blind ones.
 ljus_break_it(NAME tracing-aim HEADER photons/aiming.hpp TEST tracing
-    FROM "light.flux * (emitted / (pdf * chosen.probability))"
-    TO   "light.flux / chosen.probability"
+    FROM "power(light) * (emitted / (pdf * u.probability))"
+    TO   "power(light) / u.probability"
     CASES "tracing: a caustic has*")
 
 # From each light as many photons as from the next, all with its own flux.
-ljus_break_it(NAME tracing-light-choice HEADER path/emission.hpp TEST tracing
-    FROM ".flux = light.flux / chosen.probability,"
-    TO   ".flux = light.flux,"
+ljus_break_it(NAME tracing-light-choice HEADER photons/emission.hpp TEST tracing
+    FROM ".flux = photon.flux / chosen.probability,"
+    TO   ".flux = photon.flux,"
     CASES "tracing: all the lights' flux*")
 
 # Directions uniform over the hemisphere, with the flux of Lambert's.
-ljus_break_it(NAME tracing-cosine HEADER path/emission.hpp TEST tracing
-    FROM "to_world(frame, sample_cosine_hemisphere(u_direction))"
-    TO   "to_world(frame, sample_uniform_hemisphere(u_direction))"
+ljus_break_it(NAME tracing-cosine HEADER lights/area_light.hpp TEST tracing
+    FROM "sample_cosine_hemisphere(u)"
+    TO   "sample_uniform_hemisphere(u)"
     CASES "tracing: the first hits*")
 
 # Memory is asked for before anybody has reckoned how much.
@@ -73,19 +73,21 @@ ljus_break_it(NAME tracing-progress HEADER photons/tracing.hpp TEST tracing
     CASES "tracing: progress*")
 
 # Shadows fall where things were when the shutter opened.
-ljus_break_it(NAME tracing-shadow-time HEADER photons/photon_path.hpp TEST tracing
+ljus_break_it(NAME tracing-shadow-time HEADER photons/tracing.hpp TEST tracing
     FROM "spawn_ray(from, photon.ray.direction, photon.ray.time)"
     TO   "spawn_ray(from, photon.ray.direction)"
     CASES "tracing: a shadow falls*")
 
 # No shadow falls on what is matt and a mirror at once.
-ljus_break_it(NAME tracing-shadow-mixture HEADER photons/photon_path.hpp TEST tracing
-    FROM "return has(lobes(m), Lobes::non_specular);"
-    TO   "return !has(lobes(m), Lobes::specular);"
+ljus_break_it(NAME tracing-shadow-mixture HEADER photons/tracing.hpp TEST tracing
+    FROM "has(lobes(m), Lobes::non_specular);
+        };"
+    TO   "!has(lobes(m), Lobes::specular);
+        };"
     CASES "tracing: a shadow photon on each*")
 
 # Kinds that nobody wants are kept all the same.
-ljus_break_it(NAME tracing-keep HEADER photons/photon_path.hpp TEST tracing
+ljus_break_it(NAME tracing-keep HEADER photons/tracing.hpp TEST tracing
     FROM "== caustics && keep.has(kind);"
     TO   "== caustics;"
     CASES "tracing: only kinds*")

@@ -28,17 +28,17 @@ ljus_break_it(NAME vertex-begins-inside HEADER path/next_vertex.hpp TEST vertex
     TO   "false"
     CASES "vertex: a path that begins in glass*")
 
-# A shape that is turned inside out keeps its frame in the index.
-ljus_break_it(NAME vertex-known_frame HEADER scene/index.hpp TEST vertex
+# A shape that is turned inside out keeps its frame in the world.
+ljus_break_it(NAME vertex-known_frame HEADER scene/world.hpp TEST vertex
     FROM "inside_out ? -n : n"
     TO   "inside_out ? n : n"
-    CASES "vertex: an index knows*")
+    CASES "vertex: a world knows*")
 
 # A lamp's area counts half.
-ljus_break_it(NAME vertex-known_area HEADER scene/scene.hpp TEST vertex
-    FROM "lights.back().area = area(shape)"
-    TO   "lights.back().area = area(shape) / 2"
-    CASES "vertex: an index knows*")
+ljus_break_it(NAME vertex-known_area HEADER lights/area_light.hpp TEST vertex
+    FROM ".area = area(shape),"
+    TO   ".area = area(shape) / 2,"
+    CASES "vertex: a world knows*")
 
 # The density of the scattering before, kept at a mirror: a lamp behind it is weighed as if
 # a shadow ray could have found it.
@@ -56,8 +56,8 @@ ljus_break_it(NAME vertex-later-inside HEADER path/next_vertex.hpp TEST vertex
 # Shadow rays that find all things where they were when the shutter opened; the second row
 # in scenes with thin surfaces.
 ljus_break_it(NAME vertex-shadow-time HEADER path/next_vertex.hpp TEST vertex
-    FROM "occluded(scene, spawn_ray_to(from, to, time))"
-    TO   "occluded(scene, spawn_ray_to(from, to))"
+    FROM "occluded(world, spawn_ray_to(from, to, time))"
+    TO   "occluded(world, spawn_ray_to(from, to))"
     CASES "vertex: what stands in the way*")
 ljus_break_it(NAME vertex-shadow-time-thin HEADER path/next_vertex.hpp TEST vertex
     FROM "spawn_ray_to(last, to, time)"

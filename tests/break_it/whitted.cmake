@@ -6,14 +6,14 @@ ljus_break_it(NAME whitted-branch HEADER render/whitted.hpp TEST whitted
 
 # The depth counts one turn too many.
 ljus_break_it(NAME whitted-depth HEADER render/whitted.hpp TEST whitted
-    FROM "if (path.depth > tracer.settings.max_depth) {"
-    TO   "if (path.depth > tracer.settings.max_depth + 1) {"
+    FROM "if (path.depth > tracer.settings().max_depth) {"
+    TO   "if (path.depth > tracer.settings().max_depth + 1) {"
     CASES "whitted: one ball of glass*")
 
 # Matt surfaces send their light on as well: L D D E.
 ljus_break_it(NAME whitted-diffuse HEADER render/whitted.hpp TEST whitted
-    FROM "Lobes::specular, stream);"
-    TO   "Lobes::all, stream);"
+    FROM "Lobes::specular, context.stream);"
+    TO   "Lobes::all, context.stream);"
     CASES "whitted: every path*")
 
 # A lamp made of a sphere lights from any point of its cone's rim.
@@ -24,8 +24,8 @@ ljus_break_it(NAME whitted-middle HEADER geometry/sphere.hpp TEST whitted
 
 # The light that a surface finds is not multiplied by what the way to the eye lets through.
 ljus_break_it(NAME whitted-share HEADER render/whitted.hpp TEST whitted
-    FROM "sum += throughput * light;"
-    TO   "sum += light;"
+    FROM "const RgbT<T> throughput = path.throughput; // of this vertex"
+    TO   "const RgbT<T> throughput{T(1)};"
     CASES "whitted: a mirror over*")
 
 # Shadow rays see through everything.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The tables of hooks are complete: whatever a requires-expression below include/ljus calls
-# is asked of a shape or a material by its concept, is a row of a table, or is listed here.
+# is asked of a shape, a material or a light by its concept, is a row of a table, or is listed here.
 # So no function of a shape can switch something on or off and stand in no table.
 # Usage: hook_tables.sh [FOLDER with ljus/ in it]
 . "$(dirname "$0")/common.sh"
@@ -13,8 +13,11 @@ by_concept="as_hit bounding_sphere check intersect surface_point
 of_a_material_of_radiosity=diffuse_albedo
 of_a_renderer=radiance
 of_a_kernel=kernel_weight
-of_a_scene="closest_hit occluded"
-of_a_light=make_light
+of_a_camera=camera_ray
+of_a_stream="next_1d next_2d next_3d start_bounce"
+# What the concepts ask of every light, of near ones and of far ones.
+of_a_light="emission_point pdf_emission power sample_arrival sample_emission
+    sample_light"
 
 # rows FOLDER TABLE: the names in a table of hooks.
 rows() {
@@ -87,13 +90,14 @@ defaults() {
 
 # holds FOLDER: says what is missing, and whether all is there.
 holds() {
-    local folder=$1 shapes materials known name header bad=0
+    local folder=$1 shapes materials lights known name header bad=0
     shapes=$(rows "$folder" shape geometry/shape.hpp)
     materials=$(rows "$folder" material materials/material.hpp)
-    [ -n "$shapes" ] && [ -n "$materials" ] || { echo "there is no table"; return 1; }
+    lights=$(rows "$folder" light lights/light.hpp)
+    [ -n "$shapes" ] && [ -n "$materials" ] && [ -n "$lights" ] || { echo "there is no table"; return 1; }
     # shellcheck disable=SC2086,SC2116 # one word each
-    known=" $(echo $by_concept $shapes $materials $of_a_material_of_radiosity \
-        $of_a_renderer $of_a_kernel $of_a_scene $of_a_light) "
+    known=" $(echo $by_concept $shapes $materials $lights $of_a_material_of_radiosity \
+        $of_a_renderer $of_a_kernel $of_a_camera $of_a_stream $of_a_light) "
     while read -r name header; do
         case $known in *" $name "*) continue ;; esac
         echo "$header: $name() is asked for, and is no row of a table of hooks."

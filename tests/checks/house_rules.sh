@@ -10,12 +10,12 @@ problem() { echo "$*"; problems=$((problems + 1)); }
 # own room. Rooms on one floor do not know each other.
 floor() {
     case $1 in
-        ljus/version.hpp | ljus/function_ref.hpp | ljus/hook.hpp) echo 0 ;;
+        ljus/version.hpp | ljus/function_ref.hpp | ljus/hook.hpp | ljus/ref.hpp) echo 0 ;;
         ljus/math/*) echo 1 ;;
         ljus/image/* | ljus/parallel.hpp) echo 2 ;;
         ljus/geometry/*) echo 3 ;;
         ljus/accel/* | ljus/optics/*) echo 4 ;;
-        ljus/materials/*) echo 5 ;;
+        ljus/materials/* | ljus/lights/*) echo 5 ;;
         ljus/scene/*) echo 6 ;;
         ljus/path/*) echo 7 ;;
         ljus/photons/* | ljus/radiosity/*) echo 8 ;;

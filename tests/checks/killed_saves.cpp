@@ -40,8 +40,7 @@ std::vector<Kind> all_kinds_of_files() {
     };
     const auto light = [](bool second) {
         const std::uint32_t side = second ? 40 : 30;
-        return LightMap{.objects = 1,
-                        .grids = {{.columns = side, .rows = side}},
+        return LightMap{.grids = {{.columns = side, .rows = side}},
                         .irradiance = {side * side, RgbT<double>(1)}};
     };
     const auto passes = [](bool second) {
@@ -54,7 +53,7 @@ std::vector<Kind> all_kinds_of_files() {
     return {{"png", [=](auto& path, bool b) { save_png(picture(b), path); }},
             {"pfm", [=](auto& path, bool b) { save_pfm(picture(b), path); }},
             {"hdr", [=](auto& path, bool b) { save_hdr(picture(b), path); }},
-            {"light", [=](auto& path, bool b) { save_light_map(path, light(b), {}); }},
+            {"light", [=](auto& path, bool b) { save_light_map(path, light(b)); }},
             {"check", [=](auto& path, bool b) { save_checkpoint(path, passes(b)); }},
             {"json", [](auto& path, bool b) {
                  save_file(path, Bytes(b ? 70000u : 50000u, ' '));

@@ -8,7 +8,8 @@ longest=24
 # caller's line and one of which matches PATTERN.
 short_error() {
     local code=$1 pattern=$2 output lines
-    printf '%s\n' '#include "ljus/materials/lambertian.hpp"' \
+    printf '%s\n' '#include "ljus/lights/point_light.hpp"' \
+        '#include "ljus/materials/lambertian.hpp"' \
         '#include "ljus/materials/mirror.hpp"' '#include "ljus/scene/make_scene.hpp"' \
         'using namespace ljus;' 'struct Torus { float radius; };' \
         "int main() { $code }" >"$scratch/caller.cpp"
@@ -21,7 +22,7 @@ short_error() {
     fi
     lines=$(printf '%s\n' "$output" | wc -l)
     if [ "$lines" -gt $longest ] || ! grep -qE "$pattern" <<<"$output" ||
-        ! grep -q 'caller.cpp:6' <<<"$output"; then
+        ! grep -q 'caller.cpp:7' <<<"$output"; then
         echo "$lines lines, at most $longest are short; '$pattern' must be there: $code"
         printf '%s\n' "$output"
         status=1
@@ -37,7 +38,7 @@ short_error 'Scene<Shapes<Sphere>, Materials<Lambertian>> s; s.add(Mirror{});' \
 short_error 'Scene<Shapes<Sphere>, Materials<Lambertian>> s; s.add(Torus{});' \
     'Neither a light nor listed'
 short_error 'Scene<Shapes<Sphere>, Materials<Lambertian>> s; s.add(PointLightT<double>{});' \
-    'Neither a light nor listed'
+    'List the light'
 short_error 'Scene<Shapes<Sphere>, Materials<Lambertian>> s; s.add(Quad{}, MaterialId{});' \
     'List the shape'
 short_error 'Scene<Shapes<Sphere, Sphere>, Materials<Lambertian>> s;' \

@@ -70,8 +70,8 @@ int main(int argc, char** argv) {
     save_file(file("png", "short.jpg"), jpeg);
 
     const auto room = cornell_box();
-    LightMap light = make_radiosity(room.scene, {.patches = {.size = 2}})->map;
-    save_light_map(file("light_map", "room.light"), light, {});
-    save_light_map(file("light_map", "none.light"), {}, {});
+    LightMap light = make_radiosity(room.world, {.patches = {.size = 2}})->map;
+    save_light_map(file("light_map", "room.light"), light);
+    save_light_map(file("light_map", "none.light"), {});
     return 0;
 }

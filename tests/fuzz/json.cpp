@@ -19,12 +19,12 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
                 fuzz::require_that(is_finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0,
                                    "a pixel is finite and at least 0");
         };
-        draw(make_path_tracer(loaded.scene, {.max_depth = 20}));
+        const World world(loaded.scene);
+        draw(PathTracer(world, {.max_depth = 20}));
         PhotonMappingSettings settings{.max_depth = 20, .indirect = IndirectLight::map};
         settings.caustics.photons = settings.general.photons = 20;
         settings.caustics.threads = settings.general.threads = 1;
-        const auto maps = make_photon_maps(loaded.scene, settings);
-        draw(make_photon_mapper(loaded.scene, maps, settings));
+        draw(PhotonMapper(world, settings));
     });
     return 0;
 }

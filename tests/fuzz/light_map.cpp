@@ -15,8 +15,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto load = [](const ljus::Bytes& file) {
         const fuzz::MemoryFile in_memory(file);
         fuzz::refused_or_done([&] {
-            const auto map = ljus::load_light_map(in_memory.path(), {}, 10'000);
-            const auto view = ljus::make_light_map_view(room.scene, map);
+            auto map = ljus::load_light_map(in_memory.path(), {}, 10'000);
+            map.key.scene = ljus::detail::scene_hash(room.world); // drawn all the same
+            const ljus::LightMapView view(room.world, map);
             const auto picture =
                 ljus::render(view, room.camera,
                              {.width = 4, .height = 4, .samples = 1, .threads = 1});
@@ -25,8 +26,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         });
     };
     load(bytes);
-    if (size < ljus::file_front_bytes + ljus::detail::map_key_bytes) return 0;
-    std::fill_n(bytes.begin() + 40, ljus::detail::map_key_bytes, std::uint8_t(0));
+    if (size < ljus::file_front_bytes + ljus::detail::key_bytes) return 0;
+    std::fill_n(bytes.begin() + 24, 8, std::uint8_t(0)); // the scene
+    std::fill_n(bytes.begin() + 40, ljus::detail::key_bytes, std::uint8_t(0));
     ljus::put_checksum(bytes);
     load(bytes);
     return 0;

@@ -1,5 +1,5 @@
-// A scene is rendered by itself.
-// says: It is no renderer: make_path_tracer\(scene\) makes one
+// A world is rendered by itself.
+// says: This is no Renderer, such as PathTracer\(world\)
 
 // [mistake]
 #include <ljus/ljus.hpp>
@@ -7,6 +7,7 @@ using namespace ljus;
 
 int main() {
     Scene<Shapes<Sphere>, Materials<Lambertian>> scene;
-    const auto picture = render(scene, look_at({}), {.samples = 4});
+    const World world(std::move(scene));
+    const auto picture = render(world, look_at({}), {.samples = 4});
 }
 // [mistake]

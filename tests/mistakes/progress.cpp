@@ -6,9 +6,8 @@
 using namespace ljus;
 
 int main() {
-    Scene<Shapes<Sphere>, Materials<Lambertian>> scene;
+    const World world(Scene<Shapes<Sphere>, Materials<Lambertian>>{});
     auto print = [](double share) { return share < 1; };
-    const auto picture =
-        render(make_path_tracer(scene), look_at({}), {.progress = print});
+    const auto picture = render(PathTracer(world), look_at({}), {.progress = print});
 }
 // [mistake]

@@ -7,7 +7,8 @@ using namespace ljus;
 
 int main() {
     Scene<Shapes<Sphere>, Materials<Lambertian>> scene;
-    const auto picture = render(make_path_tracer(scene), look_at({}), {});
+    const World world(std::move(scene));
+    const auto picture = render(PathTracer(world), look_at({}), {});
     save_png(picture, "picture.png");
 }
 // [mistake]

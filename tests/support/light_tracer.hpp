@@ -11,17 +11,18 @@
 #include <random>
 
 #include "ljus/image/image.hpp"
+#include "ljus/lights/point_light.hpp"
 #include "ljus/optics/absorption.hpp"
 #include "ljus/scene/camera.hpp"
-#include "ljus/scene/query.hpp"
+#include "ljus/scene/world.hpp"
 
 namespace ljus_test {
 
 /// Which pixels see, wholly and with their neighbours, surfaces without a specular part
 /// first.
-template <typename Scene, std::floating_point T>
-std::vector<bool> matt_pixels(const Scene& scene, const ljus::CameraT<T>& camera,
-                              int width, int height) {
+template <ljus::AnyWorld W, std::floating_point T>
+std::vector<bool> matt_pixels(const W& scene, const ljus::CameraT<T>& camera, int width,
+                              int height) {
     const auto matt = [&](T x, T y) {
         const auto hit = closest_hit(
             scene, primary_ray(camera, ljus::Vec2T<T>{x, y}, width, height));
@@ -77,26 +78,23 @@ struct Particle {
     ljus::RgbT<T> medium{T(0)}; ///< Absorption of what it is in.
 };
 
-/// A particle with a share of a light's flux.
-template <typename Scene, std::floating_point T>
-Particle<T> leave(const Scene& scene, const ljus::LightT<T>& light, double share,
-                  Uniform& uniform) {
-    constexpr double pi = std::numbers::pi;
-    if (!light.object)
-        return {{.origin = light.position,
-                 .direction =
-                     uniform.direction_around(ljus::Vec3T<T>{T(0), T(0), T(1)}, false)},
-                4 * pi * share * glm::dvec3(light.emission)};
+/// A particle with a share of a point light's flux.
+template <std::floating_point T>
+Particle<T> leave(const ljus::PointLightT<T>& light, double share, Uniform& uniform) {
+    return {{.origin = light.position,
+             .direction =
+                 uniform.direction_around(ljus::Vec3T<T>{T(0), T(0), T(1)}, false)},
+            4 * std::numbers::pi * share * glm::dvec3(light.intensity)};
+}
+/// Of a lamp's.
+template <typename S, std::floating_point T = ljus::ScalarOf<S>>
+Particle<T> leave(const ljus::AreaLightT<S>& light, double share, Uniform& uniform) {
     const ljus::Vec3T<T> u = uniform.cube<T>();
-    ljus::SurfacePointT<T> point =
-        scene.visit_shape(*light.object, [&](const auto& shape) {
-            return sample_area(shape, {u.x, u.y});
-        });
-    const double size = scene.visit_shape(
-        *light.object, [&](const auto& shape) { return double(area(shape)); });
-    if (scene.object(*light.object).inside_out) point.normal = -point.normal;
+    ljus::SurfacePointT<T> point = sample_area(light.shape, {u.x, u.y});
+    if (light.lamp.inside_out) point.normal = -point.normal;
     return {spawn_ray(point, uniform.direction_around(point.normal, true)),
-            pi * size * share * glm::dvec3(light.emission)};
+            std::numbers::pi * double(area(light.shape)) * share *
+                glm::dvec3(light.lamp.radiance)};
 }
 
 /// Where the pinhole shows a point, and how large one pixel is at the point.
@@ -132,8 +130,8 @@ std::optional<FilmPlace> place_on_film(const ljus::CameraT<T>& camera, int width
 /// A pixel is the mean of L over its area. A surface element dA at distance d covers
 /// d omega = cos_x dA / d^2, and L dA = sum of f dPhi.
 /// \param particles  How many leave the lights.
-template <typename Scene, std::floating_point T>
-ljus::ImageT<double> trace_light(const Scene& scene, const ljus::CameraT<T>& camera,
+template <ljus::AnyWorld W, std::floating_point T>
+ljus::ImageT<double> trace_light(const W& scene, const ljus::CameraT<T>& camera,
                                  int width, int height, long long particles,
                                  std::uint64_t seed) {
     using namespace ljus;
@@ -170,12 +168,14 @@ ljus::ImageT<double> trace_light(const Scene& scene, const ljus::CameraT<T>& cam
         return true;
     };
 
-    const std::size_t lights = scene.lights.size();
+    const std::size_t lights = scene.light_count();
     for (long long number = 0; number < particles; ++number) {
         // Each light gets the same number of particles.
-        Particle<T> particle =
-            leave(scene, scene.lights[static_cast<std::size_t>(number) % lights],
-                  double(lights) / double(particles), uniform);
+        Particle<T> particle = scene.visit_light(
+            static_cast<std::uint32_t>(static_cast<std::size_t>(number) % lights),
+            [&](const auto& light) {
+                return leave(light, double(lights) / double(particles), uniform);
+            });
         for (int bounce = 0; bounce < 500; ++bounce) {
             const auto hit = closest_hit(scene, particle.ray);
             if (!hit) break;

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "ljus/math/random.hpp"
-#include "ljus/path/counts.hpp"
+#include "ljus/path/renderer.hpp"
 #include "support/seed.hpp"
 #include "support/statistics.hpp"
 
@@ -27,7 +27,8 @@ template <typename Renderer, typename MakeRay>
         auto stream = ljus::random_stream(test_seed(seed), ljus::Pass::camera, 0,
                                           static_cast<std::uint64_t>(path));
         const auto start = ray(stream);
-        mean.add(double(radiance(renderer, start, stream, counts)[channel]));
+        auto context = ljus::context_of(stream, counts);
+        mean.add(double(radiance(renderer, start, context)[channel]));
     }
     return mean;
 }

@@ -18,11 +18,12 @@ namespace ljus_test {
 using MeshRoom =
     ljus::Scene<ljus::Shapes<ljus::Mesh, ljus::Sphere, ljus::Quad, ljus::Triangle>,
                 ljus::Materials<ljus::Lambertian, ljus::Mirror, ljus::Glass>>;
+using ClosedMeshRoom = ljus::World<MeshRoom>;
 
 /// A lamp of 2 x 2 that lies on a black floor of 6 x 6 and shines up at a shape above
 /// it: all light on the floor has met the shape.
 template <typename Shape, typename Material>
-MeshRoom lamp_below(const Shape& shape, const Material& material) {
+ClosedMeshRoom lamp_below(const Shape& shape, const Material& material) {
     using namespace ljus;
     MeshRoom room;
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
@@ -30,26 +31,25 @@ MeshRoom lamp_below(const Shape& shape, const Material& material) {
     room.add(Quad{.corner{-1, 0.01f, 1}, .edge_u{2, 0, 0}, .edge_v{0, 0, -2}}, black,
              Rgb{1});
     room.add(shape, room.add(material));
-    return room;
+    return ClosedMeshRoom(std::move(room));
 }
 
 /// The flux on the floor by photons, over `photons` paths.
-inline Mean flux_by_photons(const MeshRoom& room, int photons, std::uint64_t seed) {
+inline Mean flux_by_photons(const ClosedMeshRoom& room, int photons,
+                            std::uint64_t seed) {
     using namespace ljus;
     Mean mean;
-    const LightChoice choice = light_choice(room.lights);
     const PhotonPassSettings pass{.max_bounces = 100, .shadow_photons = false};
     for (int i = 0; i < photons; ++i) {
         auto stream = random_stream(seed, Pass::general_photons, 0,
                                     static_cast<std::uint64_t>(i));
-        std::vector<Photon> marks;
-        FluxAudit audit;
+        detail::PhotonBlockT<float> block;
         // The general law leaves out what only mirrors and glass have sent there.
         for (const MapType law : {MapType::general, MapType::caustics})
-            detail::trace_photon(room, law, emit(room, choice, stream), std::nullopt,
-                                 pass, stream, marks, audit);
+            detail::trace_photon(room, law, {emit(room, room.light_choice(), stream)},
+                                 pass, stream, block);
         double sum = 0;
-        for (const Photon& photon : marks)
+        for (const Photon& photon : block.photons)
             if (photon.position.y < 0.005f) sum += double(photon.flux.x);
         mean.add(sum);
     }
@@ -58,9 +58,9 @@ inline Mean flux_by_photons(const MeshRoom& room, int photons, std::uint64_t see
 
 /// The same flux, by camera paths that start on the floor: mean radiance times pi times
 /// area; what meets the lamp's back or the black floor brings nothing.
-inline Mean flux_by_paths(const MeshRoom& room, int paths, std::uint64_t seed) {
+inline Mean flux_by_paths(const ClosedMeshRoom& room, int paths, std::uint64_t seed) {
     using namespace ljus;
-    const auto tracer = make_path_tracer(room, {.max_depth = 100});
+    const PathTracer tracer(room, {.max_depth = 100});
     const Mean radiance = mean_radiance(tracer, paths, seed, [](RandomStream& stream) {
         const Vec2 place = next_2d<float>(stream);
         const Vec3 local = sample_cosine_hemisphere(next_2d<float>(stream));

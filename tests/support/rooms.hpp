@@ -4,14 +4,16 @@
 /// \brief A closed room with a ball of any material and lights of any kind.
 
 #include <tuple>
+#include <utility>
 
+#include "ljus/lights/point_light.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
 #include "ljus/materials/oren_nayar.hpp"
 #include "ljus/scene/camera.hpp"
-#include "ljus/scene/scene.hpp"
+#include "ljus/scene/world.hpp"
 
 namespace ljus_test {
 
@@ -20,8 +22,13 @@ template <typename T>
 using RoomT =
     ljus::Scene<ljus::Shapes<ljus::SphereT<T>, ljus::QuadT<T>>,
                 ljus::Materials<ljus::LambertianT<T>, ljus::OrenNayarT<T>,
-                                ljus::MirrorT<T>, ljus::GlassT<T>, ljus::MixtureT<T>>>;
+                                ljus::MirrorT<T>, ljus::GlassT<T>, ljus::MixtureT<T>>,
+                ljus::Lights<ljus::PointLightT<T>>>;
 using Room = RoomT<float>;
+/// A closed one.
+template <typename T>
+using ClosedRoomT = ljus::World<RoomT<T>>;
+using ClosedRoom = ClosedRoomT<float>;
 
 /// The six walls of [-1, 1]^3, both sides matt; the left one is red, the right one
 /// green.
@@ -105,14 +112,14 @@ void add_lamps(RoomT<T>& room, Lamp lamp, int count) {
     if (count == 2) add(V{T(0.6), T(0.9), T(0.6)}, T(0.3), C{T(1), T(3), T(8)});
 }
 
-/// A room of the matrix.
+/// A room of the matrix, closed.
 template <typename T>
-RoomT<T> make_room(Ball ball, Lamp lamp, int lamps) {
+ClosedRoomT<T> make_room(Ball ball, Lamp lamp, int lamps) {
     RoomT<T> room;
     add_walls(room);
     add_ball(room, ball);
     add_lamps(room, lamp, lamps);
-    return room;
+    return ClosedRoomT<T>(std::move(room));
 }
 
 /// A camera at the front wall that looks down.

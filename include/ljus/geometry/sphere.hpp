@@ -239,8 +239,7 @@ template <std::floating_point T>
     const Vec3T<T> way = sphere.center - from;
     const T sin2 = sphere.radius * sphere.radius / glm::dot(way, way);
     if (!(sin2 < T(1))) return {};
-    return {.axis = glm::normalize(way),
-            .one_minus_cos = one_minus_cosine(sin2)};
+    return {.axis = glm::normalize(way), .one_minus_cos = one_minus_cosine(sin2)};
 }
 
 /// Whether an observer is surely outside a sphere, and samples the cone in which it is

@@ -53,18 +53,16 @@ struct ClassesLog {
 /// \cost One picture, and a few bit operations per letter and class.
 /// \report{Section 2}
 // [class_means]
-template <typename R, template <std::floating_point> typename AnyCamera,
-          std::floating_point T>
-requires Renderer<R, T>
+template <typename R, CameraLike C>
 [[nodiscard]] std::vector<RgbT<double>>
-class_means(const R& renderer, const AnyCamera<T>& camera,
-            const RenderSettings& picture,
+class_means(const R& renderer, const C& camera, const RenderSettings& picture,
             std::span<const LightPathExpression> classes) {
     require_at_least("width", picture.width, 1);
     require_at_least("height", picture.height, 1);
     require_at_least("samples", picture.samples, 1);
+    using T = typename C::Scalar;
     using Sums = std::vector<RgbT<double>>;
-    const Pattern pattern = make_pattern(picture.sampling, picture.samples);
+    const PictureRays rays(picture);
     std::vector<Sums> rows(std::size_t(picture.height),
                            Sums(classes.size(), RgbT<double>(0)));
     const auto row = [&](long long y) {
@@ -75,8 +73,8 @@ class_means(const R& renderer, const AnyCamera<T>& camera,
                 detail::ClassesLog<T> log; // knows nothing of the pixel's filter
                 for (const LightPathExpression& wanted : classes)
                     log.logs.push_back({wanted});
-                const auto found = detail::trace_pixel(
-                    renderer, camera, picture, pattern, x, int(y), i, counts, log);
+                const auto found =
+                    trace_pixel(renderer, camera, rays, {x, int(y), i}, counts, log);
                 for (std::size_t k = 0; k < classes.size(); ++k)
                     sums[k] += double(found.weight) * RgbT<double>(log.logs[k].sum);
             }

@@ -54,13 +54,11 @@ namespace detail {
 /// \param keep      How many rays to keep in full.
 /// \return The pixel's parts.
 /// \throws std::invalid_argument  if the pixel lies outside of the picture.
-template <typename R, template <std::floating_point> typename AnyCamera,
-          std::floating_point T>
-requires Renderer<R, T>
-[[nodiscard]] ExplainedPixelT<T> take_apart(const R& renderer,
-                                            const AnyCamera<T>& camera,
-                                            const RenderSettings& picture, int x, int y,
-                                            int keep = 4) {
+template <typename R, CameraLike C>
+[[nodiscard]] ExplainedPixelT<typename C::Scalar>
+take_apart(const R& renderer, const C& camera, const RenderSettings& picture, int x,
+           int y, int keep = 4) {
+    using T = typename C::Scalar;
     require_image_size(picture.width, picture.height);
     require_at_least("samples", picture.samples, 1);
     require(x >= 0 && x < picture.width, "the pixel's column",
@@ -69,14 +67,13 @@ requires Renderer<R, T>
             "at least 0 and below the picture's height");
 
     ExplainedPixelT<T> pixel{.samples = picture.samples};
-    const Pattern pattern = make_pattern(picture.sampling, picture.samples);
+    const PictureRays rays(picture);
     std::map<std::pair<std::string, std::string>, PathSum> sums;
     Counts counts;
     RgbT<double> radiance{0};
     for (int i = 0; i < picture.samples; ++i) {
         PathLog log; // knows nothing of the pixel's filter
-        const auto found =
-            trace_pixel(renderer, camera, picture, pattern, x, y, i, counts, log);
+        const auto found = trace_pixel(renderer, camera, rays, {x, y, i}, counts, log);
         const RgbT<T> sample = found.weight * found.radiance;
         if (i < keep) pixel.first_rays.push_back(log);
         if (!is_finite(sample)) {
@@ -189,26 +186,22 @@ template <std::floating_point T>
 /// \return A text: the first rays with each vertex and each term, then the sums by
 ///         path, as "E D L   shadow ray   0.31 0.30 0.28".
 /// \throws std::invalid_argument  if the pixel lies outside of the picture.
-template <typename R, template <std::floating_point> typename AnyCamera,
-          std::floating_point T>
-requires Renderer<R, T>
-[[nodiscard]] std::string explain(const R& renderer, const AnyCamera<T>& camera,
+template <typename R, CameraLike C>
+[[nodiscard]] std::string explain(const R& renderer, const C& camera,
                                   const RenderSettings& picture, int x, int y) {
     return detail::describe(detail::take_apart(renderer, camera, picture, x, y));
 }
 
 /// Explains one pixel of a scene, as the path tracer finds it by default.
-/// \param scene   The scene.
+/// \param world   The closed scene.
 /// \param camera  The camera.
 /// \param x       Column of the pixel, from the left, in a picture of the default size.
 /// \param y       Row of the pixel, from the top.
 /// \return As above.
 /// \throws std::invalid_argument  if the pixel lies outside of the picture.
-template <typename G, typename M, template <std::floating_point> typename AnyCamera,
-          std::floating_point T>
-[[nodiscard]] std::string explain(const Scene<G, M>& scene, const AnyCamera<T>& camera,
-                                  int x, int y) {
-    return explain(make_path_tracer(scene), camera, RenderSettings{}, x, y);
+template <AnyWorld W, CameraLike C>
+[[nodiscard]] std::string explain(const W& world, const C& camera, int x, int y) {
+    return explain(PathTracer(world), camera, RenderSettings{}, x, y);
 }
 
 /// \}

@@ -29,24 +29,24 @@ struct PhotonDotSettings {
 /// A drawing to put photons on: the own colour of what each pixel sees, without any
 /// light, darker where it is seen at a low angle. Mirrors and glass are grey, lamps
 /// bright.
-/// \param scene   The scene.
+/// \param world   The closed scene.
 /// \param camera  The camera.
 /// \param width   Of the picture, in pixels.
 /// \param height  Of the picture, in pixels.
 /// \return The drawing, dark enough for dots to be seen on it.
 /// \throws std::invalid_argument  if the width or the height is below 1.
 /// \cost One ray a pixel.
-template <SceneLike S, std::floating_point T>
-[[nodiscard]] ImageT<T> scene_drawing(const S& scene, const CameraT<T>& camera,
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] ImageT<T> scene_drawing(const W& world, const CameraT<T>& camera,
                                       int width, int height) {
     ImageT<T> image = make_image<T>(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const Vec2T<T> middle{T(x) + T(0.5), T(y) + T(0.5)};
             const RayT<T> ray = primary_ray(camera, middle, width, height);
-            const auto hit = closest_hit(scene, ray);
+            const auto hit = closest_hit(world, ray);
             if (!hit) continue;
-            const VertexT<T> vertex = vertex_at(scene, ray, *hit);
+            const VertexT<T> vertex = vertex_at(world, ray, *hit);
             const Vec3T<T>& wo = vertex.wo;
             const auto own_color = [&](const auto& material) {
                 if (has(lobes(material), Lobes::specular)) return RgbT<T>{T(0.25)};
@@ -55,7 +55,7 @@ template <SceneLike S, std::floating_point T>
             pixel(image, x, y) = vertex.emits()
                                      ? RgbT<T>{T(0.5)}
                                      : T(0.16) * (T(0.3) + T(0.7) * std::abs(wo.z)) *
-                                           visit_material_at(scene, vertex, own_color);
+                                           visit_material_at(world, vertex, own_color);
         }
     return image;
 }
@@ -74,7 +74,7 @@ template <std::floating_point T>
 /// Where a camera sees a photon: nothing may stand in front of it, glass neither, and
 /// it has to lie on the side of its surface that faces the camera. What hides a photon
 /// is nearer by more than a thousandth of the way.
-/// \param scene   The scene of the photon.
+/// \param world   The scene of the photon.
 /// \param camera  The camera.
 /// \param photon  The photon.
 /// \param width   Of the picture, in pixels.
@@ -82,9 +82,9 @@ template <std::floating_point T>
 /// \return The place in pixels, from the upper left corner; nothing if it is not seen.
 /// \cost One ray.
 // [photon_in_sight]
-template <SceneLike S, std::floating_point T>
+template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<Vec2T<T>>
-photon_in_sight(const S& scene, const CameraT<T>& camera, const PhotonT<T>& photon,
+photon_in_sight(const W& world, const CameraT<T>& camera, const PhotonT<T>& photon,
                 int width, int height) {
     const auto place = project(camera, photon.position, width, height);
     if (!place || !(place->x >= T(0) && place->x < T(width) && place->y >= T(0) &&
@@ -92,9 +92,9 @@ photon_in_sight(const S& scene, const CameraT<T>& camera, const PhotonT<T>& phot
         return std::nullopt;
     const RayT<T> ray{.origin = camera.position,
                       .direction = photon.position - camera.position};
-    const auto hit = closest_hit(scene, ray);
+    const auto hit = closest_hit(world, ray);
     if (!hit || std::abs(hit->at.t - T(1)) > T(1e-3)) return std::nullopt;
-    const Vec3T<T> normal = vertex_at(scene, ray, *hit).point.normal;
+    const Vec3T<T> normal = vertex_at(world, ray, *hit).point.normal;
     if (photon_side(photon.direction, normal) != photon_side(ray.direction, normal))
         return std::nullopt;
     return place;
@@ -129,7 +129,7 @@ void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
 
 /// Draws photons over a picture of their scene.
 /// \param image    The picture, as scene_drawing() makes it.
-/// \param scene    The scene of the photons.
+/// \param world    The scene of the photons.
 /// \param camera   The camera of the picture.
 /// \param photons  The photons, of any kind.
 /// \param look     How a dot looks.
@@ -138,8 +138,8 @@ void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
 /// \throws std::invalid_argument  if the radius of a dot is not in (0, 1000].
 /// \cost One ray a photon that is drawn and lies within the picture.
 /// \report{Section 3.2.2, Figs. 5 to 8}
-template <SceneLike S, std::floating_point T, typename Color>
-long long add_photon_dots(ImageT<T>& image, const S& scene, const CameraT<T>& camera,
+template <AnyWorld W, std::floating_point T, typename Color>
+long long add_photon_dots(ImageT<T>& image, const W& world, const CameraT<T>& camera,
                           const std::vector<PhotonT<T>>& photons,
                           const PhotonDotSettings& look, Color color) {
     require(look.radius > 0 && look.radius <= 1000, "the radius of a dot", look.radius,
@@ -149,7 +149,7 @@ long long add_photon_dots(ImageT<T>& image, const S& scene, const CameraT<T>& ca
         const RgbT<T> tip = color(photon);
         if (is_black(tip)) continue;
         const auto place =
-            photon_in_sight(scene, camera, photon, image.width, image.height);
+            photon_in_sight(world, camera, photon, image.width, image.height);
         if (!place) continue;
         detail::add_dot(image, *place, tip, look);
         ++seen;

@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "ljus/radiosity/patch_grid.hpp"
-#include "ljus/render/detail/choose_passes.hpp"
-#include "ljus/render/detail/scene_remarks.hpp"
-#include "ljus/scene/index.hpp"
+#include "ljus/render/passes.hpp"
 
 namespace ljus {
 
@@ -38,7 +36,7 @@ struct Plan {
     PlanItem cache;           ///< Irradiance gathered at few points of the picture.
     PlanItem thin_film;       ///< Paths pass through soap films.
     PlanItem tree;            ///< Over the shapes, or a loop over all of them.
-    /// A line for each type of shape and of material that the scene lists, in their
+    /// A line for each type of shape, material and light that the scene lists, in their
     /// order: which hooks it has, and what happens without the others. A hook that is
     /// misspelt is among the others.
     std::vector<std::string> types;
@@ -184,26 +182,30 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
 } // namespace detail
 
 /// Says which passes a scene requires, and which hooks its types have.
-/// \param scene     The scene.
+/// \param world     The closed scene.
 /// \param settings  What the user asks for.
-/// \return The plan, as make_photon_maps() and make_photon_mapper() obey it.
-template <SceneLike S>
-[[nodiscard]] Plan survey(const S& scene, const PhotonMappingSettings& settings) {
-    Plan plan = detail::make_plan(needs(scene), settings);
-    plan.remarks = detail::scene_remarks(scene, settings);
+/// \return The plan, as a PhotonMapper obeys it.
+template <AnyWorld W>
+[[nodiscard]] Plan survey(const W& world, const PhotonMappingSettings& settings) {
+    Plan plan = detail::make_plan(needs(world), settings);
+    plan.remarks = scene_remarks(world, settings);
     const auto add = [&](const char* what, int number, const auto& hooks) {
         std::string name = std::string(what).append(std::to_string(number));
         name.resize(17, ' ');
         plan.types.push_back(name.append(detail::to_line(hooks)));
     };
     // Each type is asked, because none says that it is the one that is looked for.
-    int shapes = 0, materials = 0;
-    (void)S::any_shape([&]<typename G>() {
+    int shapes = 0, materials = 0, lights = 0;
+    (void)W::any_shape([&]<typename G>() {
         add("shape ", ++shapes, detail::shape_hooks<G>());
         return false;
     });
-    (void)S::any_material([&]<typename M>() {
+    (void)W::any_material([&]<typename M>() {
         add("material ", ++materials, detail::material_hooks<M>());
+        return false;
+    });
+    (void)W::any_light([&]<typename L>() {
+        add("light ", ++lights, detail::light_hooks<L>());
         return false;
     });
     return plan;

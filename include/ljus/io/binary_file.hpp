@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "ljus/io/file.hpp"
+#include "ljus/math/field_hash.hpp"
 
 namespace ljus {
 
@@ -36,32 +37,13 @@ inline constexpr std::size_t file_front_bytes = 40;
 namespace detail {
 
 inline constexpr std::size_t checksum_place = 32;
-inline constexpr std::size_t map_key_bytes = 16; // behind the front, if there is one
+inline constexpr std::size_t key_bytes = 8; // behind the front, if there is one
 
 // The most bytes of a file with so many entries; whoever sets no limit has none.
 inline std::size_t file_limit(std::size_t most, std::size_t bytes_of_one) noexcept {
     const std::size_t all = static_cast<std::size_t>(-1);
-    const std::size_t front = file_front_bytes + map_key_bytes;
+    const std::size_t front = file_front_bytes + key_bytes;
     return most < (all - front) / bytes_of_one ? front + most * bytes_of_one : all;
-}
-
-// The unsigned number of the same size.
-template <typename Number>
-using BitsOf = std::conditional_t<sizeof(Number) == 8, std::uint64_t, std::uint32_t>;
-
-// The bytes of a number, the lowest first, on every machine.
-template <typename Number>
-[[nodiscard]] std::array<unsigned char, sizeof(Number)>
-bytes_of(Number value) noexcept {
-    std::uint64_t bits = 0;
-    if constexpr (std::is_floating_point_v<Number>)
-        bits = std::bit_cast<BitsOf<Number>>(value);
-    else
-        bits = static_cast<std::uint64_t>(value);
-    std::array<unsigned char, sizeof(Number)> bytes{};
-    for (std::size_t i = 0; i < sizeof(Number); ++i)
-        bytes[i] = static_cast<unsigned char>(bits >> (8 * i) & 255u);
-    return bytes;
 }
 
 // The number whose bytes begin at a place, where there are enough.
@@ -74,12 +56,6 @@ template <typename Number>
         return std::bit_cast<Number>(static_cast<BitsOf<Number>>(bits));
     else
         return static_cast<Number>(bits);
-}
-
-// FNV-1a, with 64 bits: a byte after those that the hash is of.
-inline constexpr std::uint64_t fnv_start = 0xcbf29ce484222325u;
-constexpr std::uint64_t fnv_hash(std::uint64_t hash, unsigned char byte) noexcept {
-    return (hash ^ byte) * 0x100000001b3u;
 }
 
 // Of all bytes but the checksum's own, from the version on.

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "ljus/io/detail/map_key.hpp"
+#include "ljus/io/binary_file.hpp"
 #include "ljus/radiosity/radiosity.hpp"
 
 namespace ljus {
@@ -17,13 +17,13 @@ namespace ljus {
 /// independent".
 ///
 /// One flat file, the same on every machine: 16 letters that say what it is; version,
-/// number of grids, objects of the scene and checksum; the key of what it was made
-/// from; the grids; then the irradiance of each patch, three doubles.
+/// number of grids, the scene's part of the key and checksum; the settings' part of the
+/// key; the grids; then the irradiance of each patch, three doubles.
 /// \{
 
 namespace detail {
 
-inline constexpr FileFormat light_map_format{"ljus light map\n\n", 2};
+inline constexpr FileFormat light_map_format{"ljus light map\n\n", 3};
 inline constexpr std::size_t grid_bytes = 20;
 inline constexpr std::size_t light_bytes = 24;
 
@@ -54,35 +54,30 @@ inline void put_grid(Bytes& bytes, const PatchGrid& grid) {
     return grid;
 }
 
-} // namespace detail
-
-/// What a light map was made from, for save_light_map() and load_light_map().
-/// \param scene     The scene.
-/// \param settings  Patches, form factors and solver; their progress and threads do not
-///                  count.
-/// \return The key.
-template <SceneLike S>
-[[nodiscard]] MapKey light_map_key(const S& scene, const RadiositySettings& settings) {
-    detail::FieldHash how;
-    const FormFactorSettings& factors = settings.factors;
-    const SolveSettings& solve = settings.solve;
-    how.add(settings.patches.size, factors.analytic, factors.rays, factors.shadow_rays,
-            factors.closed, factors.seed, solve.solver, solve.tolerance,
-            solve.max_sweeps);
-    return {detail::scene_hash(scene), how.value};
+// Takes the key of a file, and refuses another.
+inline void require_key(FileReader& file, const LightMapKey& key) {
+    if (file.bytes.size() < file_front_bytes + key_bytes)
+        file.refuse("it ends in the middle of its key");
+    if (file.take<std::uint64_t>() != key.scene)
+        file.refuse("it was made for another scene, with other shapes, materials or "
+                    "lights; make it anew");
+    if (file.take<std::uint64_t>() != key.settings)
+        file.refuse("it was made with other settings; make it anew, or ask for those "
+                    "that it was made with");
 }
+
+} // namespace detail
 
 /// Saves a light map.
 /// \param path  The file; an older one is replaced at the very end (save_file()).
 /// \param map   The map.
-/// \param key   What it was made from: light_map_key().
 /// \throws std::runtime_error  as save_file().
 /// \cost 24 bytes a patch.
-inline void save_light_map(const std::string& path, const LightMap& map,
-                           const MapKey& key) {
-    Bytes bytes = file_front(detail::light_map_format,
-                             static_cast<std::uint32_t>(map.grids.size()), map.objects);
-    detail::put_key(bytes, key);
+inline void save_light_map(const std::string& path, const LightMap& map) {
+    Bytes bytes =
+        file_front(detail::light_map_format,
+                   static_cast<std::uint32_t>(map.grids.size()), map.key.scene);
+    put_number(bytes, map.key.settings);
     for (const PatchGrid& grid : map.grids) detail::put_grid(bytes, grid);
     for (const RgbT<double>& light : map.irradiance) put_vector(bytes, light);
     put_checksum(bytes);
@@ -97,14 +92,15 @@ inline void save_light_map(const std::string& path, const LightMap& map,
 /// \throws std::runtime_error  "cannot read 'a.light': it was made for another scene,
 ///         ...": what is of another scene or of other settings, cut short, damaged, of
 ///         another version or no light map is refused.
-[[nodiscard]] inline LightMap load_light_map(const std::string& path, const MapKey& key,
+[[nodiscard]] inline LightMap load_light_map(const std::string& path,
+                                             const LightMapKey& key,
                                              std::size_t most = 10'000'000) {
     FileReader file = open_file(
         path, detail::file_limit(most, detail::light_bytes + detail::grid_bytes),
         detail::light_map_format);
     const auto grids = file.take<std::uint32_t>();
-    LightMap map{.objects = file.take<std::uint64_t>()};
     detail::require_key(file, key);
+    LightMap map{.key = key};
     if (grids > file.left() / detail::grid_bytes)
         file.refuse("it says that it holds " + std::to_string(grids) +
                     " grids, and is too short for them");

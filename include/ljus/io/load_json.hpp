@@ -131,7 +131,7 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
     if (const auto lights = find(top, "lights"))
         for (std::size_t i = 0; i < list_size(*lights); ++i)
             read_light(entry(*lights, i), loaded.scene);
-    require_lights(objects, loaded.scene.lights.size());
+    require_lights(objects, loaded.scene.light_count());
     return loaded;
 }
 

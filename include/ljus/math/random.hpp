@@ -98,6 +98,27 @@ template <std::floating_point T = float>
     return {x, y, next_1d<T>(stream)};
 }
 
+/// What numbers are drawn from. A stream of another kind is a struct with these
+/// functions beside it:
+///
+/// | function                     | what it does                                      |
+/// |------------------------------|---------------------------------------------------|
+/// | next_1d<T>(stream)           | the next number of [0, 1)                         |
+/// | next_2d<T>(stream)           | the next point of the unit square                 |
+/// | next_3d<T>(stream)           | the next point of the unit cube                   |
+/// | start_bounce(stream, bounce) | moves to the numbers of a bounce, which depend on |
+/// |                              | nothing that was drawn before                     |
+///
+/// Copies of a stream draw the same numbers. One that a renderer names as its `Stream`
+/// has also a member `key`, which tells the rays of a picture apart, and a start_ray().
+template <typename S>
+concept StreamLike = std::copyable<S> && requires(S& stream, std::uint64_t bounce) {
+    { next_1d<float>(stream) } -> std::same_as<float>;
+    { next_2d<float>(stream) } -> std::same_as<Vec2T<float>>;
+    { next_3d<double>(stream) } -> std::same_as<Vec3T<double>>;
+    start_bounce(stream, bounce);
+};
+
 /// \}
 
 } // namespace ljus

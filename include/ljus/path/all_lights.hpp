@@ -29,27 +29,31 @@ enum class DirectLight : std::uint8_t {
 
 namespace detail {
 
+/// A lamp of which it is known how much of the hemisphere over a vertex it fills.
+template <std::floating_point T>
+struct SeenLampT {
+    T form_factor = T(0);   ///< For the side of `wo`.
+    RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
+};
+
 /// How much of the hemisphere over a vertex a light fills, if that is known in closed
 /// form.
-/// \param scene   The scene.
-/// \param light   One of its lights.
+/// \param world   The closed scene.
+/// \param light   The number of one of its lights.
 /// \param vertex  The surface.
-/// \return The form factor, for the side of `wo`; nothing for points, spots and suns,
-///         and for shapes without a form_factor_from().
-template <SceneLike S, std::floating_point T>
-[[nodiscard]] std::optional<T> form_factor_of(const S& scene, const LightT<T>& light,
-                                              const VertexT<T>& vertex) {
-    if (!light.object) return std::nullopt;
+/// \return The lamp; nothing for lights without a form_factor().
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] std::optional<SeenLampT<T>> seen_lamp(const W& world, std::uint32_t light,
+                                                    const VertexT<T>& vertex) {
     const Vec3T<T> normal = std::copysign(T(1), vertex.wo.z) * vertex.frame.normal;
-    const bool inside_out = scene.object(*light.object).inside_out;
-    return scene.visit_shape(*light.object, [&](const auto& lamp) -> std::optional<T> {
-        const auto& now = at_time(lamp, vertex.time);
-        const Vec3T<T>& from = vertex.point.position;
-        if constexpr (requires { form_factor_from(from, normal, now, inside_out); })
-            return form_factor_from(from, normal, now, inside_out);
-        else
+    const Vec3T<T>& from = vertex.point.position;
+    return world.visit_light(
+        light, [&](const auto& lamp) -> std::optional<SeenLampT<T>> {
+            if constexpr (requires { form_factor(lamp, from, normal, vertex.time); })
+                if (const auto f = form_factor(lamp, from, normal, vertex.time))
+                    return SeenLampT<T>{*f, lamp.lamp.radiance};
             return std::nullopt;
-    });
+        });
 }
 
 /// The light of one lamp at a Lambertian surface: what would come if nothing stood in
@@ -60,9 +64,9 @@ template <SceneLike S, std::floating_point T>
 /// with \f$f_i\f$ the light of the i-th sample. Where all of the lamp is seen, or
 /// nothing of it, there is no noise. In a penumbra a quotient of two random sums is
 /// biased, by the order of the variance of \f$f\f$ over the number of rays.
-/// \param scene     The scene.
-/// \param light     One of its lights.
-/// \param form      form_factor_of() it.
+/// \param world     The closed scene.
+/// \param light     The number of one of its lights.
+/// \param lamp      seen_lamp() of it.
 /// \param vertex    The surface.
 /// \param material  What it is made of.
 /// \param rays      Shadow rays, at least 1.
@@ -73,57 +77,65 @@ template <SceneLike S, std::floating_point T>
 /// \return Radiance towards wo.
 /// \cite heitz2018shadows
 // [analytic_light]
-template <SceneLike S, std::floating_point T, typename Place>
+template <AnyWorld W, std::floating_point T, typename Place>
 [[nodiscard]] RgbT<T>
-analytic_light(const S& scene, const LightT<T>& light, T form, const VertexT<T>& vertex,
-               const LambertianT<T>& material, int rays, const Place& place,
-               Counts& counts, Verdict verdict) {
-    const auto whole = [](const LightSampleT<T>&, const Vec3T<T>&) { return T(1); };
+analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
+               const VertexT<T>& vertex, const LambertianT<T>& material, int rays,
+               const Place& place, Counts& counts, Verdict verdict) {
     RgbT<T> arrived{T(0)}, sent{T(0)}, result{T(0)};
-    if (!(form > T(0))) return result;
+    if (!(lamp.form_factor > T(0))) return result;
     for (int i = 0; i < rays; ++i) {
-        const LightShareT<T> share = light_share(scene, light, vertex, material,
-                                                 place(i), whole, counts, verdict);
+        const LightShareT<T> share =
+            light_share(world, light, vertex, material, place(i), {}, counts, verdict);
         arrived += share.arrived;
         sent += share.sent;
     }
-    const RgbT<T> all = form * material.albedo * light.emission;
+    const RgbT<T> all = lamp.form_factor * material.albedo * lamp.radiance;
     for (int c = 0; c < 3; ++c)
         if (sent[c] > T(0)) result[c] = all[c] * arrived[c] / sent[c];
     return result;
 }
 // [analytic_light]
 
-/// The light of lamps that a ray meets whose direction the material samples, with the
-/// weight that the shadow rays leave it. It is a path of its own: anything else that it
-/// meets adds nothing.
-/// \param scene     The scene.
+/// The light of lamps and of the sky that a ray meets whose direction the material
+/// samples, with the weight that the shadow rays leave it. It is a path of its own:
+/// anything else that it meets adds nothing.
+/// \param world     The closed scene.
 /// \param vertex    The surface.
 /// \param material  What it is made of.
 /// \param rays      Shadow rays to each light.
-/// \param stream    Three numbers are drawn.
-/// \param counts    Counts the ray.
+/// \param context   Three numbers are drawn; the ray is counted.
 /// \return Radiance towards wo.
 // [found_light]
-template <SceneLike S, std::floating_point T, Material M, typename Stream>
-[[nodiscard]] RgbT<T> found_light(const S& scene, const VertexT<T>& vertex,
-                                  const M& material, int rays, Stream& stream,
-                                  Counts& counts) {
-    const auto next = scatter(vertex, material, next_3d<T>(stream), Transport::radiance,
-                              Lobes::non_specular);
+template <AnyWorld W, std::floating_point T, Material M, typename Context>
+[[nodiscard]] RgbT<T> found_light(const W& world, const VertexT<T>& vertex,
+                                  const M& material, int rays, Context& context) {
+    const auto next = scatter(vertex, material, next_3d<T>(context.stream),
+                              Transport::radiance, Lobes::non_specular);
     if (!next) return RgbT<T>{T(0)};
     PathStateT<T> path{.ray = spawn_ray(vertex.point, next->wi, vertex.time),
                        .throughput = next->sample.weight,
                        .medium = vertex.medium,
                        .depth = 1,
                        .branch = std::uint64_t(1) << 44};
-    auto numbers = stream; // next_vertex() moves them to the ray's own place
-    ++counts.shadow_rays;
-    const auto lamp = next_vertex(scene, path, numbers);
-    if (!lamp || !lamp->emits()) return RgbT<T>{T(0)};
-    const T pdf = pdf_of_lamp_point(scene, vertex.point.position, *lamp);
-    return balance_heuristic(next->sample.pdf, T(rays) * pdf) * path.throughput *
-           lamp->object.emission;
+    auto numbers = context.stream; // next_vertex() moves them to the ray's own place
+    ++context.counts.shadow_rays;
+    const auto lamp = next_vertex(world, path, numbers);
+    const auto share = [&](T pdf) {
+        return balance_heuristic(next->sample.pdf, T(rays) * pdf) * path.throughput;
+    };
+    if (lamp) {
+        if (!lamp->emits()) return RgbT<T>{T(0)};
+        return share(pdf_of_lamp_point(world, vertex.point.position, *lamp)) *
+               lamp->object.emission;
+    }
+    RgbT<T> sum{T(0)};
+    if constexpr (has_sky<W>)
+        for (std::uint32_t light = 0; light < world.light_count(); ++light) {
+            const SkyT<T> sky = sky_of(world, light, path.ray.direction);
+            sum += share(sky.pdf) * sky.radiance;
+        }
+    return sum;
 }
 // [found_light]
 
@@ -135,68 +147,75 @@ struct NoVerdicts {
     }
 };
 
+} // namespace detail
+
+/// How the direct light of a surface is found: in which of the three ways, and by how
+/// many rays.
+struct DirectLightSettings {
+    DirectLight how = DirectLight::sampled; ///< In which of the three ways.
+    int rays = 1;                           ///< Shadow rays to each light, at least 1.
+};
+
 /// The light of all lights at a surface.
-/// \param scene     The scene.
+/// \param world     The closed scene.
 /// \param vertex    The surface.
 /// \param material  What it is made of.
-/// \param how       In which of the three ways.
-/// \param rays      Shadow rays to each light, at least 1: it has as many cells.
-/// \param stream    Two numbers per light: the place in the cells, the same in all. The
-///                  rays of a pixel share out a cell as they would share out the light.
-/// \param counts    Counts the rays; in shadow, as many as would have been cast if the
-///                  surface faces all of the light.
+/// \param settings  How; with n rays each light has as many cells.
+/// \param context   Two numbers are drawn per light: the position in the cells, the
+///                  same in all. The rays of a pixel share out a cell as they would
+///                  share out the light. Rays are counted; in shadow, as many as would
+///                  have been cast if the surface faces all of the light.
 /// \param verdicts  Called with a light's number: what is known of it here.
 /// \return Radiance towards wo.
 /// \report{Section 3.2.3}
 // [sample_all_lights]
-template <SceneLike S, std::floating_point T, Material M, typename Stream,
-          typename Verdicts = NoVerdicts>
-[[nodiscard]] RgbT<T> sample_all_lights(const S& scene, const VertexT<T>& vertex,
-                                        const M& material, DirectLight how, int rays,
-                                        Stream& stream, Counts& counts,
-                                        Verdicts verdicts = {}) {
+template <AnyWorld W, std::floating_point T, Material M, typename Context,
+          typename Verdicts = detail::NoVerdicts>
+[[nodiscard]] RgbT<T> sample_all_lights(const W& world, const VertexT<T>& vertex,
+                                        const M& material,
+                                        const DirectLightSettings& settings,
+                                        Context& context, Verdicts verdicts = {}) {
     constexpr bool lambertian = std::same_as<M, LambertianT<T>>;
+    const auto [how, rays] = settings;
     const bool both =
         how == DirectLight::mis || (how == DirectLight::analytic && !lambertian);
-    const Strata strata = rays > 1 ? strata_for(rays) : Strata{};
-    const auto weigh = [&](const LightSampleT<T>& light, const Vec3T<T>& wi) {
-        if (!both || light.pdf == T(0)) return T(1); // no path meets a point light
-        return balance_heuristic(T(rays) * light.pdf,
-                                 pdf(material, vertex.wo, wi, Lobes::non_specular));
-    };
+    const detail::Strata strata =
+        rays > 1 ? detail::strata_for(rays) : detail::Strata{};
+    const MisT<T> mis{.heuristic =
+                          both ? MisHeuristic::balance : MisHeuristic::shadow_rays,
+                      .factor = T(rays),
+                      .lobes = Lobes::non_specular};
     RgbT<T> sum{T(0)};
-    for (std::size_t number = 0; number < scene.lights.size(); ++number) {
-        const LightT<T>& light = scene.lights[number];
-        const Vec2T<T> u = next_2d<T>(stream);
-        const Verdict verdict = verdicts(number);
+    for (std::uint32_t light = 0; light < world.light_count(); ++light) {
+        const Vec2T<T> u = next_2d<T>(context.stream);
+        const Verdict verdict = verdicts(light);
         if (verdict == Verdict::shadow) {
-            counts.skipped_rays += std::uint64_t(rays);
+            context.counts.skipped_rays += std::uint64_t(rays);
             continue;
         }
         const auto place = [&](int i) { // a single ray needs no cells
-            if (rays == 1) return u;
-            const std::uint64_t key = stream.key + std::uint32_t(u.x * T(0x1p24));
-            return stratified(strata, i, key, u);
+            if (settings.rays == 1) return u;
+            const std::uint64_t key =
+                context.stream.key + std::uint32_t(u.x * T(0x1p24));
+            return detail::stratified(strata, i, key, u);
         };
         if constexpr (lambertian)
             if (how == DirectLight::analytic)
-                if (const auto form = form_factor_of(scene, light, vertex)) {
-                    sum += analytic_light(scene, light, *form, vertex, material, rays,
-                                          place, counts, verdict);
+                if (const auto lamp = detail::seen_lamp(world, light, vertex)) {
+                    sum += detail::analytic_light(world, light, *lamp, vertex, material,
+                                                  rays, place, context.counts, verdict);
                     continue;
                 }
         for (int i = 0; i < rays; ++i) {
-            const RgbT<T> found = direct_light(scene, light, vertex, material, place(i),
-                                               weigh, counts, verdict);
+            const RgbT<T> found = direct_light(world, light, vertex, material, place(i),
+                                               mis, context.counts, verdict);
             sum += rays == 1 ? found : found / T(rays);
         }
     }
-    if (both) sum += found_light(scene, vertex, material, rays, stream, counts);
+    if (both) sum += detail::found_light(world, vertex, material, rays, context);
     return sum;
 }
 // [sample_all_lights]
-
-} // namespace detail
 
 /// \}
 

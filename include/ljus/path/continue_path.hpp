@@ -26,16 +26,12 @@ namespace ljus {
 /// | sampled, of any other part       | the path ends                                |
 /// \{
 
-namespace detail {
-
 /// A scattered direction.
 template <std::floating_point T>
 struct ScatteredT {
     BsdfSampleT<T> sample{}; ///< In the frame; the z of `wi` tells the side.
     Vec3T<T> wi{T(0)};       ///< The direction in the world.
 };
-
-} // namespace detail
 
 /// Samples a direction, with both normals of the surface kept in mind.
 ///
@@ -53,13 +49,13 @@ struct ScatteredT {
 /// \cite veach1997
 // [scatter]
 template <std::floating_point T, Material M>
-[[nodiscard]] std::optional<detail::ScatteredT<T>>
+[[nodiscard]] std::optional<ScatteredT<T>>
 scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
         Transport transport, Lobes which = Lobes::all) noexcept {
     const Vec3T<T>& wo = vertex.wo;
     const auto next = sample(material, wo, u, transport, which);
     if (!next) return std::nullopt;
-    detail::ScatteredT<T> scattered{*next, to_world(vertex.frame, next->wi)};
+    ScatteredT<T> scattered{*next, to_world(vertex.frame, next->wi)};
     if (!vertex.smooth) return scattered;
 
     const Vec3T<T>& geometric = vertex.point.normal;
@@ -76,7 +72,7 @@ scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
     const FrameT<T> flat = frame_around(geometric);
     const auto again = sample(material, to_local(flat, back), u, transport, which);
     if (!again || !again->specular) return std::nullopt;
-    return detail::ScatteredT<T>{*again, to_world(flat, again->wi)};
+    return ScatteredT<T>{*again, to_world(flat, again->wi)};
 }
 // [scatter]
 
@@ -127,7 +123,7 @@ void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
 /// \param stream     Three numbers are drawn.
 /// \return False if the path ends here: its light is absorbed.
 /// \report{Section 3.2.4}
-template <std::floating_point T, Material M, typename Stream>
+template <std::floating_point T, Material M, StreamLike Stream>
 [[nodiscard]] bool continue_path(PathStateT<T>& path, const VertexT<T>& vertex,
                                  const M& material, Transport transport, Lobes which,
                                  Stream& stream) {

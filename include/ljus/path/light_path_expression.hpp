@@ -29,7 +29,6 @@ struct LightPathExpression {
     std::array<std::uint64_t, 64> follow{}; ///< What may come after each; 0 begins.
     std::array<char, 64> letter{};          ///< Of each state: E, D, S, L or '.'.
     std::uint64_t last = 0;                 ///< The states in which a path may end.
-    std::string_view expression{};          ///< What it was made of.
 
     /// The states after one more letter of a path.
     /// \param states  A bit each.
@@ -61,14 +60,14 @@ struct LightPathExpressionReader {
         bool empty = true;
     };
     LightPathExpression& result;
-    std::string_view rest;
+    std::string_view expression, rest;
     std::size_t letters = 0; // so far; state 0 is the beginning
 
     [[noreturn]] void refuse(const char* what) const {
-        const std::size_t place = result.expression.size() - rest.size();
+        const std::size_t place = expression.size() - rest.size();
         throw std::invalid_argument(
-            std::string("The class of paths '").append(result.expression) + "' has " +
-            what + " at place " + std::to_string(place + 1) +
+            std::string("The class of paths '").append(expression) + "' has " + what +
+            " at place " + std::to_string(place + 1) +
             "; it is made of E, D, S, L, '.' for D or S, and | ( ) * + ?.");
     }
     [[nodiscard]] constexpr bool at(std::string_view set) const {
@@ -132,14 +131,14 @@ struct LightPathExpressionReader {
 
 /// Makes a class of paths ready.
 /// \param expression  As "ES*D?L": E, D, S, L, '.' for D or S, and | ( ) * + ? as
-///                    usual; at most 63 letters. It must outlive the class.
+///                    usual; at most 63 letters.
 /// \return The class; the compiler makes it, if it is constexpr.
 /// \throws std::invalid_argument  for a text that is no such expression, with the place
 ///         of the mistake.
 [[nodiscard]] constexpr LightPathExpression
 light_path_expression(std::string_view expression) {
-    LightPathExpression result{.expression = expression};
-    detail::LightPathExpressionReader reader{result, expression};
+    LightPathExpression result;
+    detail::LightPathExpressionReader reader{result, expression, expression};
     const auto whole = reader.alternatives();
     if (!reader.rest.empty()) reader.refuse("a bracket that closes nothing");
     result.follow[0] = whole.first;

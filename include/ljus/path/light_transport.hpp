@@ -5,7 +5,8 @@
 
 #include "ljus/path/light_path_expression.hpp"
 #include "ljus/path/renderer.hpp"
-#include "ljus/scene/query.hpp"
+#include "ljus/ref.hpp"
+#include "ljus/scene/world.hpp"
 
 namespace ljus {
 
@@ -16,7 +17,7 @@ namespace ljus {
 
 /// The factor g of Eq. 1: what distance and other things leave of the light between two
 /// points.
-/// \param scene  The scene.
+/// \param world  The closed scene.
 /// \param x      One point of a surface.
 /// \param other  Another one.
 /// \return 0 if something stands between them, glass too, or if they are the same
@@ -25,12 +26,12 @@ namespace ljus {
 /// \report{Eq. (1)}
 /// \erratum{The report has 1/r^2 only, so that no surface casts a shadow.}
 // [transport_factor]
-template <SceneLike S, std::floating_point T>
-[[nodiscard]] T transport_factor(const S& scene, const SurfacePointT<T>& x,
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] T transport_factor(const W& world, const SurfacePointT<T>& x,
                                  const SurfacePointT<T>& other) {
     const Vec3T<T> way = other.position - x.position;
     const T squared = glm::dot(way, way);
-    if (!(squared > T(0)) || occluded(scene, spawn_ray_to(x, other))) return T(0);
+    if (!(squared > T(0)) || occluded(world, spawn_ray_to(x, other))) return T(0);
     return T(1) / squared;
 }
 // [transport_factor]
@@ -67,40 +68,50 @@ struct ExpressionLog {
     }
 };
 
-/// A renderer that carries only some of the paths of another one.
-template <typename R>
-struct Filtered {
-    using Stream = typename R::Stream; ///< The same numbers, so the same paths.
-    R whole;                           ///< The renderer that does the work.
-    LightPathExpression carried;       ///< Which of its paths count.
-};
-
 } // namespace detail
 
-/// Filters the paths of a renderer by a light path expression. Expressions that share
-/// no path and together hold all of them give pictures that add up to the whole one:
-/// the random paths are the same, only what is added differs.
-/// \param whole    A renderer.
-/// \param carried  As light_path_expression() takes it, and must outlive the renderer.
-/// \return A renderer for render().
-/// \throws std::invalid_argument  as light_path_expression().
-/// \cost As much as the whole renderer: nothing is left out but the sums.
+/// A renderer that carries only some of the paths of another one, which must outlive
+/// it. Expressions that share no path and together hold all of them give pictures that
+/// add up to the whole one: the random paths are the same, only what is added differs.
+///
+///     render(OnlyPaths(tracer, "ES*DS+L"), camera, picture)
 template <typename R>
-[[nodiscard]] detail::Filtered<R> only_paths(const R& whole, std::string_view carried) {
-    return {whole, light_path_expression(carried)};
-}
+class OnlyPaths {
+public:
+    using Stream = typename R::Stream; ///< The same numbers, so the same paths.
+
+    /// \param whole    The renderer that does the work.
+    /// \param carried  Which of its paths count, as light_path_expression() takes it.
+    /// \throws std::invalid_argument  as light_path_expression().
+    OnlyPaths(Ref<R> whole, std::string_view carried)
+        : whole_(whole), carried_(light_path_expression(carried)) {}
+    /// The renderer that does the work.
+    [[nodiscard]] const R& whole() const noexcept { return whole_.get(); }
+    /// Which of its paths count.
+    [[nodiscard]] const LightPathExpression& carried() const noexcept {
+        return carried_;
+    }
+
+private:
+    Ref<R> whole_;
+    LightPathExpression carried_;
+};
+/// Deduces the renderer.
+template <typename R>
+OnlyPaths(const R&, std::string_view) -> OnlyPaths<R>;
 
 /// The radiance of one camera path, as far as the filter lets it through.
-/// \param renderer  From only_paths().
+/// \param renderer  The renderer and its filter.
 /// \param ray       A primary ray.
-/// \param stream    The numbers of this path.
-/// \param counts    Counts the rays.
+/// \param context   The numbers of this path; counts its rays.
 /// \return Radiance, W/(m^2 sr).
-template <typename R, std::floating_point T, typename Log = NoLog>
-[[nodiscard]] RgbT<T> radiance(const detail::Filtered<R>& renderer, const RayT<T>& ray,
-                               typename R::Stream& stream, Counts& counts, Log&& = {}) {
-    detail::ExpressionLog<T> log{.wanted = renderer.carried};
-    (void)radiance(renderer.whole, ray, stream, counts, log);
+/// \cost As much as the whole renderer: nothing is left out but the sums.
+template <typename R, std::floating_point T, typename Context>
+[[nodiscard]] RgbT<T> radiance(const OnlyPaths<R>& renderer, const RayT<T>& ray,
+                               Context& context) {
+    detail::ExpressionLog<T> log{.wanted = renderer.carried()};
+    auto own = context_of(context.stream, context.counts, log);
+    (void)radiance(renderer.whole(), ray, own);
     return log.sum;
 }
 

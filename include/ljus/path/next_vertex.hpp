@@ -39,22 +39,22 @@ concept ThinSurface = requires(const M& m, const Vec3T<typename M::Scalar>& v) {
 namespace detail {
 
 /// Whether a type of scene lists a thin surface among its materials.
-template <SceneLike S>
-inline constexpr bool lists_thin_surfaces = S::any_material([]<typename M>() {
+template <AnyWorld W>
+inline constexpr bool lists_thin_surfaces = W::any_material([]<typename M>() {
     return ThinSurface<M>;
 });
 
 /// Whether a type of scene lists a shape that moves.
-template <SceneLike S>
-inline constexpr bool lists_moving = S::any_shape([]<typename G>() {
+template <AnyWorld W>
+inline constexpr bool lists_moving = W::any_shape([]<typename G>() {
     return detail::is_moving<G>;
 });
 
 /// Whether a scene has a thin surface among its materials: the pass is on.
-/// \param scene  The scene.
+/// \param world  The closed scene.
 /// \return False also if it only lists such a type, and has none.
-template <SceneLike S>
-[[nodiscard]] bool has_thin_surfaces(const S& scene) noexcept {
+template <AnyWorld W>
+[[nodiscard]] bool has_thin_surfaces(const W& world) noexcept {
     return std::apply(
         [](const auto&... array) {
             return ((ThinSurface<
@@ -62,40 +62,44 @@ template <SceneLike S>
                      !array.empty()) ||
                     ...);
         },
-        scene.materials);
+        world.materials());
 }
 
 /// The time of a new path while the shutter is open \cite cook1984.
 /// \param stream  One number is drawn if the scene lists a shape that moves.
 /// \return In [0, 1); 0 if nothing can move.
 /// \report{Section 2.1}
-template <SceneLike S, typename Stream>
-[[nodiscard]] typename S::Scalar path_time(const S&, Stream& stream) {
-    if constexpr (lists_moving<S>) return next_1d<typename S::Scalar>(stream);
+template <AnyWorld W, StreamLike Stream>
+[[nodiscard]] typename W::Scalar path_time(const W&, Stream& stream) {
+    if constexpr (lists_moving<W>) return next_1d<typename W::Scalar>(stream);
     return 0;
 }
 
+} // namespace detail
+
 /// The path of a camera ray, at a time of its own.
-/// \param scene   The scene.
+/// \param world   The closed scene.
 /// \param ray     A primary ray.
 /// \param stream  See path_time().
 /// \return A path without a vertex.
-template <SceneLike S, std::floating_point T, typename Stream>
-[[nodiscard]] PathStateT<T> camera_path(const S& scene, const RayT<T>& ray,
+template <AnyWorld W, std::floating_point T, StreamLike Stream>
+[[nodiscard]] PathStateT<T> camera_path(const W& world, const RayT<T>& ray,
                                         Stream& stream) {
     PathStateT<T> path{.ray = ray};
-    path.ray.time = path_time(scene, stream);
+    path.ray.time = detail::path_time(world, stream);
     return path;
 }
 
+namespace detail {
+
 /// What passes straight through a surface.
-/// \param scene   The scene.
+/// \param world   The closed scene.
 /// \param vertex  A point of the surface.
 /// \return T for each channel; nothing if the surface is no thin one.
-template <SceneLike S, std::floating_point T>
-[[nodiscard]] std::optional<RgbT<T>> passed_through(const S& scene,
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] std::optional<RgbT<T>> passed_through(const W& world,
                                                     const VertexT<T>& vertex) {
-    return scene.visit_material(
+    return world.visit_material(
         vertex.object.material, [&](const auto& m) -> std::optional<RgbT<T>> {
             if constexpr (ThinSurface<std::remove_cvref_t<decltype(m)>>)
                 return pass_through(m, vertex.point.position, vertex.wo);
@@ -109,18 +113,18 @@ inline constexpr int max_thin_surfaces = 1000;
 
 // visibility() in a scene with thin surfaces.
 // [visibility]
-template <SceneLike S, std::floating_point T>
-[[nodiscard]] RgbT<T> visibility_through(const S& scene, const SurfacePointT<T>& from,
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] RgbT<T> visibility_through(const W& world, const SurfacePointT<T>& from,
                                          const SurfacePointT<T>& to, T time) {
     RgbT<T> through{T(1)};
     SurfacePointT<T> last = from;
     for (int surfaces = 0; surfaces < max_thin_surfaces; ++surfaces) {
         const RayT<T> ray = spawn_ray_to(last, to, time);
-        const auto hit = closest_hit(scene, ray);
+        const auto hit = closest_hit(world, ray);
         if (!hit) return through;
-        VertexT<T> vertex = vertex_at(scene, ray, *hit);
+        VertexT<T> vertex = vertex_at(world, ray, *hit);
         vertex.wo = glm::normalize(vertex.wo); // the ray is as long as the way
-        const auto passed = passed_through(scene, vertex);
+        const auto passed = passed_through(world, vertex);
         if (!passed) break;
         through *= *passed;
         last = vertex.point;
@@ -132,7 +136,7 @@ template <SceneLike S, std::floating_point T>
 } // namespace detail
 
 /// How much of the light from one point arrives at another.
-/// \param scene  The scene.
+/// \param world  The closed scene.
 /// \param from   A point of a surface.
 /// \param to     Another.
 /// \param time   Of the path, in [0, 1].
@@ -140,13 +144,13 @@ template <SceneLike S, std::floating_point T>
 ///         the way let through.
 /// \cost Without thin surfaces that of occluded(); with them a closest_hit() for each,
 ///       and one more.
-template <SceneLike S, std::floating_point T>
-[[nodiscard]] RgbT<T> visibility(const S& scene, const SurfacePointT<T>& from,
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] RgbT<T> visibility(const W& world, const SurfacePointT<T>& from,
                                  const SurfacePointT<T>& to, T time = T(0)) {
-    if constexpr (detail::lists_thin_surfaces<S>)
-        if (detail::has_thin_surfaces(scene))
-            return detail::visibility_through(scene, from, to, time);
-    return RgbT<T>{occluded(scene, spawn_ray_to(from, to, time)) ? T(0) : T(1)};
+    if constexpr (detail::lists_thin_surfaces<W>)
+        if (detail::has_thin_surfaces(world))
+            return detail::visibility_through(world, from, to, time);
+    return RgbT<T>{occluded(world, spawn_ray_to(from, to, time)) ? T(0) : T(1)};
 }
 
 namespace detail {
@@ -162,19 +166,19 @@ struct PassageT {
 /// Takes a ray through the thin surfaces in its way. At each, chance decides with the
 /// mean of R over the channels whether the path stops there, to be reflected, or
 /// passes.
-/// \param scene   The scene.
+/// \param world   The closed scene.
 /// \param ray     Gets its last part.
 /// \param hit     What the ray meets first; becomes what its last part meets.
 /// \param stream  A number is drawn for each thin surface.
 /// \return What they left.
-template <SceneLike S, std::floating_point T, typename Stream>
-[[nodiscard]] PassageT<T> pass_thin_surfaces(const S& scene, RayT<T>& ray,
+template <AnyWorld W, std::floating_point T, StreamLike Stream>
+[[nodiscard]] PassageT<T> pass_thin_surfaces(const W& world, RayT<T>& ray,
                                              std::optional<SceneHitT<T>>& hit,
                                              Stream& stream) {
     PassageT<T> passage;
     for (int surfaces = 0; hit && surfaces < max_thin_surfaces; ++surfaces) {
-        const VertexT<T> vertex = vertex_at(scene, ray, *hit);
-        const auto passed = passed_through(scene, vertex);
+        const VertexT<T> vertex = vertex_at(world, ray, *hit);
+        const auto passed = passed_through(world, vertex);
         if (!passed) return passage;
         const T stop = T(1) - (passed->x + passed->y + passed->z) / T(3);
         if (next_1d<T>(stream) < stop) {
@@ -184,7 +188,7 @@ template <SceneLike S, std::floating_point T, typename Stream>
         passage.through *= *passed / (T(1) - stop);
         passage.distance += hit->at.t;
         ray = spawn_ray(vertex.point, ray.direction, ray.time);
-        hit = closest_hit(scene, ray);
+        hit = closest_hit(world, ray);
     }
     hit.reset();
     return passage;
@@ -197,28 +201,28 @@ template <SceneLike S, std::floating_point T, typename Stream>
 ///
 /// A path that begins within a material, as that of a lamp in glass, is in the medium
 /// of the first surface that it meets from behind.
-/// \param scene   The scene.
+/// \param world   The closed scene.
 /// \param path    Gets its depth, the last part of its ray and its throughput.
 /// \param stream  Moved to the start of the bounce; a number is drawn for each thin
 ///                surface, and none without.
-/// \return The vertex; nothing if the path leaves the scene.
+/// \return The vertex; nothing if the path leaves the scene, along its ray.
 // [next_vertex]
-template <SceneLike S, std::floating_point T, typename Stream>
-[[nodiscard]] std::optional<VertexT<T>> next_vertex(const S& scene, PathStateT<T>& path,
+template <AnyWorld W, std::floating_point T, StreamLike Stream>
+[[nodiscard]] std::optional<VertexT<T>> next_vertex(const W& world, PathStateT<T>& path,
                                                     Stream& stream) {
     start_bounce(stream, path.branch + static_cast<std::uint64_t>(++path.depth));
-    auto hit = closest_hit(scene, path.ray);
+    auto hit = closest_hit(world, path.ray);
     detail::PassageT<T> passage;
-    if constexpr (detail::lists_thin_surfaces<S>)
-        if (detail::has_thin_surfaces(scene))
-            passage = detail::pass_thin_surfaces(scene, path.ray, hit, stream);
+    if constexpr (detail::lists_thin_surfaces<W>)
+        if (detail::has_thin_surfaces(world))
+            passage = detail::pass_thin_surfaces(world, path.ray, hit, stream);
     std::optional<VertexT<T>> vertex;
     if (!hit) return vertex;
 
-    detail::fill_vertex(vertex.emplace(), scene, path.ray, *hit);
+    detail::fill_vertex(vertex.emplace(), world, path.ray, *hit);
     const bool from_behind = glm::dot(vertex->frame.normal, path.ray.direction) > T(0);
     if (path.depth == 1 && from_behind)
-        path.medium = scene.visit_material(vertex->object.material,
+        path.medium = world.visit_material(vertex->object.material,
                                            [](const auto& m) { return absorption(m); });
     vertex->medium = path.medium;
     vertex->distance += passage.distance;

@@ -8,25 +8,13 @@
 #include <vector>
 
 #include "ljus/path/path_state.hpp"
+#include "ljus/path/renderer.hpp"
 
 namespace ljus {
 
 /// \defgroup path_log Path logs
 /// \brief Every renderer reports to a log; most often to a NoLog, which costs nothing.
 /// \{
-
-/// Takes nothing and costs nothing: the log of a picture.
-struct NoLog {
-    /// A path begins.
-    constexpr void begin() const noexcept {}
-    /// The path was scattered at a vertex.
-    template <std::floating_point T>
-    constexpr void vertex(char, const Vec3T<T>&, const RgbT<T>&, T) const noexcept {}
-    /// Radiance was added.
-    template <std::floating_point T>
-    constexpr void term(std::string_view, std::string_view,
-                        const RgbT<T>&) const noexcept {}
-};
 
 /// One line of a PathLog.
 struct PathLogLine {

@@ -6,7 +6,7 @@
 #include "ljus/geometry/shape.hpp"
 #include "ljus/image/texture.hpp"
 #include "ljus/math/frame.hpp"
-#include "ljus/scene/query.hpp"
+#include "ljus/scene/world.hpp"
 
 namespace ljus {
 
@@ -22,7 +22,7 @@ struct VertexT {
     Vec3T<T> wo{T(0), T(0), T(1)}; ///< To the vertex before: unit, in the frame.
     Vec2T<T> uv{T(0)};             ///< Of texture_coordinates(), if a material uses it.
     ObjectId id{};                 ///< Which object.
-    detail::ObjectT<T> object{};   ///< What it is made of, and whether it emits.
+    ObjectT<T> object{};           ///< What it is made of, and whether it emits.
     RgbT<T> medium{T(0)};          ///< Absorption before it, per scene unit.
     T distance = T(0);             ///< From the vertex before, in scene units.
     T time = T(0);                 ///< Of the path, in [0, 1].
@@ -41,31 +41,16 @@ namespace detail {
 
 /// Whether a material looks up by texture coordinates; a comparison in a scene that
 /// lists such a type, and nothing in any other.
-/// \param scene     The scene.
+/// \param world     The closed scene.
 /// \param material  One of its materials.
-template <SceneLike S>
-[[nodiscard]] bool uses_uv(const S& scene, MaterialId material) {
-    if constexpr (S::any_material([]<typename M>() { return UsesUv<M>; }))
-        return scene.visit_material(material, [](const auto& m) {
+template <AnyWorld W>
+[[nodiscard]] bool uses_uv(const W& world, MaterialId material) {
+    if constexpr (W::any_material([]<typename M>() { return UsesUv<M>; }))
+        return world.visit_material(material, [](const auto& m) {
             return UsesUv<std::remove_cvref_t<decltype(m)>>;
         });
     else
         return false;
-}
-
-/// Whether a scene knows the frames of its flat shapes, as an IndexedScene does.
-template <typename S>
-inline constexpr bool has_frames = requires(const S& scene) {
-    scene.frames;
-};
-
-/// The frame of a flat shape, from a scene that knows it. (By its own name: clang 14
-/// would look for `frames` in every scene that fill_vertex() is called with.)
-/// \param scene  A scene with frames.
-/// \param id     A flat shape of it.
-template <std::floating_point T, typename S>
-[[nodiscard]] FrameT<T> known_frame(const S& scene, const ObjectId& id) {
-    return scene.frames[id.type][id.index];
 }
 
 /// Sets the frame of a vertex where two normals may differ.
@@ -93,27 +78,27 @@ inline void set_frame(VertexT<T>& vertex, const RayT<T>& ray, Vec3T<T> normal) {
 /// Sets a vertex to what vertex_at() returns. next_vertex() has the vertex in the
 /// optional that it returns: a copy of these 160 bytes for each ray is slow.
 /// \param vertex  A new one; all but its medium is set.
-/// \param scene   The scene.
+/// \param world   The closed scene.
 /// \param ray     The ray that hit; its direction of unit length.
 /// \param hit     What closest_hit() returned.
-template <SceneLike S, std::floating_point T>
-inline void fill_vertex(VertexT<T>& vertex, const S& scene, const RayT<T>& ray,
+template <AnyWorld W, std::floating_point T>
+inline void fill_vertex(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
                         const SceneHitT<T>& hit) {
     vertex.id = hit.object;
-    vertex.object = scene.object(hit.object);
+    vertex.object = world.object(hit.object);
     vertex.distance = hit.at.t;
     vertex.time = ray.time;
     const Vec3T<T>& geometric = vertex.point.normal;
-    scene.visit_shape(hit.object, [&]<typename G>(const G& shape) {
-        constexpr bool one_frame = has_frames<S> && is_plane<G>;
+    world.visit_shape(hit.object, [&]<typename G>(const G& shape) {
+        constexpr bool one_frame = is_plane<G>;
         if constexpr (one_frame) {
-            vertex.frame = known_frame<T>(scene, hit.object);
+            vertex.frame = world.frame(hit.object);
             set_point(vertex.point,
                       point_at(shape, hit.at.u, hit.at.v, vertex.frame.normal));
         } else {
             set_point(vertex.point, surface_point(shape, ray, hit.at));
         }
-        if (detail::uses_uv(scene, vertex.object.material))
+        if (detail::uses_uv(world, vertex.object.material))
             vertex.uv = texture_coordinates(shape, hit.at, vertex.point);
         if constexpr (requires { shading_normal(shape, hit.at, geometric); })
             set_frame(vertex, ray, shading_normal(shape, hit.at, geometric));
@@ -130,28 +115,28 @@ inline void fill_vertex(VertexT<T>& vertex, const S& scene, const RayT<T>& ray,
 /// The geometric normal decides on which side a direction is. A ray that comes from
 /// different sides of the two normals finds the frame around the geometric one: so the
 /// z of `wo` always tells the side, and no surface is seen from behind.
-/// \param scene  The scene.
+/// \param world  The closed scene.
 /// \param ray    The ray that hit; its direction of unit length.
 /// \param hit    What closest_hit() returned.
 /// \return The vertex; its medium is not known yet.
-template <SceneLike S, std::floating_point T>
-[[nodiscard]] VertexT<T> vertex_at(const S& scene, const RayT<T>& ray,
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] VertexT<T> vertex_at(const W& world, const RayT<T>& ray,
                                    const SceneHitT<T>& hit) {
     VertexT<T> vertex;
-    detail::fill_vertex(vertex, scene, ray, hit);
+    detail::fill_vertex(vertex, world, ray, hit);
     return vertex;
 }
 
 /// Calls f(material) with what a surface is made of at a vertex: what visit_material()
 /// does for an object, this does for a place of it. A textured material is its base in
 /// another colour there, a soap film as thick as it is there; others are themselves.
-/// \param scene   The scene.
+/// \param world   The closed scene.
 /// \param vertex  The place.
 /// \param f       Called with the material, as its own type.
 // [visit_material_at]
-template <SceneLike S, std::floating_point T, typename F>
-decltype(auto) visit_material_at(const S& scene, const VertexT<T>& vertex, F&& f) {
-    return scene.visit_material(vertex.object.material, [&](const auto& m) {
+template <AnyWorld W, std::floating_point T, typename F>
+decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f) {
+    return world.visit_material(vertex.object.material, [&](const auto& m) {
         return f(material_at(m, vertex.point.position, vertex.uv));
     });
 }

@@ -4,12 +4,16 @@
 /// \brief Photons that are sent where mirrors and glass are.
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "ljus/photons/detail/aim_steps.hpp"
+#include "ljus/lights/point_light.hpp"
+#include "ljus/photons/emission.hpp"
 
 namespace ljus {
 
@@ -17,56 +21,26 @@ namespace ljus {
 /// \{
 
 /// The objects that mirror or refract, for photons to be aimed at.
-/// \param scene  The scene.
+/// \param world  The closed scene.
 /// \return Their numbers, in the order of the scene.
-template <SceneLike S>
-[[nodiscard]] std::vector<ObjectId> specular_objects(const S& scene) {
+template <AnyWorld W>
+[[nodiscard]] std::vector<ObjectId> specular_objects(const W& world) {
     std::vector<ObjectId> targets;
-    for (std::uint32_t type = 0; type < scene.objects.size(); ++type)
-        for (std::uint32_t i = 0; i < scene.objects[type].size(); ++i)
-            if (scene.visit_material(
-                    scene.objects[type][i].material,
+    for (std::uint32_t type = 0; type < world.objects().size(); ++type)
+        for (std::uint32_t i = 0; i < world.objects()[type].size(); ++i)
+            if (world.visit_material(
+                    world.objects()[type][i].material,
                     [](const auto& m) { return has(lobes(m), Lobes::specular); }))
                 targets.push_back({type, i});
     return targets;
 }
 
-namespace detail {
-
-/// How a point of a light aims at an object: at the cone in which it sees the object's
-/// bounding sphere, or at the points of a flat one. From inside of that sphere, a lamp
-/// aims at all that it can shine on, and a point light everywhere. A spot light that is
-/// narrower than the cone aims at all that it lights.
-/// \param scene   The scene.
-/// \param light   One of its lights.
-/// \param from    A point of the light.
-/// \param target  The object.
-/// \return The aim.
-// [aim_at]
-template <SceneLike S, std::floating_point T>
-[[nodiscard]] AimT<T> aim_at(const S& scene, const LightT<T>& light,
-                             const SurfacePointT<T>& from, ObjectId target) {
-    return scene.visit_shape(target, [&](const auto& shape) {
-        const SphereT<T> bound = bounding_sphere(shape);
-        const detail::ConeT<T> cone = detail::cone_towards(bound, from.position);
-        if (light.kind == LightKind::spot && light.outer < cone.one_minus_cos)
-            return AimT<T>{{light.direction, light.outer}, false, light.outer};
-        if (cone.one_minus_cos == T(2) && light.object) // inside
-            return AimT<T>{{from.normal, T(1)}, false, T(1)};
-        if (cone.one_minus_cos == T(2) ||
-            !FlatShape<std::remove_cvref_t<decltype(shape)>>)
-            return AimT<T>{cone, false, cone.one_minus_cos};
-        const Vec3T<T> way = bound.center - from.position;
-        T size = T(0);
-        if constexpr (HasArea<std::remove_cvref_t<decltype(shape)>>)
-            size =
-                area(shape) * std::numbers::inv_pi_v<T> / (T(2) * glm::dot(way, way));
-        return AimT<T>{cone, true, std::min(size, cone.one_minus_cos)};
-    });
-}
-// [aim_at]
-
-} // namespace detail
+/// A photon that was aimed at an object.
+template <std::floating_point T>
+struct AimedPhotonT {
+    EmittedPhotonT<T> photon; ///< The photon.
+    ObjectId target;          ///< It counts only if this is what it meets first.
+};
 
 /// A photon of a point light, aimed at one ball: the plain twin of aim(). The light
 /// sends \f$1/4\pi\f$ of its flux into each steradian, and the ball is seen in a cone
@@ -78,16 +52,188 @@ template <SceneLike S, std::floating_point T>
 /// \report{Section 3.2.2.2}
 // [aim_at_ball]
 template <std::floating_point T>
-[[nodiscard]] EmittedPhotonT<T> aim_at_ball(const LightT<T>& light,
+[[nodiscard]] EmittedPhotonT<T> aim_at_ball(const PointLightT<T>& light,
                                             const SphereT<T>& ball,
                                             const Vec2T<T>& u) noexcept {
     const detail::ConeT<T> cone = detail::cone_towards(ball, light.position);
     const Vec3T<T> local = sample_uniform_cone(u, cone.one_minus_cos);
     return {.ray{.origin = light.position,
                  .direction = to_world(frame_around(cone.axis), local)},
-            .flux = light.flux * (cone.one_minus_cos / T(2))};
+            .flux = power(light) * (cone.one_minus_cos / T(2))};
 }
 // [aim_at_ball]
+
+namespace detail {
+
+/// How a point of a light aims at an object.
+template <std::floating_point T>
+struct AimT {
+    ConeT<T> cone{};      ///< In which it sees the object's bounding sphere.
+    bool at_area = false; ///< At points of the object's area instead of the cone.
+    T size = T(0);        ///< About the solid angle over 2 pi: how often it is chosen.
+};
+
+/// How a point of a light aims at an object: at the cone in which it sees the object's
+/// bounding sphere, or at the points of a flat one. A light that shines into a narrower
+/// cone aims at all that it lights: a spot, or a lamp inside of the sphere.
+/// \param world     The closed scene.
+/// \param emission  The cone that holds all that the point sends.
+/// \param from      Where the point is.
+/// \param target    The object.
+/// \return The aim.
+// [aim_at]
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] AimT<T> aim_at(const W& world, const ConeT<T>& emission,
+                             const Vec3T<T>& from, ObjectId target) {
+    return world.visit_shape(target, [&]<typename G>(const G& shape) {
+        const SphereT<T> bound = bounding_sphere(shape);
+        const ConeT<T> cone = cone_towards(bound, from);
+        if (emission.one_minus_cos < cone.one_minus_cos)
+            return AimT<T>{emission, false, emission.one_minus_cos};
+        if (cone.one_minus_cos == T(2) || !FlatShape<G>)
+            return AimT<T>{cone, false, cone.one_minus_cos};
+        const Vec3T<T> way = bound.center - from;
+        T size = T(0);
+        if constexpr (HasArea<G>)
+            size =
+                area(shape) * std::numbers::inv_pi_v<T> / (T(2) * glm::dot(way, way));
+        return AimT<T>{cone, true, std::min(size, cone.one_minus_cos)};
+    });
+}
+// [aim_at]
+
+/// A target that was chosen.
+template <std::floating_point T>
+struct ChosenTargetT {
+    ObjectId target; ///< Its number.
+    T sum = T(0);    ///< The sizes of all targets together.
+};
+
+/// Chooses a target in proportion to its size, as seen by a light.
+/// \param targets   The objects.
+/// \param size_of   Called with each; 0 leaves it out.
+/// \param u_target  In [0, 1).
+/// \return The target; nothing if none has a size.
+template <std::floating_point T, typename SizeOf>
+[[nodiscard]] std::optional<ChosenTargetT<T>>
+choose_target(std::span<const ObjectId> targets, SizeOf size_of, T u_target) {
+    ChosenTargetT<T> chosen;
+    // Each takes the place of the one before with its share of the sum so far, and u is
+    // stretched to [0, 1) again.
+    for (const ObjectId candidate : targets) {
+        const T size = size_of(candidate);
+        if (!(size > T(0))) continue;
+        chosen.sum += size;
+        const T share = size / chosen.sum;
+        if (u_target < share) {
+            chosen.target = candidate;
+            u_target /= share;
+        } else {
+            u_target = (u_target - share) / (T(1) - share);
+        }
+    }
+    if (!(chosen.sum > T(0))) return std::nullopt;
+    return chosen;
+}
+
+/// A direction towards an object, and its density.
+template <std::floating_point T>
+struct AimedDirectionT {
+    Vec3T<T> direction{T(0)}; ///< Unit.
+    T pdf = T(0);             ///< Per steradian.
+};
+
+/// Samples a direction as an aim says: uniform in the cone, or by the area of a flat
+/// object.
+/// \param world   The closed scene.
+/// \param aim     aim_at() the target.
+/// \param from    The point of the light.
+/// \param target  The object.
+/// \param u       Point of the unit square.
+/// \param time    Of the photon, in [0, 1].
+/// \return The direction; its density may be 0 or infinite for points of an object that
+///         is seen edge-on, or in which the light's point lies.
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] AimedDirectionT<T> sample_aim(const W& world, const AimT<T>& aim,
+                                            const Vec3T<T>& from, ObjectId target,
+                                            const Vec2T<T>& u, T time) {
+    if (aim.at_area) {
+        const auto seen = world.visit_shape(target, [&](const auto& shape) {
+            return sample_towards(at_time(shape, time), from, u);
+        });
+        return {glm::normalize(seen.point.position - from), seen.pdf};
+    }
+    const Vec3T<T> local = sample_uniform_cone(u, aim.cone.one_minus_cos);
+    return {to_world(frame_around(aim.cone.axis), local),
+            pdf_uniform_cone(aim.cone.one_minus_cos)};
+}
+
+/// The numbers that an aimed photon takes, in the order in which they are drawn.
+template <std::floating_point T>
+struct AimNumbersT {
+    T probability;        ///< Of its light, which was chosen first.
+    Vec2T<T> u_point;     ///< Where on the light, or where in a disc before the target.
+    T u_target;           ///< Which target.
+    Vec2T<T> u_direction; ///< Where to.
+    T time;               ///< Of the photon.
+};
+
+/// A photon that leaves a light for an object.
+template <std::floating_point T>
+struct LeavingAimedT {
+    LeavingPhotonT<T> photon{}; ///< Its ray, and its flux over the light's probability.
+    ObjectId target{};          ///< Where it is aimed.
+};
+
+/// Aims a photon of a light from afar, at the discs that the bounding spheres of the
+/// targets throw as their shadows.
+/// \return Nothing if all targets are points.
+template <AnyWorld W, FarLight L, std::floating_point T>
+[[nodiscard]] std::optional<LeavingAimedT<T>>
+aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
+           const AimNumbersT<T>& u) {
+    const auto bound_of = [&](ObjectId id) {
+        return world.visit_shape(id, [](const auto& s) { return bounding_sphere(s); });
+    };
+    const auto disc_of = [&](ObjectId id) { return disc_area(bound_of(id).radius); };
+    const auto aimed = choose_target(targets, disc_of, u.u_target);
+    if (!aimed) return std::nullopt;
+    const SphereT<T> bound = bound_of(aimed->target);
+    const ArrivalT<T> arrival = sample_arrival(light, u.u_direction);
+    return LeavingAimedT<T>{{ray_from_afar(SphereT<T>(light.around), arrival.direction,
+                                           bound.center, bound.radius, u.u_point),
+                             arrival.irradiance * (aimed->sum / u.probability)},
+                            aimed->target};
+}
+
+/// Aims a photon of a light that has points.
+/// \return Nothing behind the light, or if all targets are points.
+template <AnyWorld W, NearLight L, std::floating_point T>
+[[nodiscard]] std::optional<LeavingAimedT<T>>
+aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
+           const AimNumbersT<T>& u) {
+    const auto point = emission_point(light, u.u_point, u.time);
+    const Vec3T<T>& from = position_of(point);
+    const ConeT<T> emission = cone_of_emission(light, point);
+    const auto size_of = [&](ObjectId id) {
+        return aim_at(world, emission, from, id).size;
+    };
+    const auto aimed = choose_target(targets, size_of, u.u_target);
+    if (!aimed) return std::nullopt;
+
+    const AimT<T> at = aim_at(world, emission, from, aimed->target);
+    auto [direction, pdf] =
+        sample_aim(world, at, from, aimed->target, u.u_direction, u.time);
+    pdf *= at.size / aimed->sum;                                  // of the choice
+    if (!(pdf > T(0) && std::isfinite(pdf))) return std::nullopt; // edge-on, or at it
+    const T emitted = pdf_emission(light, point, direction);
+    if (!(emitted > T(0))) return std::nullopt;
+    return LeavingAimedT<T>{
+        {leave(point, direction), power(light) * (emitted / (pdf * u.probability))},
+        aimed->target};
+}
+
+} // namespace detail
 
 /// A photon aimed at one of several objects: at the cone in which the light's point
 /// sees the object's bounding sphere, uniformly; a wide cone is chosen more often, so
@@ -99,65 +245,88 @@ template <std::floating_point T>
 /// \f$ (1/4\pi) / p(\omega) \f$. A sun aims at the discs that the bounding spheres
 /// throw as shadows. Where objects overlap, each ray belongs to the one that is met
 /// first; the caller drops the photons that were aimed at another.
-/// \param scene    The scene.
-/// \param choice   Of the scene's lights; at least one.
+/// \param world    The closed scene.
+/// \param choice   Of its lights; at least one.
 /// \param targets  The objects; at least one.
 /// \param stream   Six numbers are drawn.
 /// \return The photon; nothing behind the light, or if all targets are points.
-/// \cost One cone a target.
+/// \cost One cone per target.
 /// \report{Section 3.2.2.2} \cite jensen1996
 /// \erratum{The program behind the report does not correct for the density of the
 ///          direction, and divides by the photons that were stored: a caustic's
 ///          brightness did not depend on how much light met the glass.}
 // [aim]
-template <SceneLike S, typename Stream>
-[[nodiscard]] std::optional<detail::AimedPhotonT<typename S::Scalar>>
-aim(const S& scene, const LightChoice& choice, std::span<const ObjectId> targets,
+template <AnyWorld W, StreamLike Stream>
+[[nodiscard]] std::optional<AimedPhotonT<typename W::Scalar>>
+aim(const W& world, const LightChoice& choice, std::span<const ObjectId> targets,
     Stream& stream) {
-    using T = typename S::Scalar;
-    const detail::ChosenLightT<T> chosen =
-        detail::choose_light(choice, next_1d<T>(stream));
-    const LightT<T>& light = scene.lights[chosen.light];
-    const Vec2T<T> u_point = next_2d<T>(stream);
-    const T u_target = next_1d<T>(stream);
-    const Vec2T<T> u_direction = next_2d<T>(stream);
-    const T time = detail::path_time(scene, stream);
-    const auto number = static_cast<std::uint16_t>(chosen.light);
-
-    if (light.kind == LightKind::sun) {
-        auto aimed = detail::aim_sun(scene, chosen, targets, u_target, u_point);
-        if (!aimed) return std::nullopt;
-        aimed->photon.ray.time = time;
-        aimed->photon.light = number;
-        return aimed;
-    }
-
-    SurfacePointT<T> point{.position = light.position};
-    if (light.object) point = detail::light_point(scene, light, u_point, time);
-    const auto size_of = [&](ObjectId id) {
-        return detail::aim_at(scene, light, point, id).size;
-    };
-    const auto aimed = detail::choose_target(targets, size_of, u_target);
+    using T = typename W::Scalar;
+    const ChosenLightT<T> chosen = choose_light(choice, next_1d<T>(stream));
+    detail::AimNumbersT<T> u;
+    u.probability = chosen.probability;
+    u.u_point = next_2d<T>(stream);
+    u.u_target = next_1d<T>(stream);
+    u.u_direction = next_2d<T>(stream);
+    u.time = detail::path_time(world, stream);
+    auto aimed = world.visit_light(chosen.light, [&](const auto& light) {
+        return detail::aim_photon(world, light, targets, u);
+    });
     if (!aimed) return std::nullopt;
-
-    const detail::AimT<T> at = detail::aim_at(scene, light, point, aimed->target);
-    auto [direction, pdf] =
-        detail::sample_aim(scene, at, point.position, aimed->target, u_direction, time);
-    pdf *= at.size / aimed->sum;                                  // of the choice
-    if (!(pdf > T(0) && std::isfinite(pdf))) return std::nullopt; // edge-on, or at it
-    const T emitted = detail::emitted_share(light, point, direction);
-    if (!(emitted > T(0))) return std::nullopt;
-    RayT<T> ray = light.object
-                      ? spawn_ray(point, direction)
-                      : RayT<T>{.origin = point.position, .direction = direction};
-    ray.time = time;
-    return detail::AimedPhotonT<T>{
-        {.ray = ray,
-         .flux = light.flux * (emitted / (pdf * chosen.probability)),
-         .light = number},
-        aimed->target};
+    aimed->photon.ray.time = u.time;
+    return AimedPhotonT<T>{{.ray = aimed->photon.ray,
+                            .flux = aimed->photon.flux,
+                            .light = static_cast<std::uint16_t>(chosen.light)},
+                           aimed->target};
 }
 // [aim]
+
+/// Refuses numbers that are no shares of a whole.
+/// \param shares   A number for each target, or none at all.
+/// \param targets  How many.
+/// \throws std::invalid_argument  with the number that is wrong.
+inline void check_shares(std::span<const double> shares, std::size_t targets) {
+    if (shares.empty()) return;
+    require(shares.size() == targets, "the number of shares",
+            static_cast<long long>(shares.size()),
+            "that of the objects that mirror or refract");
+    double sum = 0;
+    for (const double share : shares) {
+        require(share >= 0 && share <= 1, "a share of the photons", share,
+                "within [0, 1]");
+        sum += share;
+    }
+    require(std::abs(sum - 1) < 1e-6, "the sum of all shares", sum, "1");
+}
+
+/// A photon aimed at one of several objects, each chosen with its share; its flux is
+/// divided by that share, so that any shares above 0 give the same mean.
+/// \param world    The closed scene.
+/// \param choice   Of its lights.
+/// \param targets  The objects.
+/// \param shares   As check_shares() lets pass; none: aim().
+/// \param stream   One number more is drawn than by aim().
+/// \return As aim().
+// [aim_by_share]
+template <AnyWorld W, StreamLike Stream>
+[[nodiscard]] std::optional<AimedPhotonT<typename W::Scalar>>
+aim_by_share(const W& world, const LightChoice& choice,
+             std::span<const ObjectId> targets, std::span<const double> shares,
+             Stream& stream) {
+    using T = typename W::Scalar;
+    if (shares.empty()) return aim(world, choice, targets, stream);
+    double left = double(next_1d<T>(stream));
+    std::size_t chosen = 0;
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+        if (!(shares[k] > 0)) continue; // not even if rounding leaves something over
+        chosen = k;
+        if (left < shares[k]) break;
+        left -= shares[k];
+    }
+    auto aimed = aim(world, choice, targets.subspan(chosen, 1), stream);
+    if (aimed) aimed->photon.flux /= static_cast<T>(shares[chosen]);
+    return aimed;
+}
+// [aim_by_share]
 
 /// \}
 

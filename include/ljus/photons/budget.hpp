@@ -94,16 +94,16 @@ template <std::floating_point T>
 
 /// The photons of a pilot for one object: as many of a pass as `paths`, aimed at it
 /// alone, from streams that no pass of the picture draws from.
-template <SceneLike S>
-[[nodiscard]] TracedPhotonsT<typename S::Scalar>
-trace_pilot(const S& scene, PhotonPassSettings pass, std::size_t object,
+template <AnyWorld W>
+[[nodiscard]] TracedPhotonsT<typename W::Scalar>
+trace_pilot(const W& world, PhotonPassSettings pass, std::size_t object,
             std::size_t objects, long long paths) {
     pass.shares.assign(objects, 0.0);
     pass.shares[object] = 1;
     pass.photons = pass.give_up = paths;
     pass.iteration = ~pass.iteration - object;
     pass.progress = no_progress;
-    return trace_photons(scene, MapType::caustics, pass);
+    return trace_photons(world, MapType::caustics, pass);
 }
 
 /// What the photons of a pilot say of their object.
@@ -158,7 +158,7 @@ struct PilotLightT {
 /// \f$ a_k^2 = n \sum_i (\varphi_i / E(x_i))^2 \f$. E is 1, or the mean light of its
 /// caustic, or all light and a tenth of its mean: in the dark no error is relative to
 /// nothing.
-/// \param scene   The scene.
+/// \param world   The closed scene.
 /// \param pass    Of the picture; a twentieth of its photons is sent, at least 500 and
 ///                at most 20 000 to each object.
 /// \param radius  Of the estimates of the picture, in scene units; twice of it is used.
@@ -167,11 +167,11 @@ struct PilotLightT {
 ///                photons are no light, and do not count.
 /// \param wide    The radius that they are asked with; 0: that of 64 of them.
 /// \return One for each of specular_objects().
-template <SceneLike S, std::floating_point T = typename S::Scalar>
+template <AnyWorld W, std::floating_point T = typename W::Scalar>
 [[nodiscard]] std::vector<CausticPilot>
-pilot_caustics(const S& scene, const PhotonPassSettings& pass, T radius,
+pilot_caustics(const W& world, const PhotonPassSettings& pass, T radius,
                std::vector<PhotonT<T>> light = {}, T wide = T(1)) {
-    const auto objects = specular_objects(scene);
+    const auto objects = specular_objects(world);
     if (objects.empty()) return {};
     std::erase_if(light, [](const auto& p) { return p.kind == PhotonKind::shadow; });
     const auto count = static_cast<long long>(objects.size());
@@ -180,7 +180,7 @@ pilot_caustics(const S& scene, const PhotonPassSettings& pass, T radius,
     std::vector<PhotonT<T>> all;
     for (std::size_t k = 0; k < objects.size(); ++k) {
         found.push_back(
-            detail::trace_pilot(scene, pass, k, objects.size(), paths).photons);
+            detail::trace_pilot(world, pass, k, objects.size(), paths).photons);
         all.insert(all.end(), found[k].begin(), found[k].end());
     }
     const PhotonMapT<T> caustics = make_photon_map(all, pass.threads);

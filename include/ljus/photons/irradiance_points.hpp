@@ -12,7 +12,7 @@
 #include "ljus/path/all_lights.hpp"
 #include "ljus/photons/density_estimate.hpp"
 #include "ljus/photons/detail/kernel_border.hpp"
-#include "ljus/scene/index.hpp"
+#include "ljus/photons/irradiance_settings.hpp"
 
 namespace ljus {
 
@@ -21,17 +21,6 @@ namespace ljus {
 /// in place of a density estimate \cite christensen1999. Chapter:
 /// \ref ch_final_gathering.
 /// \{
-
-/// How irradiance is precomputed.
-struct IrradiancePointSettings {
-    int every = 6; ///< One of so many photons is a point and counts in no estimate, at
-                   ///< least 2.
-    std::size_t nearest = 32; ///< Photons of an estimate, 2 to 512.
-    float radius = 0; ///< Within which they lie, at most, in scene units; 0: four times
-                      ///< as far as they lie typically.
-    int shadow_rays = 4; ///< To each light, for the direct part; at least 1.
-    bool edges = true;   ///< Divide by the part of the disc that is on the shape.
-};
 
 /// A point of a surface where the irradiance is known.
 template <std::floating_point T>
@@ -79,7 +68,7 @@ template <std::floating_point T>
 /// The irradiance on one side of a surface that the nearest photons make, by
 /// Epanechnikov's kernel, with edges made up for: estimate_irradiance() for those who
 /// know the scene.
-/// \param scene     The scene.
+/// \param world     The closed scene.
 /// \param map       The photons.
 /// \param vertex    Where.
 /// \param normal    Unit, on the side that is asked about.
@@ -87,9 +76,9 @@ template <std::floating_point T>
 /// \param radius    The largest distance at which they count, in scene units.
 /// \param wanted    Says of the index of a record whether that photon counts.
 /// \return W/m^2.
-template <SceneLike S, std::floating_point T, typename Wanted>
+template <AnyWorld W, std::floating_point T, typename Wanted>
 [[nodiscard]] RgbT<T>
-estimate_irradiance(const S& scene, const PhotonMapT<T>& map, const VertexT<T>& vertex,
+estimate_irradiance(const W& world, const PhotonMapT<T>& map, const VertexT<T>& vertex,
                     const Vec3T<T>& normal, const IrradiancePointSettings& settings,
                     T radius, const Wanted& wanted) {
     // [estimate_irradiance]
@@ -107,7 +96,7 @@ estimate_irradiance(const S& scene, const PhotonMapT<T>& map, const VertexT<T>& 
             kernel_weight(Kernel::epanechnikov, near.distance2 / radius2);
         sum += weight * RgbT<double>(photon.flux);
     }
-    const T part = settings.edges ? detail::part_on_surface(scene, vertex, normal,
+    const T part = settings.edges ? detail::part_on_surface(world, vertex, normal,
                                                             T(std::sqrt(radius2)))
                                   : T(1);
     return detail::per_area<T>(sum, radius2) / part;
@@ -118,7 +107,7 @@ namespace detail {
 
 /// The irradiance at a point: direct light by shadow rays, which know where its shadows
 /// end; caustics and indirect light from the maps.
-/// \param scene     The scene.
+/// \param world     The closed scene.
 /// \param general   The general map, of whose indirect photons those count that are not
 ///                  points themselves.
 /// \param caustics  The caustics map; may be empty.
@@ -127,8 +116,8 @@ namespace detail {
 /// \param radius    Within which the photons of an estimate lie, in scene units.
 /// \param stream    The numbers of the shadow rays.
 /// \return W/m^2.
-template <SceneLike S, std::floating_point T>
-[[nodiscard]] RgbT<T> irradiance_of_point(const S& scene, const PhotonMapT<T>& general,
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] RgbT<T> irradiance_of_point(const W& world, const PhotonMapT<T>& general,
                                           const PhotonMapT<T>& caustics,
                                           const VertexT<T>& vertex,
                                           const IrradiancePointSettings& settings,
@@ -138,10 +127,12 @@ template <SceneLike S, std::floating_point T>
     const T every = T(settings.every);
     // [at_point]
     Counts counts;
+    auto context = context_of(stream, counts);
     const LambertianT<T> white{.albedo = RgbT<T>{T(1)}};
-    RgbT<T> sum = std::numbers::pi_v<T> *
-                  sample_all_lights(scene, vertex, white, DirectLight::analytic,
-                                    settings.shadow_rays, stream, counts);
+    RgbT<T> sum =
+        std::numbers::pi_v<T> *
+        sample_all_lights(world, vertex, white,
+                          {DirectLight::analytic, settings.shadow_rays}, context);
     const auto indirect = [&](std::uint32_t k) {
         return is_of_kind(general, k, PhotonKind::indirect) &&
                !is_point(general, k, settings.every);
@@ -150,10 +141,10 @@ template <SceneLike S, std::floating_point T>
         return is_of_kind(caustics, k, PhotonKind::caustic);
     };
     sum +=
-        estimate_irradiance(scene, general, vertex, side, settings, radius, indirect) *
+        estimate_irradiance(world, general, vertex, side, settings, radius, indirect) *
         (every / (every - 1));
     if (!caustics.empty())
-        sum += estimate_irradiance(scene, caustics, vertex, side, settings, radius,
+        sum += estimate_irradiance(world, caustics, vertex, side, settings, radius,
                                    caustic);
     // [at_point]
     return sum;
@@ -162,7 +153,7 @@ template <SceneLike S, std::floating_point T>
 } // namespace detail
 
 /// Works out the irradiance at every so many photons of a map.
-/// \param scene     The scene.
+/// \param world     The closed scene.
 /// \param general   The general map: where the points are, and its indirect photons.
 /// \param caustics  The caustics map; may be empty.
 /// \param settings  How.
@@ -170,9 +161,9 @@ template <SceneLike S, std::floating_point T>
 /// \param threads   As in ParallelSettings.
 /// \return The points, the same for any number of threads.
 /// \cost About 10 microseconds per point.
-template <SceneLike S, std::floating_point T>
+template <AnyWorld W, std::floating_point T>
 [[nodiscard]] IrradiancePointsT<T> make_irradiance_points(
-    const S& scene, const PhotonMapT<T>& general, const PhotonMapT<T>& caustics,
+    const W& world, const PhotonMapT<T>& general, const PhotonMapT<T>& caustics,
     const IrradiancePointSettings& settings, std::uint64_t seed, int threads = 0) {
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < general.records.size(); ++i)
@@ -191,11 +182,11 @@ template <SceneLike S, std::floating_point T>
         records[i].normal = normal;
         // What stands there is asked of the scene: a photon does not remember.
         const auto vertex =
-            detail::vertex_below(scene, positions[i], normal, T(1e-3) * radius);
+            detail::vertex_below(world, positions[i], normal, T(1e-3) * radius);
         if (!vertex) return;
         auto stream = random_stream(seed, Pass::irradiance, 0, i);
         records[i].irradiance = detail::irradiance_of_point(
-            scene, general, caustics, *vertex, settings, radius, stream);
+            world, general, caustics, *vertex, settings, radius, stream);
     };
     (void)detail::parallel_each(chosen.size(), 64, work_out, {.threads = threads});
 

@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "ljus/parallel.hpp"
-#include "ljus/photons/detail/aim_by_share.hpp"
-#include "ljus/photons/photon_path.hpp"
-#include "ljus/scene/index.hpp"
+#include "ljus/path/continue_path.hpp"
+#include "ljus/photons/aiming.hpp"
+#include "ljus/photons/photon_pass.hpp"
 
 namespace ljus {
 
@@ -19,18 +20,208 @@ namespace ljus {
 /// \brief Section 3.2.2: photons bounce "until Russian roulette decides otherwise".
 /// \{
 
+/// Compensated Russian roulette: a photon survives with the probability of its
+/// reflection, and a survivor carries what the others had \cite arvo1990.
+/// \param flux    Before the surface; not black.
+/// \param weight  f |cos| / pdf of the new direction.
+/// \param u       In [0, 1).
+/// \param audit   Takes what was absorbed, and what roulette moved.
+/// \return The flux that goes on; nothing if the photon ends here.
+/// \report{Section 3.2.2}
+/// \erratum{The report does not say that a survivor must be divided by its probability;
+///          its program did not, and lost the absorbed part twice.}
+// [roulette]
+template <std::floating_point T>
+[[nodiscard]] std::optional<RgbT<T>> play_roulette(const RgbT<T>& flux,
+                                                   const RgbT<T>& weight, T u,
+                                                   FluxAudit& audit) noexcept {
+    const RgbT<T> reflected = flux * weight;
+    audit.absorbed += RgbT<double>(flux) - RgbT<double>(reflected);
+    const T probability =
+        std::min(T(1), max_component(reflected) / max_component(flux));
+    if (!(u < probability)) {
+        audit.roulette += RgbT<double>(reflected);
+        return std::nullopt;
+    }
+    const RgbT<T> survivor = reflected / probability;
+    audit.roulette += RgbT<double>(reflected) - RgbT<double>(survivor);
+    return survivor;
+}
+// [roulette]
+
+namespace detail {
+
+/// Stores shadow photons on the matt surfaces behind the first one that a photon meets.
+///
+/// A surface has two sides, and what a side does not get is the light whose cosine with
+/// *that side's* normal is positive. A ray that goes straight on comes to one side of
+/// each surface, and the cosine is positive there, wherever the surface's own normal
+/// points. So nothing is asked of the normal, as nothing is asked of it for a direct
+/// photon; whoever reads the map asks photon_side(). Direct and shadow photons together
+/// are then, on each side, all the light that would come if nothing stood in its way.
+/// \param world   The closed scene.
+/// \param photon  As it left its light.
+/// \param first   The first surface it met.
+/// \param stream  A copy: the photon's own path draws from where it was. A number is
+///                drawn for each thin surface.
+/// \param out     Takes the photons.
+/// \cost One search for the closest surface for each surface behind the first, and one
+///       more; it ends after 1000.
+/// \report{Section 3.2.2.1} \cite jensen1995
+// [trace_shadow]
+template <AnyWorld W, std::floating_point T, StreamLike Stream>
+void trace_shadow(const W& world, const EmittedPhotonT<T>& photon,
+                  const SurfacePointT<T>& first, Stream stream,
+                  std::vector<PhotonT<T>>& out) {
+    const auto straight_on = [&](const SurfacePointT<T>& from) {
+        return spawn_ray(from, photon.ray.direction, photon.ray.time);
+    };
+    PathStateT<T> path{.ray = straight_on(first)};
+    while (path.depth < 1000) {
+        const auto vertex = next_vertex(world, path, stream);
+        if (!vertex) return;
+        const auto diffuse = [](const auto& m) {
+            return has(lobes(m), Lobes::non_specular);
+        };
+        if (world.visit_material(vertex->object.material, diffuse))
+            out.push_back({vertex->point.position, path.ray.direction, photon.flux,
+                           photon.light, PhotonKind::shadow,
+                           small_normal(vertex->point.normal)});
+        path.ray = straight_on(vertex->point);
+    }
+}
+// [trace_shadow]
+
+/// What kind of photon a path would leave where it is now.
+/// \param path  The path of a photon.
+/// \return Its kind; never a shadow.
+template <std::floating_point T>
+[[nodiscard]] PhotonKind kind_of(const PathStateT<T>& path) noexcept {
+    if (path.met_diffuse) return PhotonKind::indirect;
+    return path.met_specular ? PhotonKind::caustic : PhotonKind::direct;
+}
+
+/// Stores a photon, if the surface is diffuse and the map keeps photons of its kind.
+/// \param path      The path of the photon; its throughput is the flux.
+/// \param vertex    Where it is.
+/// \param material  What the surface is made of.
+/// \param light     The number of its light.
+/// \param map       For which map.
+/// \param keep      Which kinds are kept.
+/// \param out       Takes it.
+template <std::floating_point T, Material M>
+void store_photon(const PathStateT<T>& path, const VertexT<T>& vertex,
+                  const M& material, std::uint16_t light, MapType map, PhotonKinds keep,
+                  std::vector<PhotonT<T>>& out) {
+    const PhotonKind kind = kind_of(path);
+    const bool caustics = map == MapType::caustics;
+    const bool owned = (kind == PhotonKind::caustic) == caustics && keep.has(kind);
+    if (!owned || !has(lobes(material), Lobes::non_specular)) return;
+    const T landing = detail::landing_factor(vertex, path.ray.direction);
+    if (!(landing > T(0))) return;
+    out.push_back({vertex.point.position, path.ray.direction, landing * path.throughput,
+                   light, kind, small_normal(vertex.point.normal)});
+}
+
+/// Scatters a photon at a vertex, unless roulette ends it there.
+/// \param path      Gets its new ray, flux and medium.
+/// \param vertex    Where it is.
+/// \param material  What the surface is made of.
+/// \param map       For which map: caustics photons go on by mirrors and glass only.
+/// \param stream    Four numbers are drawn.
+/// \param audit     Takes what was absorbed, and what roulette moved.
+/// \return Whether it goes on.
+template <std::floating_point T, Material M, StreamLike Stream>
+[[nodiscard]] bool scatter_photon(PathStateT<T>& path, const VertexT<T>& vertex,
+                                  const M& material, MapType map, Stream& stream,
+                                  FluxAudit& audit) {
+    const RgbT<T> flux = path.throughput;
+    const bool only_specular = map == MapType::caustics || vertex.turned;
+    const Lobes which = only_specular ? Lobes::specular : Lobes::all;
+    path.throughput = RgbT<T>{T(1)}; // so that what is left is the weight alone
+    if (!continue_path(path, vertex, material, Transport::flux, which, stream)) {
+        audit.absorbed += RgbT<double>(flux);
+        return false;
+    }
+    const auto survivor =
+        play_roulette(flux, path.throughput, next_1d<T>(stream), audit);
+    if (!survivor) return false;
+    path.throughput = *survivor;
+    return true;
+}
+
+/// A photon as a pass sends it.
+template <std::floating_point T>
+struct SentPhotonT {
+    EmittedPhotonT<T> photon{};       ///< As it leaves its light.
+    std::optional<ObjectId> target{}; ///< Where it was aimed, if it was; another first
+                                      ///< hit ends it.
+};
+
+/// Follows one photon and stores it at every diffuse surface where its map keeps it.
+///
+/// A photon that has met nothing but mirrors and glass is a caustic one: the caustics
+/// map holds it, and the general map leaves it out, so that no light is counted twice.
+/// \param world   The closed scene.
+/// \param map     For which map.
+/// \param sent    As it leaves its light, its flux already divided by the number of
+///                paths.
+/// \param pass    Limits.
+/// \param stream  Four numbers per bounce.
+/// \param block   Takes the photons and the flux.
+// [trace]
+template <AnyWorld W, std::floating_point T, StreamLike Stream>
+void trace_photon(const W& world, MapType map, const SentPhotonT<T>& sent,
+                  const PhotonPassSettings& pass, Stream& stream,
+                  PhotonBlockT<T>& block) {
+    const EmittedPhotonT<T>& photon = sent.photon;
+    FluxAudit& audit = block.audit;
+    PathStateT<T> path{.ray = photon.ray, .throughput = photon.flux};
+    audit.emitted += RgbT<double>(photon.flux);
+    while (path.depth < pass.max_bounces) {
+        const RgbT<double> before{path.throughput};
+        const auto vertex = next_vertex(world, path, stream);
+        if (!vertex) {
+            audit.escaped += before;
+            return;
+        }
+        const bool first = path.depth == 1;
+        if (first && sent.target && vertex->id != *sent.target) {
+            audit.cut += before;
+            return;
+        }
+        if (first && map == MapType::general && pass.shadow_photons)
+            trace_shadow(world, photon, vertex->point, stream, block.photons);
+        audit.absorbed +=
+            before - RgbT<double>(path.throughput); // by what lies between
+        if (is_black(path.throughput)) return;
+
+        const auto at_material = [&]<typename M>(const M& material) {
+            if constexpr (!OnlySpecular<M>)
+                store_photon(path, *vertex, material, photon.light, map, pass.keep,
+                             block.photons);
+            return scatter_photon(path, *vertex, material, map, stream, audit);
+        };
+        if (!visit_material_at(world, *vertex, at_material)) return;
+    }
+    audit.cut += RgbT<double>(path.throughput);
+}
+// [trace]
+
+} // namespace detail
+
 namespace detail {
 
 /// Sends and traces the paths of one block.
-/// \param scene    The scene.
+/// \param world    The closed scene.
 /// \param map      For which map.
 /// \param choice   Of the scene's lights.
 /// \param targets  What caustics photons are aimed at.
 /// \param pass     How many in all, and with which seed.
 /// \param paths    Which of them.
 /// \param block    Takes the photons and the account.
-template <SceneLike S, std::floating_point T>
-void trace_block(const S& scene, MapType map, const LightChoice& choice,
+template <AnyWorld W, std::floating_point T>
+void trace_block(const W& world, MapType map, const LightChoice& choice,
                  const std::vector<ObjectId>& targets, const PhotonPassSettings& pass,
                  const BlockRange& paths, PhotonBlockT<T>& block) {
     const Pass part =
@@ -41,23 +232,20 @@ void trace_block(const S& scene, MapType map, const LightChoice& choice,
                                  ? sobol_stream(pass.seed, part, pass.iteration, path)
                                  : detail::without_points(random_stream(
                                        pass.seed, part, pass.iteration, path));
-        EmittedPhotonT<T> photon;
-        std::optional<ObjectId> target;
+        SentPhotonT<T> sent;
         if (map == MapType::caustics) {
             const auto aimed =
-                aim_by_share(scene, choice, targets, pass.shares, stream);
+                aim_by_share(world, choice, targets, pass.shares, stream);
             if (!aimed) {
                 ++block.unsent;
                 continue;
             }
-            photon = aimed->photon;
-            target = aimed->target;
+            sent = {aimed->photon, aimed->target};
         } else {
-            photon = emit(scene, choice, stream);
+            sent.photon = emit(world, choice, stream);
         }
-        photon.flux /= static_cast<T>(pass.photons);
-        trace_photon(scene, map, photon, target, pass, stream, block.photons,
-                     block.audit);
+        sent.photon.flux /= static_cast<T>(pass.photons);
+        trace_photon(world, map, sent, pass, stream, block);
     }
 }
 
@@ -83,23 +271,22 @@ long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& r
 
 /// Checks what a pass starts from.
 /// \param pass    The settings.
-/// \param lights  Of the scene.
-/// \return The choice between the lights.
+/// \param choice  Of the world's lights.
+/// \return The choice between the lights that the pass asks for.
 /// \throws std::invalid_argument  as trace_photons().
 template <std::floating_point T>
 [[nodiscard]] LightChoice start_pass(const PhotonPassSettings& pass,
-                                     const std::vector<LightT<T>>& lights) {
+                                     LightChoice choice) {
     check(pass);
-    require(!lights.empty(), "the number of lights", 0LL,
+    const std::size_t lights = choice.cumulative.size();
+    require(lights > 0, "the number of lights", 0LL,
             "at least 1, because photons start at lights");
-    require(lights.size() <= 65536, "the number of lights",
-            static_cast<long long>(lights.size()),
+    require(lights <= 65536, "the number of lights", static_cast<long long>(lights),
             "at most 65536, because a photon has 16 bits for its light's number");
-    LightChoice choice = light_choice(lights);
     require(choice.cumulative.back() > 0, "the power of all lights",
             choice.cumulative.back(), "above 0: a sun needs objects to shine on");
     require_memory<T>(pass, 0);
-    for (std::size_t i = 0; pass.equal_lights && i < lights.size(); ++i)
+    for (std::size_t i = 0; pass.equal_lights && i < lights; ++i)
         choice.cumulative[i] = static_cast<double>(i + 1);
     return choice;
 }
@@ -164,26 +351,25 @@ template <std::floating_point T>
 /// more than PhotonPassSettings::max_memory is refused before it takes it. A pass of
 /// which nothing was stored in PhotonPassSettings::give_up paths ends there, and says
 /// why.
-/// \param scene  The scene; with at least one light.
+/// \param world  The closed scene, with at least one light.
 /// \param map    For which map.
 /// \param pass   How many, and with which seed.
 /// \return The photons in the order of emission, the same for any number of threads.
 /// \throws std::invalid_argument  if the scene has no light or more than 65536, a
 ///         number of the pass is out of range, or the memory would not do.
-template <SceneLike S>
-[[nodiscard]] TracedPhotonsT<typename S::Scalar>
-trace_photons(const S& scene, MapType map, const PhotonPassSettings& pass) {
-    using T = typename S::Scalar;
-    const LightChoice choice = detail::start_pass(pass, scene.lights);
-    const detail::IndexedT<S> indexed(scene);
+template <AnyWorld W>
+[[nodiscard]] TracedPhotonsT<typename W::Scalar>
+trace_photons(const W& world, MapType map, const PhotonPassSettings& pass) {
+    using T = typename W::Scalar;
+    const LightChoice choice = detail::start_pass<T>(pass, world.light_choice());
     const bool caustics = map == MapType::caustics;
-    const auto targets = caustics ? specular_objects(scene) : std::vector<ObjectId>{};
-    if (caustics) detail::check_shares(pass.shares, targets.size());
+    const auto targets = caustics ? specular_objects(world) : std::vector<ObjectId>{};
+    if (caustics) check_shares(pass.shares, targets.size());
     if (caustics && targets.empty()) return {.emitted = pass.photons};
 
     const auto trace = [&](const detail::BlockRange& paths,
                            detail::PhotonBlockT<T>& block) {
-        detail::trace_block(indexed, map, choice, targets, pass, paths, block);
+        detail::trace_block(world, map, choice, targets, pass, paths, block);
     };
     const auto call = [](const void* tracer, const detail::BlockRange& paths,
                          detail::PhotonBlockT<T>& block) {

@@ -82,7 +82,7 @@ inline bool close_rows(FormFactors& factors) {
 
 /// Finds the form factors between all patches: the closed form between flat ones, times
 /// the visible share; else by rays from both, weighted so that their noise is least.
-/// \param scene     The scene that was cut up.
+/// \param world     The scene that was cut up.
 /// \param all       Its patches.
 /// \param settings  How.
 /// \return The form factors, symmetric to the last bit, the same for any number of
@@ -91,13 +91,12 @@ inline bool close_rows(FormFactors& factors) {
 ///         closed.
 /// \cost n^2 numbers of 8 bytes; of time see the chapter.
 /// \report{Section 2.2}
-template <SceneLike S>
+template <AnyWorld W>
 [[nodiscard]] std::optional<FormFactors>
-make_form_factors(const S& scene, const Patches& all,
+make_form_factors(const W& world, const Patches& all,
                   const FormFactorSettings& settings = {}) {
     require_at_least("rays", settings.rays, 1);
     require_at_least("shadow_rays", settings.shadow_rays, 1);
-    const detail::IndexedT<S> indexed(scene);
     const std::size_t n = all.patches.size();
     FormFactors factors{.area = std::vector<double>(n),
                         .exchange = std::vector<double>(n * n)};
@@ -110,14 +109,14 @@ make_form_factors(const S& scene, const Patches& all,
         double* const row = factors.exchange.data() + i * n;
         const auto number = static_cast<std::uint32_t>(i);
         if (!closed_form(i)) {
-            shoot_rays(indexed, all, number, settings.rays, settings.seed, {row, n});
+            shoot_rays(world, all, number, settings.rays, settings.seed, {row, n});
             return;
         }
         for (std::size_t j = i + 1; j < n; ++j) {
             if (!closed_form(j)) continue;
             row[j] = exchange_area(all.patches[i].facet, all.patches[j].facet);
             if (row[j] > 0 && !all.convex)
-                row[j] *= detail::visible_share(indexed, all, number,
+                row[j] *= detail::visible_share(world, all, number,
                                                 static_cast<std::uint32_t>(j),
                                                 settings.shadow_rays, settings.seed);
         }

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "ljus/math/field_hash.hpp"
 #include "ljus/math/random.hpp"
-#include "ljus/path/counts.hpp"
+#include "ljus/path/direct_light.hpp"
 #include "ljus/path/path_log.hpp"
 #include "ljus/radiosity/patches.hpp"
-#include "ljus/scene/index.hpp"
 
 namespace ljus {
 
@@ -19,16 +19,47 @@ namespace ljus {
 /// real-time applications such as games". Chapter: \ref ch_radiosity.
 /// \{
 
+/// What a light map was made of, in two numbers: light_map_key() makes them. A map is
+/// drawn in no other scene, and loaded from a file for no other key.
+struct LightMapKey {
+    std::uint64_t scene = 0;    ///< Of shapes, materials and lights.
+    std::uint64_t settings = 0; ///< Of the settings that change the map.
+    /// Whether both are of the same.
+    friend bool operator==(const LightMapKey&, const LightMapKey&) = default;
+};
+
 /// The light on the surfaces of a scene, whoever looks at it.
 ///
 /// It holds irradiance, not radiosity: what a surface makes of it, the surface knows.
 struct LightMap {
-    std::uint64_t objects = 0;              ///< Of the scene that it was made for.
+    LightMapKey key{};                      ///< What it was made of.
     std::vector<PatchGrid> grids{};         ///< One a side of an object.
     std::vector<RgbT<double>> irradiance{}; ///< Of each patch, W/m^2.
 };
 
 namespace detail {
+
+// All that is part of a scene, which its camera is not.
+template <AnyWorld W>
+[[nodiscard]] std::uint64_t scene_hash(const W& world) {
+    FieldHash hash;
+    const auto lists = [&](const auto&... list) {
+        (hash.template add_name_of<
+             typename std::remove_cvref_t<decltype(list)>::value_type>(),
+         ...);
+        hash.add(list...);
+    };
+    std::apply(lists, world.shapes());
+    std::apply(lists, world.materials());
+    hash.add(world.objects());
+    for (std::uint32_t i = 0; i < world.light_count(); ++i)
+        if (!world.can_be_met(i)) // what can be met is among shapes and objects
+            world.visit_light(i, [&]<typename L>(const L& light) {
+                hash.template add_name_of<L>();
+                hash.add(light);
+            });
+    return hash.value;
+}
 
 /// The vertices of a cell, by their numbers within the grid: four of a quad, three of a
 /// triangle. On a ball the first column has one vertex, the pole, and so has the last.
@@ -80,53 +111,68 @@ struct LightMapSettings {
 };
 
 /// A light map with its scene, ready to be rendered: `render(view, camera, picture)`.
-template <SceneLike S>
-struct LightMapView {
+template <typename W>
+class LightMapView {
+public:
     using Stream = RandomStream; ///< It draws nothing.
-    detail::IndexedT<S> scene;   ///< Which scene; it must outlive the view.
-    LightMap map;                ///< Its light.
-    LightMapSettings look{};     ///< How it is drawn.
-    std::vector<std::vector<std::array<std::uint32_t, 2>>> grid_of; ///< As in Patches.
-    std::vector<std::vector<RgbT<double>>> vertices; ///< vertex_light() of each grid.
-};
 
-/// Makes a light map ready to be rendered.
-/// \param scene  The scene that it was made for; must outlive the view.
-/// \param map    The light map.
-/// \param look   How it is drawn.
-/// \return The view.
-/// \throws std::invalid_argument  if the map does not go with the scene.
-template <SceneLike S>
-[[nodiscard]] LightMapView<S> make_light_map_view(const S& scene, LightMap map,
-                                                  const LightMapSettings& look = {}) {
-    require(map.objects == scene.size(), "the number of objects of the light map",
-            static_cast<long long>(map.objects),
-            std::to_string(scene.size()) + ", as in the scene");
-    LightMapView<S> view{detail::IndexedT<S>(scene), std::move(map), look, {}, {}};
-    for (const auto& list : scene.objects)
-        view.grid_of.emplace_back(list.size(), std::array{no_grid, no_grid});
-    std::size_t next = 0;
-    for (std::uint32_t number = 0; number < view.map.grids.size(); ++number) {
-        const PatchGrid& grid = view.map.grids[number];
-        const bool known = grid.object.type < view.grid_of.size() &&
-                           grid.object.index < view.grid_of[grid.object.type].size();
-        const bool same = known && scene.visit_shape(grid.object, [&](const auto& s) {
-            if constexpr (detail::Cuttable<std::remove_cvref_t<decltype(s)>>)
-                return patch_grid(s, 1.0).kind == grid.kind;
-            else
-                return false;
-        });
-        require(same && grid.first == next &&
-                    view.map.irradiance.size() - next >= grid.size(),
-                "a grid of the light map", static_cast<long long>(number),
-                "one of an object of the scene");
-        view.grid_of[grid.object.type][grid.object.index][grid.back] = number;
-        view.vertices.push_back(vertex_light(
-            grid, std::span(view.map.irradiance).subspan(next, grid.size())));
-        next += grid.size();
+    /// \param of    The world that the map was made for; must outlive the view.
+    /// \param map   The light map.
+    /// \param look  How it is drawn.
+    /// \throws std::invalid_argument  if the map does not go with the world.
+    LightMapView(WorldRef<W> of, LightMap map, const LightMapSettings& look = {})
+        : world_(of), map_(std::move(map)), look_(look) {
+        const W& world = of.get();
+        if (map_.key.scene != detail::scene_hash(world))
+            throw std::invalid_argument(
+                "The light map was made for another scene, with other shapes, "
+                "materials or lights; make it anew.");
+        for (const auto& list : world.objects())
+            grid_of_.emplace_back(list.size(), std::array{no_grid, no_grid});
+        std::size_t next = 0;
+        for (std::uint32_t number = 0; number < map_.grids.size(); ++number) {
+            const PatchGrid& grid = map_.grids[number];
+            const bool known = grid.object.type < grid_of_.size() &&
+                               grid.object.index < grid_of_[grid.object.type].size();
+            const bool same =
+                known && world.visit_shape(grid.object, [&](const auto& s) {
+                    if constexpr (detail::Cuttable<std::remove_cvref_t<decltype(s)>>)
+                        return patch_grid(s, 1.0).kind == grid.kind;
+                    else
+                        return false;
+                });
+            require(same && grid.first == next &&
+                        map_.irradiance.size() - next >= grid.size(),
+                    "a grid of the light map", static_cast<long long>(number),
+                    "one of an object of the scene");
+            grid_of_[grid.object.type][grid.object.index][grid.back] = number;
+            vertices_.push_back(
+                vertex_light(grid, std::span<const RgbT<double>>(map_.irradiance)
+                                       .subspan(next, grid.size())));
+            next += grid.size();
+        }
     }
-    return view;
-}
+    /// Which scene.
+    [[nodiscard]] const W& world() const noexcept { return world_.get(); }
+    /// Its light.
+    [[nodiscard]] const LightMap& map() const noexcept { return map_; }
+    /// How it is drawn.
+    [[nodiscard]] const LightMapSettings& look() const noexcept { return look_; }
+    /// The grid of each side, as in Patches.
+    [[nodiscard]] const auto& grid_of() const noexcept { return grid_of_; }
+    /// vertex_light() of each grid.
+    [[nodiscard]] const auto& vertices() const noexcept { return vertices_; }
+
+private:
+    WorldRef<W> world_;
+    LightMap map_;
+    LightMapSettings look_;
+    std::vector<std::vector<std::array<std::uint32_t, 2>>> grid_of_{};
+    std::vector<std::vector<RgbT<double>>> vertices_{};
+};
+/// Deduces the world.
+template <typename W>
+LightMapView(const W&, LightMap, const LightMapSettings& = {}) -> LightMapView<W>;
 
 /// The irradiance at a place of a grid, blended between its cell's vertices.
 /// \param grid      The grid.
@@ -148,41 +194,44 @@ blended_light(const PatchGrid& grid, const glm::dvec2& at,
 }
 
 /// The radiance that a ray finds: one intersection and one look into the map.
-/// \param view    The scene and its light map.
-/// \param ray     A primary ray.
-/// \param log     Told of each term.
+/// \param view     The scene and its light map.
+/// \param ray      A primary ray.
+/// \param context  Its log is told of each term.
 /// \return Emitted radiance, and albedo / pi of the irradiance, W/(m^2 sr); what is no
 ///         patch is black.
 /// \report{Section 2.2}
 // [radiance]
-template <SceneLike S, std::floating_point T, typename Log = NoLog>
-[[nodiscard]] RgbT<T> radiance(const LightMapView<S>& view, const RayT<T>& ray,
-                               RandomStream& /*stream*/, Counts& /*counts*/,
-                               Log&& log = {}) {
-    log.begin();
-    const auto hit = closest_hit(view.scene, ray);
-    if (!hit) return RgbT<T>(0);
-    const auto& object = view.scene.object(hit->object);
-    const detail::HitSideT<T> side = detail::side_of(view.scene, ray, *hit);
+template <AnyWorld W, std::floating_point T, typename Context>
+[[nodiscard]] RgbT<T> radiance(const LightMapView<W>& view, const RayT<T>& ray,
+                               Context& context) {
+    const W& world = view.world();
+    context.log.begin();
+    const auto hit = closest_hit(world, ray);
+    if (!hit) {
+        const RgbT<T> sky = sky_radiance(world, ray.direction);
+        context.log.term("sky", "L", sky);
+        return sky;
+    }
+    const auto& object = world.object(hit->object);
+    const detail::HitSideT<T> side = detail::side_of(world, ray, *hit);
     RgbT<T> sum = side.back ? RgbT<T>(0) : object.emission;
-    log.term("emission", "L", sum);
+    context.log.term("emission", "L", sum);
     const std::uint32_t number =
-        view.grid_of[hit->object.type][hit->object.index][side.back];
+        view.grid_of()[hit->object.type][hit->object.index][side.back];
     if (number == no_grid) return sum;
 
-    const PatchGrid& grid = view.map.grids[number];
+    const PatchGrid& grid = view.map().grids[number];
     const glm::dvec2 at = detail::place_on(grid.kind, hit->at, side.outer);
     const RgbT<double> irradiance =
-        view.look.smooth ? blended_light(grid, at, view.vertices[number])
-                         : view.map.irradiance[grid.first + cell_of(grid, at)];
-    const auto reflected =
-        view.scene.visit_material(object.material, [&](const auto& m) {
-            if constexpr (Matt<std::remove_cvref_t<decltype(m)>>)
-                return RgbT<T>(diffuse_albedo(m) * std::numbers::inv_pi * irradiance);
-            else
-                return RgbT<T>(0);
-        });
-    log.term("light map", "D..L", reflected);
+        view.look().smooth ? blended_light(grid, at, view.vertices()[number])
+                           : view.map().irradiance[grid.first + cell_of(grid, at)];
+    const auto reflected = world.visit_material(object.material, [&](const auto& m) {
+        if constexpr (Matt<std::remove_cvref_t<decltype(m)>>)
+            return RgbT<T>(diffuse_albedo(m) * std::numbers::inv_pi * irradiance);
+        else
+            return RgbT<T>(0);
+    });
+    context.log.term("light map", "D..L", reflected);
     return sum + reflected;
 }
 // [radiance]

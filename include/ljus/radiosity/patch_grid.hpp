@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <numbers>
 
-#include "ljus/geometry/solid_angle.hpp"
-#include "ljus/scene/query.hpp"
+#include "ljus/radiosity/exchange_area.hpp"
+#include "ljus/scene/world.hpp"
 
 namespace ljus {
 
@@ -145,17 +145,17 @@ struct HitSideT {
 };
 
 /// Finds the side of an object that a ray has hit.
-/// \param scene  The scene.
+/// \param world  The closed scene.
 /// \param ray    The ray.
 /// \param hit    What closest_hit() returned.
-template <SceneLike S, std::floating_point T>
-[[nodiscard]] HitSideT<T> side_of(const S& scene, const RayT<T>& ray,
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] HitSideT<T> side_of(const W& world, const RayT<T>& ray,
                                   const SceneHitT<T>& hit) {
-    const Vec3T<T> outer = scene.visit_shape(hit.object, [&](const auto& shape) {
+    const Vec3T<T> outer = world.visit_shape(hit.object, [&](const auto& shape) {
         return surface_point(shape, ray, hit.at).normal;
     });
     const bool inward = glm::dot(ray.direction, outer) > T(0);
-    return {outer, inward != scene.object(hit.object).inside_out};
+    return {outer, inward != world.object(hit.object).inside_out};
 }
 
 /// The place of a hit on its shape.

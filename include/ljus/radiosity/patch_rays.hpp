@@ -10,7 +10,6 @@
 #include "ljus/math/random.hpp"
 #include "ljus/math/sampling_pattern.hpp"
 #include "ljus/radiosity/patches.hpp"
-#include "ljus/scene/index.hpp"
 
 namespace ljus {
 
@@ -22,16 +21,16 @@ namespace ljus {
 namespace detail {
 
 /// A point of a patch, uniform over its area.
-/// \param scene   The scene.
+/// \param world   The closed scene.
 /// \param all     Its patches.
 /// \param number  Of the patch.
 /// \param u       Point of the unit square.
 /// \return The point; its normal on the patch's side.
-template <SceneLike S, std::floating_point T>
-[[nodiscard]] SurfacePointT<T> sample_patch(const S& scene, const Patches& all,
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] SurfacePointT<T> sample_patch(const W& world, const Patches& all,
                                             std::uint32_t number, const Vec2T<T>& u) {
     const PatchGrid& grid = all.grids[all.patches[number].grid];
-    return scene.visit_shape(grid.object, [&](const auto& shape) {
+    return world.visit_shape(grid.object, [&](const auto& shape) {
         if constexpr (Cuttable<std::remove_cvref_t<decltype(shape)>>)
             return sample_cell(grid, shape, number - grid.first, u);
         else
@@ -40,16 +39,16 @@ template <SceneLike S, std::floating_point T>
 }
 
 /// The patch that a ray has hit.
-/// \param scene  The scene.
+/// \param world  The closed scene.
 /// \param all    Its patches.
 /// \param ray    The ray.
 /// \param hit    What closest_hit() returned.
 /// \return Its number; nothing for a side without patches.
-template <SceneLike S, std::floating_point T>
-[[nodiscard]] std::optional<std::uint32_t> patch_at(const S& scene, const Patches& all,
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] std::optional<std::uint32_t> patch_at(const W& world, const Patches& all,
                                                     const RayT<T>& ray,
                                                     const SceneHitT<T>& hit) {
-    const HitSideT<T> side = side_of(scene, ray, hit);
+    const HitSideT<T> side = side_of(world, ray, hit);
     const std::uint32_t number =
         all.grid_of[hit.object.type][hit.object.index][side.back];
     if (number == no_grid) return std::nullopt;
@@ -64,7 +63,7 @@ template <SceneLike S, std::floating_point T>
 ///
 /// Rays *between* two patches have the weight cos cos / r^2, which has no bound where
 /// the patches touch; these have none.
-/// \param scene   The scene.
+/// \param world   The closed scene.
 /// \param all     Its patches.
 /// \param number  The patch.
 /// \param rays    How many, at least 1.
@@ -72,10 +71,10 @@ template <SceneLike S, std::floating_point T>
 /// \param row     Area / rays is added for each arrival: a row of exchange areas.
 /// \cite malley1988
 // [shoot_rays]
-template <SceneLike S>
-void shoot_rays(const S& scene, const Patches& all, std::uint32_t number, int rays,
+template <AnyWorld W>
+void shoot_rays(const W& world, const Patches& all, std::uint32_t number, int rays,
                 std::uint64_t seed, std::span<double> row) {
-    using T = typename S::Scalar;
+    using T = typename W::Scalar;
     const detail::Strata strata = detail::strata_for(rays);
     const std::uint64_t key = mix_bits(seed) ^ number;
     const double share = all.patches[number].area / rays;
@@ -87,14 +86,14 @@ void shoot_rays(const S& scene, const Patches& all, std::uint32_t number, int ra
             static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(rays), key));
         const Vec2T<T> place =
             detail::stratified(strata, other, ~key, next_2d<T>(stream));
-        const auto point = detail::sample_patch(scene, all, number, place);
+        const auto point = detail::sample_patch(world, all, number, place);
         const Vec2T<T> u = detail::stratified(strata, i, key, next_2d<T>(stream));
         const Vec3T<T> way =
             to_world(frame_around(point.normal), sample_cosine_hemisphere(u));
         const RayT<T> ray = spawn_ray(point, way);
-        const auto hit = closest_hit(scene, ray);
+        const auto hit = closest_hit(world, ray);
         if (!hit) continue;
-        if (const auto there = detail::patch_at(scene, all, ray, *hit))
+        if (const auto there = detail::patch_at(world, all, ray, *hit))
             row[*there] += share;
     }
 }
@@ -104,18 +103,18 @@ namespace detail {
 
 /// Which part of the light between two patches nothing stops: by rays between points of
 /// both, each with the weight that the light on its way has.
-/// \param scene   The scene.
+/// \param world   The closed scene.
 /// \param all     Its patches.
 /// \param one     A flat patch.
 /// \param two     Another one.
 /// \param rays    How many, at least 1.
 /// \param seed    Of the random streams.
 /// \return In [0, 1]: the weights cancel, and the closed form knows them better.
-template <SceneLike S>
-[[nodiscard]] double visible_share(const S& scene, const Patches& all,
+template <AnyWorld W>
+[[nodiscard]] double visible_share(const W& world, const Patches& all,
                                    std::uint32_t one, std::uint32_t two, int rays,
                                    std::uint64_t seed) {
-    using T = typename S::Scalar;
+    using T = typename W::Scalar;
     const detail::Strata strata = detail::strata_for(rays);
     const std::uint64_t pair = (std::uint64_t(one) << 32) + two;
     double total = 0, visible = 0;
@@ -127,8 +126,8 @@ template <SceneLike S>
         const auto other = static_cast<int>(detail::shuffled(
             static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(rays), ~pair));
         const Vec2T<T> v = detail::stratified(strata, other, ~pair, next_2d<T>(stream));
-        const auto a = sample_patch(scene, all, one, u);
-        const auto b = sample_patch(scene, all, two, v);
+        const auto a = detail::sample_patch(world, all, one, u);
+        const auto b = detail::sample_patch(world, all, two, v);
         const Vec3T<T> way = b.position - a.position;
         const double cosines =
             double(glm::dot(way, a.normal)) * -double(glm::dot(way, b.normal));
@@ -136,7 +135,7 @@ template <SceneLike S>
         if (!(glm::dot(way, a.normal) > T(0) && cosines > 0)) continue;
         const double weight = cosines / (distance2 * distance2);
         total += weight;
-        if (!occluded(scene, spawn_ray_to(a, b))) visible += weight;
+        if (!occluded(world, spawn_ray_to(a, b))) visible += weight;
     }
     return total > 0 ? visible / total : 0;
 }

@@ -86,31 +86,31 @@ double reach_along(const S& shape, const glm::dvec3& normal) {
 }
 
 // Calls f(shape, id) for every shape of a scene.
-template <SceneLike S, typename F>
-void each_shape(const S& scene, F f) {
+template <AnyWorld W, typename F>
+void each_shape(const W& world, F f) {
     std::uint32_t type = 0;
     const auto all = [&](const auto& shapes) {
         for (std::uint32_t i = 0; i < shapes.size(); ++i)
             f(shapes[i], ObjectId{type, i});
         ++type;
     };
-    std::apply([&](const auto&... shapes) { (all(shapes), ...); }, scene.shapes);
+    std::apply([&](const auto&... shapes) { (all(shapes), ...); }, world.shapes());
 }
 
 // Whether anything of the scene stands before a side of a shape, for all that its
 // numbers can tell; before the side of a ball that its normal points to, always.
-template <SceneLike S, typename G>
-bool anything_before(const S& scene, const G& shape, bool inward, bool inside_out) {
+template <AnyWorld W, typename G>
+bool anything_before(const W& world, const G& shape, bool inward, bool inside_out) {
     if constexpr (Flat<G>) {
         const Facet side = inward ? turned(facet_of(shape)) : facet_of(shape);
         const glm::dvec3 normal = glm::normalize(area_vector(side));
         const double plane = glm::dot(side.corners[0], normal);
-        const double unit = std::numeric_limits<typename S::Scalar>::epsilon();
-        const double rounding =
-            64 * unit *
-            glm::length(glm::dvec3(glm::abs(scene.low) + glm::abs(scene.high)));
+        const double unit = std::numeric_limits<typename W::Scalar>::epsilon();
+        const double rounding = 64 * unit *
+                                glm::length(glm::dvec3(glm::abs(world.box().low) +
+                                                       glm::abs(world.box().high)));
         bool any = false;
-        each_shape(scene, [&](const auto& other, ObjectId) {
+        each_shape(world, [&](const auto& other, ObjectId) {
             any = any || reach_along(other, normal) > plane + rounding;
         });
         return any;
@@ -176,32 +176,32 @@ inline void say(Patches& all, long long count, const char* one, const char* many
 /// which nothing stands has none, and a ball has them on the side that its normal
 /// points to. What is no patch still stands in the way of light, and sends none back:
 /// `left_out` names it.
-/// \param scene     The scene.
+/// \param world     The closed scene.
 /// \param settings  How small, and how many at most.
 /// \return The patches.
 /// \throws std::invalid_argument  if `size` is not above 0, if there are more patches
 ///         than `most`, or none.
 /// \cost Each pair of objects is looked at once.
 /// \report{Section 2.2}
-template <SceneLike S>
-[[nodiscard]] Patches make_patches(const S& scene, const PatchSettings& settings = {}) {
+template <AnyWorld W>
+[[nodiscard]] Patches make_patches(const W& world, const PatchSettings& settings = {}) {
     require_positive("patch size", settings.size);
     require(settings.most <= 65536, "most", static_cast<long long>(settings.most),
             "at most 65536: their form factors take 34 GB");
     Patches all;
-    all.grid_of.resize(scene.objects.size());
+    all.grid_of.resize(world.objects().size());
     long long unknown = 0, shiny = 0, lamps = 0;
     const auto cut = [&]<typename G>(const G& shape, ObjectId id) {
-        const auto& object = scene.object(id);
+        const auto& object = world.object(id);
         std::array<bool, 2> open{};
         for (const bool back : {false, true})
             open[back] = detail::anything_before(
-                scene, shape, back != object.inside_out, object.inside_out);
+                world, shape, back != object.inside_out, object.inside_out);
         // A wall that sees something on one side only stands between nothing.
         all.convex =
             all.convex && (Flat<G> ? !(open[0] && open[1]) : object.inside_out);
         std::array<std::uint32_t, 2> sides{no_grid, no_grid};
-        scene.visit_material(object.material, [&](const auto& m) {
+        world.visit_material(object.material, [&](const auto& m) {
             if constexpr (!Matt<std::remove_cvref_t<decltype(m)>>)
                 ++shiny;
             else if constexpr (detail::Cuttable<G>)
@@ -213,12 +213,12 @@ template <SceneLike S>
         lamps += !is_black(object.emission);
         all.grid_of[id.type].push_back(sides);
     };
-    detail::each_shape(scene, cut);
+    detail::each_shape(world, cut);
     detail::say(all, shiny, " object does not look equally bright from everywhere",
                 " objects do not look equally bright from everywhere");
     detail::say(all, unknown, " object is of a shape that is not cut into patches",
                 " objects are of a shape that is not cut into patches");
-    detail::say(all, static_cast<long long>(scene.lights.size()) - lamps,
+    detail::say(all, static_cast<long long>(world.light_count()) - lamps,
                 " light is no surface", " lights are no surfaces");
     require(!all.patches.empty(), "the number of patches", 0LL,
             "at least 1: a diffuse quad, triangle or ball that sees another");

@@ -55,39 +55,57 @@ energy_balance(const Patches& patches, const FormFactors& factors,
     return sum;
 }
 
+/// What a light map is made of: the scene, and those settings that change the map.
+/// \param world     The closed scene.
+/// \param settings  Patches, form factors and solver; their progress and threads do not
+///                  count.
+/// \return The key.
+template <AnyWorld W>
+[[nodiscard]] LightMapKey light_map_key(const W& world,
+                                        const RadiositySettings& settings) {
+    detail::FieldHash how;
+    const FormFactorSettings& factors = settings.factors;
+    const SolveSettings& solve = settings.solve;
+    how.add(settings.patches.size, factors.analytic, factors.rays, factors.shadow_rays,
+            factors.closed, factors.seed, solve.solver, solve.tolerance,
+            solve.max_sweeps);
+    return {detail::scene_hash(world), how.value};
+}
+
 /// The light map of a solution.
-/// \param scene      The scene.
+/// \param world      The closed scene.
 /// \param patches    Its patches.
 /// \param factors    Their form factors.
 /// \param radiosity  Of each patch, W/m^2. One that still waits to be sent on is seen
 ///                   already: the map holds what arrives.
-/// \return The light map.
-template <SceneLike S>
-[[nodiscard]] LightMap make_light_map(const S& scene, const Patches& patches,
+/// \return The light map, without the settings in its key.
+template <AnyWorld W>
+[[nodiscard]] LightMap make_light_map(const W& world, const Patches& patches,
                                       const FormFactors& factors,
                                       const std::vector<RgbT<double>>& radiosity) {
-    return {.objects = scene.size(),
+    return {.key{.scene = detail::scene_hash(world)},
             .grids = patches.grids,
             .irradiance = detail::multiply(factors, radiosity)};
 }
 
 /// Radiosity of a scene, from the patches to the light map.
-/// \param scene     Matt quads, triangles and balls, and what stands in their light.
+/// \param world     Matt quads, triangles and balls, and what stands in their light.
 /// \param settings  How.
 /// \return The light map and all that led to it; nothing if the progress callback of
 ///         the form factors stopped it. See Patches::left_out.
 /// \throws std::invalid_argument  as make_patches(), make_form_factors() and
 ///         solve_radiosity().
 /// \report{Section 2.2}
-template <SceneLike S>
+template <AnyWorld W>
 [[nodiscard]] std::optional<Radiosity>
-make_radiosity(const S& scene, const RadiositySettings& settings = {}) {
-    Radiosity all{.patches = make_patches(scene, settings.patches)};
-    auto factors = make_form_factors(scene, all.patches, settings.factors);
+make_radiosity(const W& world, const RadiositySettings& settings = {}) {
+    Radiosity all{.patches = make_patches(world, settings.patches)};
+    auto factors = make_form_factors(world, all.patches, settings.factors);
     if (!factors) return std::nullopt;
     all.factors = std::move(*factors);
     all.solution = solve_radiosity(all.factors, all.patches.patches, settings.solve);
-    all.map = make_light_map(scene, all.patches, all.factors, all.solution.radiosity);
+    all.map = make_light_map(world, all.patches, all.factors, all.solution.radiosity);
+    all.map.key = light_map_key(world, settings);
     return all;
 }
 

@@ -4,10 +4,11 @@
 /// \brief Rays where they are needed: pictures that know their own error.
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <span>
 #include <vector>
 
-#include "ljus/render/detail/adaptive_blocks.hpp"
 #include "ljus/render/render.hpp"
 
 namespace ljus {
@@ -27,6 +28,41 @@ namespace ljus {
 ///     render_adaptive(mapper, camera, {.samples = 1000}, {.target = 0.01});
 /// \{
 
+/// Which pixels get how many rays. Why `two_stage`: \cite kirk1991.
+struct AdaptiveSettings {
+    int first = 16;     ///< Rays in every pixel, at least 2.
+    int more = 16;      ///< Rays in a batch, at least 1.
+    int batches = 1000; ///< Batches that a pixel may get, at most; at least 0.
+    int block = 1;      ///< Side of the squares of pixels that are judged together.
+    double target = 0;  ///< The relMSE at which it stops; 0: none.
+    double disagreement = 0; ///< Above 0: a batch for all whose mean has a relative
+                             ///< standard error above this, and for no others.
+    double epsilon = 0.01;   ///< Radiance squared that counts as dark, as in rel_mse().
+    bool two_stage = false;  ///< The first rays only decide, and are then forgotten: no
+                             ///< bias. Not with `disagreement`.
+};
+
+/// Refuses a rule that gives no picture.
+/// \param rule     The rule.
+/// \param samples  The most rays per pixel, in the mean.
+/// \throws std::invalid_argument  with name and value.
+inline void check(const AdaptiveSettings& rule, int samples) {
+    require_at_least("first", rule.first, 2);
+    require_at_least("more", rule.more, rule.two_stage ? 2 : 1);
+    require_at_least("batches", rule.batches, rule.two_stage ? 1 : 0);
+    require_at_least("block", rule.block, 1);
+    require(rule.target >= 0, "target", rule.target, "at least 0");
+    require(rule.disagreement >= 0, "disagreement", rule.disagreement, "at least 0");
+    require(std::isfinite(rule.epsilon) && rule.epsilon > 0, "epsilon", rule.epsilon,
+            "finite and above 0");
+    require(!(rule.two_stage && rule.disagreement > 0), "disagreement",
+            rule.disagreement, "0 with two_stage");
+    const long long least = rule.first + (rule.two_stage ? rule.more : 0LL);
+    require(samples >= least, "samples", static_cast<long long>(samples),
+            rule.two_stage ? "at least first + more"
+                           : "at least as many as first rays");
+}
+
 /// What an adaptive rendering brings.
 template <std::floating_point T>
 struct AdaptiveT {
@@ -40,32 +76,202 @@ struct AdaptiveT {
 
 namespace detail {
 
+/// A square of pixels; all of them have the same number of rays.
+struct AdaptiveBlock {
+    int x = 0, y = 0;          ///< Its upper left pixel.
+    int right = 0, bottom = 0; ///< One past its last column and row.
+    int rays = 0;              ///< Per pixel, less those that were forgotten.
+    int batches = 0;           ///< Batches it has had; the first rays count as one.
+    int wanted = 1;            ///< Batches it is to get in this round.
+    double variance = 0;       ///< See relative_variance().
+
+    /// How many pixels it has.
+    [[nodiscard]] constexpr double pixels() const noexcept {
+        return double(right - x) * (bottom - y);
+    }
+};
+
+/// The squares of a picture, from the top left.
+[[nodiscard]] inline std::vector<AdaptiveBlock>
+adaptive_blocks(const RenderSettings& picture, int size) {
+    std::vector<AdaptiveBlock> blocks;
+    for (int y = 0; y < picture.height; y += size)
+        for (int x = 0; x < picture.width; x += size)
+            blocks.push_back({.x = x,
+                              .y = y,
+                              .right = std::min(x + size, picture.width),
+                              .bottom = std::min(y + size, picture.height)});
+    return blocks;
+}
+
+/// Where a pixel's sums stand, of a picture of this width.
+[[nodiscard]] constexpr std::size_t pixel_index(int width, int x, int y) noexcept {
+    return std::size_t(y) * std::size_t(width) + std::size_t(x);
+}
+
+/// How many rays a pixel gets in a batch.
+/// \param rule   The rule.
+/// \param batch  0: the first rays.
+[[nodiscard]] constexpr int rays_in_batch(const AdaptiveSettings& rule,
+                                          int batch) noexcept {
+    return batch == 0 ? rule.first : rule.more;
+}
+
+/// How many rays a block is to have in this round.
+[[nodiscard]] constexpr double rays_wanted(const AdaptiveBlock& block,
+                                           const AdaptiveSettings& rule) noexcept {
+    return block.pixels() * block.wanted * rays_in_batch(rule, block.batches);
+}
+
+/// How much the rays of a block differ, by what they have found.
+///
+/// The variance is relative to the mean of the block, which is known better than that
+/// of a pixel. The rays of a pixel are taken for independent; because they are
+/// stratified, the true variance of their mean is a little smaller.
+/// \param block    At least 2 rays per pixel.
+/// \param sums     Of all pixels.
+/// \param width    Of the picture.
+/// \param epsilon  What counts as dark.
+/// \return The variance of a ray over mean^2 + epsilon; mean over channels and pixels.
+[[nodiscard]] inline double relative_variance(const AdaptiveBlock& block,
+                                              const std::vector<PixelSums>& sums,
+                                              int width, double epsilon) {
+    const double n = block.rays, count = block.pixels();
+    RgbT<double> mean{0}, variance{0};
+    for (int y = block.y; y < block.bottom; ++y)
+        for (int x = block.x; x < block.right; ++x) {
+            const PixelSums& found = sums[pixel_index(width, x, y)];
+            mean += found.sum / (n * count);
+            variance += (found.squares - found.sum * found.sum / n) / ((n - 1) * count);
+        }
+    const RgbT<double> relative = variance / (mean * mean + epsilon);
+    return std::fmax((relative.x + relative.y + relative.z) / 3, 0.0); // not NaN
+}
+
+/// A part of a picture, as the sharing sees it.
+struct RayShare {
+    double pixels = 1;   ///< How many it has.
+    double variance = 0; ///< Relative variance of one ray, mean over its pixels.
+    double rays = 1;     ///< Rays that each of its pixels has.
+};
+
+/// The number of rays per pixel that each part should have, so that the mean of
+/// variance / rays over all pixels falls to a target with the fewest rays, or is the
+/// least that a number of rays can buy.
+///
+/// With n rays per pixel in each part, sum w v / n is to be least for a given sum w n.
+/// Lagrange: v / n^2 is the same everywhere, so that n is in proportion to the root of
+/// the variance \cite neyman1934. A part that has more rays already keeps them,
+/// and the rest is shared out among the others.
+/// \param parts   All parts.
+/// \param target  The mean of variance / rays that is wanted; 0: as small as can be.
+/// \param limit   The most rays per pixel, in the mean.
+/// \return Rays a pixel for each part, not below those that it has.
+[[nodiscard]] inline std::vector<double> ray_shares(const std::vector<RayShare>& parts,
+                                                    double target, double limit) {
+    std::vector<double> wanted(parts.size());
+    std::vector<bool> settled(parts.size(), false);
+    for (bool again = true; again;) {
+        double roots = 0, error = 0, rays = 0, pixels = 0;
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            const RayShare& part = parts[i];
+            pixels += part.pixels;
+            if (!settled[i]) roots += part.pixels * std::sqrt(part.variance);
+            if (!settled[i]) continue;
+            error += part.pixels * part.variance / part.rays;
+            rays += part.pixels * part.rays;
+        }
+        // [scale]
+        // n = scale * sqrt(v): what the target asks for, if the limit allows it.
+        const double spare = std::fmax(limit * pixels - rays, 0.0);
+        const double allowed = target * pixels - error;
+        double scale = roots > 0 ? spare / roots : 0.0;
+        if (target > 0 && allowed > 0) scale = std::fmin(scale, roots / allowed);
+        again = false;
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            if (settled[i]) continue;
+            wanted[i] = scale * std::sqrt(parts[i].variance);
+            if (wanted[i] > parts[i].rays) continue;
+            wanted[i] = parts[i].rays;
+            settled[i] = again = true;
+        }
+        // [scale]
+    }
+    return wanted;
+}
+
+/// How many batches each block gets in the next round.
+/// \param blocks  Their `wanted` is set.
+/// \param rule    The rule.
+/// \param limit   The most rays per pixel in the mean, less those that were forgotten.
+/// \return Whether any block gets a batch.
+inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSettings& rule,
+                       double limit) {
+    std::vector<RayShare> parts;
+    double spare = 0; // rays
+    for (const AdaptiveBlock& block : blocks) {
+        // After the first stage all start anew, with a batch each.
+        const double have = rule.two_stage ? rule.more : block.rays;
+        parts.push_back({block.pixels(), block.variance, have});
+        spare += block.pixels() * (limit - have);
+    }
+    std::vector<double> shares(parts.size());
+    if (rule.disagreement == 0) shares = ray_shares(parts, rule.target, limit);
+
+    std::vector<std::size_t> order(parts.size()); // those with the largest errors first
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return parts[a].variance / parts[a].rays > parts[b].variance / parts[b].rays;
+    });
+    const int begun = rule.two_stage ? 1 : 0; // the batch that each has
+    const int most_batches = 1 + rule.batches - begun;
+    bool any = false;
+    for (const std::size_t i : order) {
+        double batches = 0;
+        if (rule.disagreement > 0) {
+            batches = std::sqrt(parts[i].variance / parts[i].rays) > rule.disagreement;
+        } else {
+            // At most twice as many: an estimate by few rays is not believed for long.
+            const double most = rule.two_stage ? shares[i] : 2 * parts[i].rays;
+            const double lacking = std::min(shares[i], most) - parts[i].rays;
+            batches = std::ceil(lacking / rule.more - 1e-6);
+        }
+        const double cost = rule.more * parts[i].pixels;
+        batches = std::min({batches, double(most_batches - blocks[i].batches),
+                            std::floor(spare / cost * (1 + 1e-9))});
+        blocks[i].wanted = static_cast<int>(std::max(batches, 0.0));
+        spare -= cost * blocks[i].wanted;
+        blocks[i].wanted += begun;
+        any = any || blocks[i].wanted > 0;
+    }
+    return any;
+}
+
 /// Sends the batches through a block that it is to have in this round.
 /// \param samples   Takes what they find; the pixels' places are those in the picture.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
-/// \param camera    A CameraT, or anything with a camera_ray().
+/// \param camera    Any camera.
 /// \param picture   Size, seed, pattern.
 /// \param rule      Rays in a batch.
 /// \param block     The block; its batches and rays are counted.
 /// \param cost      Counts the rays.
-template <typename R, template <std::floating_point> typename AnyCamera,
-          std::floating_point T>
-void trace_block(SampleSums<R, T>& samples, const R& renderer,
-                 const AnyCamera<T>& camera, const RenderSettings& picture,
-                 const AdaptiveSettings& rule, AdaptiveBlock& block, Counts& cost) {
+template <typename R, CameraLike C, std::floating_point T>
+void trace_block(SampleSums<R, T>& samples, const R& renderer, const C& camera,
+                 const RenderSettings& picture, const AdaptiveSettings& rule,
+                 AdaptiveBlock& block, Counts& cost) {
     for (; block.wanted > 0; --block.wanted) {
         const int batch = block.batches++;
         RenderSettings part = picture; // a whole pattern of its own
         part.samples = rays_in_batch(rule, batch);
         if (batch > 0)
             part.seed = mix_bits(picture.seed + mix_bits(std::uint64_t(batch)));
-        const Pattern pattern = make_pattern(part.sampling, part.samples);
+        const PictureRays rays(part);
         for (int y = block.y; y < block.bottom; ++y)
             for (int x = block.x; x < block.right; ++x)
                 for (int i = 0; i < part.samples; ++i)
-                    samples.add(place_of(picture.width, x, y), [&](auto& log) {
-                        return trace_pixel(renderer, camera, part, pattern, x, y, i,
-                                           cost, log);
+                    samples.add(pixel_index(picture.width, x, y), [&](auto& later) {
+                        return trace_pixel(renderer, camera, rays, {x, y, i}, cost,
+                                           no_log, later);
                     });
         block.rays += part.samples;
     }
@@ -75,20 +281,19 @@ void trace_block(SampleSums<R, T>& samples, const R& renderer,
 ///
 /// What the samples of all these blocks ask later is asked together.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
-/// \param camera    A CameraT, or anything with a camera_ray().
+/// \param camera    Any camera.
 /// \param picture   Size, seed, pattern.
 /// \param rule      Rays in a batch; what counts as dark.
 /// \param blocks    The blocks; their batches, rays and variances are updated.
 /// \param sums      Of all pixels of the picture.
 /// \return What it cost.
-template <typename R, template <std::floating_point> typename AnyCamera,
-          std::floating_point T>
+template <typename R, CameraLike C>
 [[nodiscard]] Counts
-trace_blocks(const R& renderer, const AnyCamera<T>& camera,
-             const RenderSettings& picture, const AdaptiveSettings& rule,
-             std::span<AdaptiveBlock* const> blocks, std::vector<PixelSums>& sums) {
+trace_blocks(const R& renderer, const C& camera, const RenderSettings& picture,
+             const AdaptiveSettings& rule, std::span<AdaptiveBlock* const> blocks,
+             std::vector<PixelSums>& sums) {
     Counts cost; // of its own: two threads do not share a cache line
-    SampleSums<R, T> samples(renderer, sums, cost);
+    SampleSums<R, typename C::Scalar> samples(renderer, sums, cost);
     for (AdaptiveBlock* const block : blocks)
         trace_block(samples, renderer, camera, picture, rule, *block, cost);
     samples.finish();
@@ -119,7 +324,7 @@ void set_pixels(AdaptiveT<T>& result, const std::vector<AdaptiveBlock>& blocks,
     for (const AdaptiveBlock& block : blocks)
         for (int y = block.y; y < block.bottom; ++y)
             for (int x = block.x; x < block.right; ++x) {
-                const auto i = place_of(result.image.width, x, y);
+                const auto i = pixel_index(result.image.width, x, y);
                 result.image.pixels[i] =
                     RgbT<T>(sums[i].sum / double(std::max(block.rays, 1)));
                 result.rays.pixels[i] = RgbT<T>(T(block.rays + forgotten));
@@ -135,7 +340,7 @@ void set_pixels(AdaptiveT<T>& result, const std::vector<AdaptiveBlock>& blocks,
 /// believed to be dark, and stays so: the picture's mean is too dark. Larger blocks and
 /// more first rays make that small; `two_stage` makes it 0.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
-/// \param camera    A CameraT, or anything with a camera_ray().
+/// \param camera    Any camera.
 /// \param picture   Size, seed, threads; `samples` is the limit for the mean.
 /// \param rule      Which pixels get how many.
 /// \return The picture and its estimate, the same for any number of threads. A sample
@@ -144,14 +349,13 @@ void set_pixels(AdaptiveT<T>& result, const std::vector<AdaptiveBlock>& blocks,
 ///         there are fewer samples than first rays.
 /// \cost The rays, and 48 bytes per pixel.
 /// \report{Sections 4.3 and 5}
-template <typename R, template <std::floating_point> typename AnyCamera,
-          std::floating_point T>
-requires Renderer<R, T>
-[[nodiscard]] AdaptiveT<T> render_adaptive(const R& renderer,
-                                           const AnyCamera<T>& camera,
-                                           const RenderSettings& picture,
-                                           const AdaptiveSettings& rule = {}) {
-    detail::check(rule, picture.samples);
+template <typename R, CameraLike C>
+requires Renderer<R, typename C::Scalar>
+[[nodiscard]] AdaptiveT<typename C::Scalar>
+render_adaptive(const R& renderer, const C& camera, const RenderSettings& picture,
+                const AdaptiveSettings& rule = {}) {
+    using T = typename C::Scalar;
+    check(rule, picture.samples);
     AdaptiveT<T> result{.image = make_image<T>(picture.width, picture.height),
                         .rays = make_image<T>(picture.width, picture.height)};
     std::vector<detail::PixelSums> sums(result.image.pixels.size());

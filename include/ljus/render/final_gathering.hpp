@@ -62,22 +62,23 @@ struct GatherRayT {
 /// Follows a gather ray: through mirrors and glass to a diffuse surface, where it looks
 /// up the irradiance. A lamp that it meets adds nothing: shadow rays and the caustics
 /// map have counted that light.
-/// \param scene      The scene.
+/// \param world      The closed scene.
 /// \param points     Where the irradiance is known.
 /// \param path       The ray, as it leaves a diffuse surface.
 /// \param max_depth  The most surfaces on a path.
-/// \param stream     The numbers of the ray.
-/// \param counts     Counts rays and lookups.
+/// \param context    The numbers of the ray; counts rays and lookups.
 /// \return Radiance and distance.
-template <SceneLike S, std::floating_point T, typename Stream>
+template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] GatherRayT<T>
-gather_ray(const S& scene, const IrradiancePointsT<T>& points, PathStateT<T> path,
-           int max_depth, Stream& stream, Counts& counts) {
+gather_ray(const W& world, const IrradiancePointsT<T>& points, PathStateT<T> path,
+           int max_depth, Context& context) {
+    auto& stream = context.stream;
+    Counts& counts = context.counts;
     // [gather_ray]
     GatherRayT<T> found;
     for (bool first = true; path.depth < max_depth; first = false) {
         ++counts.bounce_rays;
-        const auto vertex = next_vertex(scene, path, stream);
+        const auto vertex = next_vertex(world, path, stream);
         if (!vertex) break;
         if (first) found.distance = vertex->distance;
         const auto at_material = [&](const auto& material) {
@@ -94,7 +95,7 @@ gather_ray(const S& scene, const IrradiancePointsT<T>& points, PathStateT<T> pat
                    continue_path(path, *vertex, material, Transport::radiance,
                                  Lobes::specular, stream);
         };
-        if (!visit_material_at(scene, *vertex, at_material)) break;
+        if (!visit_material_at(world, *vertex, at_material)) break;
         if (!survives(path.throughput, path.eta_scale, next_1d<T>(stream))) break;
     }
     return found;
@@ -112,27 +113,26 @@ struct GatheredT {
 };
 
 /// Gathers the indirect irradiance at a vertex, by rays spread evenly over the cosine.
-/// \param scene     The scene.
+/// \param world     The closed scene.
 /// \param points    What the rays look up.
 /// \param vertex    Where; the side is that of `wo`.
 /// \param settings  How many rays.
-/// \param stream    The numbers of this vertex.
-/// \param counts    Counts the rays.
+/// \param context   The numbers of this vertex; counts the rays.
 /// \return Irradiance, normal and harmonic mean distance.
-template <SceneLike S, std::floating_point T, typename Stream>
+template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] GatheredT<T>
-gather_irradiance(const S& scene, const IrradiancePointsT<T>& points,
+gather_irradiance(const W& world, const IrradiancePointsT<T>& points,
                   const VertexT<T>& vertex, const GatherSettings& settings,
-                  Stream& stream, Counts& counts) {
+                  Context& context) {
     // [gather_irradiance]
     GatheredT<T> gathered{.normal = detail::seen_normal(vertex)};
     const T side = std::copysign(T(1), vertex.wo.z);
     const detail::Strata strata = detail::strata_for(settings.rays);
-    const std::uint64_t key = stream.key;
+    const std::uint64_t key = context.stream.key;
     T inverse = T(0);
     for (int i = 0; i < settings.rays; ++i) {
         const Vec3T<T> up = sample_cosine_hemisphere(
-            detail::stratified(strata, i, key, next_2d<T>(stream)));
+            detail::stratified(strata, i, key, next_2d<T>(context.stream)));
         const Vec3T<T> wi = to_world(vertex.frame, Vec3T<T>{up.x, up.y, side * up.z});
         const PathStateT<T> path{.ray = spawn_ray(vertex.point, wi, vertex.time),
                                  .medium = vertex.medium,
@@ -140,9 +140,9 @@ gather_irradiance(const S& scene, const IrradiancePointsT<T>& points,
                                  .met_diffuse = true,
                                  .depth = 1,
                                  .branch = std::uint64_t(i + 1) << 20};
-        auto numbers = stream; // next_vertex() moves them to the ray's own place
-        const auto found =
-            gather_ray(scene, points, path, settings.max_depth, numbers, counts);
+        auto numbers = context.stream; // next_vertex() moves them to the ray's own
+        auto own = context_of(numbers, context.counts);
+        const auto found = gather_ray(world, points, path, settings.max_depth, own);
         gathered.irradiance += found.radiance;
         inverse += T(1) / found.distance;
     }

@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "ljus/render/detail/gather_along.hpp"
+#include "ljus/render/final_gathering.hpp"
 #include "ljus/render/render.hpp"
 
 namespace ljus {
@@ -48,8 +48,8 @@ template <std::floating_point T>
 /// \param cache     The points.
 /// \param position  Where the irradiance is asked for.
 /// \param normal    Unit, on the side that is asked about.
-/// \param reach     A point counts no farther away than so many times the harmonic mean
-///                  distance of what it sees.
+/// \param reach     A point counts no farther away than this many times the harmonic
+///                  mean distance of what it sees.
 /// \return W/m^2; nothing if no point is near enough.
 // [interpolate]
 template <std::floating_point T>
@@ -79,28 +79,77 @@ template <std::floating_point T>
 
 /// The indirect irradiance at a vertex, by the points of a cache; where none of them is
 /// near enough, it is gathered here and now.
-/// \param scene     The scene.
+/// \param world     The closed scene.
 /// \param points    What gather rays look up.
 /// \param cache     May be empty.
 /// \param vertex    The surface; the side is that of `wo`.
 /// \param settings  How.
-/// \param stream    The numbers of the path.
-/// \param counts    Counts the query, and the rays if there are any.
+/// \param context   The numbers of the path; counts the query, and the rays if there
+///                  are any.
 /// \return W/m^2.
-template <SceneLike S, std::floating_point T, typename Stream>
+template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T>
-irradiance_between(const S& scene, const IrradiancePointsT<T>& points,
+irradiance_between(const W& world, const IrradiancePointsT<T>& points,
                    const IrradianceCacheT<T>& cache, const VertexT<T>& vertex,
-                   const GatherSettings& settings, Stream& stream, Counts& counts) {
-    ++counts.map_queries;
+                   const GatherSettings& settings, Context& context) {
+    ++context.counts.map_queries;
     const auto known = interpolate(cache, vertex.point.position,
                                    detail::seen_normal(vertex), T(settings.reach));
     if (known) return *known;
-    return gather_irradiance(scene, points, vertex, settings, stream, counts)
-        .irradiance;
+    return gather_irradiance(world, points, vertex, settings, context).irradiance;
 }
 
 namespace detail {
+
+/// What the points behind one row of tiles have gathered.
+template <std::floating_point T>
+struct GatheredRowT {
+    std::vector<Vec3T<T>> positions;   ///< Where, in the world.
+    std::vector<GatheredT<T>> records; ///< What was gathered there, in the same order.
+    Counts counts{};                   ///< What it cost.
+};
+
+/// Gathers at the first diffuse surfaces of a camera ray, the points of an irradiance
+/// cache \cite ward1988 ; behind mirrors, and both ways at glass.
+/// \param world     The closed scene.
+/// \param points    What gather rays look up.
+/// \param ray       A primary ray.
+/// \param settings  How.
+/// \param stream    Its numbers.
+/// \param row       Takes what is gathered.
+template <AnyWorld W, std::floating_point T>
+void gather_along(const W& world, const IrradiancePointsT<T>& points,
+                  const RayT<T>& ray, const GatherSettings& settings,
+                  RandomStream& stream, GatheredRowT<T>& row) {
+    constexpr std::size_t most = 8; // ways through glass, as many as are rendered
+    constexpr T faint = T(0.01); // a fainter place is gathered if it is ever asked for
+    auto context = context_of(stream, row.counts);
+    std::vector<PathStateT<T>> ways{camera_path(world, ray, stream)};
+    for (std::size_t way = 0; way < ways.size(); ++way) {
+        PathStateT<T> path = ways[way];
+        while (path.depth < settings.max_depth) {
+            const auto vertex = next_vertex(world, path, stream);
+            if (!vertex || max_component(path.throughput) < faint) break;
+            const auto at_material = [&](const auto& material) {
+                const Lobes parts = lobes(material);
+                if (has(parts, Lobes::diffuse)) {
+                    row.positions.push_back(vertex->point.position);
+                    row.records.push_back(
+                        gather_irradiance(world, points, *vertex, settings, context));
+                }
+                if (ways.size() < most)
+                    if (const auto other = split_path(path, *vertex, material)) {
+                        ways.push_back(*other);
+                        return true;
+                    }
+                return has(parts, Lobes::specular) &&
+                       continue_path(path, *vertex, material, Transport::radiance,
+                                     Lobes::specular, stream);
+            };
+            if (!visit_material_at(world, *vertex, at_material)) break;
+        }
+    }
+}
 
 /// Sets the `spacing` of each point of a cache: how far the farthest of its nearest
 /// points of a like normal lies.
@@ -128,20 +177,18 @@ void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
 } // namespace detail
 
 /// Gathers irradiance for a picture: behind one place of each tile of pixels.
-/// \param scene     The scene.
+/// \param world     The closed scene.
 /// \param points    What gather rays look up.
-/// \param camera    A CameraT, or anything with a camera_ray().
+/// \param camera    Any camera.
 /// \param picture   Size, seed, threads, progress.
 /// \param settings  How.
 /// \return The cache, the same for any number of threads.
 /// \cost settings.rays gather rays per tile, and some microseconds more.
-template <SceneLike S, std::floating_point T,
-          template <std::floating_point> typename AnyCamera>
+template <AnyWorld W, std::floating_point T, CameraLike C>
 [[nodiscard]] IrradianceCacheT<T>
-make_irradiance_cache(const S& scene, const IrradiancePointsT<T>& points,
-                      const AnyCamera<T>& camera, const RenderSettings& picture,
+make_irradiance_cache(const W& world, const IrradiancePointsT<T>& points,
+                      const C& camera, const RenderSettings& picture,
                       const GatherSettings& settings) {
-    const detail::IndexedT<S> indexed(scene);
     // [make_irradiance_cache]
     const int tile = settings.tile;
     const int columns = (picture.width + tile - 1) / tile;
@@ -155,7 +202,7 @@ make_irradiance_cache(const S& scene, const IrradiancePointsT<T>& points,
                 T(tile) * (Vec2T<T>{T(x), T(y)} + next_2d<T>(stream));
             const RayT<T> ray =
                 camera_ray(camera, place, picture.width, picture.height, stream);
-            detail::gather_along(indexed, points, ray, settings, stream,
+            detail::gather_along(world, points, ray, settings, stream,
                                  rows[static_cast<std::size_t>(y)]);
         }
     };

@@ -1,15 +1,19 @@
 #pragma once
 
 /// \file ljus/render/photon_mapping.hpp
-/// \brief The report's renderer: rays from the camera, and two photon maps.
+/// \brief The report's renderer: two photon maps, and rays from the camera.
+
+#include <string>
+#include <tuple>
+#include <utility>
 
 #include "ljus/path/all_lights.hpp"
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/path_log.hpp"
-#include "ljus/path/renderer.hpp"
-#include "ljus/render/detail/later_caustics.hpp"
-#include "ljus/render/photon_maps.hpp"
-#include "ljus/scene/index.hpp"
+#include "ljus/photons/tracing.hpp"
+#include "ljus/render/detail/caustics_batch.hpp"
+#include "ljus/render/passes.hpp"
+#include "ljus/render/render.hpp"
 
 namespace ljus {
 
@@ -26,113 +30,347 @@ namespace ljus {
 /// | E ... D ... D.. | indirect rays, or the general map where the first one ends  |
 /// \{
 
-/// A scene with its photon maps. It refers to both, which must outlive it.
-/// \tparam Draws  What its numbers are drawn from: RandomStream, or StratifiedStream:
-///                the rays of a pixel share out lamps and directions.
-template <SceneLike S, typename Draws = RandomStream>
-struct PhotonMapper {
-    using Stream = Draws; ///< What render() gives it to draw from.
-    /// The caustics map answers many samples of a picture together.
-    using Later = detail::LaterCaustics<typename S::Scalar>;
-    detail::IndexedT<S> scene;                   ///< What is rendered.
-    const PhotonMapsT<typename S::Scalar>& maps; ///< Of the first pass.
-    PhotonMappingSettings settings;              ///< Depths, radii, passes.
-    Lobes bounces; ///< By which lobes a path goes on until its light is gathered.
+/// \name What a photon mapper may be able to do besides
+/// Each is a header of its own, is listed by abilities<...>, and costs nothing where it
+/// is not.
+/// \{
+struct Gathering; ///< IndirectLight::gather and cache: ljus/render/gathering.hpp.
+struct Skipping;  ///< SkipSettings: ljus/render/skipping.hpp.
+struct Budgeting; ///< CausticBudget: ljus/render/budgeting.hpp.
+/// \}
+
+/// What a renderer is made with: abilities, and the stream that it draws from.
+template <typename... X>
+struct Abilities {};
+/// `PhotonMapper(world, settings, abilities<Gathering, StratifiedStream>)`.
+template <typename... X>
+inline constexpr Abilities<X...> abilities{};
+
+/// What the photons left on surfaces (the report, Section 3.2.2).
+template <std::floating_point T>
+struct PhotonMapsT {
+    PhotonMapT<T> caustics; ///< L S+ D; empty if the scene has no mirror and no glass.
+    PhotonMapT<T> general; ///< L D, L ... D ... D, and shadows; empty unless asked for.
+    FluxAudit caustics_audit{}; ///< Where the flux of the caustics pass went.
+    FluxAudit general_audit{};  ///< Where the flux of the general pass went.
+    bool complete = true;       ///< False if the progress callback stopped the pass.
+    std::string remarks{};      ///< Those of the survey, and why a pass gave up: lines.
 };
 
-/// Makes a photon mapper.
-/// \tparam Draws    RandomStream or StratifiedStream.
-/// \param scene     Must outlive the mapper; a scene, which it indexes, or an
-///                  IndexedScene.
-/// \param maps      Of make_photon_maps(); must outlive the mapper.
-/// \param settings  Depths, radii, who carries indirect light.
-/// \return The mapper.
-/// \throws std::invalid_argument  if a setting is out of range.
-template <typename Draws = RandomStream, SceneLike S>
-[[nodiscard]] PhotonMapper<S, Draws>
-make_photon_mapper(const S& scene, const PhotonMapsT<typename S::Scalar>& maps,
-                   const PhotonMappingSettings& settings = {}) {
-    check(settings);
-    PhotonMappingSettings resolved = settings;
-    if (settings.caustics_estimate.radius == 0)
-        resolved.caustics_estimate.radius = float(typical_radius(maps.caustics, 32));
-    if (settings.general_estimate.radius == 0)
-        resolved.general_estimate.radius = float(typical_radius(maps.general, 64));
-    const bool rays = detail::choose_passes(needs(scene), settings).indirect_rays;
-    const bool gloss = settings.indirect == IndirectLight::cache;
-    return {detail::IndexedT<S>(scene), maps, resolved,
-            rays    ? Lobes::all
-            : gloss ? Lobes::glossy | Lobes::specular
-                    : Lobes::specular};
-}
-/// Not of a temporary: the scene would be gone before it is rendered.
-template <typename Draws = RandomStream, SceneLike S>
-PhotonMapper<S, Draws> make_photon_mapper(const S&& scene,
-                                          const PhotonMapsT<typename S::Scalar>& maps,
-                                          const PhotonMappingSettings& = {}) = delete;
-/// Nor of temporary maps.
-template <typename Draws = RandomStream, SceneLike S>
-PhotonMapper<S, Draws> make_photon_mapper(const S& scene,
-                                          const PhotonMapsT<typename S::Scalar>&& maps,
-                                          const PhotonMappingSettings& = {}) = delete;
+namespace detail {
 
-/// The light that a diffuse surface sends back along a camera path, but for what comes
+/// What an ability keeps for a precision; a stream keeps nothing.
+template <typename X, std::floating_point T>
+struct StateOf {
+    using Type = typename X::template State<T>; ///< Its state.
+};
+/// A stream.
+template <StreamLike X, std::floating_point T>
+struct StateOf<X, T> {
+    using Type = Abilities<X>; ///< Nothing.
+};
+
+/// The stream among some abilities; without one a RandomStream.
+template <typename... X>
+struct StreamAmong {
+    using Type = RandomStream; ///< The default.
+};
+/// The first is an ability.
+template <typename First, typename... X>
+struct StreamAmong<First, X...> : StreamAmong<X...> {};
+/// The first is a stream.
+template <StreamLike First, typename... X>
+struct StreamAmong<First, X...> {
+    using Type = First; ///< The one that is listed.
+};
+
+/// The photons of a pass that a map keeps.
+/// \param settings  What the user asks for.
+[[nodiscard]] inline PhotonKinds kept_kinds(const PhotonMappingSettings& settings) {
+    const bool only_indirect = settings.indirect == IndirectLight::photons ||
+                               settings.indirect == IndirectLight::gather ||
+                               settings.indirect == IndirectLight::cache;
+    if (only_indirect && !settings.keep_general_map)
+        return one_kind(PhotonKind::indirect);
+    return settings.general.shadow_photons ? all_kinds : light_kinds;
+}
+
+/// Runs the photon passes: the maps that the plan asks for, and no others.
+/// \param world     The closed scene.
+/// \param settings  Photons, seed, threads.
+/// \param run       Which passes.
+/// \param judge     Called with the photons of the general pass before those are left
+///                  out that only verdicts ask for.
+/// \return The maps, the same for any number of threads.
+template <AnyWorld W, typename Judge>
+[[nodiscard]] PhotonMapsT<typename W::Scalar>
+trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& run,
+           const Judge& judge) {
+    PhotonMapsT<typename W::Scalar> maps;
+    for (const std::string& remark : scene_remarks(world, settings))
+        maps.remarks.append(remark).append("\n");
+    const auto trace = [&](MapType type, const PhotonPassSettings& pass,
+                           FluxAudit& audit) {
+        auto traced = trace_photons(world, type, pass);
+        audit = traced.audit;
+        maps.complete = maps.complete && traced.complete;
+        if (!traced.remark.empty()) maps.remarks.append(traced.remark).append("\n");
+        return std::move(traced.photons);
+    };
+    if (run.caustics_map)
+        maps.caustics = make_photon_map(
+            trace(MapType::caustics, settings.caustics, maps.caustics_audit));
+
+    const bool verdicts = run.skipped_rays || run.skipped_bounces;
+    if (!run.general_map && !verdicts) return maps;
+    PhotonPassSettings general = settings.general;
+    general.shadow_photons = run.shadow_photons;
+    const PhotonKinds kept = kept_kinds(settings);
+    if (!verdicts) general.keep = kept;
+    if (!run.general_map && !run.skipped_bounces) { // only shadow rays are asked about
+        general.max_bounces = 1;
+        general.equal_lights = true;
+    }
+    auto photons = trace(MapType::general, general, maps.general_audit);
+    if (verdicts) {
+        judge(photons);
+        std::erase_if(photons,
+                      [&](const auto& photon) { return !kept.has(photon.kind); });
+    }
+    if (run.general_map) maps.general = make_photon_map(photons);
+    return maps;
+}
+
+} // namespace detail
+
+/// The report's renderer: photon maps of a world, and the settings that they were made
+/// with. Making one traces the photons; the world must outlive it.
+///
+///     const PhotonMapper mapper(world, {.indirect = IndirectLight::map});
+///     const PhotonMapper fast(world, preset_settings(Preset::fast, 400, 400),
+///                             abilities<Gathering>);
+/// \tparam X  What it is able to do besides, and the stream that it draws from:
+///            RandomStream, or StratifiedStream, with which the rays of a pixel share
+///            out lamps and directions.
+template <typename W, typename... X>
+class PhotonMapper {
+public:
+    using Scalar = typename W::Scalar; ///< The precision.
+    /// What render() gives it to draw from.
+    using Stream = typename detail::StreamAmong<X...>::Type;
+    /// The caustics map answers many samples of a picture together.
+    using Batch = detail::CausticsBatch<Scalar>;
+    /// Whether an ability is listed.
+    template <typename A>
+    static constexpr bool has = (std::is_same_v<A, X> || ...);
+
+    /// Traces the photons that the scene requires.
+    /// \param world     Must outlive the mapper.
+    /// \param settings  Photons, depths, radii, who carries indirect light. A radius of
+    ///                  0 is chosen from the photons.
+    /// \throws std::invalid_argument  if a setting is out of range, or asks for an
+    ///         ability that is not listed.
+    explicit PhotonMapper(WorldRef<W> world, const PhotonMappingSettings& settings = {},
+                          Abilities<X...> = {})
+        : world_(world), settings_(checked(settings)),
+          passes_(choose_passes(needs(world.get()), settings)) {
+        if constexpr (has<Budgeting>)
+            if (passes_.caustics_map)
+                settings_.caustics.shares = caustic_shares(world.get(), settings_);
+        maps_ = detail::trace_maps(
+            world.get(), settings_, passes_, [&](const auto& photons) {
+                if constexpr (has<Skipping>)
+                    kept<Skipping>().verdicts =
+                        make_verdict_grid(photons, world.get().light_count(),
+                                          detail::skipping(passes_, settings_),
+                                          settings_.general.threads);
+            });
+        choose_radii();
+        if constexpr (has<Gathering>)
+            if (passes_.irradiance && maps_.complete)
+                kept<Gathering>().points = make_irradiance_points(
+                    world.get(), maps_.general, maps_.caustics, settings_.irradiance,
+                    settings_.general.seed, settings_.general.threads);
+    }
+
+    /// Gathers indirect light for the pictures of one camera, if the settings ask for
+    /// an irradiance cache. Without it, the renderer gathers at every vertex, which is
+    /// slow and right.
+    /// \param camera   Any camera.
+    /// \param picture  Size, seed, threads, progress.
+    template <CameraLike C>
+    void fill_cache(const C& camera, const RenderSettings& picture) {
+        if constexpr (has<Gathering>)
+            if (passes_.cache)
+                kept<Gathering>().cache =
+                    make_irradiance_cache(world(), state<Gathering>().points, camera,
+                                          picture, settings_.gather);
+    }
+
+    /// Asks the maps in another way; the photons stay as they are.
+    /// \param caustics  As PhotonMappingSettings::caustics_estimate.
+    /// \param general   As PhotonMappingSettings::general_estimate.
+    /// \throws std::invalid_argument  if a radius, k or thickness is out of range.
+    void set_estimates(const DensityEstimateSettings& caustics,
+                       const DensityEstimateSettings& general) {
+        PhotonMappingSettings changed = settings_;
+        changed.caustics_estimate = caustics;
+        changed.general_estimate = general;
+        check(changed);
+        settings_ = std::move(changed);
+        choose_radii();
+    }
+
+    /// Takes caustics photons that were traced elsewhere: by other machines, or kept in
+    /// a file. It is for a mapper whose settings ask for none of its own.
+    /// \param caustics  L S+ D, of this world. A radius of 0 is chosen from them.
+    void set_caustics(PhotonMapT<Scalar> caustics) {
+        maps_.caustics = std::move(caustics);
+        choose_radii();
+    }
+
+    /// What is rendered.
+    [[nodiscard]] const W& world() const noexcept { return world_.get(); }
+    /// What it was made with; radii and shares of photons that were left to the mapper
+    /// are chosen.
+    [[nodiscard]] const PhotonMappingSettings& settings() const noexcept {
+        return settings_;
+    }
+    /// Which passes ran.
+    [[nodiscard]] const Passes& passes() const noexcept { return passes_; }
+    /// What they left.
+    [[nodiscard]] const PhotonMapsT<Scalar>& maps() const noexcept { return maps_; }
+    /// What an ability keeps.
+    template <typename A>
+    [[nodiscard]] const auto& state() const noexcept {
+        return std::get<typename A::template State<Scalar>>(states_);
+    }
+    /// By which lobes a path goes on until its light is gathered.
+    [[nodiscard]] Lobes bounces() const noexcept {
+        return passes_.indirect_rays ? Lobes::all
+               : settings_.indirect == IndirectLight::cache
+                   ? Lobes::glossy | Lobes::specular
+                   : Lobes::specular;
+    }
+
+private:
+    // As state(), which is for all and changes nothing.
+    template <typename A>
+    [[nodiscard]] auto& kept() noexcept {
+        return std::get<typename A::template State<Scalar>>(states_);
+    }
+
+    void choose_radii() {
+        if (settings_.caustics_estimate.radius == 0)
+            settings_.caustics_estimate.radius =
+                float(typical_radius(maps_.caustics, 32));
+        if (settings_.general_estimate.radius == 0)
+            settings_.general_estimate.radius =
+                float(typical_radius(maps_.general, 64));
+    }
+
+    static const PhotonMappingSettings& checked(const PhotonMappingSettings& settings) {
+        check(settings);
+        const auto require_ability = [](bool listed, bool asked, const char* what,
+                                        const char* ability) {
+            if (asked && !listed)
+                throw std::invalid_argument(detail::join(
+                    {what, " takes an ability that is not listed: abilities<",
+                     ability}));
+        };
+        const bool gathers = settings.indirect == IndirectLight::gather ||
+                             settings.indirect == IndirectLight::cache;
+        require_ability(has<Gathering>, gathers, "indirect light by gathering",
+                        "Gathering> of ljus/render/gathering.hpp.");
+        require_ability(
+            has<Skipping>,
+            settings.skip.rule != SkipRule::none || settings.skip.indirect_rays,
+            "leaving out needless rays", "Skipping> of ljus/render/skipping.hpp.");
+        require_ability(has<Budgeting>,
+                        settings.caustic_budget != CausticBudget::as_seen &&
+                            settings.caustics.shares.empty(),
+                        "a budget of caustic photons",
+                        "Budgeting> of ljus/render/budgeting.hpp.");
+        return settings;
+    }
+
+    WorldRef<W> world_;
+    PhotonMappingSettings settings_;
+    Passes passes_;
+    PhotonMapsT<Scalar> maps_{};
+    std::tuple<typename detail::StateOf<X, Scalar>::Type...> states_{};
+};
+/// Deduces the world, and what is listed.
+template <typename W, typename... X>
+PhotonMapper(const W&, const PhotonMappingSettings& = {}, Abilities<X...> = {})
+    -> PhotonMapper<W, X...>;
+
+namespace detail {
+
+/// The light of all lights at a surface, by shadow rays, or by what is known of them.
+template <typename Mapper, std::floating_point T, Material M, typename Context>
+[[nodiscard]] RgbT<T> light_of_lights(const Mapper& mapper, const VertexT<T>& vertex,
+                                      const M& material, Context& context) {
+    const DirectLightSettings how{mapper.settings().direct,
+                                  mapper.settings().shadow_rays};
+    if constexpr (Mapper::template has<Skipping>)
+        return sample_all_lights(mapper.world(), vertex, material, how, context,
+                                 verdicts_of(mapper, vertex));
+    else
+        return sample_all_lights(mapper.world(), vertex, material, how, context);
+}
+
+} // namespace detail
+
+/// The light that a diffuse surface sends back along a camera path, without what comes
 /// by its indirect ray: shadow rays and the caustics map; or, where an indirect ray has
 /// ended on it, the two maps.
-/// \param mapper    The scene, the maps, the limits.
+/// \param mapper    The world, the maps, the limits.
 /// \param vertex    The surface.
 /// \param material  What it is made of.
 /// \param gather    Whether the general map answers for all that is not a caustic.
-/// \param stream    The numbers of the path.
-/// \param counts    Counts rays and photons.
-/// \param add       Called as add(owner, letters, radiance) with each term; it may put
-///                  off the caustics map.
+/// \param context   The numbers of the path; counts rays and photons; its batch may put
+///                  the caustics map off.
+/// \param add       The sum of the path.
 /// \report{Sections 3.2.3 and 3.2.6}
 // [light_at]
-template <SceneLike S, std::floating_point T, Material M, typename Stream, typename Add>
-void light_at(const PhotonMapper<S, Stream>& mapper, const VertexT<T>& vertex,
-              const M& material, bool gather, Stream& stream, Counts& counts,
-              Add& add) {
-    const PhotonMappingSettings& settings = mapper.settings;
+template <AnyWorld W, typename... X, std::floating_point T, Material M,
+          typename Context, typename Sum>
+void light_at(const PhotonMapper<W, X...>& mapper, const VertexT<T>& vertex,
+              const M& material, bool gather, Context& context, const Sum& add) {
+    using Mapper = PhotonMapper<W, X...>;
+    const PhotonMappingSettings& settings = mapper.settings();
+    const PhotonMapsT<T>& maps = mapper.maps();
     const auto ask = [&](const PhotonMapT<T>& map, const DensityEstimateSettings& how,
                          PhotonKinds kinds) {
-        ++counts.map_queries;
+        ++context.counts.map_queries;
         return estimate_radiance(map, vertex, material, vertex.wo, how, kinds,
-                                 counts.map_photons);
+                                 context.counts.map_photons);
     };
-    if (gather && settings.indirect != IndirectLight::map) {
-        ++counts.map_queries;
-        const RgbT<T> irradiance = irradiance_at(
-            mapper.maps.irradiance, vertex.point.position, detail::seen_normal(vertex));
-        add("irradiance points", "DL|D..DL|DS+L",
-            detail::reflected(material, vertex.wo, irradiance, Lobes::non_specular,
-                              stream));
-        return;
-    }
+    if constexpr (Mapper::template has<Gathering>)
+        if (gather && settings.indirect != IndirectLight::map)
+            return add("irradiance points", "DL|D..DL|DS+L",
+                       known_light(mapper, vertex, material, context));
     if (gather)
         add("general map", "DL|D..DL",
-            ask(mapper.maps.general, settings.general_estimate, light_kinds));
+            ask(maps.general, settings.general_estimate, light_kinds));
     else
         add("shadow ray", "DL",
-            detail::sample_all_lights(
-                mapper.scene, vertex, material, settings.direct, settings.shadow_rays,
-                stream, counts, detail::verdicts_at(mapper.maps.verdicts, vertex)));
+            detail::light_of_lights(mapper, vertex, material, context));
     if (settings.indirect == IndirectLight::photons)
         add("general map", "D..DL",
-            ask(mapper.maps.general, settings.general_estimate,
+            ask(maps.general, settings.general_estimate,
                 one_kind(PhotonKind::indirect)));
-    if (settings.indirect == IndirectLight::cache &&
-        has(lobes(material), Lobes::diffuse))
-        add("irradiance cache", "D..DL",
-            detail::reflected(material, vertex.wo,
-                              irradiance_between(mapper.scene, mapper.maps.irradiance,
-                                                 mapper.maps.cache, vertex,
-                                                 settings.gather, stream, counts),
-                              Lobes::diffuse, stream));
-    if (!mapper.maps.caustics.empty() &&
-        !detail::put_off(add, vertex, material, settings.caustics_estimate))
+    if constexpr (Mapper::template has<Gathering>)
+        if (settings.indirect == IndirectLight::cache &&
+            ljus::has(lobes(material), Lobes::diffuse))
+            add("irradiance cache", "D..DL",
+                cached_light(mapper, vertex, material, context));
+    if (!maps.caustics.empty() &&
+        !detail::put_off(context.batch, vertex, material, add.throughput,
+                         settings.caustics_estimate))
         add("caustics map", "DS+L",
-            ask(mapper.maps.caustics, settings.caustics_estimate, light_kinds));
+            ask(maps.caustics, settings.caustics_estimate, light_kinds));
 }
 // [light_at]
 
@@ -157,30 +395,31 @@ inline constexpr int split_survival = 16;
 /// a path goes both ways at glass, as long as it has met nothing matt: by chance alone,
 /// one path in some hundreds would be mirrored inside of a ball and meet the lamp, and
 /// its pixel would be a hundred times too bright.
-/// \param mapper  The scene, the maps, the limits.
-/// \param ray     A primary ray.
-/// \param stream  The numbers of this path.
-/// \param counts  Counts rays and photons.
-/// \param log     Told of each vertex and each term.
+/// \param mapper   The world, the maps, the limits.
+/// \param ray      A primary ray.
+/// \param context  The numbers of this path; counts rays and photons, logs terms.
 /// \return Radiance, W/(m^2 sr); biased by the radius of the estimates, and by the
 ///         depth where one is set.
 /// \report{Sections 3.2.3, 3.2.4 and 3.2.6}
 /// \erratum{In the report's program an indirect ray that met a lamp added it again,
 ///          though the shadow ray had counted it.}
 // [radiance]
-template <SceneLike S, typename Stream, std::floating_point T, typename Log = NoLog>
-[[nodiscard]] RgbT<T> radiance(const PhotonMapper<S, Stream>& mapper,
-                               const RayT<T>& ray, Stream& stream, Counts& counts,
-                               Log&& log = {}) {
-    const PhotonMappingSettings& settings = mapper.settings;
+template <AnyWorld W, typename... X, std::floating_point T, typename Context>
+[[nodiscard]] RgbT<T> radiance(const PhotonMapper<W, X...>& mapper, const RayT<T>& ray,
+                               Context& context) {
+    const PhotonMappingSettings& settings = mapper.settings();
     RgbT<T> sum{T(0)};
     std::vector<PathStateT<T>> branches; // split off; following one may add more
     const auto follow_path = [&](PathStateT<T> path) {
-        detail::AddTerm add{sum, path.throughput, log};
+        const RadianceSum add{sum, path.throughput, context.log};
         while (path.depth < settings.max_depth) {
-            const auto vertex = next_vertex(mapper.scene, path, stream);
-            if (!vertex) return;
-            detail::log_arrival(log, vertex->point.position);
+            const auto vertex = next_vertex(mapper.world(), path, context.stream);
+            if (!vertex) {
+                if (!path.met_diffuse)
+                    add("sky", "L", sky_radiance(mapper.world(), path.ray.direction));
+                return;
+            }
+            detail::log_arrival(context.log, vertex->point.position);
             if (vertex->emits() && !path.met_diffuse)
                 add("emission", "L", vertex->object.emission);
 
@@ -188,11 +427,10 @@ template <SceneLike S, typename Stream, std::floating_point T, typename Log = No
             const auto at_material = [&]<typename M>(const M& material) {
                 if constexpr (!OnlySpecular<M>)
                     if (has(lobes(material), Lobes::non_specular))
-                        light_at(mapper, *vertex, material, gather, stream, counts,
-                                 add);
-                const Lobes open = gather ? Lobes::specular : mapper.bounces;
+                        light_at(mapper, *vertex, material, gather, context, add);
+                const Lobes open = gather ? Lobes::specular : mapper.bounces();
                 if (path.depth == settings.max_depth) {
-                    detail::cut_if(has(lobes(material), open), counts);
+                    detail::cut_if(has(lobes(material), open), context.counts);
                     return false;
                 }
                 if (settings.split_glass && !path.met_diffuse &&
@@ -203,30 +441,31 @@ template <SceneLike S, typename Stream, std::floating_point T, typename Log = No
                     }
                 // Go on by one branch; after gathering, by mirrors and glass only.
                 Lobes which = open;
-                if (has(which, Lobes::diffuse) &&
-                    detail::skips_bounce(mapper.maps.verdicts, *vertex, counts))
-                    which = Lobes::specular;
+                if constexpr (PhotonMapper<W, X...>::template has<Skipping>)
+                    if (has(which, Lobes::diffuse) &&
+                        needs_no_bounce(mapper, *vertex, context.counts))
+                        which = Lobes::specular;
                 return continue_path(path, *vertex, material, Transport::radiance,
-                                     which, stream);
+                                     which, context.stream);
             };
-            if (!visit_material_at(mapper.scene, *vertex, at_material)) return;
-            detail::log_vertex(log, path);
+            if (!visit_material_at(mapper.world(), *vertex, at_material)) return;
+            detail::log_vertex(context.log, path);
             if (is_black(path.throughput)) return;
             const T eta_scale = !branches.empty() && !path.met_diffuse
                                     ? path.eta_scale / T(detail::split_survival)
                                     : path.eta_scale;
             if (path.depth >= settings.roulette_depth &&
-                !survives(path.throughput, eta_scale, next_1d<T>(stream)))
+                !survives(path.throughput, eta_scale, next_1d<T>(context.stream)))
                 return;
-            ++counts.bounce_rays;
+            ++context.counts.bounce_rays;
         }
     };
-    log.begin();
-    follow_path(detail::camera_path(mapper.scene, ray, stream));
+    context.log.begin();
+    follow_path(camera_path(mapper.world(), ray, context.stream));
     for (std::size_t i = 0; i < branches.size(); ++i) {
         const PathStateT<T> branch = branches[i];
-        ++counts.bounce_rays;
-        detail::log_specular_path(log, branch);
+        ++context.counts.bounce_rays;
+        detail::log_specular_path(context.log, branch);
         follow_path(branch);
     }
     return sum;

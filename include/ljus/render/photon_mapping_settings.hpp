@@ -4,9 +4,11 @@
 /// \brief The settings of the report's renderer.
 
 #include <algorithm>
+#include <cmath>
 
+#include "ljus/path/all_lights.hpp"
 #include "ljus/photons/density_estimate.hpp"
-#include "ljus/photons/irradiance_points.hpp"
+#include "ljus/photons/irradiance_settings.hpp"
 #include "ljus/photons/photon_pass.hpp"
 #include "ljus/photons/shadow_verdict.hpp"
 

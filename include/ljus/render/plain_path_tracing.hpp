@@ -4,37 +4,37 @@
 /// \brief A path tracer of one screen: the plain twin of path_tracing.hpp.
 
 #include "ljus/path/direct_light.hpp"
-#include "ljus/path/renderer.hpp"
-#include "ljus/scene/index.hpp"
 
 namespace ljus {
 
 /// \addtogroup path_tracing
 /// \{
 
-/// A scene, ready for the plain path tracer. It refers to the scene, which must outlive
-/// it.
-template <SceneLike S>
-struct PlainPathTracer {
+/// A plain path tracer of a world, which must outlive it.
+template <typename W>
+class PlainPathTracer {
+public:
     using Stream = RandomStream; ///< What render() gives it to draw from.
-    detail::IndexedT<S> scene;   ///< What is rendered.
-    int max_depth = 100;         ///< Surfaces on a camera path.
-};
 
-/// Makes a plain path tracer.
-/// \param scene      Must outlive the tracer.
-/// \param max_depth  Surfaces on a camera path; 1 is direct light only.
-/// \return The tracer.
-/// \throws std::invalid_argument  for a depth below 1.
-template <SceneLike S>
-[[nodiscard]] PlainPathTracer<S> make_plain_path_tracer(const S& scene,
-                                                        int max_depth = 100) {
-    require_at_least("max_depth", max_depth, 1);
-    return {detail::IndexedT<S>(scene), max_depth};
-}
-/// Not of a temporary: the scene would be gone before it is rendered.
-template <SceneLike S>
-PlainPathTracer<S> make_plain_path_tracer(const S&& scene, int = 100) = delete;
+    /// \param world      Must outlive the tracer.
+    /// \param max_depth  Surfaces on a camera path; 1 is direct light only.
+    /// \throws std::invalid_argument  for a depth below 1.
+    explicit PlainPathTracer(WorldRef<W> world, int max_depth = 100)
+        : world_(world), max_depth_(max_depth) {
+        require_at_least("max_depth", max_depth, 1);
+    }
+    /// What is rendered.
+    [[nodiscard]] const W& world() const noexcept { return world_.get(); }
+    /// Surfaces on a camera path.
+    [[nodiscard]] int max_depth() const noexcept { return max_depth_; }
+
+private:
+    WorldRef<W> world_;
+    int max_depth_;
+};
+/// Deduces the world.
+template <typename W>
+PlainPathTracer(const W&, int = 100) -> PlainPathTracer<W>;
 
 /// The radiance that one random path finds. At each diffuse surface one light, each as
 /// likely as the next, is asked by a shadow ray; a lamp that the path meets by itself
@@ -42,37 +42,39 @@ PlainPathTracer<S> make_plain_path_tracer(const S&& scene, int = 100) = delete;
 ///
 /// It knows no media, no thin surfaces and no shading normals, and weighs nothing: the
 /// mean is that of the PathTracer, the noise is not.
-/// \param tracer  The scene and the depth.
-/// \param ray     A primary ray.
-/// \param stream  The numbers of this path.
-/// \param counts  Counts the rays.
+/// \param tracer   The world and the depth.
+/// \param ray      A primary ray.
+/// \param context  The numbers of this path; counts its rays.
 /// \return Radiance, W/(m^2 sr).
 /// \report{Eq. (1)}
 // [plain]
-template <SceneLike S, std::floating_point T, typename Log = NoLog>
-[[nodiscard]] RgbT<T> radiance(const PlainPathTracer<S>& tracer, RayT<T> ray,
-                               RandomStream& stream, Counts& counts, Log&& = {}) {
-    const auto& scene = tracer.scene;
-    const auto weight = [](const LightSampleT<T>&, const Vec3T<T>&) { return T(1); };
+template <AnyWorld W, std::floating_point T, typename Context>
+[[nodiscard]] RgbT<T> radiance(const PlainPathTracer<W>& tracer, RayT<T> ray,
+                               Context& context) {
+    const W& world = tracer.world();
+    auto& stream = context.stream;
+    Counts& counts = context.counts;
     RgbT<T> sum{T(0)}, throughput{T(1)};
     bool lamps_count = true;
-    for (int depth = 1; depth <= tracer.max_depth; ++depth, ++counts.bounce_rays) {
-        const auto hit = closest_hit(scene, ray);
-        if (!hit) break;
-        const VertexT<T> vertex = vertex_at(scene, ray, *hit);
+    for (int depth = 1; depth <= tracer.max_depth(); ++depth, ++counts.bounce_rays) {
+        const auto hit = closest_hit(world, ray);
+        if (!hit) {
+            if (lamps_count) sum += throughput * sky_radiance(world, ray.direction);
+            break;
+        }
+        const VertexT<T> vertex = vertex_at(world, ray, *hit);
         if (lamps_count && vertex.emits()) sum += throughput * vertex.object.emission;
         // [plain]
 
         // [plain bounce]
-        const bool goes_on = visit_material_at(scene, vertex, [&](const auto& m) {
+        const bool goes_on = visit_material_at(world, vertex, [&](const auto& m) {
             // One shadow ray, to a point of a light.
-            const auto lights = static_cast<T>(scene.lights.size());
-            const auto light = static_cast<std::size_t>(next_1d<T>(stream) * lights);
+            const auto lights = static_cast<T>(world.light_count());
+            const auto light = static_cast<std::uint32_t>(next_1d<T>(stream) * lights);
             const Vec2T<T> u = next_2d<T>(stream);
-            if (has(lobes(m), Lobes::non_specular) && !scene.lights.empty())
+            if (has(lobes(m), Lobes::non_specular) && world.light_count() > 0)
                 sum += throughput * lights *
-                       direct_light(scene, scene.lights[light], vertex, m, u, weight,
-                                    counts);
+                       direct_light(world, light, vertex, m, u, MisT<T>{}, counts);
             // One ray on.
             const auto next =
                 sample(m, vertex.wo, next_3d<T>(stream), Transport::radiance);

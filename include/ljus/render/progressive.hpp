@@ -3,10 +3,11 @@
 /// \file ljus/render/progressive.hpp
 /// \brief Photon mapping that converges: many passes, each with a smaller radius.
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
-#include "ljus/render/detail/pass_sums.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
 
@@ -45,6 +46,57 @@ template <typename RenderPass>
     return mean;
 }
 // [plain]
+
+namespace detail {
+
+/// The means of blocks of pixels; the last ones of a row or column may have fewer.
+template <std::floating_point T>
+[[nodiscard]] ImageT<double> means_of_blocks(const ImageT<T>& image, int side) {
+    const auto blocks = [side](int pixels) { return (pixels - 1) / side + 1; };
+    auto means = make_image<double>(blocks(image.width), blocks(image.height));
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const int columns = std::min(side, image.width - x / side * side);
+            const int rows = std::min(side, image.height - y / side * side);
+            pixel(means, x / side, y / side) +=
+                RgbT<double>(pixel(image, x, y)) / (double(columns) * double(rows));
+        }
+    return means;
+}
+
+/// Adds one more number to the squared distances from the mean (Welford).
+/// \param squares  Gets it, pixel by pixel.
+/// \param x        The new numbers.
+/// \param sum      Of the n before.
+/// \param n        How many.
+template <std::floating_point T>
+void add_squares(ImageT<double>& squares, const ImageT<T>& x, const ImageT<double>& sum,
+                 double n) {
+    if (n == 0) return;
+    for (std::size_t p = 0; p < x.pixels.size(); ++p) {
+        const RgbT<double> away = RgbT<double>(x.pixels[p]) - sum.pixels[p] / n;
+        squares.pixels[p] += away * away * (n / (n + 1));
+    }
+}
+
+/// The root mean square of the standard errors of means.
+[[nodiscard]] inline double standard_error(const ImageT<double>& squares, double n) {
+    double sum = 0;
+    for (const RgbT<double>& s : squares.pixels) sum += (s.x + s.y + s.z) / 3;
+    return std::sqrt(sum / double(squares.pixels.size()) / (n * (n - 1)));
+}
+
+/// A number that tells pictures apart, by every bit of them.
+template <std::floating_point T>
+[[nodiscard]] std::uint64_t hash_of(const ImageT<T>& image) noexcept {
+    std::uint64_t hash = mix_bits(std::uint64_t(image.width));
+    for (const RgbT<T>& color : image.pixels)
+        for (const T channel : {color.x, color.y, color.z})
+            hash = mix_bits(hash ^ std::bit_cast<std::uint64_t>(double(channel))) + 1;
+    return hash;
+}
+
+} // namespace detail
 
 /// All that is left of the passes so far: as large after a million as after one. Plain
 /// data; alpha and the side of blocks may be set before the first pass.
@@ -149,7 +201,7 @@ bool run_progressive(ProgressiveState& state, long long passes, RenderPass&& pas
 // [run]
 
 /// Refuses to go on with passes of another picture. Whatever makes a picture what it is
-/// (scene, camera, settings, seed, program, machine), makes its first pass what it is:
+/// (world, camera, settings, seed, program, machine), makes its first pass what it is:
 /// so that is rendered again, and must come out bit by bit as it did.
 /// \param state  Of a checkpoint.
 /// \param pass   That will go on.
@@ -167,21 +219,17 @@ void require_first_pass(const ProgressiveState& state, RenderPass&& pass) {
 
 /// Settings of which nothing is left to choose from a pass's photons: with the radii
 /// that are 0 chosen, and the shares that a budget asks for found by one pilot.
-/// \param scene     The scene.
-/// \param settings  Photons of one pass.
+/// \param world      The closed scene.
+/// \param settings   Photons of one pass.
+/// \param listed     As for a PhotonMapper.
 /// \return The same settings for each pass, and each time the program runs.
 /// \throws std::invalid_argument  if a setting is out of range.
-/// \cost With a radius of 0, the photon maps of one pass; with a budget, its pilot.
-template <SceneLike S>
+/// \cost The photon maps of one pass.
+template <AnyWorld W, typename... X>
 [[nodiscard]] PhotonMappingSettings
-settings_for_passes(const S& scene, PhotonMappingSettings settings) {
-    check(settings);
-    if (detail::choose_passes(needs(scene), settings).caustics_map)
-        settings.caustics.shares = caustic_shares(scene, settings);
-    if (settings.caustics_estimate.radius > 0 && settings.general_estimate.radius > 0)
-        return settings;
-    const auto maps = make_photon_maps(scene, settings);
-    return make_photon_mapper(scene, maps, settings).settings;
+settings_for_passes(const W& world, const PhotonMappingSettings& settings,
+                    Abilities<X...> listed = {}) {
+    return PhotonMapper(world, settings, listed).settings();
 }
 
 /// One pass of the photon mapper: photons of its own, camera rays of its own, and all
@@ -193,23 +241,23 @@ settings_for_passes(const S& scene, PhotonMappingSettings settings) {
 /// from the photons, and shares that a pilot finds, are chosen once: see
 /// settings_for_passes(). Points of an irradiance cache are the pass's own, but the
 /// interpolation between them blurs as much in every pass.
-/// \tparam Draws    RandomStream, or StratifiedStream for several rays per pixel.
-/// \param scene     The scene, or an IndexedScene, which saves indexing it each time.
-/// \param camera    A CameraT, or anything with a camera_ray().
+/// \param world     The closed scene.
+/// \param camera    Any camera.
 /// \param settings  Photons *of one pass*; the radii of the first, above 0.
 /// \param picture   Size; rays per pixel in one pass.
 /// \param pass      Its number, from 1 on.
 /// \param scale     Of the radii, in (0, 1].
+/// \param listed     As for a PhotonMapper; StratifiedStream for several rays per
+///                   pixel.
 /// \return The picture; not complete if a progress callback stopped it.
 /// \throws std::invalid_argument  if a radius is 0: each pass would choose its own, and
 ///         none would shrink.
 // [photon mapping pass]
-template <typename Draws = RandomStream, SceneLike S,
-          template <std::floating_point> typename AnyCamera, std::floating_point T>
-[[nodiscard]] RenderedT<T>
-photon_mapping_pass(const S& scene, const AnyCamera<T>& camera,
-                    PhotonMappingSettings settings, RenderSettings picture,
-                    long long pass, double scale) {
+template <AnyWorld W, CameraLike C, typename... X>
+[[nodiscard]] RenderedT<typename C::Scalar>
+photon_mapping_pass(const W& world, const C& camera, PhotonMappingSettings settings,
+                    RenderSettings picture, long long pass, double scale,
+                    Abilities<X...> listed = {}) {
     require_positive("caustics_estimate.radius", settings.caustics_estimate.radius);
     require_positive("general_estimate.radius", settings.general_estimate.radius);
     const auto number = static_cast<std::uint64_t>(pass);
@@ -217,10 +265,10 @@ photon_mapping_pass(const S& scene, const AnyCamera<T>& camera,
     picture.seed = mix_bits(mix_bits(picture.seed) + number);
     settings.caustics_estimate.radius *= static_cast<float>(scale);
     settings.general_estimate.radius *= static_cast<float>(scale);
-    auto maps = make_photon_maps(scene, settings);
-    if (!maps.complete) return {.complete = false};
-    add_irradiance_cache(maps, scene, camera, picture, settings);
-    return render(make_photon_mapper<Draws>(scene, maps, settings), camera, picture);
+    PhotonMapper mapper(world, settings, listed);
+    if (!mapper.maps().complete) return {.complete = false};
+    mapper.fill_cache(camera, picture);
+    return render(mapper, camera, picture);
 }
 // [photon mapping pass]
 

@@ -11,6 +11,7 @@
 #include "ljus/math/sampling_pattern.hpp"
 #include "ljus/parallel.hpp"
 #include "ljus/path/renderer.hpp"
+#include "ljus/ref.hpp"
 #include "ljus/render/detail/sample_sums.hpp"
 #include "ljus/scene/camera.hpp"
 
@@ -59,27 +60,44 @@ namespace detail {
 /// How many pixels beside each other are rendered at a time.
 inline constexpr int strip_width = 16;
 
+} // namespace detail
+
+/// The rays of a picture: where they go is one pattern for all pixels.
+struct PictureRays {
+    /// \param settings  Size, rays, seed, filter; must outlive this.
+    explicit PictureRays(Ref<RenderSettings> settings)
+        : picture(settings.get()),
+          pattern(make_pattern(picture.sampling, picture.samples)) {}
+
+    const RenderSettings& picture; ///< Size, rays, seed, filter.
+    Pattern pattern;               ///< Of the rays of a pixel.
+};
+
+/// One ray of a picture.
+struct PixelRay {
+    int x = 0;      ///< Column of its pixel.
+    int y = 0;      ///< Row of its pixel.
+    int number = 0; ///< Which of the pixel's rays.
+};
+
 /// Where one ray of a pixel goes through the picture, and what it counts there.
-/// \param picture  Size, rays, seed, filter.
-/// \param pattern  make_pattern() for the rays of a pixel.
-/// \param x        Column of the pixel.
-/// \param y        Row of the pixel.
-/// \param number   Which of the pixel's rays.
-/// \param stream   Set to the numbers of that ray, past those of its place.
-/// \return The place, from the upper left corner of the picture, and its weight.
-template <std::floating_point T, typename Stream>
-[[nodiscard]] FilterSampleT<T> place_of_ray(const RenderSettings& picture,
-                                            const Pattern& pattern, int x, int y,
-                                            int number, Stream& stream) {
+/// \param rays    Of the picture.
+/// \param at      Which ray.
+/// \param stream  Set to the numbers of that ray, past those of its position.
+/// \return The position, from the upper left corner of the picture, and its weight.
+template <std::floating_point T, StreamLike Stream>
+[[nodiscard]] FilterSampleT<T> sample_pixel(const PictureRays& rays, const PixelRay& at,
+                                            Stream& stream) {
+    const RenderSettings& picture = rays.picture;
     const auto pixel =
-        static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.width) +
-        static_cast<std::uint64_t>(x);
-    start_ray(stream, picture.seed, pixel, number, pattern);
-    const Vec2T<T> u =
-        spread(pattern, number, mix_bits(picture.seed) ^ pixel, next_2d<T>(stream));
-    FilterSampleT<T> at = sample_filter(picture.filter, u);
-    at.place += Vec2T<T>{T(x), T(y)};
-    return at;
+        static_cast<std::uint64_t>(at.y) * static_cast<std::uint64_t>(picture.width) +
+        static_cast<std::uint64_t>(at.x);
+    start_ray(stream, picture.seed, pixel, at.number, rays.pattern);
+    const Vec2T<T> u = spread(rays.pattern, at.number, mix_bits(picture.seed) ^ pixel,
+                              next_2d<T>(stream));
+    FilterSampleT<T> sample = sample_filter(picture.filter, u);
+    sample.place += Vec2T<T>{T(at.x), T(at.y)};
+    return sample;
 }
 
 /// What one ray of a pixel brings.
@@ -91,32 +109,30 @@ struct PixelSampleT {
 
 /// Sends one ray through a pixel, as the pixel loop does.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
-/// \param camera    A CameraT, or anything with a camera_ray().
-/// \param picture   Size, rays, seed, filter.
-/// \param pattern   make_pattern() for the rays of a pixel.
-/// \param x         Column of the pixel.
-/// \param y         Row of the pixel.
-/// \param number    Which of the pixel's rays.
+/// \param camera    Any camera.
+/// \param rays      Of the picture.
+/// \param at        Which ray.
 /// \param counts    Counts the rays.
 /// \param log       Told of each vertex and each term, without the weight.
+/// \param batch     Takes what the renderer puts off.
 /// \return Radiance, and what it counts.
 // [trace_pixel]
-template <typename R, template <std::floating_point> typename AnyCamera,
-          std::floating_point T, typename Log = NoLog>
-[[nodiscard]] PixelSampleT<T> trace_pixel(const R& renderer, const AnyCamera<T>& camera,
-                                          const RenderSettings& picture,
-                                          const Pattern& pattern, int x, int y,
-                                          int number, Counts& counts, Log&& log = {}) {
+template <typename R, CameraLike C, typename Log = const NoLog,
+          typename Batch = const NoBatch>
+[[nodiscard]] PixelSampleT<typename C::Scalar>
+trace_pixel(const R& renderer, const C& camera, const PictureRays& rays,
+            const PixelRay& at, Counts& counts, Log& log = detail::no_log,
+            Batch& batch = detail::no_batch) {
+    using T = typename C::Scalar;
     typename R::Stream stream;
-    const auto at = place_of_ray<T>(picture, pattern, x, y, number, stream);
-    const RayT<T> ray =
-        camera_ray(camera, at.place, picture.width, picture.height, stream);
+    const auto sample = sample_pixel<T>(rays, at, stream);
+    const RayT<T> ray = camera_ray(camera, sample.place, rays.picture.width,
+                                   rays.picture.height, stream);
     ++counts.camera_rays;
-    return {radiance(renderer, ray, stream, counts, log), at.weight};
+    Context context{stream, counts, log, batch};
+    return {radiance(renderer, ray, context), sample.weight};
 }
 // [trace_pixel]
-
-} // namespace detail
 
 /// Some rows of a picture, counted from the top: first <= y < last.
 struct RowRange {
@@ -129,19 +145,20 @@ struct RowRange {
 /// A ray's numbers depend on its pixel's place in the whole picture alone, so that rows
 /// rendered apart and put below each other are the picture of render(), byte by byte.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
-/// \param camera    A CameraT, or anything with a camera_ray().
+/// \param camera    Any camera: see CameraLike.
 /// \param picture   Size of the whole, rays, seed, threads.
 /// \param rows      At least one of its rows.
 /// \return A picture of those rows alone. A sample that is not finite is left out and
 ///         counted.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1, or the
 ///         rows are none of the picture's.
-template <typename R, template <std::floating_point> typename AnyCamera,
-          std::floating_point T>
-requires Renderer<R, T>
-[[nodiscard]] RenderedT<T> render_rows(const R& renderer, const AnyCamera<T>& camera,
-                                       const RenderSettings& picture,
-                                       const RowRange& rows) {
+template <typename R, CameraLike C>
+requires Renderer<R, typename C::Scalar>
+[[nodiscard]] RenderedT<typename C::Scalar> render_rows(const R& renderer,
+                                                        const C& camera,
+                                                        const RenderSettings& picture,
+                                                        const RowRange& rows) {
+    using T = typename C::Scalar;
     require_at_least("samples", picture.samples, 1);
     require_image_size(picture.width, picture.height);
     require(rows.first >= 0 && rows.first < rows.last, "the first row",
@@ -149,7 +166,7 @@ requires Renderer<R, T>
     require(rows.last <= picture.height, "the last row",
             static_cast<long long>(rows.last), "at most the picture's height");
     RenderedT<T> result{.image = make_image<T>(picture.width, rows.last - rows.first)};
-    const Pattern pattern = make_pattern(picture.sampling, picture.samples);
+    const PictureRays rays(picture);
     const int tiles = (picture.width - 1) / detail::strip_width + 1;
     std::vector<Counts> counts(static_cast<std::size_t>(tiles) *
                                static_cast<std::size_t>(result.image.height));
@@ -163,9 +180,9 @@ requires Renderer<R, T>
         detail::SampleSums<R, T> samples(renderer, sums, cost);
         for (int x = first; x < last; ++x)
             for (int i = 0; i < picture.samples; ++i)
-                samples.add(std::size_t(x - first), [&](auto& log) {
-                    return detail::trace_pixel(renderer, camera, picture, pattern, x,
-                                               rows.first + row, i, cost, log);
+                samples.add(std::size_t(x - first), [&](auto& batch) {
+                    return trace_pixel(renderer, camera, rays, {x, rows.first + row, i},
+                                       cost, detail::no_log, batch);
                 });
         samples.finish();
         for (int x = first; x < last; ++x)
@@ -183,22 +200,22 @@ requires Renderer<R, T>
 
 /// Renders a picture by several threads, in strips of 16 pixels.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
-/// \param camera    A CameraT, or anything with a camera_ray().
+/// \param camera    Any camera: see CameraLike.
 /// \param picture   Size, rays, seed, threads.
 /// \return The picture, the same for any number of threads. A sample that is not finite
 ///         is left out and counted.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1.
-template <typename R, template <std::floating_point> typename AnyCamera,
-          std::floating_point T>
-[[nodiscard]] RenderedT<T> render(const R& renderer, const AnyCamera<T>& camera,
-                                  const RenderSettings& picture) {
-    constexpr bool renders = Renderer<R, T>;
-    static_assert(renders, "It is no renderer: make_path_tracer(scene) makes one.");
-    if constexpr (renders)
+template <typename R, CameraLike C>
+[[nodiscard]] RenderedT<typename C::Scalar> render(const R& renderer, const C& camera,
+                                                   const RenderSettings& picture) {
+    using T = typename C::Scalar;
+    static_assert(Renderer<R, T>, "This is no Renderer, such as PathTracer(world).");
+    if constexpr (Renderer<R, T>)
         return render_rows(renderer, camera, picture, {0, picture.height});
     else
         return {};
 }
+
 /// \}
 
 } // namespace ljus

@@ -3,11 +3,9 @@
 /// \file ljus/render/whitted.hpp
 /// \brief Whitted's ray tracing: a tree of mirrors and glass, with hard shadows.
 
-#include "ljus/geometry/shape.hpp"
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/direct_light.hpp"
-#include "ljus/path/renderer.hpp"
-#include "ljus/scene/index.hpp"
+#include "ljus/path/path_log.hpp"
 
 namespace ljus {
 
@@ -30,111 +28,109 @@ struct WhittedSettings {
                     ///< of all the light that the tree does not carry.
 };
 
-/// A scene, ready for Whitted's ray tracing. It refers to the scene, which must outlive
-/// it.
-template <SceneLike S>
-struct WhittedTracer {
+/// Whitted's ray tracer of a world, which must outlive it.
+template <typename W>
+class WhittedTracer {
+public:
     using Stream = RandomStream; ///< What render() gives it to draw from.
-    detail::IndexedT<S> scene;   ///< What is rendered.
-    WhittedSettings settings;    ///< How a tree is traced.
-};
 
-/// Makes a tracer.
-/// \param scene     Must outlive the tracer; a scene, which it indexes, or an
-///                  IndexedScene.
-/// \param settings  Depth, branches, ambient light.
-/// \return The tracer.
-/// \throws std::invalid_argument  if a setting is out of range.
-template <SceneLike S>
-[[nodiscard]] WhittedTracer<S> make_whitted(const S& scene,
-                                            const WhittedSettings& settings = {}) {
-    require(settings.max_depth >= 0 && settings.max_depth <= 1000, "max_depth",
-            static_cast<long long>(settings.max_depth), "within [0, 1000]");
-    require_radiance("whitted.ambient", settings.ambient);
-    return {detail::IndexedT<S>(scene), settings};
-}
-/// Not of a temporary: the scene would be gone before it is rendered.
-template <SceneLike S>
-WhittedTracer<S> make_whitted(const S&& scene, const WhittedSettings& = {}) = delete;
+    /// \param world     Must outlive the tracer.
+    /// \param settings  Depth, branches, ambient light.
+    /// \throws std::invalid_argument  if a setting is out of range.
+    explicit WhittedTracer(WorldRef<W> world, const WhittedSettings& settings = {})
+        : world_(world), settings_(settings) {
+        require(settings.max_depth >= 0 && settings.max_depth <= 1000, "max_depth",
+                static_cast<long long>(settings.max_depth), "within [0, 1000]");
+        require_radiance("whitted.ambient", settings.ambient);
+    }
+    /// What is rendered.
+    [[nodiscard]] const W& world() const noexcept { return world_.get(); }
+    /// How a tree is traced.
+    [[nodiscard]] const WhittedSettings& settings() const noexcept { return settings_; }
+
+private:
+    WorldRef<W> world_;
+    WhittedSettings settings_;
+};
+/// Deduces the world.
+template <typename W>
+WhittedTracer(const W&, const WhittedSettings& = {}) -> WhittedTracer<W>;
 
 namespace detail {
 
 /// The light that a diffuse surface sends back: of each light by one shadow ray, which
 /// is not sent where the surface faces away, and of the ambient light without any.
-/// \param tracer    The scene and the settings.
+/// \param tracer    The world and the settings.
 /// \param vertex    The surface.
 /// \param material  What it is made of.
 /// \param counts    Counts the shadow rays.
 /// \param add       Called as add(owner, letters, radiance).
 /// \report{Section 2.1}
 // [local light]
-template <SceneLike S, std::floating_point T, Material M, typename Add>
-void local_light(const WhittedTracer<S>& tracer, const VertexT<T>& vertex,
-                 const M& material, Counts& counts, Add& add) {
-    const auto whole = [](const LightSampleT<T>&, const Vec3T<T>&) { return T(1); };
-    for (const LightT<T>& light : tracer.scene.lights) {
-        Vec2T<T> u{T(0.5)};
-        if (light.object) {
-            if (!tracer.settings.lamps) continue;
-            u = tracer.scene.visit_shape(
-                *light.object, [](const auto& shape) { return center_sample(shape); });
-        }
+template <AnyWorld W, std::floating_point T, Material M, typename Add>
+void local_light(const WhittedTracer<W>& tracer, const VertexT<T>& vertex,
+                 const M& material, Counts& counts, const Add& add) {
+    const W& world = tracer.world();
+    for (std::uint32_t light = 0; light < world.light_count(); ++light) {
+        if (!tracer.settings().lamps && world.can_be_met(light)) continue;
+        const Vec2T<T> u = world.visit_light(light, [](const auto& l) {
+            if constexpr (requires { center_sample(l); })
+                return center_sample(l);
+            else
+                return Vec2T<T>{T(0.5)};
+        });
         add("shadow ray", "DL",
-            direct_light(tracer.scene, light, vertex, material, u, whole, counts));
+            direct_light(world, light, vertex, material, u, MisT<T>{}, counts));
     }
-    if (tracer.settings.ambient == Rgb{0}) return;
+    if (tracer.settings().ambient == Rgb{0}) return;
     // As if all of it came along the normal: for a matt surface albedo times radiance.
     const Vec3T<T> normal{T(0), T(0), std::copysign(T(1), vertex.wo.z)};
     add("ambient", "D",
         std::numbers::pi_v<T> * evaluate(material, vertex.wo, normal) *
-            RgbT<T>(tracer.settings.ambient));
+            RgbT<T>(tracer.settings().ambient));
 }
 // [local light]
 
 /// Traces one branch of the tree, and all that it sends on.
-/// \param tracer  The scene and the settings.
-/// \param path    The branch.
-/// \param stream  Numbers for what is left to chance.
-/// \param counts  Counts the rays.
-/// \param log     Told of each vertex and each term.
-/// \param sum     Radiance is added to it.
+/// \param tracer   The world and the settings.
+/// \param path     The branch.
+/// \param context  Numbers for what is left to chance; counts rays, logs terms.
+/// \param sum      Radiance is added to it.
 /// \report{Section 2.1}
 // [trace_branch]
-template <SceneLike S, std::floating_point T, typename Stream, typename Log>
-void trace_branch(const WhittedTracer<S>& tracer, PathStateT<T> path, Stream& stream,
-                  Counts& counts, Log& log, RgbT<T>& sum) {
-    const auto vertex = next_vertex(tracer.scene, path, stream);
-    if (!vertex) return;
-    log_arrival(log, vertex->point.position);
-    const auto add = [&, throughput = path.throughput](
-                         const char* owner, const char* letters, const RgbT<T>& light) {
-        log.term(owner, letters, throughput * light);
-        sum += throughput * light;
-    };
+template <AnyWorld W, std::floating_point T, typename Context>
+void trace_branch(const WhittedTracer<W>& tracer, PathStateT<T> path, Context& context,
+                  RgbT<T>& sum) {
+    const W& world = tracer.world();
+    const auto vertex = next_vertex(world, path, context.stream);
+    const RgbT<T> throughput = path.throughput; // of this vertex
+    const RadianceSum add{sum, throughput, context.log};
+    if (!vertex) return add("sky", "L", sky_radiance(world, path.ray.direction));
+    log_arrival(context.log, vertex->point.position);
     if (vertex->emits()) add("emission", "L", vertex->object.emission);
 
     std::optional<PathStateT<T>> other; // the second branch
     const auto at_material = [&](const auto& material) {
         if (has(lobes(material), Lobes::non_specular))
-            local_light(tracer, *vertex, material, counts, add);
-        if (path.depth > tracer.settings.max_depth) {
-            detail::cut_if(has(lobes(material), Lobes::specular), counts);
+            local_light(tracer, *vertex, material, context.counts, add);
+        if (path.depth > tracer.settings().max_depth) {
+            cut_if(has(lobes(material), Lobes::specular), context.counts);
             return false;
         }
-        if (tracer.settings.both_ways) other = split_path(path, *vertex, material);
+        if (tracer.settings().both_ways) other = split_path(path, *vertex, material);
         return other || continue_path(path, *vertex, material, Transport::radiance,
-                                      Lobes::specular, stream);
+                                      Lobes::specular, context.stream);
     };
-    if (!visit_material_at(tracer.scene, *vertex, at_material)) return;
-    detail::log_vertex(log, path);
+    if (!visit_material_at(world, *vertex, at_material)) return;
+    log_vertex(context.log, path);
     const auto grow = [&](const PathStateT<T>& branch) {
         if (is_black(branch.throughput)) return;
-        ++counts.bounce_rays;
-        trace_branch(tracer, branch, stream, counts, log, sum);
+        ++context.counts.bounce_rays;
+        trace_branch(tracer, branch, context, sum);
     };
     grow(path);
     if (!other) return;
-    detail::log_specular_path(log, *other);
+    log_specular_path(context.log, *other);
     grow(*other);
 }
 // [trace_branch]
@@ -145,21 +141,19 @@ void trace_branch(const WhittedTracer<S>& tracer, PathStateT<T> path, Stream& st
 ///
 /// Nothing is left to chance: glass sends a ray both ways, each light has one point.
 /// Only a material that mixes several lobes, or a thin surface, still chooses by lot.
-/// \param tracer  The scene and the settings.
-/// \param ray     A primary ray.
-/// \param stream  Numbers for what is left to chance.
-/// \param counts  Counts the rays.
-/// \param log     Told of each vertex and each term.
+/// \param tracer   The world and the settings.
+/// \param ray      A primary ray.
+/// \param context  Numbers for what is left to chance; counts rays, logs terms.
 /// \return Radiance, W/(m^2 sr).
 /// \cost Up to 2^max_depth rays, if every ray meets glass.
 /// \report{Section 2.1}
-template <SceneLike S, std::floating_point T, typename Stream, typename Log = NoLog>
-[[nodiscard]] RgbT<T> radiance(const WhittedTracer<S>& tracer, const RayT<T>& ray,
-                               Stream& stream, Counts& counts, Log&& log = {}) {
+template <AnyWorld W, std::floating_point T, typename Context>
+[[nodiscard]] RgbT<T> radiance(const WhittedTracer<W>& tracer, const RayT<T>& ray,
+                               Context& context) {
     RgbT<T> sum{T(0)};
-    log.begin();
-    detail::trace_branch(tracer, detail::camera_path(tracer.scene, ray, stream), stream,
-                         counts, log, sum);
+    context.log.begin();
+    detail::trace_branch(tracer, camera_path(tracer.world(), ray, context.stream),
+                         context, sum);
     return sum;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "ljus/geometry/ray.hpp"
+#include "ljus/math/random.hpp"
 #include "ljus/math/require.hpp"
 
 namespace ljus {
@@ -19,6 +20,7 @@ namespace ljus {
 /// A pinhole camera; look_at() makes one.
 template <std::floating_point T>
 struct CameraT {
+    using Scalar = T;                    ///< The precision.
     Vec3T<T> position{T(0)};             ///< The pinhole, in scene units.
     Vec3T<T> right{T(1), T(0), T(0)};    ///< Unit, to the right of the picture.
     Vec3T<T> up{T(0), T(1), T(0)};       ///< Unit, to the top of the picture.
@@ -99,11 +101,24 @@ template <std::floating_point T>
 /// \param width   Of the picture, in pixels.
 /// \param height  Of the picture, in pixels.
 /// \return primary_ray().
-template <std::floating_point T, typename Stream>
+template <std::floating_point T, StreamLike Stream>
 [[nodiscard]] RayT<T> camera_ray(const CameraT<T>& camera, const Vec2T<T>& pixel,
                                  int width, int height, Stream&) noexcept {
     return primary_ray(camera, pixel, width, height);
 }
+
+/// A camera: a struct with a member type `Scalar`, and beside it a function that gives
+/// the ray through a point of the picture and may draw numbers for it,
+///
+///     Ray camera_ray(const MyCamera&, const Vec2& pixel, int width, int height,
+///                    auto& stream);
+template <typename C>
+concept CameraLike = requires(const C& camera, const Vec2T<typename C::Scalar>& pixel,
+                              RandomStream& stream) {
+    {
+        camera_ray(camera, pixel, 1, 1, stream)
+        } -> std::same_as<RayT<typename C::Scalar>>;
+};
 
 /// Where a point appears in the picture: primary_ray() the other way round.
 /// \param camera  The camera.
@@ -132,13 +147,6 @@ template <std::floating_point T>
 /// \defgroup room Ready-made scenes
 /// \brief What the ready-made scenes return.
 /// \{
-
-/// A scene, and where it is seen from.
-template <typename S>
-struct Room {
-    S scene{};                            ///< Shapes, materials and lights.
-    CameraT<typename S::Scalar> camera{}; ///< Where it is seen from.
-};
 
 /// \}
 

@@ -18,13 +18,14 @@ namespace ljus {
 /// plane of focus meets in one point of the picture; with_lens() makes one.
 template <std::floating_point T>
 struct LensCameraT {
+    using Scalar = T;     ///< The precision.
     CameraT<T> pinhole{}; ///< Where it stands, and what it looks at.
     T radius = T(0);      ///< Of the lens' opening, in scene units; 0 is the pinhole.
     T focus = T(1); ///< How far the plane of focus is, along the view, in scene units.
 };
 using LensCamera = LensCameraT<float>; ///< LensCameraT in float.
 
-/// A camera, with a lens put into its pinhole.
+/// Replaces the pinhole of a camera by a thin lens.
 /// \param camera  Of look_at().
 /// \param radius  Of the opening, at least 0.
 /// \param focus   Distance of the plane that is sharp, above 0.
@@ -70,7 +71,7 @@ template <std::floating_point T>
 /// \param height  Of the picture, in pixels.
 /// \param stream  Two numbers are drawn.
 /// \return A ray from a random point of the lens.
-template <std::floating_point T, typename Stream>
+template <std::floating_point T, StreamLike Stream>
 [[nodiscard]] RayT<T> camera_ray(const LensCameraT<T>& camera, const Vec2T<T>& pixel,
                                  int width, int height, Stream& stream) noexcept {
     return primary_ray(camera, pixel, width, height, next_2d<T>(stream));

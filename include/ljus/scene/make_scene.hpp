@@ -12,13 +12,14 @@ namespace ljus {
 /// \defgroup make_scene Scenes in one expression
 /// \brief For small scenes in code, where spelling out the lists of types is a burden.
 ///
-///     const auto scene = make_scene(
+///     const World world(make_scene(
 ///         placed(Sphere{.center{0, 1, 0}}, Glass{}),
 ///         placed(Quad{{-5, 0, 5}, {10, 0, 0}, {0, 0, -10}}, Lambertian{}),
 ///         placed(Quad{{-1, 4, -1}, {2, 0, 0}, {0, 0, 2}}, Lambertian{}, Rgb{10}),
-///         PointLight{.position{0, 3, 3}});
+///         PointLight{.position{0, 3, 3}}));
 ///
-/// makes a `Scene<Shapes<Sphere, Quad>, Materials<Glass, Lambertian>>`.
+/// closes a `Scene<Shapes<Sphere, Quad>, Materials<Glass, Lambertian>,
+/// Lights<PointLight>>`.
 /// \{
 
 /// A shape and what it is made of, on its way into a scene.
@@ -74,6 +75,7 @@ template <typename S, typename M>
 struct PartOf<Placed<S, M>> {
     using Shape = TypeList<S>;    ///< Its shape.
     using Material = TypeList<M>; ///< Its material.
+    using Light = TypeList<>;     ///< None.
 };
 
 /// \copydoc PartOf
@@ -81,6 +83,7 @@ template <LightSource L>
 struct PartOf<L> {
     using Shape = TypeList<>;    ///< None.
     using Material = TypeList<>; ///< None.
+    using Light = TypeList<L>;   ///< Its own type.
 };
 
 /// Adds a part to a scene that lists its types.
@@ -110,10 +113,10 @@ template <typename Part>
 concept PlacedPart =
     ScenePart<Part> && !std::is_same_v<typename PartOf<Part>::Shape, TypeList<>>;
 
-/// The scene of two lists.
-template <typename... S, typename... M>
-[[nodiscard]] Scene<Shapes<S...>, Materials<M...>> scene_of(TypeList<S...>,
-                                                            TypeList<M...>) {
+/// The scene of three lists.
+template <typename... S, typename... M, typename... L>
+[[nodiscard]] Scene<Shapes<S...>, Materials<M...>, Lights<L...>>
+scene_of(TypeList<S...>, TypeList<M...>, TypeList<L...>) {
     return {};
 }
 
@@ -130,7 +133,8 @@ requires(detail::PlacedPart<Part> || ...)
     [[nodiscard]] auto make_scene(const Part&... parts) {
     auto scene = detail::scene_of(
         (detail::TypeList<>{} + ... + typename detail::PartOf<Part>::Shape{}),
-        (detail::TypeList<>{} + ... + typename detail::PartOf<Part>::Material{}));
+        (detail::TypeList<>{} + ... + typename detail::PartOf<Part>::Material{}),
+        (detail::TypeList<>{} + ... + typename detail::PartOf<Part>::Light{}));
     (detail::add_part(scene, parts), ...);
     return scene;
 }

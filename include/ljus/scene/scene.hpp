@@ -1,15 +1,16 @@
 #pragma once
 
 /// \file ljus/scene/scene.hpp
-/// \brief Shapes, what they are made of, and what emits: plain data.
+/// \brief Shapes, what they are made of, and what emits: plain data that one adds to.
 
 #include <array>
 #include <cstddef>
 #include <tuple>
 #include <vector>
 
+#include "ljus/lights/area_light.hpp"
 #include "ljus/materials/material.hpp"
-#include "ljus/scene/make_light.hpp"
+#include "ljus/math/closed_list.hpp"
 
 namespace ljus {
 
@@ -25,43 +26,91 @@ struct Shapes {};
 template <Material... M>
 struct Materials {};
 
+/// The closed list of a scene's light types, besides objects that emit.
+template <LightSource... L>
+struct Lights {};
+
+/// Which material: the position of its type in Materials<...>, and its index among
+/// those of its type.
+struct MaterialId {
+    std::uint32_t type = 0;  ///< Position in Materials<...>.
+    std::uint32_t index = 0; ///< Index in that type's array.
+    /// Whether both name the same material.
+    friend bool operator==(const MaterialId&, const MaterialId&) = default;
+};
+
+/// Which object: the position of its shape's type in Shapes<...>, and its index among
+/// those of its type.
+struct ObjectId {
+    std::uint32_t type = 0;  ///< Position in Shapes<...>.
+    std::uint32_t index = 0; ///< Index in that type's array.
+    /// Whether both name the same object.
+    friend bool operator==(const ObjectId&, const ObjectId&) = default;
+};
+
+/// The light number of an object that is no light.
+inline constexpr std::uint32_t no_light = 0xffffffffu;
+
+/// What a scene knows of a shape besides its geometry.
+template <std::floating_point T>
+struct ObjectT {
+    MaterialId material{};   ///< What it is made of.
+    RgbT<T> emission{T(0)};  ///< Radiance along the normal's side, W/(m^2 sr).
+    bool inside_out = false; ///< The normal points inwards: a room made of a sphere.
+    std::uint32_t light = no_light; ///< Its number among a World's lights, if it emits.
+};
+
+/// One of the things that were added to a scene and may shine, in their order.
+struct AddedId {
+    std::uint32_t type = 0;  ///< Position in Shapes<...> or in Lights<...>.
+    std::uint32_t index = 0; ///< Index in that type's array.
+    bool is_light = false;   ///< Whether it is a light and not an object.
+};
+
 /// A scene; see the specialisation.
-template <typename ShapeList, typename MaterialList>
+template <typename ShapeList, typename MaterialList, typename LightList = Lights<>>
 struct Scene;
 
-/// Shapes with their materials, and lights: one contiguous array a type.
+/// Shapes with their materials, and lights: one contiguous array per type. One adds to
+/// it until it is closed: a World is made of it, and is what everything else takes.
 ///
-///     Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass>> scene;
-///     const auto grey = scene.add(Lambertian{.albedo = Rgb{0.5f}});
+///     Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass>, Lights<PointLight>>
+///     scene; const auto grey = scene.add(Lambertian{.albedo = Rgb{0.5f}});
 ///     scene.add(Sphere{.center{0, 0, -3}, .radius = 1}, grey);
 ///     scene.add(PointLight{.position{0, 3, 0}, .intensity = Rgb{20}});
+///     const World world(std::move(scene));
 ///
-/// What is added is checked; lights are collected as they come, and keep their numbers.
-template <typename FirstShape, typename... S, typename... M>
-struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
+/// What is added is checked. Its arrays may be changed in place; a World checks them
+/// again.
+template <typename FirstShape, typename... S, typename... M, typename... L>
+struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
     using Scalar = ScalarOf<FirstShape>; ///< The precision, from the shapes' types.
     static_assert((std::is_same_v<Scalar, ScalarOf<S>> && ...),
                   "A scene's shapes must all have one precision.");
     static_assert((std::is_same_v<Scalar, typename M::Scalar> && ...),
                   "A scene's materials must have the precision of its shapes.");
+    static_assert((std::is_same_v<Scalar, typename L::Scalar> && ...),
+                  "A scene's lights must have the precision of its shapes.");
     static_assert(sizeof...(M) > 0, "A scene lists at least one type of material.");
-    static_assert(detail::each_once<FirstShape, S...> && detail::each_once<M...>,
+    static_assert(detail::each_once<FirstShape, S...> && detail::each_once<M...> &&
+                      detail::each_once<L...>,
                   "A scene lists each type once.");
 
-    /// Whether a type of shape or of material is listed.
+    /// Whether a type of shape, of material or of light is listed.
     template <typename X>
     static constexpr bool lists = std::is_same_v<X, FirstShape> ||
                                   (std::is_same_v<X, S> || ...) ||
-                                  (std::is_same_v<X, M> || ...);
+                                  (std::is_same_v<X, M> || ...) ||
+                                  (std::is_same_v<X, L> || ...);
 
-    std::tuple<std::vector<FirstShape>, std::vector<S>...> shapes; ///< An array a type.
-    /// What each shape is made of, in the order of `shapes`.
-    std::array<std::vector<detail::ObjectT<Scalar>>, 1 + sizeof...(S)> objects;
-    std::tuple<std::vector<M>...> materials; ///< An array a type.
-    std::vector<LightT<Scalar>> lights;      ///< Emissive objects, and the others.
-    Vec3T<Scalar> low{Scalar(0)};    ///< Least corner of a box around all shapes.
-    Vec3T<Scalar> high{Scalar(0)};   ///< Its greatest corner.
-    std::vector<std::uint32_t> suns; ///< Which lights are suns.
+    std::tuple<std::vector<FirstShape>, std::vector<S>...>
+        shapes; ///< An array per type.
+    /// What each shape is made of, in the order of `shapes`. The emission is what add()
+    /// was given, without that of the material.
+    std::array<std::vector<ObjectT<Scalar>>, 1 + sizeof...(S)> objects;
+    std::tuple<std::vector<M>...> materials; ///< An array per type.
+    std::tuple<std::vector<L>...> lights;    ///< An array per type.
+    std::vector<AddedId> order; ///< Objects and lights, in the order of their addition.
 
     /// Adds a material.
     /// \param material  One of the listed types.
@@ -91,39 +140,42 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
                                    RgbT<Scalar> radiance = {},
                                    bool inside_out = false) {
         check(shape);
-        radiance = emitted_radiance(material, radiance);
+        const ObjectT<Scalar> object{material, radiance, inside_out};
+        check_emission(shape, emission_of(object));
         auto& array = std::get<std::vector<G>>(shapes);
         const ObjectId id{detail::type_number<G, FirstShape, S...>,
                           static_cast<std::uint32_t>(array.size())};
-        if constexpr (!HasArea<G>)
-            require(is_black(radiance), "the radiance of a shape of unknown area",
-                    radiance, "black: it can be lit, but cannot be a light");
-        else if (!is_black(radiance)) {
-            add_light(id, radiance, area(shape));
-            if constexpr (detail::is_plane<G>) {
-                lights.back().direction = normal(shape);
-                lights.back().area = area(shape);
-            }
-        }
-        reach(bounding_sphere(shape));
         array.push_back(shape);
-        const std::uint32_t light = is_black(radiance)
-                                        ? detail::no_light
-                                        : static_cast<std::uint32_t>(lights.size() - 1);
-        objects[id.type].push_back({material, radiance, inside_out, light});
+        objects[id.type].push_back(object);
+        order.push_back({id.type, id.index, false});
         return id;
     }
 
-    /// A mistake: it does not compile, and says why.
+    /// Adds a light that is no object; a black one is left out.
+    /// \param light  One of the listed types.
+    /// \throws std::invalid_argument  if a value is out of range, or the flux.
+    template <LightSource X>
+    requires lists<X>
+    void add(const X& light) {
+        check(light);
+        const auto flux = power(in_scene(light, SphereT<Scalar>{.radius = 1}));
+        if (is_black(flux)) return;
+        detail::require_flux(flux);
+        auto& array = std::get<std::vector<X>>(lights);
+        order.push_back({detail::type_number<X, L...>,
+                         static_cast<std::uint32_t>(array.size()), true});
+        array.push_back(light);
+    }
+
+    /// Diagnoses an unlisted type.
     template <typename X>
-    requires(!((std::is_same_v<X, M> || ...) ||
-               std::is_convertible_v<X, detail::AnyLightT<Scalar>>)) MaterialId
-        add(const X&) {
-        static_assert(sizeof(X) == 0,
-                      "Neither a light nor listed: Scene<..., Materials<...>>.");
+    requires(!lists<X>) MaterialId add(const X&) {
+        constexpr bool light = LightSource<X>;
+        static_assert(!light, "List the light: Scene<..., ..., Lights<...>>.");
+        static_assert(light, "Neither a light nor listed: Scene<..., Materials<...>>.");
         return {};
     }
-    /// Another one.
+    /// Diagnoses an unlisted shape, or a material in place of its number.
     template <typename G, typename Made>
     ObjectId add(const G&, const Made&, RgbT<Scalar> = {}, bool = false) {
         static_assert(lists<G>, "List the shape: Scene<Shapes<...>, ...>.");
@@ -131,37 +183,33 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
         return {};
     }
 
-    /// Adds a light that is no object. A sun's flux is what falls into a sphere around
-    /// all shapes; it grows with each that is added, before or after.
-    /// \param light  A PointLight, a SpotLight, a SunLight, or another LightSource of
-    ///               the scene's precision.
-    /// \throws std::invalid_argument  if a value is out of range, or the flux.
-    void add(const detail::AnyLightT<Scalar>& light) {
-        LightT<Scalar> made = light.made;
-        if (is_black(made.emission)) return;
-        if (made.kind != LightKind::sun) {
-            detail::require_flux(made.flux);
-        } else {
-            if (size() > 0) detail::widen(made, low, high);
-            suns.push_back(static_cast<std::uint32_t>(lights.size()));
-        }
-        lights.push_back(made);
-    }
-
     /// What the scene knows of a shape besides its geometry.
-    [[nodiscard]] const detail::ObjectT<Scalar>& object(ObjectId id) const noexcept {
+    [[nodiscard]] const ObjectT<Scalar>& object(ObjectId id) const noexcept {
         return objects[id.type][id.index];
     }
 
-    /// Calls f(shape) with the shape of a number, as its own type.
-    template <typename F>
-    decltype(auto) visit_shape(ObjectId id, F&& f) const {
-        return visit<0>(shapes, id.type, id.index, f);
-    }
-    /// Calls f(material) with the material of a number, as its own type.
-    template <typename F>
-    decltype(auto) visit_material(MaterialId id, F&& f) const {
-        return visit<0>(materials, id.type, id.index, f);
+    /// What an object emits, with what its material does.
+    /// \param object  With a material of this scene.
+    /// \return W/(m^2 sr).
+    /// \throws std::invalid_argument  if the material is unknown, the radiance out of
+    ///         range, or the surface a thin one, through which light goes straight on.
+    [[nodiscard]] RgbT<Scalar> emission_of(const ObjectT<Scalar>& object) const {
+        const MaterialId id = object.material;
+        require_radiance("emission", object.emission);
+        require(id.type < sizeof...(M), "the material's type",
+                static_cast<long long>(id.type), "one that add() returned");
+        require(has(id), "the material's number", static_cast<long long>(id.index),
+                "one that add() returned");
+        const auto of_material = [&](const auto& m) {
+            const RgbT<Scalar> all = object.emission + emission(m);
+            constexpr bool thin = requires {
+                pass_through(m, Vec3T<Scalar>{}, Vec3T<Scalar>{});
+            };
+            require(!thin || is_black(all), "the radiance of a thin surface", all,
+                    "black: light goes straight on through it");
+            return all;
+        };
+        return detail::visit_element(materials, id.type, id.index, of_material);
     }
 
     /// Whether a predicate on types, a lambda `[]<typename G>() { ... }`, holds for one
@@ -176,6 +224,20 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     [[nodiscard]] static constexpr bool any_material(F f) noexcept {
         return (f.template operator()<M>() || ...);
     }
+    /// The same for the listed lights, as they are within a scene.
+    template <typename F>
+    [[nodiscard]] static constexpr bool any_light([[maybe_unused]] F f) noexcept {
+        return (f.template operator()<InSceneT<L>>() || ...);
+    }
+
+    /// How many lights there are: emissive objects, and those that are no objects.
+    [[nodiscard]] std::size_t light_count() const {
+        std::size_t count = 0;
+        for (const AddedId& added : order)
+            count += added.is_light ||
+                     !is_black(emission_of(objects[added.type][added.index]));
+        return count;
+    }
 
     /// How many shapes there are.
     [[nodiscard]] std::size_t size() const noexcept {
@@ -185,61 +247,23 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     }
 
 private:
-    // What an object emits, with what its material does: the same for all shapes.
-    RgbT<Scalar> emitted_radiance(MaterialId material, RgbT<Scalar> radiance) const {
-        require_radiance("emission", radiance);
-        require(material.type < sizeof...(M), "the material's type",
-                static_cast<long long>(material.type), "one that add() returned");
-        require(has(material), "the material's number",
-                static_cast<long long>(material.index), "one that add() returned");
-        radiance += visit_material(material, [](const auto& m) { return emission(m); });
-        const bool thin = visit_material(material, [](const auto& m) {
-            return requires {
-                pass_through(m, Vec3T<Scalar>{}, Vec3T<Scalar>{});
-            };
-        });
-        require(!thin || is_black(radiance), "the radiance of a thin surface", radiance,
-                "black: light goes straight on through it");
-        return radiance;
-    }
-
-    void add_light(ObjectId id, const RgbT<Scalar>& radiance, Scalar area) {
-        require_positive("the area of a light", area);
-        const RgbT<Scalar> flux = detail::diffuse_flux(radiance, area);
-        detail::require_flux(flux);
-        lights.push_back({.kind = LightKind::object,
-                          .object = id,
-                          .emission = radiance,
-                          .flux = flux});
-    }
-
-    // Widens the box, and with it what each sun has to light.
-    void reach(const SphereT<Scalar>& bound) {
-        const bool first = size() == 0;
-        const Vec3T<Scalar> from = bound.center - bound.radius;
-        const Vec3T<Scalar> to = bound.center + bound.radius;
-        low = first ? from : glm::min(low, from);
-        high = first ? to : glm::max(high, to);
-        for (const std::uint32_t sun : suns) detail::widen(lights[sun], low, high);
+    template <typename G>
+    void check_emission(const G& shape, const RgbT<Scalar>& radiance) const {
+        if (is_black(radiance)) return;
+        if constexpr (HasArea<G>)
+            (void)detail::make_lamp(shape, radiance, false);
+        else
+            require(false, "the radiance of a shape of unknown area", radiance,
+                    "black: it can be lit, but cannot be a light");
     }
 
     bool has(MaterialId id) const noexcept {
-        std::uint32_t place = 0;
+        std::uint32_t type = 0;
         return std::apply(
             [&](const auto&... array) {
-                return ((place++ == id.type && id.index < array.size()) || ...);
+                return ((type++ == id.type && id.index < array.size()) || ...);
             },
             materials);
-    }
-
-    // The last type needs no comparison: with one type listed, none is made at all.
-    template <std::size_t I, typename Tuple, typename F>
-    static decltype(auto) visit(const Tuple& arrays, std::uint32_t type,
-                                std::uint32_t index, F& f) {
-        if constexpr (I + 1 < std::tuple_size_v<Tuple>) {
-            if (type != I) return visit<I + 1>(arrays, type, index, f);
-        }
-        return f(std::get<I>(arrays)[index]);
     }
 };
 

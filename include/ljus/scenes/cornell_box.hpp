@@ -7,8 +7,7 @@
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
-#include "ljus/scene/camera.hpp"
-#include "ljus/scene/query.hpp"
+#include "ljus/scenes/room.hpp"
 
 namespace ljus {
 
@@ -25,7 +24,7 @@ using CornellSceneT = Scene<Shapes<QuadT<T>, SphereT<T>>,
 /// Adds five walls, from (-1, 0, -1) to (1, 2, 1), normals inwards; the sixth, towards
 /// the camera, is open. Red is left, green right, all else white.
 /// \param scene  A scene with quads and Lambert's surfaces.
-template <SceneLike S, std::floating_point T = typename S::Scalar>
+template <typename S, std::floating_point T = typename S::Scalar>
 void add_cornell_walls(S& scene) {
     const MaterialId white = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0.75)}});
     const MaterialId red =
@@ -57,7 +56,7 @@ namespace detail {
 
 /// Adds the lamp below the ceiling, a square of side 0.5.
 /// \param scene  A scene with quads and Lambert's surfaces.
-template <SceneLike S, std::floating_point T = typename S::Scalar>
+template <typename S, std::floating_point T = typename S::Scalar>
 void add_cornell_lamp(S& scene) {
     scene.add(QuadT<T>{.corner{T(-0.25), T(1.99), T(-0.25)},
                        .edge_u{T(0.5), T(0), T(0)},
@@ -72,16 +71,14 @@ void add_cornell_lamp(S& scene) {
 /// \return The scene and its camera.
 template <std::floating_point T = float>
 [[nodiscard]] Room<CornellSceneT<T>> cornell_box() {
-    Room<CornellSceneT<T>> room;
-    auto& scene = room.scene;
+    CornellSceneT<T> scene;
     add_cornell_walls(scene);
     scene.add(SphereT<T>{.center{T(-0.42), T(0.38), T(-0.3)}, .radius = T(0.38)},
               scene.add(MirrorT<T>{.reflectance = RgbT<T>{T(0.95)}}));
     scene.add(SphereT<T>{.center{T(0.42), T(0.38), T(0.3)}, .radius = T(0.38)},
               scene.add(GlassT<T>{.index = T(1.5)}));
     detail::add_cornell_lamp(scene);
-    room.camera = cornell_camera<T>();
-    return room;
+    return {World(std::move(scene)), cornell_camera<T>()};
 }
 
 /// The same box with two matt balls in the places of mirror and glass: nothing but
@@ -90,16 +87,14 @@ template <std::floating_point T = float>
 // [matt_cornell_box]
 template <std::floating_point T = float>
 [[nodiscard]] Room<CornellSceneT<T>> matt_cornell_box() {
-    Room<CornellSceneT<T>> room;
-    auto& scene = room.scene;
+    CornellSceneT<T> scene;
     add_cornell_walls(scene);
     scene.add(SphereT<T>{.center{T(-0.42), T(0.38), T(-0.3)}, .radius = T(0.38)},
               scene.add(LambertianT<T>{.albedo{T(0.2), T(0.35), T(0.7)}}));
     scene.add(SphereT<T>{.center{T(0.42), T(0.38), T(0.3)}, .radius = T(0.38)},
               scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0.7)}}));
     detail::add_cornell_lamp(scene);
-    room.camera = cornell_camera<T>();
-    return room;
+    return {World(std::move(scene)), cornell_camera<T>()};
 }
 // [matt_cornell_box]
 

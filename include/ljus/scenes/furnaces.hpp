@@ -5,8 +5,7 @@
 
 #include "ljus/geometry/shape.hpp"
 #include "ljus/materials/lambertian.hpp"
-#include "ljus/scene/camera.hpp"
-#include "ljus/scene/query.hpp"
+#include "ljus/scenes/room.hpp"
 
 namespace ljus {
 
@@ -47,10 +46,10 @@ CameraT<T> furnace_camera() {
 template <std::floating_point T>
 [[nodiscard]] Room<detail::SphereFurnaceT<T>> sphere_furnace(const RgbT<T>& emission,
                                                              const RgbT<T>& albedo) {
-    Room<detail::SphereFurnaceT<T>> room{.camera = detail::furnace_camera<T>()};
-    const MaterialId wall = room.scene.add(LambertianT<T>{.albedo = albedo});
-    room.scene.add(SphereT<T>{}, wall, emission, true);
-    return room;
+    detail::SphereFurnaceT<T> scene;
+    const MaterialId wall = scene.add(LambertianT<T>{.albedo = albedo});
+    scene.add(SphereT<T>{}, wall, emission, true);
+    return {World(std::move(scene)), detail::furnace_camera<T>()};
 }
 
 /// A furnace within a box: near an edge the lamps are so close that only multiple
@@ -62,8 +61,8 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] Room<detail::BoxFurnaceT<T>> box_furnace(const RgbT<T>& emission,
                                                        const RgbT<T>& albedo) {
-    Room<detail::BoxFurnaceT<T>> room{.camera = detail::furnace_camera<T>()};
-    const MaterialId wall = room.scene.add(LambertianT<T>{.albedo = albedo});
+    detail::BoxFurnaceT<T> scene;
+    const MaterialId wall = scene.add(LambertianT<T>{.albedo = albedo});
     const Vec3T<T> x{T(2), T(0), T(0)};
     const Vec3T<T> y{T(0), T(2), T(0)};
     const Vec3T<T> z{T(0), T(0), T(2)};
@@ -71,8 +70,8 @@ template <std::floating_point T>
     for (const QuadT<T>& side : {QuadT<T>{corner, z, x}, QuadT<T>{corner + y, x, z},
                                  QuadT<T>{corner, x, y}, QuadT<T>{corner + z, y, x},
                                  QuadT<T>{corner, y, z}, QuadT<T>{corner + x, z, y}})
-        room.scene.add(side, wall, emission);
-    return room;
+        scene.add(side, wall, emission);
+    return {World(std::move(scene)), detail::furnace_camera<T>()};
 }
 
 /// \}

@@ -7,8 +7,7 @@
 
 #include "ljus/geometry/shape.hpp"
 #include "ljus/materials/lambertian.hpp"
-#include "ljus/scene/camera.hpp"
-#include "ljus/scene/query.hpp"
+#include "ljus/scenes/room.hpp"
 
 namespace ljus {
 
@@ -47,7 +46,7 @@ LambertianT<T> report_matt(T red, T green, T blue) {
 /// \param y      The same.
 /// \param size   Of its sides.
 /// \param color  The lamp's radiance over 30.
-template <SceneLike S, std::floating_point T>
+template <typename S, std::floating_point T>
 void add_ceiling_lamp(S& scene, T x, T y, T size, const RgbT<T>& color) {
     scene.add(QuadT<T>{.corner{x, y, T(4.999)},
                        .edge_u{T(0), size, T(0)},
@@ -58,7 +57,7 @@ void add_ceiling_lamp(S& scene, T x, T y, T size, const RgbT<T>& color) {
 /// Adds the report's room: floor, ceiling and the four walls in view, all matt, their
 /// normals inwards.
 /// \param scene  A scene with quads, triangles and Lambert's surfaces.
-template <SceneLike S, std::floating_point T = typename S::Scalar>
+template <typename S, std::floating_point T = typename S::Scalar>
 void add_report_room(S& scene) {
     // The outline of the floor, from v2, the left corner next to the camera, to v6.
     constexpr std::array<std::array<T, 2>, 5> outline{

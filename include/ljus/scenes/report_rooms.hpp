@@ -98,20 +98,20 @@ void add_report_matt_objects(ReportSceneT<T>& scene) {
 /// \report{Figures 1 and 15}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> final_room() {
-    Room<ReportSceneT<T>> room{.camera = report_camera<T>()};
-    add_report_room(room.scene);
-    detail::add_report_matt_objects(room.scene);
-    detail::add_report_mixture<T>(room.scene, {{T(6), T(-3.5), T(-3.5)}, T(1.15)},
-                                  T(1.15), T(0.6), {T(0.5), T(0.5), T(1)});
-    detail::add_report_glass<T>(room.scene, {{T(6), T(-4), T(1.75)}, T(1.5)}, T(1.47),
+    ReportSceneT<T> scene;
+    add_report_room(scene);
+    detail::add_report_matt_objects(scene);
+    detail::add_report_mixture<T>(scene, {{T(6), T(-3.5), T(-3.5)}, T(1.15)}, T(1.15),
+                                  T(0.6), {T(0.5), T(0.5), T(1)});
+    detail::add_report_glass<T>(scene, {{T(6), T(-4), T(1.75)}, T(1.5)}, T(1.47),
                                 {T(1), T(1), T(0)});
-    detail::add_report_glass<T>(room.scene, {{T(7), T(0), T(2.75)}, T(0.5)}, T(1.37),
+    detail::add_report_glass<T>(scene, {{T(7), T(0), T(2.75)}, T(0.5)}, T(1.37),
                                 {T(0.8), T(0.2), T(1)});
-    detail::add_report_glass<T>(room.scene, {{T(6.5), T(-2), T(0.95)}, T(1)}, T(1.47),
+    detail::add_report_glass<T>(scene, {{T(6.5), T(-2), T(0.95)}, T(1)}, T(1.47),
                                 {T(0.7), T(1), T(0)});
-    add_ceiling_lamp(room.scene, T(5), T(-1), T(2), RgbT<T>{T(1)});
-    add_ceiling_lamp(room.scene, T(4), T(2), T(1), RgbT<T>{1, 1, T(0.65)});
-    return room;
+    add_ceiling_lamp(scene, T(5), T(-1), T(2), RgbT<T>{T(1)});
+    add_ceiling_lamp(scene, T(4), T(2), T(1), RgbT<T>{1, 1, T(0.65)});
+    return {World(std::move(scene)), report_camera<T>()};
 }
 
 /// The room of figure 12: one lamp, and one of each material.
@@ -119,15 +119,15 @@ template <std::floating_point T = float>
 /// \report{Figure 12, Table 3}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> all_materials_room() {
-    Room<ReportSceneT<T>> room{.camera = report_camera<T>()};
-    add_report_room(room.scene);
-    detail::add_report_matt_objects(room.scene);
-    detail::add_report_mixture<T>(room.scene, {{T(6), T(-3.5), T(-3.5)}, T(1.15)}, T(1),
+    ReportSceneT<T> scene;
+    add_report_room(scene);
+    detail::add_report_matt_objects(scene);
+    detail::add_report_mixture<T>(scene, {{T(6), T(-3.5), T(-3.5)}, T(1.15)}, T(1),
                                   T(0.6), {T(0.5), T(0.5), T(1)});
-    detail::add_report_glass<T>(room.scene, {{T(6), T(-4), T(1.75)}, T(1.5)}, T(1.97),
+    detail::add_report_glass<T>(scene, {{T(6), T(-4), T(1.75)}, T(1.5)}, T(1.97),
                                 RgbT<T>{T(1)});
-    add_ceiling_lamp(room.scene, T(5), T(-1), T(2), RgbT<T>{T(1)});
-    return room;
+    add_ceiling_lamp(scene, T(5), T(-1), T(2), RgbT<T>{T(1)});
+    return {World(std::move(scene)), report_camera<T>()};
 }
 
 /// The room of figures 11 and 13: one lamp, and four balls of glass. The report's
@@ -136,18 +136,18 @@ template <std::floating_point T = float>
 /// \report{Figures 11 and 13, Tables 2 and 4}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> four_glass_room() {
-    Room<ReportSceneT<T>> room{.camera = report_camera<T>()};
-    add_report_room(room.scene);
-    detail::add_report_glass<T>(room.scene, {{T(6), T(-4), T(1.75)}, T(1.5)}, T(1.97),
+    ReportSceneT<T> scene;
+    add_report_room(scene);
+    detail::add_report_glass<T>(scene, {{T(6), T(-4), T(1.75)}, T(1.5)}, T(1.97),
                                 RgbT<T>{T(1)});
-    detail::add_report_mixture<T>(room.scene, {{T(6), T(-3.5), T(-3.5)}, T(1.15)}, T(1),
+    detail::add_report_mixture<T>(scene, {{T(6), T(-3.5), T(-3.5)}, T(1.15)}, T(1),
                                   T(0.6), {T(0.5), T(0.5), T(1)});
-    detail::add_report_mixture<T>(room.scene, {{T(8), T(0.5), T(-2.5)}, T(1.5)}, T(1.6),
+    detail::add_report_mixture<T>(scene, {{T(8), T(0.5), T(-2.5)}, T(1.5)}, T(1.6),
                                   T(0.5), RgbT<T>{T(1)});
-    detail::add_report_glass<T>(room.scene, {{T(7), T(4.5), T(-3)}, T(1.15)}, T(1.7),
+    detail::add_report_glass<T>(scene, {{T(7), T(4.5), T(-3)}, T(1.15)}, T(1.7),
                                 {T(1), T(1), T(0.2)});
-    add_ceiling_lamp(room.scene, T(5), T(-1), T(2), RgbT<T>{T(1)});
-    return room;
+    add_ceiling_lamp(scene, T(5), T(-1), T(2), RgbT<T>{T(1)});
+    return {World(std::move(scene)), report_camera<T>()};
 }
 
 /// \}

@@ -44,11 +44,11 @@ int main() {
     scene.add(Sphere{.center{0.42f, 0.38f, 0.3f}, .radius = 0.38f}, white);
     scene.add(Quad{{-0.25f, 1.99f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}}, black,
               Rgb{17, 13, 8});
-    const auto maps = make_photon_maps(scene);
-    const auto mapper = make_photon_mapper(scene, maps);
+    const World world(std::move(scene));
+    const PhotonMapper mapper(world);
     report(
         render(mapper,
                look_at({.position{0, 1, 4.4f}, .target{0, 1, 0}, .vfov_degrees = 33}),
                {.width = 64, .height = 64, .samples = 4, .threads = 1}),
-        maps.caustics.records.size());
+        mapper.maps().caustics.records.size());
 }

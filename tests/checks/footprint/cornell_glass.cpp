@@ -12,9 +12,8 @@ int main() {
     PhotonMappingSettings settings;
     settings.caustics.photons = 20000;
     settings.caustics.threads = 1;
-    const auto maps = make_photon_maps(box.scene, settings);
-    const auto mapper = make_photon_mapper(box.scene, maps, settings);
+    const PhotonMapper mapper(box.world, settings);
     report(render(mapper, box.camera,
                   {.width = 64, .height = 64, .samples = 4, .threads = 1}),
-           maps.caustics.records.size(), bytes_of(maps.caustics));
+           mapper.maps().caustics.records.size(), bytes_of(mapper.maps().caustics));
 }

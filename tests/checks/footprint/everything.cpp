@@ -3,6 +3,8 @@
 /// irradiance cache.
 
 #include "ljus/ljus.hpp"
+#include "ljus/render/gathering.hpp"
+#include "ljus/render/skipping.hpp"
 #include "ljus/scenes/report_rooms.hpp"
 #include "report.hpp"
 
@@ -30,9 +32,10 @@ int main() {
     settings.caustics.threads = settings.general.threads = 1;
     settings.skip.rule = SkipRule::enough;
     const RenderSettings picture{.width = 64, .height = 64, .samples = 4, .threads = 1};
-    auto maps = make_photon_maps(scene, settings);
-    add_irradiance_cache(maps, scene, report_camera(), picture, settings);
-    const auto mapper = make_photon_mapper(scene, maps, settings);
+    const World world(std::move(scene));
+    PhotonMapper mapper(world, settings, abilities<Gathering, Skipping>);
+    mapper.fill_cache(report_camera(), picture);
+    const auto& maps = mapper.maps();
     report(render(mapper, report_camera(), picture),
            maps.caustics.records.size() + maps.general.records.size(),
            bytes_of(maps.caustics) + bytes_of(maps.general));

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "ljus/io/detail/json_textures.hpp"
-#include "ljus/scene/make_light.hpp"
+#include "ljus/lights/point_light.hpp"
+#include "ljus/lights/spot_light.hpp"
+#include "ljus/lights/sun_light.hpp"
 
 namespace ljus {
 

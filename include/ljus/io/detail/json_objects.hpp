@@ -11,6 +11,9 @@
 #include "ljus/geometry/detail/pair_triangles.hpp"
 #include "ljus/io/detail/json_field.hpp"
 #include "ljus/io/detail/json_materials.hpp"
+#include "ljus/lights/point_light.hpp"
+#include "ljus/lights/spot_light.hpp"
+#include "ljus/lights/sun_light.hpp"
 #include "ljus/scene/scene.hpp"
 
 namespace ljus {
@@ -34,7 +37,8 @@ namespace detail {
 /// A scene of whatever a scene file may hold.
 template <std::floating_point T>
 using FileSceneT =
-    Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>, MeshT<T>>, FileMaterialsT<T>>;
+    Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>, MeshT<T>>, FileMaterialsT<T>,
+          Lights<PointLightT<T>, SpotLightT<T>, SunLightT<T>>>;
 
 /// Reads no meshes: what load_json() does unless it is given an ObjMeshes.
 template <std::floating_point T>

@@ -31,32 +31,32 @@ template <std::floating_point T>
 // [kernel_part]
 
 /// The surface at a place: what a short ray straight down meets there.
-/// \param scene   The scene.
+/// \param world   The closed scene.
 /// \param place   Where.
 /// \param normal  Unit, up from the surface that is expected there.
 /// \param height  Where the ray starts, and as far below it ends.
 /// \return The vertex; nothing if there is no surface.
-template <SceneLike S, std::floating_point T>
+template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<VertexT<T>>
-vertex_below(const S& scene, const Vec3T<T>& place, const Vec3T<T>& normal, T height) {
+vertex_below(const W& world, const Vec3T<T>& place, const Vec3T<T>& normal, T height) {
     const RayT<T> down{.origin = place + height * normal,
                        .direction = -normal,
                        .t_max = T(2) * height};
-    const auto hit = closest_hit(scene, down);
+    const auto hit = closest_hit(world, down);
     if (!hit) return std::nullopt;
-    return vertex_at(scene, down, *hit);
+    return vertex_at(world, down, *hit);
 }
 
 /// Whether a surface goes on at a place near one of its points: a short ray straight
 /// down on it meets a surface of the same normal.
-/// \param scene   The scene.
+/// \param world   The closed scene.
 /// \param place   Where.
 /// \param normal  Of the surface, on the side that is asked about.
 /// \param height  Where the ray starts, and as far below it ends.
-template <SceneLike S, std::floating_point T>
-[[nodiscard]] bool goes_on(const S& scene, const Vec3T<T>& place,
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] bool goes_on(const W& world, const Vec3T<T>& place,
                            const Vec3T<T>& normal, T height) {
-    const auto there = vertex_below(scene, place, normal, height);
+    const auto there = vertex_below(world, place, normal, height);
     return there && std::abs(glm::dot(there->point.normal, normal)) > T(0.99);
 }
 
@@ -64,13 +64,13 @@ template <SceneLike S, std::floating_point T>
 /// edge of the shape cuts off a part of the disc, unless another surface goes on there,
 /// as at the diagonal of a wall of two triangles. Where two edges meet, their parts are
 /// multiplied, which is exact for a kernel that is a product and close for this one.
-/// \param scene   The scene.
+/// \param world   The closed scene.
 /// \param vertex  The middle.
 /// \param normal  Unit, on the side that is asked about.
 /// \param radius  Of the disc.
 /// \return In (0, 1]; 1 for shapes without straight edges.
-template <SceneLike S, std::floating_point T>
-[[nodiscard]] T part_on_surface(const S& scene, const VertexT<T>& vertex,
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] T part_on_surface(const W& world, const VertexT<T>& vertex,
                                 const Vec3T<T>& normal, T radius) {
     const Vec3T<T>& x = vertex.point.position;
     // [part_on_surface]
@@ -87,13 +87,13 @@ template <SceneLike S, std::floating_point T>
             const T distance = glm::dot(x - a, inward);
             if (!(distance < radius)) continue;
             const Vec3T<T> beyond = x - (distance + T(0.02) * radius) * inward;
-            if (!goes_on(scene, beyond, normal, T(0.01) * radius))
+            if (!goes_on(world, beyond, normal, T(0.01) * radius))
                 product *= kernel_part(distance / radius);
         }
         return product;
     };
     // [part_on_surface]
-    return scene.visit_shape(vertex.id, [&](const auto& shape) {
+    return world.visit_shape(vertex.id, [&](const auto& shape) {
         if constexpr (requires { corners_of(shape); })
             return part(corners_of(shape));
         else

@@ -7,36 +7,36 @@
 #include <span>
 
 #include "ljus/math/vector.hpp"
-#include "ljus/path/counts.hpp"
-#include "ljus/path/path_log.hpp"
+#include "ljus/path/renderer.hpp"
 
 namespace ljus::detail {
 
 /// \addtogroup render
 /// \{
 
-/// A renderer that puts some map queries off, to answer those of many samples together.
-/// Its type `Later` is the log of these samples, and has
+/// A renderer that puts some questions off, to answer those of many samples together.
+/// Its type `Batch` takes them, as Context::batch, and has
 ///
 ///     std::uint32_t item;  // which of the samples is being traced
 ///     void finish(const R& renderer, Counts& counts, std::span<RgbT<T>> samples);
 ///
-/// finish() adds the answers to the samples.
+/// finish() answers, and adds what comes to the samples. An answer must depend on its
+/// question alone, and not on those that are answered with it.
 template <typename R>
-concept AsksLater = requires {
-    typename R::Later;
+concept Batches = requires(typename R::Batch& batch) {
+    batch.item;
 };
 
-/// What a renderer that asks at once puts off: nothing.
+/// What a renderer puts off that answers at once: nothing.
 template <typename R>
-struct LaterOf {
-    using Type = NoLog;                ///< The log of its samples.
+struct BatchOf {
+    using Type = NoBatch;              ///< Its batch.
     static constexpr int together = 1; ///< How many samples are finished at a time.
 };
 /// For one that puts questions off.
-template <AsksLater R>
-struct LaterOf<R> {
-    using Type = typename R::Later;     ///< The log of its samples.
+template <Batches R>
+struct BatchOf<R> {
+    using Type = typename R::Batch;     ///< Its batch.
     static constexpr int together = 64; ///< How many samples are finished at a time.
 };
 
@@ -47,8 +47,7 @@ struct PixelSums {
     RgbT<double> squares{0}; ///< Of its squares.
 };
 
-/// Adds samples to the sums of their pixels, as soon as all of their light has come. An
-/// answer depends on its question alone, and not on those that are answered with it.
+/// Adds samples to the sums of their pixels, as soon as all of their light has come.
 template <typename R, std::floating_point T>
 class SampleSums {
 public:
@@ -59,23 +58,23 @@ public:
         : renderer_(renderer), sums_(sums), cost_(cost) {}
 
     /// Adds a sample.
-    /// \param pixel  Its place in the sums.
-    /// \param trace  Called with a log; returns radiance and weight of the sample.
+    /// \param pixel  Its index in the sums.
+    /// \param trace  Called with a batch; returns radiance and weight of the sample.
     template <typename Trace>
     void add(std::size_t pixel, const Trace& trace) {
         const auto item = static_cast<std::size_t>(count_);
-        if constexpr (AsksLater<R>) later_.item = static_cast<std::uint32_t>(count_);
-        const auto found = trace(later_);
+        if constexpr (Batches<R>) batch_.item = static_cast<std::uint32_t>(count_);
+        const auto found = trace(batch_);
         samples_[item] = found.radiance;
         weights_[item] = found.weight;
         pixels_[item] = pixel;
-        if (++count_ == LaterOf<R>::together) finish();
+        if (++count_ == BatchOf<R>::together) finish();
     }
     /// Adds what is left.
     void finish() {
         const auto count = static_cast<std::size_t>(count_);
-        if constexpr (AsksLater<R>)
-            later_.finish(renderer_, cost_, std::span(samples_.data(), count));
+        if constexpr (Batches<R>)
+            batch_.finish(renderer_, cost_, std::span(samples_.data(), count));
         for (std::size_t i = 0; i < count; ++i) {
             if (!is_finite(samples_[i])) {
                 ++cost_.rejected;
@@ -92,11 +91,11 @@ private:
     const R& renderer_;
     std::span<PixelSums> sums_;
     Counts& cost_;
-    typename LaterOf<R>::Type later_{};
+    typename BatchOf<R>::Type batch_{};
     int count_ = 0;
-    std::array<RgbT<T>, LaterOf<R>::together> samples_;
-    std::array<T, LaterOf<R>::together> weights_;
-    std::array<std::size_t, LaterOf<R>::together> pixels_;
+    std::array<RgbT<T>, BatchOf<R>::together> samples_;
+    std::array<T, BatchOf<R>::together> weights_;
+    std::array<std::size_t, BatchOf<R>::together> pixels_;
 };
 
 /// \}

@@ -1,31 +1,42 @@
 #pragma once
 
-/// \file ljus/io/detail/map_key.hpp
-/// \brief What a saved map was made from, so that it is used for nothing else.
+/// \file ljus/math/field_hash.hpp
+/// \brief A number that tells values from all others: what a saved map was made of.
 
+#include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
+#include <type_traits>
 #include <typeinfo>
 #include <utility>
 
-#include "ljus/io/binary_file.hpp"
-#include "ljus/scene/query.hpp"
+namespace ljus::detail {
 
-namespace ljus {
+// The unsigned number of the same size.
+template <typename Number>
+using BitsOf = std::conditional_t<sizeof(Number) == 8, std::uint64_t, std::uint32_t>;
 
-/// \addtogroup file
-/// \{
+// The bytes of a number, the lowest first, on every machine.
+template <typename Number>
+[[nodiscard]] std::array<unsigned char, sizeof(Number)>
+bytes_of(Number value) noexcept {
+    std::uint64_t bits = 0;
+    if constexpr (std::is_floating_point_v<Number>)
+        bits = std::bit_cast<BitsOf<Number>>(value);
+    else
+        bits = static_cast<std::uint64_t>(value);
+    std::array<unsigned char, sizeof(Number)> bytes{};
+    for (std::size_t i = 0; i < sizeof(Number); ++i)
+        bytes[i] = static_cast<unsigned char>(bits >> (8 * i) & 255u);
+    return bytes;
+}
 
-/// What a map was made from, in two numbers: light_map_key() makes them. A map that is
-/// saved with one key is loaded with no other, so that the map of a scene that was
-/// changed since is not used in silence.
-struct MapKey {
-    std::uint64_t scene = 0;    ///< Of shapes, materials and lights.
-    std::uint64_t settings = 0; ///< Of the settings that change the map.
-    /// Whether both are of the same.
-    friend bool operator==(const MapKey&, const MapKey&) = default;
-};
-
-namespace detail {
+// FNV-1a, with 64 bits: a byte after those that the hash is of.
+inline constexpr std::uint64_t fnv_start = 0xcbf29ce484222325u;
+constexpr std::uint64_t fnv_hash(std::uint64_t hash, unsigned char byte) noexcept {
+    return (hash ^ byte) * 0x100000001b3u;
+}
 
 // Stands for a member of any type, to count the members of an aggregate.
 template <typename Whole>
@@ -84,8 +95,8 @@ private:
             add(v.data());
         } else {
             static_assert(std::is_aggregate_v<V>,
-                          "What a map is made from must be a struct with public "
-                          "members, or have a data() that returns one.");
+                          "What a light map is made of must be a struct with "
+                          "public members, or have a data() that returns one.");
             add_members(v);
         }
     }
@@ -93,8 +104,8 @@ private:
     template <typename V>
     void add_members(const V& v) {
         constexpr std::size_t count = member_count<V>();
-        static_assert(count <= 10, "What a map is made from may have ten members: put "
-                                   "some of them into a struct.");
+        static_assert(count <= 10, "What a light map is made of may have ten members: "
+                                   "put some of them into a struct.");
         if constexpr (count == 1) {
             const auto& [a] = v;
             add(a);
@@ -129,41 +140,4 @@ private:
     }
 };
 
-// All that is part of a scene, which its camera is not.
-template <typename S>
-[[nodiscard]] std::uint64_t scene_hash(const S& scene) {
-    FieldHash hash;
-    const auto lists = [&](const auto&... list) {
-        (hash.template add_name_of<
-             typename std::remove_cvref_t<decltype(list)>::value_type>(),
-         ...);
-        hash.add(list...);
-    };
-    std::apply(lists, scene.shapes);
-    std::apply(lists, scene.materials);
-    hash.add(scene.objects, scene.lights);
-    return hash.value;
-}
-
-inline void put_key(Bytes& bytes, const MapKey& key) {
-    put_number(bytes, key.scene);
-    put_number(bytes, key.settings);
-}
-
-// Takes the key of a file, and refuses another.
-inline void require_key(FileReader& file, const MapKey& key) {
-    file.position = file_front_bytes;
-    if (file.left() < map_key_bytes) file.refuse("it ends in the middle of its key");
-    if (file.take<std::uint64_t>() != key.scene)
-        file.refuse("it was made for another scene, with other shapes, materials or "
-                    "lights; make it anew");
-    if (file.take<std::uint64_t>() != key.settings)
-        file.refuse("it was made with other settings; make it anew, or ask for those "
-                    "that it was made with");
-}
-
-} // namespace detail
-
-/// \}
-
-} // namespace ljus
+} // namespace ljus::detail

@@ -1,6 +1,6 @@
 #pragma once
 
-/// \file ljus/scene/light_choice.hpp
+/// \file ljus/lights/light_choice.hpp
 /// \brief One light of many, chosen in proportion to its power.
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "ljus/scene/light.hpp"
+#include "ljus/math/vector.hpp"
 
 namespace ljus {
 
@@ -22,8 +22,6 @@ struct LightChoice {
     std::vector<double> cumulative; ///< Sums of the powers up to each light, in W.
 };
 
-namespace detail {
-
 /// One chosen light.
 template <std::floating_point T>
 struct ChosenLightT {
@@ -31,23 +29,19 @@ struct ChosenLightT {
     T probability = T(0);    ///< Of choosing this one.
 };
 
-} // namespace detail
-
 /// The sums that choose_light() needs; a light's power is the sum of its channels.
-/// \param lights  The lights of a scene.
-/// \return One sum a light.
+/// \param powers  The flux of each light, in W.
+/// \return One sum per light.
 template <std::floating_point T>
-[[nodiscard]] LightChoice light_choice(const std::vector<LightT<T>>& lights) {
-    LightChoice choice{std::vector<double>(lights.size())};
+[[nodiscard]] LightChoice light_choice(const std::vector<RgbT<T>>& powers) {
+    LightChoice choice{std::vector<double>(powers.size())};
     double sum = 0;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        const RgbT<double> flux{lights[i].flux};
+    for (std::size_t i = 0; i < powers.size(); ++i) {
+        const RgbT<double> flux{powers[i]};
         choice.cumulative[i] = sum += flux.x + flux.y + flux.z;
     }
     return choice;
 }
-
-namespace detail {
 
 /// The probability with which choose_light() returns a light.
 /// \param choice  Of the scene's lights.
@@ -77,8 +71,6 @@ template <std::floating_point T>
     return {light,
             std::max(probability_of<T>(choice, light), std::numeric_limits<T>::min())};
 }
-
-} // namespace detail
 
 /// \}
 

@@ -1,0 +1,41 @@
+/// \file own_camera.hpp
+/// \brief A camera of the reader's own: a fisheye.
+#pragma once
+#include <cmath>
+#include <numbers>
+
+#include "ljus/scene/camera.hpp"
+
+/// What a reader has written.
+namespace reader {
+
+/// A lens that shows a whole hemisphere, or more of it, in a disc: the distance from the
+/// middle of the picture is in proportion to the angle.
+struct Fisheye {
+    using Scalar = float;      ///< The precision.
+    ljus::Camera at{};         ///< Where it stands, and what it looks at.
+    float field_degrees = 180; ///< From one edge of the disc to the other.
+};
+
+// [camera_ray]
+/// The ray through a point of the picture; beside the disc, it goes nowhere.
+template <ljus::StreamLike Stream>
+ljus::Ray camera_ray(const Fisheye& eye, const ljus::Vec2& pixel, int width, int height,
+                     Stream& /*no number is drawn*/) {
+    const float half = 0.5f * float(width < height ? width : height);
+    const ljus::Vec2 at{(pixel.x - 0.5f * float(width)) / half,
+                        (0.5f * float(height) - pixel.y) / half};
+    const float r = std::hypot(at.x, at.y);
+    if (r > 1) return {.origin = eye.at.position, .t_max = 0};
+    const float angle = r * eye.field_degrees * std::numbers::pi_v<float> / 360;
+    const float aside = r > 0 ? std::sin(angle) / r : 0;
+    return {.origin = eye.at.position,
+            .direction =
+                glm::normalize(std::cos(angle) * eye.at.forward +
+                               aside * (at.x * eye.at.right + at.y * eye.at.up))};
+}
+// [camera_ray]
+
+static_assert(ljus::CameraLike<Fisheye>);
+
+} // namespace reader

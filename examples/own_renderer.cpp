@@ -1,0 +1,19 @@
+/// \file own_renderer.cpp
+/// \brief The report's room by ambient occlusion: a renderer that the library does not
+/// know.
+// runs in the folder of its picture
+
+#include <ljus/ljus.hpp>
+#include <ljus/scenes/report_rooms.hpp>
+
+#include "own_renderer.hpp"
+
+/// Renders the report's room into own_renderer.png.
+int main() {
+    using namespace ljus;
+    const auto room = final_room();
+    const reader::AmbientOcclusion open(room.world, 2.0f);
+    save_png(
+        render(open, room.camera, {.width = 320, .height = 320, .samples = 49}).image,
+        "own_renderer.png");
+}

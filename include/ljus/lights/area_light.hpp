@@ -1,0 +1,168 @@
+#pragma once
+
+/// \file ljus/lights/area_light.hpp
+/// \brief A lamp: the emissive surface of an object.
+
+#include "ljus/geometry/moving.hpp"
+#include "ljus/lights/light.hpp"
+
+namespace ljus {
+
+/// \addtogroup light
+/// \{
+
+/// What a lamp is worked out to be once.
+template <std::floating_point T>
+struct LampT {
+    RgbT<T> radiance{T(0)};  ///< Along the normal's side, W/(m^2 sr).
+    Vec3T<T> normal{T(0)};   ///< Unit; of a flat shape, else 0.
+    T area = T(0);           ///< In squared scene units.
+    bool inside_out = false; ///< Whether it shines to where its normal does not point.
+};
+
+/// A lamp: a shape that emits the same radiance in every direction on the side of its
+/// normal. A scene makes it of an object with a radiance.
+template <Shape S>
+struct AreaLightT {
+    using Scalar = ScalarOf<S>; ///< The precision.
+    const S& shape;             ///< Where it is, at any time.
+    const LampT<Scalar>& lamp;  ///< What is known of it.
+};
+
+namespace detail {
+
+/// What there is to know of a lamp.
+/// \param shape       With an area.
+/// \param radiance    W/(m^2 sr).
+/// \param inside_out  Whether it shines to the other side.
+/// \throws std::invalid_argument  if its area or its flux is 0 or not finite.
+template <Shape S, std::floating_point T>
+[[nodiscard]] LampT<T> make_lamp(const S& shape, const RgbT<T>& radiance,
+                                 bool inside_out) {
+    LampT<T> lamp{.radiance = radiance, .area = area(shape), .inside_out = inside_out};
+    require_positive("the area of a light", lamp.area);
+    if constexpr (is_plane<S>) lamp.normal = normal(shape);
+    require_flux(std::numbers::pi_v<T> * lamp.area * radiance);
+    return lamp;
+}
+
+} // namespace detail
+
+/// \name A lamp
+/// \{
+
+/// The flux of a diffuse emitter: its radiance over the hemisphere and its area.
+/// \return pi L A, in W.
+template <typename S>
+[[nodiscard]] auto power(const AreaLightT<S>& light) noexcept {
+    using T = ScalarOf<S>;
+    return RgbT<T>{std::numbers::pi_v<T> * light.lamp.area * light.lamp.radiance};
+}
+
+/// Samples a point of the lamp, for a shadow ray.
+///
+/// The sample is filled where it will stand, which avoids a store-forwarding stall.
+/// \param light  The lamp.
+/// \param from   The lit point.
+/// \param u      Point of the unit square.
+/// \param time   Of the path, in [0, 1].
+/// \return The sample; nothing if the lamp does not shine in this direction: emission
+///         is one-sided, along the normal.
+/// \report{Section 3.2.3}
+/// \erratum{The program behind the report leaves out the light's area and the inverse
+///          square: a wall ten times as far was lit as brightly.}
+template <typename S, std::floating_point T>
+[[nodiscard]] std::optional<LightSampleT<T>> sample_light(const AreaLightT<S>& light,
+                                                          const Vec3T<T>& from,
+                                                          const Vec2T<T>& u, T time) {
+    std::optional<LightSampleT<T>> sample(std::in_place);
+    SurfacePointT<T>& point = sample->point;
+    if constexpr (detail::is_plane<S>) {
+        detail::set_point(point, sample_area(light.shape, u, light.lamp.normal));
+        sample->pdf = detail::pdf_from_area(from, point, light.lamp.area);
+    } else {
+        const SeenPointT<T> seen = sample_towards(at_time(light.shape, time), from, u);
+        detail::set_point(point, seen.point);
+        sample->pdf = seen.pdf;
+    }
+    if (light.lamp.inside_out) point.normal = -point.normal;
+
+    const T pdf = sample->pdf;
+    sample->wi = glm::normalize(point.position - from);
+    sample->weight = light.lamp.radiance / pdf;
+    // Written so that NaN, from an observer on the light itself, is no light.
+    if (!(glm::dot(sample->wi, point.normal) < T(0) && pdf > T(0) &&
+          std::isfinite(pdf)))
+        sample.reset();
+    return sample;
+}
+
+/// Where a photon starts: uniform over the area, the normal where the lamp shines to.
+/// \param light  The lamp.
+/// \param u      Point of the unit square.
+/// \param time   Of the photon, in [0, 1].
+template <typename S, std::floating_point T>
+[[nodiscard]] SurfacePointT<T> emission_point(const AreaLightT<S>& light,
+                                              const Vec2T<T>& u, T time) {
+    SurfacePointT<T> point = sample_area(at_time(light.shape, time), u);
+    if (light.lamp.inside_out) point.normal = -point.normal;
+    return point;
+}
+
+/// The direction of a photon.
+/// \param point  Of emission_point().
+/// \param u      Point of the unit square.
+/// \return Unit vector, with the density cos / pi.
+template <typename S, std::floating_point T>
+[[nodiscard]] Vec3T<T> sample_emission(const AreaLightT<S>&,
+                                       const SurfacePointT<T>& point,
+                                       const Vec2T<T>& u) noexcept {
+    return to_world(frame_around(point.normal), sample_cosine_hemisphere(u));
+}
+
+/// The density of sample_emission().
+/// \param point  Of emission_point().
+/// \param wo     Unit direction away from it.
+/// \return cos / pi per steradian; 0 behind the lamp.
+template <typename S, std::floating_point T>
+[[nodiscard]] T pdf_emission(const AreaLightT<S>&, const SurfacePointT<T>& point,
+                             const Vec3T<T>& wo) noexcept {
+    const T cosine = glm::dot(wo, point.normal);
+    return cosine > T(0) ? cosine * std::numbers::inv_pi_v<T> : T(0);
+}
+
+/// The hemisphere that a point of the lamp shines into.
+template <typename S, std::floating_point T>
+[[nodiscard]] detail::ConeT<T> emission_cone(const AreaLightT<S>&,
+                                             const SurfacePointT<T>& point) noexcept {
+    return {point.normal, T(1)};
+}
+
+/// The form factor from a point to the lamp.
+/// \param light   The lamp.
+/// \param from    The point.
+/// \param normal  Unit, of the surface at the point.
+/// \param time    Of the path, in [0, 1].
+/// \return In [0, 1]; nothing where there is no closed form.
+template <typename S, std::floating_point T>
+[[nodiscard]] std::optional<T> form_factor(const AreaLightT<S>& light,
+                                           const Vec3T<T>& from, const Vec3T<T>& normal,
+                                           T time) {
+    const auto& now = at_time(light.shape, time);
+    const bool inside_out = light.lamp.inside_out;
+    if constexpr (requires { form_factor_from(from, normal, now, inside_out); })
+        return form_factor_from(from, normal, now, inside_out);
+    else
+        return std::nullopt;
+}
+
+/// The point of the unit square whose sample stands for the whole lamp.
+template <typename S>
+[[nodiscard]] auto center_sample(const AreaLightT<S>& light) noexcept {
+    return center_sample(light.shape);
+}
+
+/// \}
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,163 @@
+#pragma once
+
+/// \file ljus/lights/spot_light.hpp
+/// \brief A light without a size that shines into a cone.
+
+#include "ljus/lights/light.hpp"
+
+namespace ljus {
+
+/// \addtogroup light
+/// \{
+
+/// A lamp without a size that shines into a cone: evenly up to an inner angle, and from
+/// there less and less, in proportion to the cosine, until it is dark at the outer one.
+template <std::floating_point T>
+struct SpotLightT {
+    using Scalar = T;             ///< The precision.
+    Vec3T<T> position{T(0)};      ///< In scene units.
+    Vec3T<T> direction{0, -1, 0}; ///< Where it shines to; of any length but 0.
+    RgbT<T> intensity{T(1)};      ///< W/sr within the inner cone.
+    T inner_degrees = T(20);      ///< Half angle of the even part.
+    T outer_degrees = T(30);      ///< Half angle of it all, up to 180.
+};
+using SpotLight = SpotLightT<float>; ///< SpotLightT in float.
+
+/// A spot light within a scene.
+template <std::floating_point T>
+struct SpotInSceneT {
+    using Scalar = T;         ///< The precision.
+    Vec3T<T> position{T(0)};  ///< In scene units.
+    Vec3T<T> direction{T(0)}; ///< Unit; where it shines to.
+    RgbT<T> intensity{T(0)};  ///< W/sr within the inner cone.
+    T inner = T(0);           ///< 1 - cos of the inner angle.
+    T outer = T(0);           ///< 1 - cos of the outer angle.
+};
+
+/// \name A spot light
+/// \{
+
+/// Refuses a light that no picture can be made with.
+/// \throws std::invalid_argument  if a vector is not finite, the direction 0, the
+///         intensity negative, or an angle out of range.
+template <std::floating_point T>
+void check(const SpotLightT<T>& light) {
+    require_finite("spot light.position", light.position);
+    require_radiance("spot light.intensity", light.intensity);
+    require(light.outer_degrees > T(0) && light.outer_degrees <= T(180),
+            "spot light.outer_degrees", light.outer_degrees, "within (0, 180]");
+    require(light.inner_degrees >= T(0) && light.inner_degrees <= light.outer_degrees,
+            "spot light.inner_degrees", light.inner_degrees,
+            "within [0, outer_degrees]");
+    (void)detail::unit_along("spot light.direction", light.direction);
+}
+
+/// The spot light within a scene: its direction of unit length, its angles as 1 - cos.
+/// \param light  The light, checked.
+template <std::floating_point T>
+[[nodiscard]] SpotInSceneT<T> in_scene(const SpotLightT<T>& light, const SphereT<T>&) {
+    const auto one_minus_cos = [](T degrees) { // by the half angle: no cancellation
+        const T sine = std::sin(degrees * (std::numbers::pi_v<T> / T(360)));
+        return T(2) * sine * sine;
+    };
+    return {.position = light.position,
+            .direction = detail::unit_along("spot light.direction", light.direction),
+            .intensity = light.intensity,
+            .inner = one_minus_cos(light.inner_degrees),
+            .outer = one_minus_cos(light.outer_degrees)};
+}
+
+/// With w = 1 - cos, the flux is \f$ 2\pi I \f$ times the area below a curve that is 1
+/// up to the inner w and falls to 0 at the outer one.
+/// \return \f$ \pi I (w_i + w_o) \f$, in W.
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> power(const SpotInSceneT<T>& light) noexcept {
+    return std::numbers::pi_v<T> * (light.inner + light.outer) * light.intensity;
+}
+
+namespace detail {
+
+/// The fall-off: the factor of the intensity in a direction.
+/// \param light  The spot light.
+/// \param wo     Unit direction away from it.
+/// \return 1 within the inner cone, 0 outside of the outer one.
+template <std::floating_point T>
+[[nodiscard]] T fall_off(const SpotInSceneT<T>& light, const Vec3T<T>& wo) noexcept {
+    // As |a - b|^2 / 2, which keeps the digits of a narrow cone; 1 - cos would not.
+    const Vec3T<T> apart = wo - light.direction;
+    const T w = glm::dot(apart, apart) / T(2);
+    if (w <= light.inner) return T(1);
+    return w < light.outer ? (light.outer - w) / (light.outer - light.inner) : T(0);
+}
+
+/// 1 - cos of the angle of a photon from the axis, with the density of the intensity:
+/// even up to `inner`, then falling to 0 at `outer`.
+/// \param light  The spot light.
+/// \param u      In [0, 1).
+/// \return Within [0, outer].
+// [sample_spot]
+template <std::floating_point T>
+[[nodiscard]] T sample_spot(const SpotInSceneT<T>& light, T u) noexcept {
+    const T both = light.inner + light.outer; // twice the area below the curve
+    if (u * both < T(2) * light.inner) return u * both / T(2);
+    const T beyond = (T(1) - u) * both * (light.outer - light.inner);
+    return light.outer - std::sqrt(beyond);
+}
+// [sample_spot]
+
+} // namespace detail
+
+/// Samples the light, for a shadow ray.
+/// \param light  The light.
+/// \param from   The lit point.
+/// \return Intensity / distance^2, and the density 0; nothing outside of the cone.
+template <std::floating_point T>
+[[nodiscard]] std::optional<LightSampleT<T>>
+sample_light(const SpotInSceneT<T>& light, const Vec3T<T>& from, const Vec2T<T>& /*u*/,
+             T /*time*/) noexcept {
+    return detail::sample_point(light.position, from, [&](const Vec3T<T>& wo) {
+        return detail::fall_off(light, wo) * light.intensity;
+    });
+}
+
+/// Where its photons start.
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> emission_point(const SpotInSceneT<T>& light, const Vec2T<T>&,
+                                      T) noexcept {
+    return light.position;
+}
+
+/// The direction of a photon, with the density of the intensity.
+/// \param light  The light.
+/// \param u      Point of the unit square.
+/// \return Unit vector within the outer cone.
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> sample_emission(const SpotInSceneT<T>& light, const Vec3T<T>&,
+                                       const Vec2T<T>& u) noexcept {
+    const T share = detail::sample_spot(light, u.x) / light.outer;
+    const Vec3T<T> local = sample_uniform_cone(Vec2T<T>{share, u.y}, light.outer);
+    return to_world(frame_around(light.direction), local);
+}
+
+/// The density of sample_emission(): intensity over flux.
+/// \param light  The light.
+/// \param wo     Unit direction away from it.
+/// \return Per steradian.
+template <std::floating_point T>
+[[nodiscard]] T pdf_emission(const SpotInSceneT<T>& light, const Vec3T<T>&,
+                             const Vec3T<T>& wo) noexcept {
+    return detail::fall_off(light, wo) * std::numbers::inv_pi_v<T> /
+           (light.inner + light.outer);
+}
+
+/// The cone that it shines into.
+template <std::floating_point T>
+[[nodiscard]] detail::ConeT<T> emission_cone(const SpotInSceneT<T>& light,
+                                             const Vec3T<T>&) noexcept {
+    return {light.direction, light.outer};
+}
+
+/// \}
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,89 @@
+#pragma once
+
+/// \file ljus/lights/sun_light.hpp
+/// \brief Light that comes from one direction only.
+
+#include "ljus/lights/light.hpp"
+
+namespace ljus {
+
+/// \addtogroup light
+/// \{
+
+/// Light that comes from one direction only, as from a sun far away. Its flux depends
+/// on what it shines on: it is what falls into the sphere around all shapes of its
+/// scene.
+template <std::floating_point T>
+struct SunLightT {
+    using Scalar = T;             ///< The precision.
+    Vec3T<T> direction{0, -1, 0}; ///< Where it shines to; of any length but 0.
+    RgbT<T> irradiance{T(1)};     ///< W/m^2 on a surface that faces it.
+};
+using SunLight = SunLightT<float>; ///< SunLightT in float.
+
+/// A sun within a scene.
+template <std::floating_point T>
+struct SunInSceneT {
+    using Scalar = T;         ///< The precision.
+    Vec3T<T> direction{T(0)}; ///< Unit; where it shines to.
+    RgbT<T> irradiance{T(0)}; ///< W/m^2 on a surface that faces it.
+    SphereT<T> around{};      ///< The sphere around the scene.
+};
+
+/// \name A sun
+/// \{
+
+/// Refuses a light that no picture can be made with.
+/// \throws std::invalid_argument  if the direction is 0 or not finite, or the
+///         irradiance negative or not finite.
+template <std::floating_point T>
+void check(const SunLightT<T>& light) {
+    require_radiance("sun light.irradiance", light.irradiance);
+    (void)detail::unit_along("sun light.direction", light.direction);
+}
+
+/// The sun within a scene.
+/// \param light   The light, checked.
+/// \param around  The sphere around the scene.
+template <std::floating_point T>
+[[nodiscard]] SunInSceneT<T> in_scene(const SunLightT<T>& light,
+                                      const SphereT<T>& around) {
+    return {.direction = detail::unit_along("sun light.direction", light.direction),
+            .irradiance = light.irradiance,
+            .around = around};
+}
+
+/// \return E pi R^2, in W: what falls into the sphere around the scene.
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> power(const SunInSceneT<T>& light) noexcept {
+    return detail::disc_area(light.around.radius) * light.irradiance;
+}
+
+/// Samples the light, for a shadow ray, which ends where photons start: on a plane
+/// beside the scene.
+/// \param light  The light.
+/// \param from   The lit point, within the sphere around the scene.
+/// \return The irradiance, and the density 0.
+template <std::floating_point T>
+[[nodiscard]] std::optional<LightSampleT<T>>
+sample_light(const SunInSceneT<T>& light, const Vec3T<T>& from, const Vec2T<T>& /*u*/,
+             T /*time*/) noexcept {
+    const T way =
+        glm::dot(from - light.around.center, light.direction) + light.around.radius;
+    const Vec3T<T> end = from - std::max(way, T(0)) * light.direction;
+    return LightSampleT<T>{.point{.position = end, .normal = light.direction},
+                           .wi = -light.direction,
+                           .weight = light.irradiance};
+}
+
+/// The direction and the irradiance of its photons: always the same.
+template <std::floating_point T>
+[[nodiscard]] ArrivalT<T> sample_arrival(const SunInSceneT<T>& light,
+                                         const Vec2T<T>&) noexcept {
+    return {light.direction, light.irradiance};
+}
+
+/// \}
+/// \}
+
+} // namespace ljus

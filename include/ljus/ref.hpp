@@ -1,0 +1,33 @@
+#pragma once
+
+/// \file ljus/ref.hpp
+/// \brief A reference that refuses temporaries.
+
+#include "ljus/version.hpp"
+
+namespace ljus {
+
+/// \defgroup ref References
+/// \brief What keeps a reference to an argument takes it as a Ref.
+/// \{
+
+/// Refers to an object that must outlive it. A temporary does not compile, because it
+/// would be gone before it is used.
+template <typename X>
+class Ref {
+public:
+    /// Refers to an object with a name.
+    constexpr Ref(const X& object) noexcept : object_(&object) {}
+    /// Not to a temporary: give the object a name.
+    Ref(const X&&) = delete;
+
+    /// The object.
+    [[nodiscard]] constexpr const X& get() const noexcept { return *object_; }
+
+private:
+    const X* object_;
+};
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,50 @@
+#pragma once
+
+/// \file ljus/render/budgeting.hpp
+/// \brief The ability of a photon mapper to share its caustic photons out by a budget.
+
+#include "ljus/photons/budget.hpp"
+#include "ljus/render/photon_mapping.hpp"
+
+namespace ljus {
+
+/// \addtogroup budget
+/// \{
+
+/// PhotonMappingSettings::caustic_budget: `abilities<Budgeting>`.
+struct Budgeting {
+    /// It keeps nothing: the shares are PhotonMapper::settings().caustics.shares.
+    template <std::floating_point T>
+    struct State {};
+};
+
+/// The shares of the caustics' photons that a budget asks for, by a pilot.
+/// \param world     The closed scene.
+/// \param settings  The budget, photons, radii. For the brightness 20 000 photons of a
+///                  general pass tell what else lights the scene.
+/// \return As PhotonPassSettings::shares; those of the settings if there are some.
+template <AnyWorld W>
+[[nodiscard]] std::vector<double>
+caustic_shares(const W& world, const PhotonMappingSettings& settings) {
+    using T = typename W::Scalar;
+    const CausticBudget budget = settings.caustic_budget;
+    if (budget == CausticBudget::as_seen || !settings.caustics.shares.empty())
+        return settings.caustics.shares;
+    std::vector<PhotonT<T>> light;
+    if (budget == CausticBudget::brightness) {
+        PhotonPassSettings pass = settings.general;
+        pass.photons = 20000;
+        pass.shadow_photons = false;
+        pass.iteration = ~pass.iteration;
+        pass.progress = no_progress;
+        light = trace_photons(world, MapType::general, pass).photons;
+    }
+    return caustic_shares(budget,
+                          pilot_caustics(world, settings.caustics,
+                                         T(settings.caustics_estimate.radius), light,
+                                         T(settings.general_estimate.radius)));
+}
+
+/// \}
+
+} // namespace ljus

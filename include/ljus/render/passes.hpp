@@ -1,0 +1,241 @@
+#pragma once
+
+/// \file ljus/render/passes.hpp
+/// \brief Which passes of the report's renderer a scene requires, and what they will do
+/// badly.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "ljus/path/next_vertex.hpp"
+#include "ljus/render/photon_mapping_settings.hpp"
+
+namespace ljus {
+
+/// \addtogroup survey
+/// \{
+
+/// What a survey counts in a scene.
+struct SceneNeeds {
+    std::size_t objects = 0;  ///< How many there are.
+    std::size_t diffuse = 0;  ///< Those with a part that is not a mirror or glass.
+    std::size_t specular = 0; ///< Those with a part that is.
+    std::size_t lights = 0;   ///< Emissive objects and point lights.
+    bool films = false;       ///< Whether a material is a thin surface.
+};
+
+/// Counts what a scene is made of.
+/// \param world  The closed scene.
+/// \return The counts.
+template <AnyWorld W>
+[[nodiscard]] SceneNeeds needs(const W& world) {
+    SceneNeeds found{.objects = world.size(),
+                     .lights = world.light_count(),
+                     .films = detail::has_thin_surfaces(world)};
+    for (const auto& objects : world.objects())
+        for (const auto& object : objects) {
+            const Lobes parts = world.visit_material(
+                object.material, [](const auto& m) { return lobes(m); });
+            found.diffuse += has(parts, Lobes::non_specular) ? 1 : 0;
+            found.specular += has(parts, Lobes::specular) ? 1 : 0;
+        }
+    return found;
+}
+
+/// Which passes run: the decisions of a plan, without their reasons.
+struct Passes {
+    bool shadow_rays = false;     ///< As in Plan.
+    bool indirect_rays = false;   ///< As in Plan.
+    bool caustics_map = false;    ///< As in Plan.
+    bool general_map = false;     ///< As in Plan.
+    bool shadow_photons = false;  ///< As in Plan.
+    bool skipped_rays = false;    ///< As in Plan.
+    bool skipped_bounces = false; ///< As in Plan.
+    bool irradiance = false;      ///< As in Plan.
+    bool cache = false;           ///< As in Plan.
+};
+
+/// Decides which passes run; a PhotonMapper obeys it, and survey() says why.
+/// \report{Section 3.2.2}
+/// \param found     What the scene is made of.
+/// \param settings  What the user asks for.
+/// \return The decisions.
+// [survey]
+[[nodiscard]] inline Passes choose_passes(const SceneNeeds& found,
+                                          const PhotonMappingSettings& settings) {
+    const bool lit = found.diffuse > 0 && found.lights > 0;
+    const bool gather_asked = settings.indirect == IndirectLight::map ||
+                              settings.indirect == IndirectLight::gather;
+    const bool rays_asked = settings.indirect == IndirectLight::rays || gather_asked;
+    const bool rays = lit && rays_asked && settings.max_depth > 1;
+    const bool map_asked =
+        (rays && gather_asked) || settings.indirect == IndirectLight::photons ||
+        settings.indirect == IndirectLight::cache || settings.keep_general_map;
+    const bool general = lit && map_asked && settings.general.photons > 0;
+    const bool cache = settings.indirect == IndirectLight::cache;
+    const bool looked_up = cache || settings.indirect == IndirectLight::gather;
+    const bool skip = lit && settings.skip.rule != SkipRule::none &&
+                      double(settings.general.photons) >=
+                          double(found.lights) * photons_needed(settings.skip);
+    return {.shadow_rays = lit,
+            .indirect_rays = rays,
+            .caustics_map = lit && found.specular > 0 && settings.caustics.photons > 0,
+            .general_map = general,
+            .shadow_photons = skip || (general && settings.general.shadow_photons),
+            .skipped_rays = skip,
+            .skipped_bounces =
+                rays && settings.skip.indirect_rays && settings.general.photons > 0,
+            .irradiance = general && looked_up,
+            .cache = general && cache};
+}
+// [survey]
+
+namespace detail {
+
+/// What is skipped, by a plan for these settings.
+[[nodiscard]] inline SkipSettings skipping(const Passes& run,
+                                           const PhotonMappingSettings& settings) {
+    SkipSettings skip = settings.skip;
+    if (!run.skipped_rays) skip.rule = SkipRule::none;
+    skip.indirect_rays = run.skipped_bounces;
+    return skip;
+}
+
+/// How a plan says what is chosen for the caustics: by what their photons are shared
+/// out, and where their radius comes from.
+/// \param settings  What the user asks for.
+/// \return The end of a clause; nothing where nothing is chosen.
+[[nodiscard]] inline std::string
+caustics_clause(const PhotonMappingSettings& settings) {
+    const char* const radius = settings.caustics_estimate.radius == 0
+                                   ? ", the radius comes from the photons"
+                                   : "";
+    const auto clause = [&](const char* shares) {
+        return std::string(shares).append(radius);
+    };
+    if (!settings.caustics.shares.empty()) return clause(", photons in given shares");
+    switch (settings.caustic_budget) {
+    case CausticBudget::equal:
+        return clause(", each gets as many photons");
+    case CausticBudget::flux:
+        return clause(", photons are shared out by flux");
+    case CausticBudget::area:
+        return clause(", photons are shared out by caustic area");
+    case CausticBudget::brightness:
+        return clause(", photons are shared out by flux over brightness");
+    default:
+        return clause("");
+    }
+}
+
+/// Digits that are left of the shapes, if they are fewer than three, and lengths that
+/// are too large.
+///
+/// A number x of p bits is off by up to 2^-p x. The surface of a ball of radius r whose
+/// points have coordinates up to c is then off by 2^-p c / r of its radius, which
+/// leaves log10(2^p r / c) digits. The direction of a shadow ray is as long as its way,
+/// and chord() multiplies four lengths: above the fourth root of the largest number a
+/// ball may cast no shadow.
+/// \param world  The closed scene.
+/// \return A sentence, or nothing.
+template <AnyWorld W>
+[[nodiscard]] std::string digits_remark(const W& world) {
+    using T = typename W::Scalar;
+    constexpr bool single = std::is_same_v<T, float>;
+    constexpr double widest = single ? 1e9 : 1e75;
+    const auto in_double = [](const auto& shape) {
+        const SphereT<T> ball = bounding_sphere(shape);
+        return SphereT<double>{Vec3T<double>(ball.center), double(ball.radius)};
+    };
+    double most = 1, radius = 0, reach = 0;
+    for (std::uint32_t type = 0; type < world.objects().size(); ++type)
+        for (std::uint32_t i = 0; i < world.objects()[type].size(); ++i) {
+            const SphereT<double> bound = world.visit_shape({type, i}, in_double);
+            // [digits]
+            const Vec3T<double> far = glm::abs(bound.center) + bound.radius;
+            reach = std::max(reach, max_component(far));
+            const double ratio = max_component(far) / bound.radius;
+            if (!(ratio > most)) continue;
+            most = ratio;
+            radius = bound.radius;
+        }
+    constexpr double half = double(std::numeric_limits<T>::epsilon()) / 2;
+    const int digits = int(std::max(0.0, std::floor(-std::log10(half * most))));
+    // [digits]
+    char times[40], size[40];
+    if (digits >= 3) {
+        if (!(reach > widest)) return {};
+        std::snprintf(times, sizeof times, "%.0e", reach);
+        return join({"coordinates reach ", times,
+                     single ? ": above 1e9 the squares of areas leave the range of "
+                              "float; use double, or a larger unit of length"
+                            : ": above 1e75 the squares of areas leave the range of "
+                              "double; use a larger unit of length"});
+    }
+    if (!std::isfinite(most)) // all corners are one point
+        return join({"an object is so small or so far away that ",
+                     single ? "float" : "double", " keeps nothing of its size; ",
+                     single ? "use double, or move the scene towards the origin"
+                            : "move the scene towards the origin"});
+    std::snprintf(times, sizeof times, "%.0e", most);
+    std::snprintf(size, sizeof size, "%.3g", radius);
+    return join({"coordinates reach ", times, " times the smallest radius, ", size,
+                 single ? ": float keeps " : ": double keeps ", to_text(digits),
+                 digits == 1 ? " digit of it; " : " digits of it; ",
+                 single ? "use double, or move the scene towards the origin"
+                        : "move the scene towards the origin"});
+}
+
+/// How many objects mirror light in a lobe so narrow, below a thousandth of a
+/// steradian, that a shadow ray hardly ever lies in it.
+/// \param world  The closed scene.
+template <AnyWorld W>
+[[nodiscard]] std::size_t narrow_lobes(const W& world) {
+    using T = typename W::Scalar;
+    const Vec3T<T> wo{T(0.6), T(0), T(0.8)}, mirrored{T(-0.6), T(0), T(0.8)};
+    const auto narrow = [&](const auto& material) {
+        const auto& here = material_at(material, Vec3T<T>{T(0)}, Vec2T<T>{T(0)});
+        return has(lobes(here), Lobes::glossy) &&
+               pdf(here, wo, mirrored, Lobes::glossy) > T(1000);
+    };
+    std::size_t count = 0;
+    for (const auto& objects : world.objects())
+        for (const auto& object : objects)
+            count += world.visit_material(object.material, narrow) ? 1 : 0;
+    return count;
+}
+
+} // namespace detail
+
+/// What a survey remarks.
+/// \param world     The closed scene.
+/// \param settings  What the user asks for.
+/// \return Sentences without a full stop.
+template <AnyWorld W>
+[[nodiscard]] std::vector<std::string>
+scene_remarks(const W& world, const PhotonMappingSettings& settings) {
+    std::vector<std::string> remarks;
+    if (world.light_count() == 0)
+        remarks.push_back("the scene has no light, and the picture will be black: add "
+                          "an object with a radiance, or a point light");
+    if (std::string digits = detail::digits_remark(world); !digits.empty())
+        remarks.push_back(std::move(digits));
+    const std::size_t narrow =
+        settings.direct == DirectLight::sampled ? detail::narrow_lobes(world) : 0;
+    if (narrow > 0)
+        remarks.push_back(detail::join(
+            {to_text(static_cast<long long>(narrow)),
+             " object(s) are nearly mirrors, in whose lobe a shadow ray hardly ever "
+             "lies: their light is missing or in a few bright pixels; ask for "
+             "direct light by mis, or for a mirror, of roughness 0"}));
+    return remarks;
+}
+
+/// \}
+
+} // namespace ljus

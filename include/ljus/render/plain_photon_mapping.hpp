@@ -1,0 +1,102 @@
+#pragma once
+
+/// \file ljus/render/plain_photon_mapping.hpp
+/// \brief The report's second pass in one screen: the plain twin of photon_mapping.hpp.
+
+#include <utility>
+
+#include "ljus/path/direct_light.hpp"
+#include "ljus/photons/density_estimate.hpp"
+
+namespace ljus {
+
+/// \addtogroup photon_mapping
+/// \{
+
+/// A caustics map with its world, which must outlive it.
+template <typename W>
+class PlainPhotonMapper {
+public:
+    using Scalar = typename W::Scalar; ///< The precision.
+    using Stream = RandomStream;       ///< What render() gives it to draw from.
+
+    /// \param world     Must outlive the mapper.
+    /// \param caustics  Of the first pass, L S+ D.
+    /// \param how       The disc of an estimate.
+    /// \throws std::invalid_argument  if the disc gives no estimate.
+    PlainPhotonMapper(WorldRef<W> world, PhotonMapT<Scalar> caustics,
+                      const DensityEstimateSettings& how = {})
+        : world_(world), caustics_(std::move(caustics)), how_(how) {
+        check(how);
+    }
+    /// What is rendered.
+    [[nodiscard]] const W& world() const noexcept { return world_.get(); }
+    /// The photons.
+    [[nodiscard]] const PhotonMapT<Scalar>& caustics() const noexcept {
+        return caustics_;
+    }
+    /// The disc of an estimate.
+    [[nodiscard]] const DensityEstimateSettings& how() const noexcept { return how_; }
+
+private:
+    WorldRef<W> world_;
+    PhotonMapT<Scalar> caustics_;
+    DensityEstimateSettings how_;
+};
+/// Deduces the world.
+template <typename W>
+PlainPhotonMapper(const W&, PhotonMapT<typename W::Scalar>,
+                  const DensityEstimateSettings& = {}) -> PlainPhotonMapper<W>;
+
+/// The radiance that one camera path finds: emission, shadow rays, caustics map, and
+/// one ray further.
+///
+/// It knows no media, no thin surfaces and no shading normals. The mean is that of
+/// PhotonMapper with IndirectLight::rays; the noise is not.
+/// \param mapper   World and map.
+/// \param ray      A primary ray.
+/// \param context  The numbers of this path; counts its rays.
+/// \return Radiance, W/(m^2 sr).
+// [plain path]
+template <AnyWorld W, std::floating_point T, typename Context>
+[[nodiscard]] RgbT<T> radiance(const PlainPhotonMapper<W>& mapper, RayT<T> ray,
+                               Context& context) {
+    const W& world = mapper.world();
+    RgbT<T> sum{T(0)}, throughput{T(1)};
+    bool met_diffuse = false, goes_on = true;
+    for (int depth = 1; goes_on; ++depth) {
+        const auto hit = closest_hit(world, ray);
+        if (!hit) break;
+        const VertexT<T> x = vertex_at(world, ray, *hit);
+        if (x.emits() && !met_diffuse) // E S* L
+            sum += throughput * x.object.emission;
+        // [plain path]
+        // [plain surface]
+        goes_on = visit_material_at(world, x, [&](const auto& material) {
+            if (has(lobes(material), Lobes::non_specular)) {
+                RgbT<T> light{T(0)};
+                for (std::uint32_t lamp = 0; lamp < world.light_count(); ++lamp) // D L
+                    light +=
+                        direct_light(world, lamp, x, material,
+                                     next_2d<T>(context.stream), {}, context.counts);
+                light += estimate_radiance(mapper.caustics(), x, material, // D S+ L
+                                           x.wo, mapper.how(), light_kinds,
+                                           context.counts.map_photons);
+                sum += throughput * light;
+            }
+            const auto next =
+                sample(material, x.wo, next_3d<T>(context.stream), Transport::radiance);
+            if (!next) return false;
+            met_diffuse = met_diffuse || !next->specular;
+            throughput *= next->weight; // f cos / pdf
+            ray = spawn_ray(x.point, to_world(x.frame, next->wi));
+            return depth < 5 || survives(throughput, T(1), next_1d<T>(context.stream));
+        });
+    }
+    return sum;
+}
+// [plain surface]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,481 @@
+#pragma once
+
+/// \file ljus/scene/world.hpp
+/// \brief A closed scene: what rays and photons travel in.
+
+#include <optional>
+#include <span>
+
+#include "ljus/accel/bvh8.hpp"
+#include "ljus/lights/light_choice.hpp"
+#include "ljus/math/frame.hpp"
+#include "ljus/ref.hpp"
+#include "ljus/scene/scene.hpp"
+
+namespace ljus {
+
+/// \defgroup world Worlds
+/// \brief Section 3.1: "determine the first object intersected by a ray"; discussion:
+/// "an octree, axis-aligned bounding boxes, or a binary space partition". Chapter:
+/// \ref ch_bvh.
+/// \{
+
+namespace detail {
+
+/// The most shapes that are asked in turn; of more, a tree says which ones to ask.
+/// In the report's room, cut down to its first 1, 2, 3, ... objects, the tree is no
+/// slower than the loop from the third on (benchmarks/rays_room.cpp; \ref ch_bvh).
+inline constexpr std::size_t flat_loop_limit = 2;
+
+/// Whether a tree finds the first of so many shapes on a ray, or a loop over all.
+/// \param shapes  How many.
+[[nodiscard]] constexpr bool needs_tree(std::size_t shapes) noexcept {
+    return shapes > flat_loop_limit;
+}
+
+/// A box around a shape of any type: its own bounds(), or those of its bounding sphere.
+/// \param shape  The shape.
+/// \return The box.
+template <Shape S>
+[[nodiscard]] auto box_around(const S& shape) {
+    if constexpr (requires { bounds(shape); })
+        return bounds(shape);
+    else
+        return bounds(bounding_sphere(shape));
+}
+
+/// Where a ray meets a shape of any type, in the arithmetic that is asked for, if the
+/// shape has a choice.
+/// \tparam Compute  As for intersect().
+/// \param ray    Hits count in [t_min, t_max].
+/// \param shape  The shape.
+/// \return The hit; nothing for a miss.
+template <typename Compute, std::floating_point T, typename S>
+[[nodiscard]] std::optional<FlatHitT<T>> hit_of(const RayT<T>& ray, const S& shape) {
+    const auto ask = [&] {
+        if constexpr (requires { intersect<Compute>(ray, shape); })
+            return intersect<Compute>(ray, shape);
+        else
+            return intersect(ray, shape);
+    };
+    if constexpr (std::is_same_v<decltype(ask()), std::optional<FlatHitT<T>>>) {
+        return ask(); // without a copy, which is slow enough to show
+    } else {
+        const auto hit = ask();
+        if (!hit) return std::nullopt;
+        return as_hit(*hit);
+    }
+}
+
+/// Whether a ray meets a shape of any type: by the shape's any-hit test, meets(), if it
+/// has one.
+/// \tparam Compute  As for intersect().
+/// \param ray    Hits count in [t_min, t_max].
+/// \param shape  The shape.
+/// \return Whether hit_of() would return a hit.
+template <typename Compute, std::floating_point T, typename S>
+[[nodiscard]] bool is_met(const RayT<T>& ray, const S& shape) {
+    if constexpr (requires { meets<Compute>(ray, shape); })
+        return meets<Compute>(ray, shape);
+    else
+        return hit_of<Compute>(ray, shape).has_value();
+}
+
+/// The lights of a list as a scene keeps them.
+template <typename LightList>
+struct KeptLights;
+/// One array per type.
+template <typename... L>
+struct KeptLights<std::tuple<std::vector<L>...>> {
+    using Type = std::tuple<std::vector<InSceneT<L>>...>; ///< An array per type.
+};
+
+/// Whether a type is a Scene.
+template <typename S>
+inline constexpr bool is_scene = false;
+/// A Scene is one.
+template <typename G, typename M, typename L>
+inline constexpr bool is_scene<Scene<G, M, L>> = true;
+
+} // namespace detail
+
+/// The arithmetic of a world's intersections, as intersect() has it, for its
+/// constructor: `World world(std::move(scene), compute_in<double>)`.
+template <typename Compute>
+inline constexpr std::type_identity<Compute> compute_in{};
+
+/// The first object that a ray meets.
+template <std::floating_point T>
+struct SceneHitT {
+    FlatHitT<T> at{};  ///< Distance, and the shape's own coordinates.
+    ObjectId object{}; ///< Which object.
+};
+
+/// A scene that is closed: it owns its shapes, materials and lights, a tree over its
+/// shapes \cite rubin1980, and what its lights are worked out to be. Nothing of it can
+/// be changed any more, so that all of it agrees.
+///
+///     const World world(std::move(scene));
+/// \tparam S        A Scene.
+/// \tparam Compute  The arithmetic of all intersections, as intersect() has it.
+template <typename S, typename Compute = void>
+class World {
+    static_assert(detail::is_scene<S>, "A World is made of a Scene.");
+
+public:
+    using Scalar = typename S::Scalar; ///< The precision, from the shapes' types.
+    /// The wide tree, which is made of floats, or the plain one.
+    using Tree = std::conditional_t<std::is_same_v<Scalar, float>, Bvh8, BvhT<Scalar>>;
+
+    /// Closes a scene.
+    /// \param scene  Moved in, or copied.
+    /// \throws std::invalid_argument  if the scene holds data that add() would refuse,
+    ///         or an array was changed so that others do not go with it.
+    explicit World(S scene, std::type_identity<Compute> = {})
+        : shapes_(std::move(scene.shapes)), objects_(std::move(scene.objects)) {
+        find_bounds();
+        make_frames();
+        make_tree();
+        std::apply([](const auto&... lists) { (check_all(lists), ...); },
+                   scene.materials);
+        close_lights(scene);
+        materials_ = std::move(scene.materials);
+    }
+
+    /// All shapes, an array per type.
+    [[nodiscard]] const auto& shapes() const noexcept { return shapes_; }
+    /// What each is made of, in the order of shapes().
+    [[nodiscard]] const auto& objects() const noexcept { return objects_; }
+    /// All materials, an array per type.
+    [[nodiscard]] const auto& materials() const noexcept { return materials_; }
+    /// How many shapes there are.
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    /// A box around the bounding spheres of all shapes.
+    [[nodiscard]] const BoxT<Scalar>& box() const noexcept { return box_; }
+    /// How many lights there are: emissive objects and others, in the order in which
+    /// they were added.
+    [[nodiscard]] std::size_t light_count() const noexcept { return lights_.size(); }
+    /// The flux of each light, W.
+    [[nodiscard]] const auto& powers() const noexcept { return powers_; }
+    /// The lights by power.
+    [[nodiscard]] const LightChoice& light_choice() const noexcept { return choice_; }
+    /// Of the shapes, in the tree's order; empty if a loop asks all of them.
+    [[nodiscard]] std::span<const ObjectId> ids() const noexcept { return ids_; }
+    /// Over the shapes, if there are many; else empty.
+    [[nodiscard]] const Tree& tree() const noexcept { return tree_; }
+
+    /// What the world knows of a shape besides its geometry.
+    [[nodiscard]] const ObjectT<Scalar>& object(ObjectId id) const noexcept {
+        return objects_[id.type][id.index];
+    }
+    /// The frame around the normal of a flat shape.
+    [[nodiscard]] const FrameT<Scalar>& frame(ObjectId id) const noexcept {
+        return frames_[id.type][id.index];
+    }
+    /// Whether a path can meet a light: it has a surface, or fills the sky.
+    /// \param light  Its number.
+    [[nodiscard]] bool can_be_met(std::uint32_t light) const {
+        if constexpr (any_light([]<typename L>() { return FillsSky<L>; }))
+            if (lights_[light].type > 0)
+                return visit_light(light,
+                                   []<typename L>(const L&) { return FillsSky<L>; });
+        return lights_[light].type == 0;
+    }
+    /// Calls f(shape) with the shape of an object, as its own type.
+    template <typename F>
+    decltype(auto) visit_shape(ObjectId id, F&& f) const {
+        return detail::visit_element(shapes_, id.type, id.index, f);
+    }
+    /// Calls f(material) with the material of a number, as its own type.
+    template <typename F>
+    decltype(auto) visit_material(MaterialId id, F&& f) const {
+        return detail::visit_element(materials_, id.type, id.index, f);
+    }
+    /// Calls f(light) with the light of a number, as its own type: an AreaLightT for an
+    /// emissive object, any other as it is within the scene.
+    template <typename F>
+    decltype(auto) visit_light(std::uint32_t number, F&& f) const {
+        const LightId& id = lights_[number];
+        if constexpr (std::tuple_size_v < Kept >> 0)
+            if (id.type > 0)
+                return detail::visit_element(kept_, id.type - 1, id.index, f);
+        const Lamp& lamp = lamps_[id.index];
+        return visit_shape(lamp.object, [&]<typename G>(const G& shape) {
+            return f(AreaLightT<G>{shape, lamp.known});
+        });
+    }
+
+    /// Whether a predicate on types, a lambda `[]<typename G>() { ... }`, holds for one
+    /// of the listed shapes.
+    template <typename F>
+    [[nodiscard]] static constexpr bool any_shape(F f) noexcept {
+        return S::any_shape(f);
+    }
+    /// The same for the listed materials.
+    template <typename F>
+    [[nodiscard]] static constexpr bool any_material(F f) noexcept {
+        return S::any_material(f);
+    }
+    /// The same for the listed lights.
+    template <typename F>
+    [[nodiscard]] static constexpr bool any_light(F f) noexcept {
+        return S::any_light(f);
+    }
+
+private:
+    using Kept = typename detail::KeptLights<decltype(S::lights)>::Type;
+    struct LightId {
+        std::uint32_t type = 0;  // 0: a lamp; else one more than in Lights<...>
+        std::uint32_t index = 0; // in lamps_ or in the type's array
+    };
+    struct Lamp {
+        ObjectId object;
+        LampT<Scalar> known;
+    };
+
+    static void check_all(const auto& list) {
+        for (const auto& material : list) check(material);
+    }
+
+    void find_bounds() {
+        std::size_t type = 0;
+        const auto add = [&](const auto& list) {
+            require(list.size() == objects_[type].size(), "the number of shapes",
+                    static_cast<long long>(list.size()),
+                    "that of their objects: shapes are added by add()");
+            for (const auto& shape : list) {
+                check(shape);
+                const SphereT<Scalar> bound = bounding_sphere(shape);
+                box_.low = glm::min(box_.low, bound.center - bound.radius);
+                box_.high = glm::max(box_.high, bound.center + bound.radius);
+            }
+            size_ += list.size();
+            ++type;
+        };
+        std::apply([&](const auto&... lists) { (add(lists), ...); }, shapes_);
+        if (size_ == 0) box_ = {Vec3T<Scalar>{0}, Vec3T<Scalar>{0}};
+    }
+
+    // A normal takes a cross product in double and a square root, which is worth doing
+    // once for what is flat.
+    void make_frames() {
+        std::size_t type = 0;
+        const auto add = [&]<typename G>(const std::vector<G>& list) {
+            if constexpr (detail::is_plane<G>)
+                for (std::size_t i = 0; i < list.size(); ++i) {
+                    const auto n = normal(list[i]);
+                    frames_[type].push_back(
+                        frame_around(objects_[type][i].inside_out ? -n : n));
+                }
+            ++type;
+        };
+        std::apply([&](const auto&... lists) { (add(lists), ...); }, shapes_);
+    }
+
+    void make_tree() {
+        if (!detail::needs_tree(size_)) return;
+        std::vector<BoxT<Scalar>> boxes;
+        std::vector<ObjectId> all;
+        std::uint32_t type = 0;
+        const auto add = [&](const auto& list) {
+            for (std::uint32_t i = 0; i < list.size(); ++i) {
+                boxes.push_back(detail::box_around(list[i]));
+                all.push_back({type, i});
+            }
+            ++type;
+        };
+        std::apply([&](const auto&... lists) { (add(lists), ...); }, shapes_);
+        tree_ = Tree(boxes, {.leaf_size = 1});
+        for (const std::uint32_t primitive : tree_.primitive_ids())
+            ids_.push_back(all[primitive]);
+    }
+
+    // A thousandth wider than it need be, so that no rounding leaves a corner dark.
+    [[nodiscard]] SphereT<Scalar> around() const {
+        const Vec3T<Scalar> half = (box_.high - box_.low) / Scalar(2);
+        return {.center = box_.low + half, .radius = Scalar(1.001) * glm::length(half)};
+    }
+
+    void close_lights(const S& scene) {
+        const SphereT<Scalar> sphere = around();
+        const auto keep = [&](auto& to, const auto& from) {
+            for (const auto& light : from) {
+                check(light);
+                to.push_back(in_scene(light, sphere));
+            }
+        };
+        [&]<std::size_t... I>(std::index_sequence<I...>) {
+            (keep(std::get<I>(kept_), std::get<I>(scene.lights)), ...);
+        }
+        (std::make_index_sequence<std::tuple_size_v<Kept>>{});
+        for (const AddedId& added : scene.order)
+            if (added.is_light)
+                add_light({added.type + 1, added.index});
+            else
+                add_lamp(scene, {added.type, added.index});
+        choice_ = ljus::light_choice(powers_);
+    }
+
+    void add_lamp(const S& scene, ObjectId id) {
+        ObjectT<Scalar>& object = objects_[id.type][id.index];
+        object.emission = scene.emission_of(object);
+        object.light = no_light;
+        if (is_black(object.emission)) return;
+        visit_shape(id, [&]<typename G>(const G& shape) {
+            if constexpr (HasArea<G>)
+                lamps_.push_back(
+                    {id, detail::make_lamp(shape, object.emission, object.inside_out)});
+        });
+        object.light = static_cast<std::uint32_t>(lights_.size());
+        add_light({0, static_cast<std::uint32_t>(lamps_.size() - 1)});
+    }
+
+    void add_light(LightId id) {
+        lights_.push_back(id);
+        powers_.push_back(visit_light(static_cast<std::uint32_t>(lights_.size() - 1),
+                                      [](const auto& light) { return power(light); }));
+        if (size_ > 0) detail::require_flux(powers_.back()); // a sun needs objects
+    }
+
+    decltype(S::shapes) shapes_;
+    decltype(S::objects) objects_;
+    decltype(S::materials) materials_;
+    std::array<std::vector<FrameT<Scalar>>, std::tuple_size_v<decltype(S::shapes)>>
+        frames_;
+    std::size_t size_ = 0;
+    BoxT<Scalar> box_{};
+    Tree tree_{};
+    std::vector<ObjectId> ids_{};
+    Kept kept_{};
+    std::vector<Lamp> lamps_{};
+    std::vector<LightId> lights_{};
+    std::vector<RgbT<Scalar>> powers_{};
+    LightChoice choice_{};
+};
+
+namespace detail {
+
+/// Whether a type is a World.
+template <typename W>
+inline constexpr bool is_world = false;
+/// A World is one.
+template <typename S, typename Compute>
+inline constexpr bool is_world<World<S, Compute>> = true;
+
+} // namespace detail
+
+/// What renderers and photons take: a World, whatever it is made of.
+template <typename W>
+concept AnyWorld = detail::is_world<W>;
+
+namespace detail {
+
+/// A type that must be a World, or a sentence says what to do.
+template <typename W>
+struct Closed {
+    using Type = W; ///< The world.
+    static_assert(is_world<W>, "Close the scene: World world(std::move(scene)).");
+};
+
+} // namespace detail
+
+/// How a renderer takes its world: as a Ref, with a sentence for who hands in a scene
+/// that is not closed.
+template <typename W>
+using WorldRef = Ref<typename detail::Closed<W>::Type>;
+
+/// The first object that a ray meets, by asking every shape in turn: the plain twin of
+/// closest_hit().
+/// \param world  The closed scene.
+/// \param ray    Hits count in [t_min, t_max].
+/// \return The nearest hit, the earlier object on a tie; nothing for a miss.
+/// \cost One intersection per shape.
+template <typename S, typename Compute, std::floating_point T>
+[[nodiscard]] std::optional<SceneHitT<T>>
+closest_hit_plain(const World<S, Compute>& world, RayT<T> ray) {
+    std::optional<SceneHitT<T>> closest;
+    std::uint32_t type = 0;
+    const auto ask_all = [&](const auto& shapes) {
+        for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+            const auto found = detail::hit_of<Compute>(ray, shapes[i]);
+            if (!found || (closest && !(found->t < ray.t_max))) continue;
+            ray.t_max = found->t;
+            closest = SceneHitT<T>{*found, {type, i}};
+        }
+        ++type;
+    };
+    std::apply([&](const auto&... shapes) { (ask_all(shapes), ...); }, world.shapes());
+    return closest;
+}
+
+/// The plain twin of occluded().
+/// \param world  The closed scene.
+/// \param ray    Hits count in [t_min, t_max].
+/// \return True at the first hit found, whichever it is.
+template <typename S, typename Compute, std::floating_point T>
+[[nodiscard]] bool occluded_plain(const World<S, Compute>& world, const RayT<T>& ray) {
+    const auto any = [&](const auto& shapes) {
+        for (const auto& shape : shapes)
+            if (detail::is_met<Compute>(ray, shape)) return true;
+        return false;
+    };
+    return std::apply([&](const auto&... shapes) { return (any(shapes) || ...); },
+                      world.shapes());
+}
+
+/// The first object that a ray meets. The tree leaves out what the ray cannot meet, and
+/// asks the rest: the answer is that of closest_hit_plain(), to the last bit.
+/// \param world  The closed scene.
+/// \param ray    Hits count in [t_min, t_max].
+/// \return The nearest hit, the earlier object on a tie; nothing for a miss.
+template <typename S, typename Compute, std::floating_point T>
+[[nodiscard]] inline std::optional<SceneHitT<T>>
+closest_hit(const World<S, Compute>& world, const RayT<T>& ray) {
+    if (world.ids().empty()) return closest_hit_plain(world, ray);
+    NearestHitT<T> nearest;
+    ObjectId object;
+    world.tree().closest(ray, [&](std::uint32_t slot, RayT<T>& rest) {
+        const ObjectId id = world.ids()[slot];
+        const auto hit = world.visit_shape(id, [&](const auto& shape) {
+            return detail::hit_of<Compute>(rest, shape);
+        });
+        if (hit && nearest.offer(*hit, world.tree().primitive_ids()[slot], rest))
+            object = id;
+    });
+    if (!nearest.found) return std::nullopt;
+    return SceneHitT<T>{nearest.at, object};
+}
+
+/// Whether anything lies on a ray: the question of a shadow ray.
+/// \param world  The closed scene.
+/// \param ray    Hits count in [t_min, t_max].
+/// \return True at the first hit found, whichever it is.
+template <typename S, typename Compute, std::floating_point T>
+[[nodiscard]] bool occluded(const World<S, Compute>& world, const RayT<T>& ray) {
+    if (world.ids().empty()) return occluded_plain(world, ray);
+    return world.tree().any(ray, [&](std::uint32_t slot) {
+        return world.visit_shape(world.ids()[slot], [&](const auto& shape) {
+            return detail::is_met<Compute>(ray, shape);
+        });
+    });
+}
+
+/// Samples a point of a light, for a shadow ray.
+/// \param world  The closed scene.
+/// \param light  The number of one of its lights.
+/// \param from   The lit point; under a sun, within the sphere around the scene.
+/// \param u      Point of the unit square.
+/// \param time   Of the path, in [0, 1].
+/// \return The sample; nothing if the light does not shine in this direction.
+/// \report{Section 3.2.3}
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] std::optional<LightSampleT<T>>
+sample_light(const W& world, std::uint32_t light, const Vec3T<T>& from,
+             const Vec2T<T>& u, T time = T(0)) {
+    return world.visit_light(
+        light, [&](const auto& l) { return sample_light(l, from, u, time); });
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,27 @@
+#pragma once
+
+/// \file ljus/scenes/room.hpp
+/// \brief A scene with its camera.
+
+#include "ljus/scene/camera.hpp"
+#include "ljus/scene/world.hpp"
+
+namespace ljus {
+
+/// \defgroup room Ready-made scenes
+/// \brief What the ready-made scenes return.
+/// \{
+
+/// A closed scene, and where it is seen from.
+template <typename S>
+struct Room {
+    World<S> world;                       ///< Shapes, materials and lights, closed.
+    CameraT<typename S::Scalar> camera{}; ///< Where it is seen from.
+};
+/// Deduces the scene from its world.
+template <typename S>
+Room(World<S>, CameraT<typename S::Scalar>) -> Room<S>;
+
+/// \}
+
+} // namespace ljus
