@@ -717,3 +717,33 @@ TEST_CASE("photon mapping: the maps can be asked in another way") {
               kept.general_estimate.thickness);
     }
 }
+
+TEST_CASE("photon mapping: caustics photons that were traced elsewhere") {
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    auto settings = few_photons(IndirectLight::photons);
+    settings.caustics_estimate.radius = 0; // chosen from the photons
+    const PhotonMapper own(room, settings);
+    REQUIRE_FALSE(own.maps().caustics.empty());
+
+    auto none = settings;
+    none.caustics.photons = 0;
+    PhotonMapper taken(room, none);
+    taken.set_caustics(own.maps().caustics);
+    CHECK(taken.settings().caustics_estimate.radius ==
+          own.settings().caustics_estimate.radius);
+    const Camera camera = look_at({.position{0, 0, 2}, .target{0, 0, 0}});
+    const RenderSettings picture{.width = 12, .height = 12, .samples = 2, .threads = 1};
+    CHECK(render(taken, camera, picture).image.pixels ==
+          render(own, camera, picture).image.pixels);
+
+    PhotonMapper twice(room, settings);
+    CHECK(refusal([&] {
+              twice.set_caustics(own.maps().caustics);
+          }).starts_with("caustics.photons is 2000"));
+    CHECK_FALSE(twice.maps().caustics.empty());
+    none.indirect = IndirectLight::gather;
+    PhotonMapper gathered(room, none, abilities<Gathering>);
+    CHECK(refusal([&] {
+              gathered.set_caustics(own.maps().caustics);
+          }).starts_with("Irradiance was gathered without"));
+}

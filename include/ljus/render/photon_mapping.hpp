@@ -222,10 +222,19 @@ public:
     }
 
     /// Takes caustics photons that were traced elsewhere: by other machines, or kept in
-    /// a file. It is for a mapper whose settings ask for none of its own.
+    /// a file.
     /// \param caustics  L S+ D, of this world. A radius of 0 is chosen from them.
+    /// \throws std::invalid_argument  if the mapper has traced some itself, or has
+    ///         gathered without them.
     void set_caustics(PhotonMapT<Scalar> caustics) {
+        require(!passes_.caustics_map, "caustics.photons", settings_.caustics.photons,
+                "0, for a mapper that takes photons traced elsewhere");
+        if (passes_.irradiance)
+            throw std::invalid_argument(
+                "Irradiance was gathered without these caustics photons: choose "
+                "another IndirectLight than gather and cache.");
         maps_.caustics = std::move(caustics);
+        if (radius_is_chosen_) settings_.caustics_estimate.radius = 0;
         choose_radii();
     }
 
@@ -261,7 +270,8 @@ private:
     }
 
     void choose_radii() {
-        if (settings_.caustics_estimate.radius == 0)
+        radius_is_chosen_ = settings_.caustics_estimate.radius == 0;
+        if (radius_is_chosen_)
             settings_.caustics_estimate.radius =
                 float(typical_radius(maps_.caustics, 32));
         if (settings_.general_estimate.radius == 0)
@@ -297,6 +307,7 @@ private:
     WorldRef<W> world_;
     PhotonMappingSettings settings_;
     Passes passes_;
+    bool radius_is_chosen_ = false; // that of the caustics
     PhotonMapsT<Scalar> maps_{};
     std::tuple<typename detail::StateOf<X, Scalar>::Type...> states_{};
 };
