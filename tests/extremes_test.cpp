@@ -9,7 +9,7 @@
 #include <cstring>
 #include <string>
 
-#include "common/extreme_room.hpp"
+#include "experiments/extreme_room.hpp"
 #include "ljus/inspect/metrics.hpp"
 #include "ljus/inspect/survey.hpp"
 #include "support/refusal.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "common/ended_paths.hpp"
+#include "experiments/ended_paths.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "../../examples/common/two_rooms.hpp"
+#include "experiments/two_rooms.hpp"
 #include "ljus/geometry/facet.hpp"
 #include "ljus/photons/density_estimate.hpp"
 #include "ljus/photons/detail/kernel_border.hpp"

@@ -1,7 +1,7 @@
 // Live: directions by a sampler, counted in cells beside a density.
 #include <array>
 
-#include "../../examples/common/hemisphere_cells.hpp"
+#include "experiments/hemisphere_cells.hpp"
 #include "ljus/math/random.hpp"
 #include "ljus/math/sampling.hpp"
 

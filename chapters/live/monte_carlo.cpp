@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "../../examples/common/glass_integral.hpp"
+#include "experiments/glass_integral.hpp"
 #include "ljus/inspect/estimate.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "../../examples/common/veach_plates.hpp"
+#include "experiments/veach_plates.hpp"
 #include "ljus/image/color.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/render.hpp"

@@ -27,13 +27,18 @@ sub parts {
     return @parts;
 }
 
-# What a chapter's figures depend on: the sources of its programs, examples/NN_*.cpp.
+# The programs of a chapter's figures; NN_drawings.cpp draws anew in each build.
+sub programs {
+    my ($folder, $number) = @_;
+    return grep { !/many_machines/ }
+        map { sort glob sprintf "%s/%s/%02d_*.cpp", $folder, $_, $number } '../examples', 'experiments';
+}
+
+# What they are made of: if it is not what it was, the kept figures are older than it.
 sub key {
     my ($folder, $number) = @_;
     my $sum = Digest::SHA->new(256);
-    # NN_drawings.cpp draws anew in each build.
-    my @programs = grep { !/_drawings\.cpp$/ } glob sprintf "%s/../examples/%02d_*.cpp", $folder, $number;
-    $sum->add(slurp($_)) for sort @programs;
+    $sum->add(slurp($_)) for programs($folder, $number);
     return substr $sum->hexdigest, 0, 16;
 }
 
@@ -51,14 +56,14 @@ sub kept {
     return \%kept;
 }
 
-# Where and by what the kept figures of a chapter were made, or nothing: there are none, or
-# its programs are not what they were.
+# Where and by what the kept figures of a chapter were made, and whether its programs are
+# still what they were; nothing if there are none.
 sub made {
     my ($folder, $number) = @_;
     my $path = sprintf '%s/kept/%02d/made.txt', $folder, $number;
-    return undef if !-f $path;
+    return if !-f $path;
     my ($key, $where) = split /\n/, slurp($path);
-    return $key eq key($folder, $number) ? $where : undef;
+    return ($where, $key eq key($folder, $number));
 }
 
 sub chapters { return map { @{$_->{chapters}} } parts(@_) }

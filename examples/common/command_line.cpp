@@ -249,6 +249,12 @@ void CommandLine::add(const std::string& name, bool& value, const std::string& h
     parser_->app.add_flag(name, value, help);
 }
 
+void CommandLine::makes(const std::vector<std::string>& items) {
+    parser_->app.add_option("--only", parser_->options.only, "Make only this item")
+        ->check(CLI::IsMember(items).description(""))
+        ->option_text("WORD");
+}
+
 void CommandLine::add_positional(const std::string& name, std::string& value,
                                  const std::string& help) {
     parser_->app.add_option(name, value, help)->required();

@@ -49,6 +49,12 @@ struct Options {
     int height = 0;                    ///< --height, in pixels.
     int samples = 0;                   ///< --rays, per pixel.
     bool quiet = false;                ///< --quiet: no progress bar, no text.
+    std::string only; ///< --only, of a program that makes several items.
+
+    /// Whether an item is to be made: --only names it, or is not given.
+    [[nodiscard]] bool wants(const std::string& item) const {
+        return only.empty() || only == item;
+    }
 
     /// The path of a file in the folder.
     /// \param name  Name of the file, as "ch04_sphere.png".
@@ -98,6 +104,9 @@ public:
              const std::string& help);
     /// A switch: false unless it is given.
     void add(const std::string& name, bool& value, const std::string& help);
+
+    /// The report's items that the program makes, as "fig-5": --only takes one of them.
+    void makes(const std::vector<std::string>& items);
 
     /// An argument without a name in front, which must be given.
     /// \param name   What --help calls it.

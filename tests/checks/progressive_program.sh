@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The program examples/31_progressive.cpp, killed at random and resumed many times: the
+# The program chapters/experiments/31_experiments.cpp, killed at random and resumed many times: the
 # picture has the same bytes as one that was left in peace; and what it refuses.
 # Usage: progressive_program.sh PROGRAM SCRATCH [KILLS]
 set -euo pipefail

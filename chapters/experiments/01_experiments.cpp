@@ -1,0 +1,455 @@
+// figures: fig-3 primary_rays
+// smoke: --quality draft --width 24 --height 16 --rays 2 --pixels 8
+/// \file chapters/experiments/01_experiments.cpp
+/// \brief Chapter 1: figure 3, where the rays of a pixel go and what that is worth,
+/// exposure, and fields of view.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <ljus/inspect/metrics.hpp>
+#include <ljus/ljus.hpp>
+#include <ljus/scenes/cornell_box.hpp>
+
+#include "common/clock.hpp"
+#include "common/command_line.hpp"
+#include "common/terminal.hpp"
+#include "drawings/drawing.hpp"
+
+namespace {
+
+using examples::Drawing;
+using examples::Point;
+using ljus::Camera;
+using ljus::Image;
+using ljus::Ray;
+using ljus::Rgb;
+using ljus::Sampling;
+using ljus::Vec2;
+using ljus::Vec3;
+
+constexpr Sampling patterns[] = {Sampling::random, Sampling::jittered,
+                                 Sampling::multi_jittered, Sampling::sobol};
+constexpr const char* names[] = {"random", "jittered", "multi-jittered", "Sobol"};
+
+/// A camera with its picture as somebody sees it who stands beside.
+struct Onlooker {
+    Camera eye;
+    int width, height;
+
+    /// Where a point of the scene stands in the drawing.
+    [[nodiscard]] Point operator()(const Vec3& point) const {
+        const Vec2 seen = project(eye, point, width, height).value();
+        return {double(seen.x), height - double(seen.y)};
+    }
+};
+
+/// What figure 3 shows, and from where it is drawn.
+struct Figure3 {
+    static constexpr int columns = 6, rows = 4; ///< Of the camera plane.
+
+    Camera camera = ljus::look_at(
+        {.position{-4.2f, 1.6f, 0}, .target{0.4f, 0.7f, 0}, .vfov_degrees = 30});
+    ljus::Sphere ball{.center{0.3f, 0.75f, 0}, .radius = 0.75f};
+    ljus::Quad floor{.corner{-1.6f, 0, 1.7f}, .edge_u{4, 0, 0}, .edge_v{0, 0, -3.4f}};
+    Onlooker see{ljus::look_at({.position{-5.2f, 4.0f, 8.5f},
+                                .target{-0.75f, 0.65f, 0},
+                                .vfov_degrees = 25}),
+                 720, 380};
+    Drawing drawing{.name = "fig-3",
+                    .description = "Rays from a view point through the pixels of the "
+                                   "camera plane into the scene",
+                    .low{0, 0},
+                    .high{720, 380},
+                    .scale = 1};
+
+    /// A place of the camera plane in pixels, as far away as suits the drawing.
+    [[nodiscard]] Point plane(float x, float y) const {
+        const Ray ray = primary_ray(camera, Vec2{x, y}, columns, rows);
+        return see(point_at(ray, 2.1f / glm::dot(ray.direction, camera.forward)));
+    }
+};
+
+/// The rim of the ball, where lines from the onlooker touch it.
+std::vector<Point> rim_of_ball(const Figure3& figure) {
+    const ljus::Sphere& ball = figure.ball;
+    const Vec3 way = figure.see.eye.position - ball.center;
+    const float near = ball.radius * ball.radius / glm::dot(way, way);
+    const ljus::Frame frame = ljus::frame_around(glm::normalize(way));
+    std::vector<Point> rim;
+    for (int i = 0; i <= 64; ++i) {
+        const float angle = float(i) * std::numbers::pi_v<float> / 32;
+        const Vec3 round{std::cos(angle), std::sin(angle), 0};
+        rim.push_back(
+            figure.see(ball.center + near * way +
+                       ball.radius * std::sqrt(1 - near) * to_world(frame, round)));
+    }
+    return rim;
+}
+
+/// A ray through a place of the camera plane, to what it meets.
+void draw_camera_ray(Figure3& figure, const Vec2& pixel, const examples::Pen& pen) {
+    const ljus::World world(ljus::make_scene(placed(figure.floor, ljus::Lambertian{}),
+                                             placed(figure.ball, ljus::Lambertian{})));
+    const Ray ray = primary_ray(figure.camera, pixel, Figure3::columns, Figure3::rows);
+    const auto hit = closest_hit(world, ray);
+    const Point end = figure.see(point_at(ray, hit ? hit->at.t : 6.5f));
+    draw_line(figure.drawing, {figure.see(figure.camera.position), end}, pen);
+    if (hit) draw_dot(figure.drawing, end, 2.5, pen.color);
+}
+
+/// The camera plane with the lines between its pixels.
+void draw_camera_plane(Figure3& figure) {
+    const float columns = Figure3::columns, rows = Figure3::rows;
+    const examples::Pen pen{.color = examples::colors::blue, .width = 1.2};
+    draw_area(figure.drawing,
+              {figure.plane(0, 0), figure.plane(columns, 0),
+               figure.plane(columns, rows), figure.plane(0, rows)},
+              examples::colors::blue);
+    for (int x = 0; x <= Figure3::columns; ++x)
+        draw_line(figure.drawing,
+                  {figure.plane(float(x), 0), figure.plane(float(x), rows)}, pen);
+    for (int y = 0; y <= Figure3::rows; ++y)
+        draw_line(figure.drawing,
+                  {figure.plane(0, float(y)), figure.plane(columns, float(y))}, pen);
+}
+
+/// One pixel with all of its rays.
+void draw_pixel_with_rays(Figure3& figure) {
+    draw_area(figure.drawing,
+              {figure.plane(2, 1), figure.plane(3, 1), figure.plane(3, 2),
+               figure.plane(2, 2)},
+              examples::colors::red);
+    const auto pattern = make_pattern(Sampling::multi_jittered, 5);
+    for (int i = 0; i < 5; ++i)
+        draw_camera_ray(figure, Vec2{2, 1} + ljus::spread(pattern, i, 3, Vec2{0.5f}),
+                        {.color = examples::colors::red, .width = 1.3});
+}
+
+/// Figure 3: rays from the view point through the pixels of the camera plane into the
+/// scene, all of them made by the library's own camera.
+void draw_figure_3(const std::string& folder) {
+    Figure3 figure;
+    const ljus::Quad& floor = figure.floor;
+    const Vec3 right = floor.corner + floor.edge_u;
+    draw_area(figure.drawing,
+              {figure.see(floor.corner), figure.see(right),
+               figure.see(right + floor.edge_v),
+               figure.see(floor.corner + floor.edge_v)},
+              "currentColor");
+    const std::vector<Point> rim = rim_of_ball(figure);
+    draw_line(figure.drawing, rim);
+    draw_area(figure.drawing, rim, examples::colors::orange);
+    for (int y = 0; y < Figure3::rows; ++y)
+        for (int x = 0; x < Figure3::columns; ++x)
+            draw_camera_ray(figure, {float(x) + 0.5f, float(y) + 0.5f},
+                            {.color = "#80808070", .width = 1});
+    draw_camera_plane(figure);
+    draw_pixel_with_rays(figure);
+    const Point eye = figure.see(figure.camera.position), top = figure.plane(3, 0);
+    draw_dot(figure.drawing, eye, 5, "currentColor");
+    draw_label(figure.drawing, {eye.x + 10, eye.y + 26}, "view point");
+    draw_label(figure.drawing, {top.x, top.y + 40}, "camera plane",
+               examples::colors::blue);
+    draw_label(figure.drawing, {figure.see(right).x - 60, figure.see(right).y + 160},
+               "3D scene");
+    save_drawing(folder, figure.drawing);
+}
+
+/// The four patterns, for 64 rays and for a prime.
+void draw_patterns(const std::string& folder) {
+    Drawing drawing{.name = "patterns",
+                    .description = "Four patterns of 64 and of 61 points",
+                    .low{-0.05, -0.1},
+                    .high{4.55, 2.35},
+                    .scale = 155};
+    for (int row = 0; row < 2; ++row)
+        for (int column = 0; column < 4; ++column) {
+            const int count = row == 0 ? 64 : 61;
+            const Point low{1.15 * column, 1.15 * (1 - row)};
+            const auto at = [&](double x, double y) {
+                return Point{low.x + x, low.y + 1 - y};
+            };
+            const auto pattern = make_pattern(patterns[column], count);
+            const examples::Pen thin{.color = "#80808060", .width = 0.8};
+            const bool cells = column == 1 ? row == 0 : column == 2;
+            const int columns = pattern.strata.columns;
+            // With a broken row the columns are of two widths, and begin anywhere.
+            const bool whole = columns * pattern.strata.rows == count;
+            for (int i = 1; cells && whole && i < columns; ++i)
+                draw_line(drawing,
+                          {at(double(i) / columns, 0), at(double(i) / columns, 1)},
+                          thin);
+            // The rows of a multi-jittered pattern have `columns` points each.
+            for (int i = columns; cells && i < count; i += columns)
+                draw_line(drawing, {at(0, double(i) / count), at(1, double(i) / count)},
+                          thin);
+            draw_line(drawing, {at(0, 0), at(1, 0), at(1, 1), at(0, 1), at(0, 0)},
+                      {.width = 1});
+            auto stream = ljus::random_stream(4, ljus::Pass::user, 0, 0);
+            for (int i = 0; i < count; ++i) {
+                const Vec2 p = ljus::spread(pattern, i, 5, next_2d(stream));
+                draw_dot(drawing, at(double(p.x), double(p.y)), 2.4,
+                         examples::colors::blue);
+            }
+            if (row == 0)
+                draw_label(drawing, {low.x + 0.5, low.y + 1.08}, names[column]);
+        }
+    save_drawing(folder, drawing);
+}
+
+/// A renderer that sees a picture in the plane at distance 1: a disc, and light that
+/// changes smoothly.
+struct TestCard {
+    using Stream = ljus::RandomStream;
+    bool edges = true;
+
+    [[nodiscard]] double value(double x, double y) const {
+        if (edges) return x * x + y * y < 0.62 ? 1 : 0;
+        return 0.5 + 0.5 * std::sin(3 * x + x * y) * std::exp(-y);
+    }
+};
+
+template <typename Context>
+Rgb radiance(const TestCard& card, const Ray& ray, Context&) {
+    const Vec3 d = ray.direction / -ray.direction.z;
+    return Rgb(float(card.value(double(d.x), double(d.y))));
+}
+/// The rms error of pixels that are not all black or all white.
+double error(const TestCard& card, Sampling sampling, int rays, int pixels,
+             const Image& truth, int seeds) {
+    const Camera camera = ljus::look_at({.vfov_degrees = 90});
+    double sum = 0;
+    int count = 0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const auto seen = render(card, camera,
+                                 {.width = pixels,
+                                  .height = pixels,
+                                  .samples = rays,
+                                  .seed = static_cast<std::uint64_t>(seed),
+                                  .sampling = sampling});
+        for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+            const double exact = double(truth.pixels[i].x);
+            if (card.edges && (exact == 0 || exact == 1)) continue;
+            sum += std::pow(double(seen.image.pixels[i].x) - exact, 2);
+            ++count;
+        }
+    }
+    return std::sqrt(sum / count);
+}
+
+/// The exact mean of a pixel, from its lower left corner: column by column, the disc's
+/// height in it; or by the midpoint rule.
+double mean_of_pixel(const TestCard& card, double x, double y, double size) {
+    const int columns = card.edges ? 4000 : 100, rows = card.edges ? 1 : 100;
+    double sum = 0;
+    for (int i = 0; i < columns; ++i) {
+        const double at = x + size * (i + 0.5) / columns;
+        if (card.edges) {
+            const double top = std::sqrt(std::max(0.0, 0.62 - at * at));
+            const double low = std::clamp(y, -top, top);
+            sum += (std::clamp(y + size, -top, top) - low) / size;
+        } else {
+            for (int j = 0; j < rows; ++j)
+                sum += card.value(at, y + size * (j + 0.5) / rows);
+        }
+    }
+    return sum / (columns * rows);
+}
+
+/// Two plots: how the error of a pixel falls with the number of its rays; and a table
+/// of counts that are squares, products and primes.
+void plot_errors(const std::string& folder, int pixels, int most) {
+    std::array<Image, 2> truth;
+    const double size = 2.0 / pixels;
+    for (const bool edges : {false, true}) {
+        truth[edges] = ljus::make_image(pixels, pixels);
+        for (int y = 0; y < pixels; ++y)
+            for (int x = 0; x < pixels; ++x)
+                pixel(truth[edges], x, y) = Rgb(float(
+                    mean_of_pixel({edges}, -1 + x * size, 1 - (y + 1) * size, size)));
+    }
+    for (const bool edges : {false, true}) {
+        examples::Plot plot{.name = edges ? "patterns-edge" : "patterns-smooth",
+                            .columns = {"rays per pixel", "random", "jittered",
+                                        "multi-jittered", "Sobol"},
+                            .y_label = "rms error per pixel",
+                            .log_x = true,
+                            .log_y = true};
+        for (int rays = 4; rays <= most; rays *= 4) {
+            examples::Row row{double(rays)};
+            for (const Sampling sampling : patterns)
+                row.push_back(error({edges}, sampling, rays, pixels, truth[edges], 2));
+            plot.rows.push_back(row);
+        }
+        save_plot(folder, plot);
+        const examples::Row first = plot.rows[1], last = plot.rows.back();
+        for (std::size_t k = 1; k < 5; ++k)
+            std::printf("%s, %s: slope %.2f\n", plot.name.c_str(), names[k - 1],
+                        std::log(last[k] / first[k]) / std::log(last[0] / first[0]));
+    }
+    examples::Table table{
+        .name = "patterns-counts",
+        .columns = {"rays", "random", "jittered", "multi-jittered", "Sobol"}};
+    for (const int rays : {7, 8, 10, 16, 61, 64, 97, 100}) {
+        std::vector<std::string> row{std::to_string(rays)};
+        for (const Sampling sampling : patterns)
+            row.push_back(examples::text(
+                error({true}, sampling, rays, pixels, truth[1], 8), "%.4f"));
+        table.rows.push_back(row);
+    }
+    std::vector<std::string> row{"ns per point, of 64"};
+    for (const Sampling sampling : patterns) {
+        const auto pattern = make_pattern(sampling, 64);
+        double best = 1e9;
+        volatile float keep = 0;
+        for (int run = 0; run < 21; ++run) {
+            const examples::StopWatch watch;
+            Vec2 sum{0};
+            for (std::uint64_t key = 0; key < 500; ++key)
+                for (int i = 0; i < 64; ++i)
+                    sum +=
+                        ljus::spread(pattern, i, ljus::mix_bits(key), Vec2{0.3f, 0.6f});
+            keep = keep + sum.x + sum.y;
+            best = std::min(best, watch.seconds() * 1e9 / (500 * 64));
+        }
+        row.push_back(examples::text(best, "%.1f"));
+    }
+    table.rows.push_back(row);
+    save_table(folder, table);
+}
+
+/// A floor of tiles to the horizon: what is too fine for the pixels.
+struct Tiles {
+    using Stream = ljus::RandomStream;
+};
+
+template <typename Context>
+Rgb radiance(const Tiles&, const Ray& ray, Context&) {
+    if (!(ray.direction.y < 0)) return {0.35f, 0.5f, 0.8f};
+    const Vec3 p = point_at(ray, -ray.origin.y / ray.direction.y);
+    const bool dark = (std::fmod(std::floor(p.x) + std::floor(p.z), 2.0f) != 0);
+    return dark ? Rgb{0.05f} : Rgb{0.8f};
+}
+
+/// Four pictures of the tiles, one for each pattern, and one of a single ray.
+void tiles(const examples::Options& options) {
+    const Camera camera = ljus::look_at(
+        {.position{0, 1.3f, 0}, .target{0.6f, 0.85f, -3}, .vfov_degrees = 40});
+    ljus::RenderSettings picture{
+        .width = options.width, .height = options.height, .samples = 4};
+    const Image truth = render(Tiles{}, camera,
+                               {.width = options.width,
+                                .height = options.height,
+                                .samples = options.pick(256, 1024, 4096)})
+                            .image;
+    for (std::size_t k = 0; k < 4; ++k) {
+        picture.sampling = patterns[k];
+        const Image image = render(Tiles{}, camera, picture).image;
+        save_png(image, options.path("tiles-" + std::to_string(k) + ".png"));
+        std::printf("tiles, 4 rays, %s: rmse %.4f\n", names[k], rmse(image, truth));
+    }
+    // The corners of the pixels: what one ray at a fixed place sees.
+    Image aliased = ljus::make_image(options.width, options.height);
+    ljus::Counts counts;
+    ljus::RandomStream none;
+    auto context = ljus::context_of(none, counts);
+    for (int y = 0; y < options.height; ++y)
+        for (int x = 0; x < options.width; ++x)
+            pixel(aliased, x, y) =
+                radiance(Tiles{},
+                         primary_ray(camera, Vec2{float(x) + 0.5f, float(y) + 0.5f},
+                                     options.width, options.height),
+                         context);
+    save_png(aliased, options.path("tiles-one.png"));
+}
+
+/// One rendering, developed with several exposures, and without the sRGB curve.
+void exposures(const examples::Options& options) {
+    const auto room = ljus::cornell_box();
+    examples::ProgressBar bar("exposure", options.quiet);
+    const auto seen = render(ljus::PhotonMapper(room.world), room.camera,
+                             {.width = options.height,
+                              .height = options.height,
+                              .samples = options.samples,
+                              .seed = options.seed,
+                              .threads = options.threads,
+                              .progress = bar});
+    examples::stop_if_asked();
+    for (int stops = -4; stops <= 4; stops += 2)
+        save_png(seen.image, options.path("exposure" + std::to_string(stops) + ".png"),
+                 {.exposure = double(stops)});
+    // What a program writes that forgets the curve.
+    Image linear = seen.image;
+    for (Rgb& c : linear.pixels)
+        for (int k = 0; k < 3; ++k) c[k] = float(ljus::srgb_decode(double(c[k])));
+    save_png(linear, options.path("exposure-linear.png"));
+    // The report's program: divided by the brightest channel.
+    float brightest = 0;
+    for (const Rgb& c : seen.image.pixels)
+        brightest = std::max({brightest, c.x, c.y, c.z});
+    save_png(seen.image, options.path("exposure-report.png"),
+             {.exposure = -std::log2(double(brightest))});
+    std::printf("brightest channel: %.1f\n", double(brightest));
+}
+
+/// Balls in a row, through lenses from long to absurdly wide, always with the front of
+/// the middle ball of the same size.
+void fields_of_view(const examples::Options& options) {
+    ljus::Scene<ljus::Shapes<ljus::Sphere, ljus::Quad>,
+                ljus::Materials<ljus::Lambertian>>
+        scene;
+    const auto grey = scene.add(ljus::Lambertian{.albedo = Rgb{0.5f}});
+    const auto red = scene.add(ljus::Lambertian{.albedo{0.75f, 0.3f, 0.2f}});
+    scene.add(
+        ljus::Quad{.corner{-400, -1, 400}, .edge_u{800, 0, 0}, .edge_v{0, 0, -800}},
+        grey);
+    for (int i = -4; i <= 4; ++i)
+        for (int j = -1; j <= 1; ++j)
+            scene.add(ljus::Sphere{.center{2.6f * float(i), 0, -2.6f * float(j + 1)},
+                                   .radius = 1},
+                      red);
+    scene.add(ljus::Sphere{.center{-20, 60, 40}, .radius = 12}, grey, Rgb{40});
+    const ljus::World world(std::move(scene));
+    for (const float angle : {1.0f, 20.0f, 60.0f, 120.0f, 170.0f}) {
+        const float distance = 3.5f / std::tan(angle * std::numbers::pi_v<float> / 360);
+        const Camera camera =
+            ljus::look_at({.position{0, 0.06f * distance, 1 + distance},
+                           .target{0, 0, 0},
+                           .vfov_degrees = angle});
+        const auto seen = render(ljus::PathTracer(world, {.max_depth = 2}), camera,
+                                 {.width = options.width,
+                                  .height = options.height,
+                                  .samples = options.samples,
+                                  .seed = options.seed,
+                                  .threads = options.threads});
+        save_png(seen.image,
+                 options.path("fov-" + std::to_string(int(angle)) + ".png"));
+    }
+}
+
+} // namespace
+
+/// Makes the chapter's figures.
+int main(int argc, char** argv) {
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        int pixels = 32;
+        line.about("Chapter 1, primary rays: figure 3, patterns, exposure.");
+        line.add("--pixels", pixels, "Side of the test card in pixels", 4, 200);
+        const examples::Options options =
+            line.parse({.draft{.width = 240, .height = 160, .samples = 9},
+                        .report{.width = 600, .height = 400, .samples = 64},
+                        .reference{.width = 900, .height = 600, .samples = 1024}});
+        draw_figure_3(options.path(""));
+        draw_patterns(options.path(""));
+        plot_errors(options.path(""), pixels, options.pick(1024, 4096, 16384));
+        tiles(options);
+        exposures(options);
+        fields_of_view(options);
+    });
+}

@@ -1,0 +1,302 @@
+// figures: metaballs
+// smoke: --quality draft --width 24 --height 18 --rays 1 --cases 200
+/// \file chapters/experiments/09_experiments.cpp
+/// \brief Chapter 9: metaballs that merge, and four solvers for the same rays.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <ljus/ljus.hpp>
+
+#include "common/clock.hpp"
+#include "common/command_line.hpp"
+#include "common/plot.hpp"
+#include "common/terminal.hpp"
+#include "experiments/numbers.hpp"
+
+namespace {
+
+using Balls = ljus::MetaballsT<double>;
+using Ray = ljus::RayT<double>;
+using Point = ljus::Vec3T<double>;
+using examples::Numbers;
+
+// --- Pictures ---------------------------------------------------------------------
+
+/// Two blobs of this distance, one of glass beside them, in a lit corner.
+// [scene]
+auto merging(float distance, bool with_glass) {
+    using namespace ljus;
+    Scene<Shapes<Metaballs, Quad, Sphere>, Materials<Lambertian, Glass>> scene;
+    const auto amber = scene.add(Lambertian{.albedo{0.9f, 0.55f, 0.15f}});
+    const auto grey = scene.add(Lambertian{.albedo = Rgb{0.7f}});
+    const auto glass = scene.add(Glass{});
+    const float half = distance / 2;
+    scene.add(Metaballs{.blobs{{.center{-half, 0, -4}}, {.center{half, 0, -4}}}},
+              amber);
+    if (with_glass)
+        scene.add(Metaballs{.blobs{{.center{-0.7f, -0.35f, -2.5f}, .radius = 0.75f},
+                                   {.center{0, -0.15f, -2.6f}, .radius = 0.7f},
+                                   {.center{0.6f, -0.4f, -2.4f}, .radius = 0.7f}}},
+                  glass);
+    scene.add(Quad{.corner{-9, -0.9f, 3}, .edge_u{18, 0, 0}, .edge_v{0, 0, -12}}, grey);
+    scene.add(Quad{.corner{-9, -0.9f, -7}, .edge_u{18, 0, 0}, .edge_v{0, 12, 0}}, grey);
+    scene.add(Sphere{.center{-2.5f, 4.5f, -1.5f}, .radius = 0.4f}, grey, Rgb{90});
+    return World(std::move(scene));
+}
+// [scene]
+
+ljus::Camera camera(float degrees) {
+    return look_at(ljus::View{
+        .position{0, 0.9f, 1}, .target{0, -0.2f, -3.6f}, .vfov_degrees = degrees});
+}
+
+/// The strip: one picture a distance, by path tracing; and one with glass, by photons.
+void pictures(const examples::Options& options) {
+    const ljus::RenderSettings picture{options.width, options.height, options.samples,
+                                       options.seed, options.threads};
+    for (const int hundredths : {200, 170, 145, 120, 80}) {
+        const auto world = merging(float(hundredths) / 100, false);
+        const ljus::PathTracer tracer(world);
+        save_png(render(tracer, camera(30), picture).image,
+                 options.path("metaballs-" + std::to_string(hundredths) + ".png"));
+        examples::stop_if_asked();
+    }
+    ljus::PhotonMappingSettings settings;
+    settings.caustics.photons = options.pick(100000ll, 300000ll, 3000000ll);
+    settings.caustics.seed = options.seed;
+    const auto world = merging(1.2f, true);
+    const ljus::PhotonMapper mapper(world, settings);
+    save_png(render(mapper, camera(38), picture).image,
+             options.path("metaballs-glass.png"));
+    examples::stop_if_asked();
+}
+
+// --- The solvers ------------------------------------------------------------------
+
+enum Way : std::size_t { pieces, radicals, bisection, tracing, way_count };
+constexpr const char* way_names[] = {"pieces of the quartic", "radicals",
+                                     "interval bisection", "sphere tracing"};
+
+/// The first hit, NaN for a miss.
+template <Way way>
+double hit(const Ray& ray, const Balls& balls) {
+    constexpr double miss = std::numeric_limits<double>::quiet_NaN();
+    using ljus::intersect;
+    if constexpr (way == pieces)
+        return intersect(ray, balls).value_or(miss);
+    else if constexpr (way == radicals)
+        return intersect<ljus::Radicals>(ray, balls).value_or(miss);
+    else if constexpr (way == bisection)
+        return intersect<ljus::Bisection>(ray, balls).value_or(miss);
+    else
+        return intersect<ljus::SphereTracing>(ray, balls).value_or(miss);
+}
+
+/// A ray and what it is shot at.
+struct Case {
+    Ray ray;
+    Balls balls;
+};
+
+/// Blobs in a heap, and a ray at them.
+Case heap(Numbers& n, int blobs) {
+    Case result;
+    const double size = 0.6 * std::cbrt(blobs);
+    for (int i = 0; i < blobs; ++i)
+        result.balls.blobs.push_back(
+            {n.direction() * (size * std::cbrt(n.next())), n.between(0.6, 1), 1});
+    result.ray.origin = n.direction() * 8.0;
+    result.ray.direction =
+        glm::normalize(n.direction() * (size + 0.3) * n.next() - result.ray.origin);
+    return result;
+}
+
+/// Two equal blobs, and a ray at them.
+Case pair(Numbers& n) {
+    Case result;
+    const Point half = n.direction() * n.between(0.2, 0.95);
+    result.balls.blobs = {{half, 1, 1}, {-half, 1, 1}};
+    result.ray.origin = n.direction() * 5.0;
+    result.ray.direction =
+        glm::normalize(n.direction() * (1.4 * n.next()) - result.ray.origin);
+    return result;
+}
+
+/// A ray that dips into a ball by `depth` radii, or passes it by as much.
+Case graze(Numbers& n, double depth) {
+    Case result{.ray{}, .balls{.blobs{{Point{0}, 1, 1}}}};
+    const double r = std::sqrt(0.5); // of the ball, at level 1/4
+    const Point way = n.direction(), side = glm::normalize(cross(way, n.direction()));
+    const double in = n.next() < 0.5 ? -depth : depth;
+    result.ray = {.origin = side * (r * (1 + in)) - 3.0 * way, .direction = way};
+    return result;
+}
+/// The truth: the same in long double.
+double truth(const Case& c) {
+    using Long = long double;
+    ljus::MetaballsT<Long> balls{.level = c.balls.level};
+    for (const auto& b : c.balls.blobs)
+        balls.blobs.push_back({ljus::Vec3T<Long>(b.center), b.radius, b.weight});
+    const ljus::RayT<Long> ray{.origin = ljus::Vec3T<Long>(c.ray.origin),
+                               .direction = ljus::Vec3T<Long>(c.ray.direction)};
+    const auto t = intersect(ray, balls);
+    return t ? static_cast<double>(*t) : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// What a way got wrong.
+struct Errors {
+    double wrong = 0;    ///< Share of rays whose hit or miss is wrong.
+    double distance = 0; ///< The largest distance |f|/|grad f| of a hit to the surface.
+};
+
+template <Way way>
+Errors errors(const std::vector<Case>& cases, const std::vector<double>& truths) {
+    Errors result;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const double t = hit<way>(cases[i].ray, cases[i].balls);
+        if (std::isnan(t) != std::isnan(truths[i])) result.wrong += 1;
+        if (std::isnan(t)) continue;
+        const Point x = point_at(cases[i].ray, t);
+        result.distance =
+            std::max(result.distance, std::abs(field(cases[i].balls, x)) /
+                                          glm::length(gradient(cases[i].balls, x)));
+    }
+    result.wrong /= static_cast<double>(cases.size());
+    return result;
+}
+
+std::array<Errors, way_count> all_errors(const std::vector<Case>& cases) {
+    std::vector<double> truths;
+    for (const Case& c : cases) truths.push_back(truth(c));
+    return {errors<pieces>(cases, truths), errors<radicals>(cases, truths),
+            errors<bisection>(cases, truths), errors<tracing>(cases, truths)};
+}
+
+/// Nanoseconds per ray, the best of some runs.
+template <Way way>
+double nanoseconds(const std::vector<Case>& cases) {
+    return examples::nanoseconds_a_call(
+        static_cast<double>(cases.size()),
+        [&] {
+            double sum = 0;
+            for (const Case& c : cases) {
+                const double t = hit<way>(c.ray, c.balls);
+                if (t < 100) sum += t;
+            }
+            return sum;
+        },
+        7);
+}
+
+std::array<double, way_count> times(const std::vector<Case>& cases) {
+    return {nanoseconds<pieces>(cases), nanoseconds<radicals>(cases),
+            nanoseconds<bisection>(cases), nanoseconds<tracing>(cases)};
+}
+
+template <typename Make>
+std::vector<Case> made(int count, Make make) {
+    std::vector<Case> cases;
+    for (int i = 0; i < count; ++i) cases.push_back(make());
+    return cases;
+}
+
+/// Plot: wrong decisions against how deep the ray dips in.
+void plot_grazing(const examples::Options& options, int count) {
+    examples::Plot plot{.name = "metaballs-grazing",
+                        .columns = {"how deep a ray dips in, or passes by, in radii"},
+                        .y_label = "wrong hits and misses, %",
+                        .rows = {},
+                        .log_x = true};
+    for (const char* name : way_names) plot.columns.emplace_back(name);
+    Numbers n{3};
+    for (int exponent = -30; exponent <= -2; ++exponent) {
+        const double depth = std::pow(10.0, exponent / 2.0);
+        const auto all = all_errors(made(count / 4, [&] { return graze(n, depth); }));
+        examples::Row row{depth};
+        for (const Errors& e : all) row.push_back(100 * e.wrong);
+        plot.rows.push_back(row);
+    }
+    save_plot(options.path(""), plot);
+}
+
+/// Plot: time against the number of blobs.
+void plot_time(const examples::Options& options, int count) {
+    examples::Plot plot{.name = "metaballs-time",
+                        .columns = {"blobs"},
+                        .y_label = "ns per ray",
+                        .rows = {},
+                        .log_x = true,
+                        .log_y = true};
+    for (const char* name : way_names) plot.columns.emplace_back(name);
+    Numbers n{5};
+    for (const int blobs : {1, 2, 4, 8, 16, 32, 64, 128}) {
+        const auto all = times(made(count / 8, [&] { return heap(n, blobs); }));
+        examples::Row row{double(blobs)};
+        row.insert(row.end(), all.begin(), all.end());
+        plot.rows.push_back(row);
+    }
+    save_plot(options.path(""), plot);
+}
+
+/// Table: what each solver costs, and what it gets wrong.
+void tabulate(const examples::Options& options, int count) {
+    Numbers n{7};
+    const auto heaps = made(count, [&] { return heap(n, 8); });
+    const auto pairs = made(count, [&] { return pair(n); });
+    const auto grazes =
+        made(count, [&] { return graze(n, std::pow(10.0, n.between(-14, -2))); });
+    const auto time_heap = times(heaps), time_pair = times(pairs),
+               time_graze = times(grazes);
+    const auto in_heap = all_errors(heaps), in_pair = all_errors(pairs),
+               in_graze = all_errors(grazes);
+    examples::Table table{.name = "metaballs-solvers",
+                          .columns = {"", "8 blobs: ns", "wrong", "off by",
+                                      "2 blobs: ns", "wrong", "off by", "grazing: ns",
+                                      "wrong"}};
+    const auto percent = [](double share) {
+        return examples::text(100 * share, "%.2g %%");
+    };
+    for (std::size_t w = 0; w < way_count; ++w)
+        table.rows.push_back(
+            {way_names[w], examples::text(time_heap[w], "%.0f"),
+             percent(in_heap[w].wrong), examples::text(in_heap[w].distance, "%.1e"),
+             examples::text(time_pair[w], "%.0f"), percent(in_pair[w].wrong),
+             examples::text(in_pair[w].distance, "%.1e"),
+             examples::text(time_graze[w], "%.0f"), percent(in_graze[w].wrong)});
+    save_table(options.path(""), table);
+    if (options.quiet) return;
+    for (const auto& row : table.rows) {
+        for (const auto& cell : row) std::printf("%-19s", cell.c_str());
+        std::printf("\n");
+    }
+}
+
+} // namespace
+
+/// Makes the figures of chapter 9.
+int main(int argc, char** argv) {
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        line.about("Chapter 9: metaballs, and four solvers for the same rays.");
+        int cases = 0;
+        line.add("--cases", cases, "Rays a family; 0: as the quality says", 0,
+                 10000000);
+        const examples::Options options =
+            line.parse({.draft{.width = 320, .height = 200, .samples = 12},
+                        .report{.width = 480, .height = 300, .samples = 256},
+                        .reference{.width = 960, .height = 600, .samples = 1024}});
+        if (cases == 0) cases = options.pick(3000, 40000, 400000);
+        pictures(options);
+        plot_grazing(options, cases);
+        plot_time(options, cases);
+        tabulate(options, cases);
+        return 0;
+    });
+}

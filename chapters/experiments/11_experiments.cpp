@@ -1,0 +1,313 @@
+// figures: fig-10 refraction
+// smoke: --quality draft --width 24 --height 16 --rays 1 --calls 1000
+/// \file chapters/experiments/11_experiments.cpp
+/// \brief Chapter 11: figure 10, rays through a ball of glass, and how well Snell's law
+/// is kept.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <ljus/ljus.hpp>
+
+#include "common/clock.hpp"
+#include "common/command_line.hpp"
+#include "common/rendered.hpp"
+#include "drawings/drawing.hpp"
+
+namespace {
+
+using examples::Point;
+using ljus::Quad;
+using ljus::Rgb;
+using ljus::Sphere;
+using ljus::Triangle;
+using ljus::Vec3;
+using ljus::Vec3T;
+
+/// A vector of the plane of the drawing, seen from a point.
+Point from(const Point& origin, const Vec3T<double>& v) {
+    return {origin.x + v.x, origin.y + v.y};
+}
+
+/// Figure 10: D, R_1 and the two angles, as refract() has them.
+void draw_figure_10(const std::string& folder) {
+    const double n1 = 1, n2 = 1.5;
+    const Vec3T<double> normal{0, 1, 0};
+    const Vec3T<double> d = glm::normalize(Vec3T<double>{1, -0.9, 0});
+    const Vec3T<double> r = *ljus::refract(d, normal, n1 / n2);
+
+    examples::Drawing figure{.name = "fig-10",
+                             .description = "A ray D that glass refracts along R1",
+                             .low{-2.2, -1.6},
+                             .high{2.2, 1.5}};
+    const Point hit{};
+    const double length = 1.6;
+    draw_area(figure, {{-2.2, 0}, {2.2, 0}, {2.2, -1.6}, {-2.2, -1.6}},
+              examples::colors::blue);
+    draw_line(figure, {{-2.2, 0}, {2.2, 0}});
+    draw_arrow(figure, from(hit, -length * d), hit, {examples::colors::blue, 2.5});
+    draw_arrow(figure, hit, from(hit, length * r), {examples::colors::orange, 2.5});
+    draw_arrow(figure, hit, {0, 1.2}, {.width = 2});
+    draw_arrow(figure, hit, {0, -1.2}, {.width = 2});
+
+    // The angles between -D and N_1, and between R_1 and N_2.
+    const double half_pi = std::numbers::pi / 2;
+    draw_arc(figure, hit, 0.5, half_pi, std::atan2(-d.y, -d.x));
+    draw_arc(figure, hit, 0.5, -half_pi, std::atan2(r.y, r.x));
+    draw_label(figure, {-0.27, 0.62}, "θ_1");
+    draw_label(figure, {0.2, -0.66}, "θ_2");
+    draw_label(figure, {-1.35, 0.85}, "D", examples::colors::blue);
+    draw_label(figure, {0.95, -1.1}, "R_1", examples::colors::orange);
+    draw_label(figure, {0.2, 1.15}, "N_1");
+    draw_label(figure, {-0.2, -1.15}, "N_2");
+    draw_label(figure, {1.7, 0.25}, "n_1 = 1");
+    draw_label(figure, {1.65, -0.25}, "n_2 = 1.5");
+    save_drawing(folder, figure);
+}
+/// The way of a ray through a ball of index n: where it goes in, where out, and where
+/// it is after a length of 4.
+std::vector<Point> way_through_ball(double height, double n) {
+    using Ray = ljus::RayT<double>;
+    const ljus::SphereT<double> ball{};
+    const Ray before{.origin{-2.2, height, 0}, .direction{1, 0, 0}};
+    const auto in = point_at(before, *intersect(before, ball));
+    const auto inside = *ljus::refract(before.direction, normal(ball, in), 1 / n);
+    const Ray within{.origin = in, .direction = inside, .t_min = 1e-9};
+    const auto out = point_at(within, *intersect(within, ball));
+    const auto beyond = *ljus::refract(inside, normal(ball, out), n);
+    const auto end = out + 4.0 * beyond;
+    return {{-2.2, height}, {in.x, in.y}, {out.x, out.y}, {end.x, end.y}};
+}
+/// Parallel rays through a ball of glass, and where theory has their focus.
+void draw_ball(const std::string& folder) {
+    const double n = 1.5;
+    examples::Drawing figure{.name = "refraction-ball",
+                             .description = "Parallel rays through a ball of glass",
+                             .low{-2.2, -1.25},
+                             .high{3.4, 1.25},
+                             .scale = 125};
+    std::vector<Point> circle;
+    for (int i = 0; i < 120; ++i) {
+        const double angle = 2 * std::numbers::pi * i / 120;
+        circle.push_back({std::cos(angle), std::sin(angle)});
+    }
+    draw_area(figure, circle, examples::colors::blue);
+    for (int i = -24; i <= 24; ++i) {
+        const double height = 0.98 * i / 24;
+        draw_line(figure, way_through_ball(height, n), {examples::colors::orange, 0.7});
+    }
+    const double focus = n / (2 * (n - 1)); // from the centre, for R = 1
+    draw_line(figure, {{focus, -0.35}, {focus, 0.35}}, {.dashed = true});
+    draw_label(figure, {focus, 0.5}, "n R / 2(n - 1)");
+    save_drawing(folder, figure);
+}
+
+/// What is wrong with a glass.
+enum class Error { none, total_reflection_ignored, index_swapped };
+
+/// Glass with a mistake that is easily made.
+struct MistakenGlass {
+    using Scalar = float; ///< The precision.
+    ljus::Glass glass;    ///< The glass as it should be.
+    Error error = Error::none;
+};
+ljus::Lobes lobes(const MistakenGlass&) {
+    return ljus::Lobes::specular;
+}
+Rgb evaluate(const MistakenGlass&, const Vec3&, const Vec3&) {
+    return Rgb{0};
+}
+float pdf(const MistakenGlass&, const Vec3&, const Vec3&,
+          ljus::Lobes = ljus::Lobes::all) {
+    return 0;
+}
+void check(const MistakenGlass& mistaken) {
+    check(mistaken.glass);
+}
+/// The glass's own sample; but where its mistake shows, something else.
+std::optional<ljus::BsdfSample> sample(const MistakenGlass& mistaken, const Vec3& wo,
+                                       const Vec3& u, ljus::Transport transport,
+                                       ljus::Lobes which = ljus::Lobes::all) {
+    const bool inside = wo.z < 0;
+    ljus::Glass glass = mistaken.glass;
+    const float index = glass.index;
+    if (mistaken.error == Error::index_swapped) glass.index = 1 / index;
+    const bool total = inside && !ljus::refract(wo, index);
+    if (mistaken.error == Error::total_reflection_ignored && total)
+        return std::nullopt; // no refracted ray: black
+    return sample(glass, wo, u, transport, which);
+}
+/// A tetrahedron and a ball of glass in a room with coloured walls.
+void picture(const examples::Options& options, const std::string& name, Error error) {
+    const MistakenGlass glass{.glass{.index = 1.5f}, .error = error};
+    const auto matt = [](float r, float g, float b) {
+        return ljus::Lambertian{.albedo{r, g, b}};
+    };
+    // Sides of 2, on the floor.
+    const Vec3 a{-1.9f, 0.01f, 0.6f}, b{0.1f, 0.01f, 0.9f}, c{-0.75f, 0.01f, -1.0f},
+        top{-0.85f, 1.7f, 0.2f};
+    const ljus::World world(ljus::make_scene(
+        placed(Quad{{-3, 0, 3}, {6, 0, 0}, {0, 0, -6}}, matt(0.7f, 0.7f, 0.7f)),
+        placed(Quad{{-3, 4, -3}, {6, 0, 0}, {0, 0, 6}}, matt(0.7f, 0.7f, 0.7f)),
+        placed(Quad{{-3, 0, -3}, {6, 0, 0}, {0, 4, 0}}, matt(0.75f, 0.7f, 0.45f)),
+        placed(Quad{{-3, 0, 3}, {0, 0, -6}, {0, 4, 0}}, matt(0.75f, 0.3f, 0.2f)),
+        placed(Quad{{3, 0, 3}, {0, 4, 0}, {0, 0, -6}}, matt(0.2f, 0.4f, 0.75f)),
+        placed(Quad{{-3, 0, 3}, {0, 4, 0}, {6, 0, 0}}, matt(0.5f, 0.5f, 0.5f)),
+        placed(Quad{{-1, 3.99f, -1}, {2, 0, 0}, {0, 0, 2}}, matt(0.5f, 0.5f, 0.5f),
+               Rgb{7}),
+        placed(Sphere{.center{1.25f, 0.81f, 0.3f}, .radius = 0.8f}, glass),
+        placed(Triangle{a, b, top}, glass), placed(Triangle{b, c, top}, glass),
+        placed(Triangle{c, a, top}, glass), placed(Triangle{a, c, b}, glass)));
+    const auto camera = ljus::look_at(
+        {.position{0.1f, 1.9f, 2.9f}, .target{0.05f, 0.75f, 0}, .vfov_degrees = 62});
+    ljus::PhotonMappingSettings settings{
+        .max_depth = 12,
+        .caustics{.photons = options.pick(100000, 1000000, 10000000)},
+        .caustics_estimate{.radius = options.pick(0.1f, 0.05f, 0.02f)}};
+    settings.caustics.threads = options.threads;
+    const ljus::PhotonMapper mapper(world, settings);
+    const auto result = examples::rendered(name, mapper, camera, options);
+    save_png(result.image, options.path(name + ".png"));
+}
+
+/// Snell's law in angles, as the report prints it. D travels towards the surface; z is
+/// the normal.
+template <typename T>
+std::optional<Vec3T<T>> refract_by_angles(const Vec3T<T>& d, T eta) {
+    const T theta_1 = std::acos(-d.z);
+    const T sin_2 = eta * std::sin(theta_1);
+    if (!(sin_2 <= T(1))) return std::nullopt;
+    const T theta_2 = std::asin(sin_2);
+    const T phi = std::atan2(d.y, d.x);
+    return Vec3T<T>{std::sin(theta_2) * std::cos(phi),
+                    std::sin(theta_2) * std::sin(phi), -std::cos(theta_2)};
+}
+/// The ways that are compared; each takes D towards the surface, whose normal is z.
+constexpr auto by_angles = [](const Vec3& d, float eta) {
+    return refract_by_angles(d, eta);
+};
+constexpr auto by_glm = [](const Vec3& d, float eta) -> std::optional<Vec3> {
+    const Vec3 t = glm::refract(d, Vec3{0, 0, 1}, eta);
+    if (t == Vec3{0}) return std::nullopt;
+    return t;
+};
+constexpr auto in_world = [](const Vec3& d, float eta) {
+    return ljus::refract(d, Vec3{0, 0, 1}, eta);
+};
+constexpr auto in_frame = [](const Vec3& d, float eta) {
+    return ljus::refract(-d, eta);
+};
+
+/// Directions that pass a boundary of index ratio eta, a third of them within a
+/// thousandth of the critical angle, a third close to straight.
+std::vector<Vec3> passing(double eta, int count) {
+    std::vector<Vec3> result;
+    ljus::RandomStream stream = ljus::random_stream(9, ljus::Pass::camera, 0, 0);
+    const double most = std::min(1.0, 1 / eta);
+    for (int i = 0; i < count; ++i) {
+        const auto u = next_2d<double>(stream);
+        const double sine = most * (i % 3 == 0   ? u.x
+                                    : i % 3 == 1 ? 1 - std::pow(10, -3 - 4 * u.x)
+                                                 : std::pow(10, -6 * u.x));
+        const double phi = 2 * std::numbers::pi * u.y;
+        result.emplace_back(sine * std::cos(phi), sine * std::sin(phi),
+                            -std::sqrt((1 - sine) * (1 + sine)));
+    }
+    return result;
+}
+
+/// The largest | |T| - 1 | and residual of Snell's law, in units of roundoff; NaN if
+/// any direction was said not to pass though it does by far.
+template <typename Refract>
+double largest_error(double eta, int count, Refract refract) {
+    double largest = 0;
+    for (const Vec3& d : passing(eta, count)) {
+        const auto t = refract(d, float(eta));
+        if (!t) continue;
+        const Vec3T<double> exact(d), found(*t);
+        const double sine = std::hypot(exact.x, exact.y) / glm::length(exact);
+        const double sine_t = std::hypot(found.x, found.y) / glm::length(found);
+        const double snell = std::abs(sine_t - double(float(eta)) * sine);
+        largest = std::max({largest, std::abs(glm::length(found) - 1), snell});
+    }
+    return largest / std::ldexp(1.0, -24);
+}
+
+/// Plot: the error of each way against the ratio of the indices.
+void plot_errors(const std::string& folder, int calls) {
+    examples::Plot plot{.name = "refraction-error",
+                        .columns = {"n_1 / n_2", "by angles", "glm::refract",
+                                    "ljus::refract", "ljus::refract in the frame"},
+                        .y_label = "largest error in units of roundoff",
+                        .log_x = true,
+                        .log_y = true};
+    for (int i = -12; i <= 12; ++i) {
+        const double eta = std::pow(10, i / 4.0);
+        plot.rows.push_back({eta, largest_error(eta, calls, by_angles),
+                             largest_error(eta, calls, by_glm),
+                             largest_error(eta, calls, in_world),
+                             largest_error(eta, calls, in_frame)});
+    }
+    save_plot(folder, plot);
+}
+
+/// Nanoseconds a call, the best of 21 runs; half of the rays go in, half out.
+template <typename Refract>
+double nanoseconds(Refract refract) {
+    const std::vector<Vec3> into = passing(1 / 1.5, 2048), out = passing(1.5, 2048);
+    return examples::nanoseconds_a_call(20.0 * 2048, [&] {
+        Vec3 sum{0};
+        for (int round = 0; round < 10; ++round) {
+            for (const Vec3& d : into) sum += refract(d, 1 / 1.5f).value_or(Vec3{0});
+            for (const Vec3& d : out) sum += refract(d, 1.5f).value_or(Vec3{0});
+        }
+        return sum.x + sum.y + sum.z;
+    });
+}
+
+/// Table: time and error of each way.
+void tabulate_trade(const std::string& folder, int calls) {
+    const auto row = [&](const char* name, auto way) {
+        std::vector<std::string> cells{name, examples::text(nanoseconds(way), "%.1f")};
+        for (const double eta : {1 / 1.5, 1.5, 100.0})
+            cells.push_back(examples::text(largest_error(eta, calls, way), "%.3g u"));
+        std::printf("%-28s %6s ns  %s  %s  %s\n", name, cells[1].c_str(),
+                    cells[2].c_str(), cells[3].c_str(), cells[4].c_str());
+        return cells;
+    };
+    examples::save_table(
+        folder,
+        {.name = "refraction-trade",
+         .columns = {"in float", "ns", "into glass", "out of glass", "n_1/n_2 = 100"},
+         .rows = {row("by angles", by_angles), row("glm::refract", by_glm),
+                  row("ljus::refract", in_world),
+                  row("ljus::refract in the frame", in_frame)}});
+}
+
+} // namespace
+
+/// Makes the chapter's figures.
+int main(int argc, char** argv) {
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        int calls = 100000;
+        line.about("Chapter 11, refraction: figure 10, a ball of glass, Snell's law.");
+        line.add("--calls", calls, "Rays for each error of the plot", 3, 10000000);
+        const examples::Options options =
+            line.parse({.draft{.width = 270, .height = 180, .samples = 32},
+                        .report{.width = 600, .height = 400, .samples = 64},
+                        .reference{.width = 900, .height = 600, .samples = 4096}});
+        const std::string folder = options.path("");
+        draw_figure_10(folder);
+        draw_ball(folder);
+        plot_errors(folder, calls);
+        tabulate_trade(folder, calls);
+        picture(options, "refraction", Error::none);
+        picture(options, "refraction-no-total", Error::total_reflection_ignored);
+        picture(options, "refraction-swapped", Error::index_swapped);
+    });
+}

@@ -1,0 +1,736 @@
+// figures: photon_emission
+// smoke: --quality draft --photons 500 --paths 2000 --width 40 --height 40
+/// \file chapters/experiments/22_experiments.cpp
+/// \brief Chapter 22: where photons go, what roulette may not lose, and what aiming
+/// saves; spots and suns, and photons that are spread evenly.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/clock.hpp"
+#include "common/command_line.hpp"
+#include "common/plot.hpp"
+#include "ljus/geometry/shape.hpp"
+#include "ljus/inspect/census.hpp"
+#include "ljus/io/png.hpp"
+#include "ljus/lights/spot_light.hpp"
+#include "ljus/lights/sun_light.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/photons/density_estimate.hpp"
+#include "ljus/photons/tracing.hpp"
+#include "ljus/scenes/report_rooms.hpp"
+
+using namespace ljus;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// What the user may set besides the common options.
+struct Sizes {
+    long long photons = 0; ///< Dots in the picture.
+    long long paths = 0;   ///< Photons behind each number of the tables.
+};
+
+// --- Photons as dots ------------------------------------------------------------------
+
+/// The pixel in which a camera sees a point; nothing if it lies behind the camera.
+std::optional<Vec2> project(const Camera& camera, const Vec3& point, int width,
+                            int height) {
+    const Vec3 way = point - camera.position;
+    const float depth = glm::dot(way, camera.forward);
+    if (!(depth > 0)) return std::nullopt;
+    const float scale = float(height) / (2 * camera.half_height * depth);
+    return Vec2{float(width) / 2 + scale * glm::dot(way, camera.right),
+                float(height) / 2 - scale * glm::dot(way, camera.up)};
+}
+/// A drawing of the room, no rendering: the colour of what the pixel sees, darker where
+/// it is seen at a low angle.
+template <typename S>
+Image draw(const Room<S>& room, int width, int height) {
+    Image image = make_image(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const Ray ray = primary_ray(
+                room.camera, Vec2{float(x) + 0.5f, float(y) + 0.5f}, width, height);
+            const auto hit = closest_hit(room.world, ray);
+            if (!hit) continue;
+            const auto surface = vertex_at(room.world, ray, *hit);
+            const Vec3 wo = to_local(surface.frame, -ray.direction);
+            const Rgb albedo =
+                room.world.visit_material(surface.object.material, [&](const auto& m) {
+                    return has(lobes(m), Lobes::specular)
+                               ? Rgb{0.25f}
+                               : Rgb(evaluate(m, wo, wo) * float(pi));
+                });
+            pixel(image, x, y) = 0.16f * (0.3f + 0.7f * std::abs(wo.z)) * albedo;
+            if (!is_black(surface.object.emission)) pixel(image, x, y) = Rgb{0.5f};
+        }
+    return image;
+}
+
+/// Adds the photons of one kind that the camera can see, each as a dot in the colour of
+/// its flux.
+template <typename S>
+long long add_dots(Image& image, const Room<S>& room,
+                   const std::vector<Photon>& photons, PhotonKind kind) {
+    long long seen = 0;
+    for (const Photon& photon : photons) {
+        if (photon.kind != kind) continue;
+        const auto place =
+            project(room.camera, photon.position, image.width, image.height);
+        if (!place) continue;
+        const auto x = static_cast<int>(std::floor(place->x));
+        const auto y = static_cast<int>(std::floor(place->y));
+        if (x < 0 || y < 0 || x >= image.width || y >= image.height) continue;
+
+        // Whatever stands in front of the photon hides it.
+        const Vec3 way = photon.position - room.camera.position;
+        const Ray ray{
+            .origin = room.camera.position, .direction = way, .t_max = 0.999f};
+        if (occluded(room.world, ray)) continue;
+        ++seen;
+        pixel(image, x, y) += 0.8f / max_component(photon.flux) * photon.flux;
+    }
+    return seen;
+}
+void picture_of_photons(const examples::Options& options, long long count) {
+    const auto room = final_room<float>();
+    const Image drawing = draw(room, options.width, options.height);
+    const auto traced = trace_photons(
+        room.world, MapType::general,
+        {.photons = count, .seed = options.seed, .shadow_photons = false});
+    const PhotonCensus found = census(traced.photons);
+
+    examples::Table table{.name = "emission-census",
+                          .columns = {"photons", "stored", "in the picture", "power, W",
+                                      "of the emitted"},
+                          .rows = {}};
+    const double emitted = traced.audit.emitted.y;
+    for (const PhotonKind kind : {PhotonKind::direct, PhotonKind::indirect}) {
+        Image image = drawing;
+        const long long seen = add_dots(image, room, traced.photons, kind);
+        const std::string name = name_of(kind);
+        save_png(image, options.path("emission-" + name + ".png"));
+        const PhotonCount& of_kind = found[kind];
+        table.rows.push_back({name, std::to_string(of_kind.photons),
+                              std::to_string(seen),
+                              examples::text(of_kind.flux.y, "%.1f"),
+                              examples::text(of_kind.flux.y / emitted, "%.3f")});
+    }
+    examples::save_table(options.out, table);
+    if (!options.quiet)
+        for (const auto& row : table.rows)
+            std::printf("%-9s %9s stored %9s seen %9s W, %s of the emitted\n",
+                        row[0].c_str(), row[1].c_str(), row[2].c_str(), row[3].c_str(),
+                        row[4].c_str());
+}
+
+// --- Roulette -------------------------------------------------------------------------
+
+/// The roulette of the report's program: who survives is not divided by the probability.
+// [uncompensated]
+std::optional<Rgb> play_uncompensated(Rgb flux, Rgb weight, float u) {
+    const Rgb reflected = flux * weight;
+    const float probability = max_component(reflected) / max_component(flux);
+    if (!(u < probability)) return std::nullopt;
+    return reflected;
+}
+// [uncompensated]
+
+/// How a photon's life ends.
+enum class End { roulette, uncompensated, faint };
+
+/// The flux that arrives at each surface of a photon's way, in units of the light's, and
+/// how many surfaces a photon met.
+struct Arrivals {
+    std::array<double, 16> at{}; ///< At the first surface, the second, ...
+    double total = 0;            ///< All together.
+    double surfaces = 0;         ///< The mean over the photons.
+};
+
+/// Photons in a closed room, all of whose walls reflect the same share.
+Arrivals bounce(float albedo, End end, long long paths, std::uint64_t seed) {
+    Scene<Shapes<Sphere>, Materials<Lambertian>, Lights<PointLight>> scene;
+    const auto wall = scene.add(Lambertian{.albedo = Rgb{albedo}});
+    scene.add(Sphere{.radius = 1}, wall, Rgb{0}, true); // seen from inside
+    scene.add(PointLight{.position{0.3f, 0, 0}, .intensity = Rgb{float(0.25 / pi)}});
+    const World room(std::move(scene));
+    const Lambertian material{.albedo = Rgb{albedo}};
+
+    Arrivals arrivals;
+    for (long long path = 0; path < paths; ++path) {
+        RandomStream stream =
+            random_stream(seed, Pass::user, 0, static_cast<std::uint64_t>(path));
+        EmittedPhotonT<float> flight = emit(room, room.light_choice(), stream);
+        for (std::uint64_t hit_number = 0;; ++hit_number) {
+            start_bounce(stream, hit_number + 1);
+            const auto hit = closest_hit(room, flight.ray);
+            if (!hit) break;
+            const double flux = double(flight.flux.x) / double(paths);
+            if (hit_number < arrivals.at.size()) arrivals.at[hit_number] += flux;
+            arrivals.total += flux;
+            arrivals.surfaces += 1 / double(paths);
+
+            const auto surface = vertex_at(room, flight.ray, *hit);
+            const auto scattered =
+                sample(material, to_local(surface.frame, -flight.ray.direction),
+                       next_3d<float>(stream), Transport::flux);
+            if (!scattered) break;
+            const float u = next_1d<float>(stream);
+            FluxAudit audit;
+            std::optional<Rgb> survivor;
+            if (end == End::roulette)
+                survivor = play_roulette(flight.flux, scattered->weight, u, audit);
+            else if (end == End::uncompensated)
+                survivor = play_uncompensated(flight.flux, scattered->weight, u);
+            else if (flight.flux.x > 0.01f)
+                survivor = flight.flux * scattered->weight;
+            if (!survivor) break;
+            flight.flux = *survivor;
+            flight.ray =
+                spawn_ray(surface.point, to_world(surface.frame, scattered->wi));
+        }
+    }
+    return arrivals;
+}
+
+void compare_roulettes(const examples::Options& options, long long paths) {
+    constexpr float albedo = 0.75f; // the walls of the report's room
+    const Arrivals fair = bounce(albedo, End::roulette, paths, options.seed);
+    const Arrivals unfair = bounce(albedo, End::uncompensated, paths, options.seed);
+    const Arrivals none = bounce(albedo, End::faint, paths, options.seed);
+
+    examples::Plot plot{.name = "emission-roulette",
+                        .columns = {"surface on the photon's way", "exact",
+                                    "divided by the probability", "not divided"},
+                        .y_label = "fraction of the flux that arrives",
+                        .rows = {},
+                        .log_y = true};
+    for (std::size_t i = 0; i < fair.at.size(); ++i) {
+        const auto or_nothing = [](double x) { return x > 0 ? x : std::nan(""); };
+        plot.rows.push_back({double(i + 1), std::pow(double(albedo), double(i)),
+                             or_nothing(fair.at[i]), or_nothing(unfair.at[i])});
+    }
+    examples::save_plot(options.out, plot);
+
+    examples::Table table{.name = "emission-roulette-table",
+                          .columns = {"a photon's life ends", "surfaces per photon",
+                                      "flux that arrives", "error"},
+                          .rows = {}};
+    const double exact = 1 / (1 - double(albedo));
+    const auto row = [&](const char* name, const Arrivals& arrivals) {
+        table.rows.push_back(
+            {name, examples::text(arrivals.surfaces, "%.2f"),
+             examples::text(arrivals.total, "%.3f"),
+             examples::text(100 * (arrivals.total / exact - 1), "%+.1f %%")});
+    };
+    row("by roulette, divided by the probability", fair);
+    row("by roulette, not divided (the report's program)", unfair);
+    row("when it carries less than a hundredth", none);
+    table.rows.push_back({"never (exact)", "", examples::text(exact, "%.3f"), ""});
+    examples::save_table(options.out, table);
+    if (!options.quiet)
+        for (const auto& cells : table.rows)
+            std::printf("%-48s %6s surfaces, flux %s %s\n", cells[0].c_str(),
+                        cells[1].c_str(), cells[2].c_str(), cells[3].c_str());
+}
+
+// --- Aiming ---------------------------------------------------------------------------
+
+/// The flux that one way of sending photons brings to the glass, one photon at a time.
+struct Brought {
+    double mean = 0, squares = 0; ///< Of the flux of a photon sent, W.
+    long long met = 0;            ///< Photons that met the glass first.
+    double nanoseconds = 0;       ///< Per photon.
+    std::vector<float> each{};    ///< The flux of each photon, W.
+};
+
+/// Sends photons one by one.
+/// \param one_photon  Sends one, and returns the flux that it brings.
+template <typename OnePhoton>
+Brought send(const examples::Options& options, long long paths, OnePhoton one_photon) {
+    Brought brought;
+    brought.each.reserve(static_cast<std::size_t>(paths));
+    const examples::StopWatch watch;
+    for (long long path = 0; path < paths; ++path) {
+        RandomStream stream = random_stream(options.seed, Pass::user, 1,
+                                            static_cast<std::uint64_t>(path));
+        const double flux = one_photon(stream);
+        if (flux > 0) ++brought.met;
+        brought.mean += flux / double(paths);
+        brought.squares += flux * flux / double(paths);
+        brought.each.push_back(float(flux));
+    }
+    brought.nanoseconds = watch.seconds() * 1e9 / double(paths);
+    return brought;
+}
+
+/// Table: what each way brings, and what an error of one percent costs.
+void tabulate_aims(const examples::Options& options, const Brought& everywhere,
+                   const Brought& aimed) {
+    examples::Table table{.name = "emission-aim",
+                          .columns = {"photons are sent", "meet glass first",
+                                      "flux to the glass, W", "standard error, W",
+                                      "photons for 1 %", "ns per photon", "ms for 1 %"},
+                          .rows = {}};
+    const auto row = [&](const char* name, const Brought& b) {
+        const auto paths = double(b.each.size());
+        const double deviation = std::sqrt(b.squares - b.mean * b.mean);
+        const double needed = std::pow(deviation / (0.01 * b.mean), 2);
+        table.rows.push_back(
+            {name, examples::text(100 * double(b.met) / paths, "%.1f %%"),
+             examples::text(b.mean, "%.2f"),
+             examples::text(deviation / std::sqrt(paths), "%.2f"),
+             examples::text(needed, "%.0f"), examples::text(b.nanoseconds, "%.0f"),
+             examples::text(needed * b.nanoseconds * 1e-6, "%.2g")});
+    };
+    row("everywhere", everywhere);
+    row("at the glass", aimed);
+    examples::save_table(options.out, table);
+    if (!options.quiet) examples::print_rows(table, 14);
+}
+
+/// How far the means of n photons are from the mean of all: relative, root mean square.
+double spread_of_means(const Brought& brought, std::size_t n) {
+    double squares = 0;
+    std::size_t means = 0;
+    for (std::size_t i = 0; i + n <= brought.each.size(); i += n, ++means) {
+        double mean = 0;
+        for (std::size_t k = i; k < i + n; ++k)
+            mean += double(brought.each[k]) / double(n);
+        squares += std::pow(mean / brought.mean - 1, 2);
+    }
+    return std::sqrt(squares / double(means));
+}
+
+/// Plot: the error of the flux to the glass against time.
+void plot_aims(const examples::Options& options, const Brought& everywhere,
+               const Brought& aimed) {
+    examples::Plot plot{.name = "emission-aim-error",
+                        .columns = {"milliseconds", "everywhere", "at the glass"},
+                        .y_label = "relative rms error of the flux to the glass",
+                        .rows = {},
+                        .log_x = true,
+                        .log_y = true};
+    const double nothing = std::nan("");
+    const auto milliseconds = [](const Brought& b, std::size_t n) {
+        return double(n) * b.nanoseconds * 1e-6;
+    };
+    // No fewer than 16 means behind a point.
+    for (std::size_t n = 1; 16 * n <= everywhere.each.size(); n *= 4)
+        plot.rows.push_back(
+            {milliseconds(everywhere, n), spread_of_means(everywhere, n), nothing});
+    for (std::size_t n = 1; 16 * n <= aimed.each.size(); n *= 4)
+        plot.rows.push_back(
+            {milliseconds(aimed, n), nothing, spread_of_means(aimed, n)});
+    examples::save_plot(options.out, plot);
+}
+
+/// Photons sent everywhere, and photons sent at the glass of the report's figure 11.
+void compare_aims(const examples::Options& options, long long paths) {
+    const auto room = four_glass_room<float>();
+    const LightChoice choice = room.world.light_choice();
+    const auto targets = specular_objects(room.world);
+    const auto is_target = [&](ObjectId id) {
+        for (const ObjectId target : targets)
+            if (target == id) return true;
+        return false;
+    };
+    const Brought everywhere = send(options, paths, [&](RandomStream& stream) {
+        const auto flight = emit(room.world, choice, stream);
+        const auto hit = closest_hit(room.world, flight.ray);
+        return hit && is_target(hit->object) ? double(flight.flux.y) : 0.0;
+    });
+    const Brought aimed = send(options, paths, [&](RandomStream& stream) {
+        const auto sent = aim(room.world, choice, targets, stream);
+        if (!sent) return 0.0;
+        const auto hit = closest_hit(room.world, sent->photon.ray);
+        return hit && hit->object == sent->target ? double(sent->photon.flux.y) : 0.0;
+    });
+    tabulate_aims(options, everywhere, aimed);
+    plot_aims(options, everywhere, aimed);
+}
+
+// --- Spots and suns -------------------------------------------------------------------
+
+/// Photons of one light as dots on a floor, a wall and a ball.
+template <typename Light>
+void picture_of_light(const examples::Options& options, long long photons,
+                      const Light& light, const std::string& name) {
+    using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian>, Lights<Light>>;
+    Stage scene;
+    const auto white = scene.add(Lambertian{.albedo = Rgb{0.7f}});
+    scene.add(Quad{{-2, 0, -2}, {0, 0, 4}, {4, 0, 0}}, white);
+    scene.add(Quad{{-2, 0, -2}, {4, 0, 0}, {0, 2.5f, 0}}, white);
+    scene.add(Sphere{.center{0.3f, 0.5f, 0}, .radius = 0.5f}, white);
+    scene.add(light);
+    const Room<Stage> room{
+        World(std::move(scene)),
+        look_at(
+            View{.position{-1, 3, 5}, .target{0, 0.6f, -0.3f}, .vfov_degrees = 40})};
+    const auto traced = trace_photons(
+        room.world, MapType::general,
+        {.photons = photons, .seed = options.seed, .shadow_photons = false});
+    Image image = draw(room, options.width, options.height);
+    add_dots(image, room, traced.photons, PhotonKind::direct);
+    save_png(image, options.path("emission-" + name + ".png"));
+}
+
+// --- The choice of a light ------------------------------------------------------------
+
+/// A closed grey room with a square lamp, a weak ball of light and a strong spot.
+auto small_room(bool lamp_only) {
+    Scene<Shapes<Sphere, Quad>, Materials<Lambertian>, Lights<SpotLight>> room;
+    const auto grey = room.add(Lambertian{.albedo = Rgb{0.7f}});
+    const auto black = room.add(Lambertian{.albedo = Rgb{0}});
+    const Vec3 x{2, 0, 0}, y{0, 2, 0}, z{0, 0, 2};
+    room.add(Quad{{-1, -1, -1}, z, x}, grey);
+    room.add(Quad{{-1, 1, -1}, x, z}, grey);
+    room.add(Quad{{-1, -1, -1}, x, y}, grey);
+    room.add(Quad{{-1, -1, 1}, y, x}, grey);
+    room.add(Quad{{-1, -1, -1}, y, z}, grey);
+    room.add(Quad{{1, -1, -1}, z, y}, grey);
+    room.add(Quad{{-0.3f, 0.98f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}}, black, Rgb{4});
+    if (lamp_only) return World(std::move(room));
+    room.add(Sphere{.center{-0.7f, -0.6f, 0.6f}, .radius = 0.05f}, black, Rgb{1});
+    room.add(SpotLight{
+        .position{0.9f, 0.5f, 0}, .direction{-1, -1, 0}, .intensity = Rgb{30}});
+    return World(std::move(room));
+}
+
+/// What a photon brings to a patch of the floor, by the number of its surface: direct,
+/// after one bounce, after three.
+constexpr std::size_t orders = 3;
+using Orders = std::array<double, orders>;
+
+template <AnyWorld W, typename Stream>
+Orders follow(const W& room, const LightChoice& choice, Stream stream) {
+    constexpr std::array<std::uint64_t, orders> surface{1, 2, 4};
+    Orders brought{};
+    auto flight = emit(room, choice, stream);
+    FluxAudit audit;
+    for (std::uint64_t number = 1; number <= surface.back(); ++number) {
+        start_bounce(stream, number);
+        const auto hit = closest_hit(room, flight.ray);
+        if (!hit) break;
+        const auto at = vertex_at(room, flight.ray, *hit);
+        const Vec3& p = at.point.position;
+        const bool on_patch =
+            p.y < -0.999f && p.x > 0 && p.x < 0.6f && p.z > 0.1f && p.z < 0.7f;
+        for (std::size_t i = 0; i < orders; ++i)
+            if (on_patch && number == surface[i]) brought[i] = double(flight.flux.x);
+        const bool alive =
+            room.visit_material(at.object.material, [&](const auto& material) {
+                const auto next =
+                    sample(material, to_local(at.frame, -flight.ray.direction),
+                           next_3d<float>(stream), Transport::flux);
+                if (!next) return false;
+                const auto survivor = play_roulette(flight.flux, next->weight,
+                                                    next_1d<float>(stream), audit);
+                if (!survivor) return false;
+                flight.flux = *survivor;
+                flight.ray = spawn_ray(at.point, to_world(at.frame, next->wi));
+                return true;
+            });
+        if (!alive) break;
+    }
+    return brought;
+}
+
+/// The mean of one pass, and how far passes lie apart.
+struct Spread {
+    Orders mean{}, deviation{}; ///< Over the seeds, relative to the mean.
+};
+
+template <AnyWorld W, typename MakeStream>
+Spread spread_of(const W& room, const LightChoice& choice, long long photons, int seeds,
+                 MakeStream make_stream) {
+    Orders sum{}, squares{};
+    for (int seed = 0; seed < seeds; ++seed) {
+        Orders one{};
+        for (long long i = 0; i < photons; ++i) {
+            const Orders brought = follow(room, choice,
+                                          make_stream(static_cast<std::uint64_t>(seed),
+                                                      static_cast<std::uint64_t>(i)));
+            for (std::size_t k = 0; k < orders; ++k)
+                one[k] += brought[k] / double(photons);
+        }
+        for (std::size_t k = 0; k < orders; ++k) {
+            sum[k] += one[k] / seeds;
+            squares[k] += one[k] * one[k] / seeds;
+        }
+    }
+    Spread spread{.mean = sum};
+    for (std::size_t k = 0; k < orders; ++k)
+        spread.deviation[k] = std::sqrt(std::max(0.0, squares[k] - sum[k] * sum[k]) *
+                                        seeds / (seeds - 1)) /
+                              sum[k];
+    return spread;
+}
+
+void compare_choices(const examples::Options& options) {
+    const auto room = small_room(false);
+    const long long photons = 2000;
+    const int seeds = options.pick(48, 400, 2000);
+    examples::Table table{.name = "emission-choice",
+                          .columns = {"the light is chosen", "direct: mean, W",
+                                      "variance, % of the mean squared",
+                                      "one bounce: variance"},
+                          .rows = {}};
+    const auto row = [&](const char* name, const LightChoice& choice) {
+        const Spread s =
+            spread_of(room, choice, photons, seeds, [&](auto seed, auto path) {
+                return random_stream(options.seed, Pass::user, seed, path);
+            });
+        const auto percent = [](double deviation) {
+            return examples::text(100 * deviation * deviation, "%.2f");
+        };
+        table.rows.push_back({name, examples::text(s.mean[0], "%.3f"),
+                              percent(s.deviation[0]), percent(s.deviation[1])});
+    };
+    row("by power", room.light_choice());
+    row("each equally often", {.cumulative = {1, 2, 3}});
+    examples::save_table(options.out, table);
+    if (!options.quiet)
+        for (const auto& cells : table.rows)
+            std::printf("%-14s mean %s W, variance %s %% direct, %s %% indirect\n",
+                        cells[0].c_str(), cells[1].c_str(), cells[2].c_str(),
+                        cells[3].c_str());
+}
+
+// --- Evenly spread photons ------------------------------------------------------------
+
+/// Plot: the error against the number of photons, random beside Sobol.
+examples::Plot plot_numbers(const examples::Options& options) {
+    const auto room = small_room(true);
+    const LightChoice choice = room.light_choice();
+    const int last = options.pick(13, 15, 17);
+    const int seeds = options.pick(16, 32, 64);
+    const double none = std::nan("");
+    examples::Plot plot{.name = "emission-numbers",
+                        .columns = {"photons emitted", "direct: random",
+                                    "direct: Sobol", "1 bounce: random",
+                                    "1 bounce: Sobol", "3 bounces: random",
+                                    "3 bounces: Sobol"},
+                        .y_label = "relative error of the flux to a patch",
+                        .rows = {},
+                        .log_x = true,
+                        .log_y = true};
+    for (int m = 7; m <= last; ++m) {
+        const long long photons = 1LL << m;
+        const Spread random =
+            spread_of(room, choice, photons, seeds, [&](auto seed, auto path) {
+                return random_stream(options.seed, Pass::user, seed, path);
+            });
+        const Spread sobol =
+            spread_of(room, choice, photons, seeds, [&](auto seed, auto path) {
+                return sobol_stream(options.seed, Pass::user, seed, path);
+            });
+        examples::Row row{double(photons)};
+        for (std::size_t k = 0; k < orders; ++k)
+            for (const Spread* s : {&random, &sobol})
+                row.push_back(s->deviation[k] > 0 ? s->deviation[k] : none);
+        plot.rows.push_back(row);
+    }
+    examples::save_plot(options.out, plot);
+    return plot;
+}
+
+/// The slope of a curve between logarithms, by least squares.
+double slope_of(const examples::Plot& plot, std::size_t column) {
+    double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+    for (const auto& row : plot.rows) {
+        if (std::isnan(row[column])) continue;
+        const double x = std::log(row[0]), y = std::log(row[column]);
+        n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
+    }
+    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+/// Random numbers beside Sobol's, after none, one and three bounces.
+void compare_numbers(const examples::Options& options) {
+    const examples::Plot plot = plot_numbers(options);
+    examples::Table table{.name = "emission-numbers-table",
+                          .columns = {"photons", "slope, random", "slope, Sobol",
+                                      "variance, random over Sobol"},
+                          .rows = {}};
+    const char* const names[] = {"direct", "after one bounce", "after three bounces"};
+    for (std::size_t k = 0; k < orders; ++k) {
+        const auto& end = plot.rows.back();
+        table.rows.push_back(
+            {names[k], examples::text(slope_of(plot, 1 + 2 * k), "%.2f"),
+             examples::text(slope_of(plot, 2 + 2 * k), "%.2f"),
+             examples::text(std::pow(end[1 + 2 * k] / end[2 + 2 * k], 2), "%.2g")});
+    }
+    examples::save_table(options.out, table);
+    if (!options.quiet)
+        for (const auto& cells : table.rows)
+            std::printf("%-20s slopes %s random, %s Sobol; variance ratio %s\n",
+                        cells[0].c_str(), cells[1].c_str(), cells[2].c_str(),
+                        cells[3].c_str());
+}
+
+// --- Roulette with another probability ------------------------------------------------
+
+/// What arrives of one photon at all surfaces, if it survives each with probability p
+/// and then carries rho / p of what it had.
+void compare_probabilities(const examples::Options& options, long long paths) {
+    const double rho = 0.75;
+    examples::Table table{.name = "emission-probability",
+                          .columns = {"p", "surfaces per photon", "flux that arrives",
+                                      "deviation", "deviation (exact)", "efficiency"},
+                          .rows = {}};
+    const auto variance_of = [&](double p) {
+        const double rest = 1 - rho * rho / p, mean = 1 / (1 - rho);
+        return rest > 0 ? (1 + 2 * rho * mean) / rest - mean * mean : -1.0;
+    };
+    const auto efficiency = [&](double p) { return (1 - p) / variance_of(p); };
+    for (const double p : {0.95, 0.85, 0.75, 0.65, 0.5, 0.25, 0.1}) {
+        double sum = 0, squares = 0;
+        for (long long path = 0; path < paths; ++path) {
+            RandomStream stream = random_stream(options.seed, Pass::user, 7,
+                                                static_cast<std::uint64_t>(path));
+            double flux = 1, arrived = 1;
+            while (next_1d<double>(stream) < p) arrived += flux *= rho / p;
+            sum += arrived / double(paths);
+            squares += arrived * arrived / double(paths);
+        }
+        const double variance = variance_of(p);
+        table.rows.push_back(
+            {examples::text(p, "%.2f"), examples::text(1 / (1 - p), "%.2f"),
+             examples::text(sum, "%.3f"),
+             examples::text(std::sqrt(squares - sum * sum), "%.2f"),
+             variance > 0 ? examples::text(std::sqrt(variance), "%.2f") : "infinite",
+             variance > 0 ? examples::text(efficiency(p) / efficiency(rho), "%.2f")
+                          : "0"});
+    }
+    examples::save_table(options.out, table);
+    if (!options.quiet)
+        for (const auto& cells : table.rows)
+            std::printf("p = %s: %s surfaces, mean %s, deviation %s (%s)\n",
+                        cells[0].c_str(), cells[1].c_str(), cells[2].c_str(),
+                        cells[3].c_str(), cells[4].c_str());
+}
+
+// --- Error against number -------------------------------------------------------------
+
+/// Irradiance on the floor z = 0 from a rectangular lamp (Lambert's formula).
+double irradiance_from(const Quad& lamp, double x, double y) {
+    using Point = Vec3T<double>;
+    const Point at{x, y, 0}, c{lamp.corner}, u{lamp.edge_u}, v{lamp.edge_v};
+    const std::array corners{c, c + u, c + u + v, c + v};
+    double sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Point a = glm::normalize(corners[i] - at);
+        const Point b = glm::normalize(corners[(i + 1) % 4] - at);
+        sum += std::acos(glm::dot(a, b)) * glm::normalize(glm::cross(a, b)).z;
+    }
+    return std::abs(sum) / 2;
+}
+
+/// Error of the irradiance under a lamp against the number of photons.
+void plot_error(const examples::Options& options) {
+    const Quad lamp{.corner{-0.5f, -0.5f, 1}, .edge_u{0, 1, 0}, .edge_v{1, 0, 0}};
+    Scene<Shapes<Quad>, Materials<Lambertian>> scene;
+    const auto white = scene.add(Lambertian{.albedo = Rgb{1}});
+    scene.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, white);
+    scene.add(lamp, scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{1});
+    const World world(std::move(scene));
+    const Lambertian material{.albedo = Rgb{1}};
+
+    const int last = options.pick(8, 10, 12); // N = 10^(last/2)
+    const int seeds = options.pick(4, 16, 32);
+    examples::Plot plot{
+        .name = "emission-error",
+        .columns = {"photons emitted", "r = 0.1", "r = 0.4", "r = 2.2 / N^(1/6)"},
+        .y_label = "error of the irradiance, rms",
+        .rows = {},
+        .log_x = true,
+        .log_y = true};
+    for (int step = 4; step <= last; ++step) {
+        const double count = std::round(std::pow(10.0, step / 2.0));
+        const std::array radii{0.1, 0.4, 2.2 / std::pow(count, 1.0 / 6)};
+        std::array<double, 3> squares{};
+        int places = 0;
+        for (int seed = 0; seed < seeds; ++seed) {
+            const auto traced = trace_photons(
+                world, MapType::general,
+                {.photons = static_cast<long long>(count),
+                 .seed = options.seed + static_cast<std::uint64_t>(seed)});
+            const auto map = make_photon_map(traced.photons);
+            for (int i = 0; i < 8; ++i)
+                for (int j = 0; j < 8; ++j) {
+                    const double x = (i + 0.5) / 4 - 1, y = (j + 0.5) / 4 - 1;
+                    ++places;
+                    VertexT<float> floor{
+                        .point{.position{float(x), float(y), 0}}, .frame{}, .object{}};
+                    for (std::size_t k = 0; k < radii.size(); ++k) {
+                        std::uint64_t gathered = 0;
+                        // A white surface sends E/pi.
+                        const Rgb radiance =
+                            estimate_radiance(map, floor, material, Vec3{0, 0, 1},
+                                              {.radius = float(radii[k])},
+                                              one_kind(PhotonKind::direct), gathered);
+                        const double error =
+                            double(radiance.x) * pi / irradiance_from(lamp, x, y) - 1;
+                        squares[k] += error * error;
+                    }
+                }
+        }
+        examples::Row row{count};
+        for (const double sum : squares) row.push_back(std::sqrt(sum / places));
+        plot.rows.push_back(row);
+    }
+    examples::save_plot(options.out, plot);
+    if (!options.quiet)
+        for (const auto& row : plot.rows)
+            std::printf("N = %8.0f  rms error %.4f %.4f %.4f\n", row[0], row[1], row[2],
+                        row[3]);
+}
+
+} // namespace
+
+/// Makes the chapter's pictures, plots and tables.
+/// \param argc  Number of arguments.
+/// \param argv  The command line; `--help` explains it.
+/// \return 0; 2 with one sentence for anything that is wrong.
+int main(int argc, char** argv) {
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        Sizes sizes;
+        line.about("Chapter 22, photons: where they go, roulette, aiming.");
+        line.add("--photons", sizes.photons, "Photons emitted for the picture", 1,
+                 100000000);
+        line.add("--paths", sizes.paths, "Photons behind each number of the tables", 1,
+                 100000000);
+        const examples::Options options =
+            line.parse({.draft{.width = 200, .height = 200, .samples = 1}});
+        if (!line.given("--photons"))
+            sizes.photons = options.pick(20000LL, 60000LL, 200000LL);
+        if (!line.given("--paths"))
+            sizes.paths = options.pick(20000LL, 500000LL, 5000000LL);
+        picture_of_photons(options, sizes.photons);
+        compare_roulettes(options, sizes.paths);
+        compare_aims(options, sizes.paths);
+        picture_of_light(options, sizes.photons,
+                         SpotLight{.position{-1.5f, 2.5f, 1.5f},
+                                   .direction{1.6f, -2.2f, -1.6f},
+                                   .inner_degrees = 12,
+                                   .outer_degrees = 25},
+                         "spot");
+        picture_of_light(options, sizes.photons, SunLight{.direction{1, -1.3f, -0.7f}},
+                         "sun");
+        compare_choices(options);
+        compare_numbers(options);
+        compare_probabilities(options, sizes.paths);
+        plot_error(options);
+    });
+}

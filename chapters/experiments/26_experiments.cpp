@@ -1,0 +1,601 @@
+// figures: fig-8 fig-11 table-2
+// smoke: --quality draft --width 24 --height 24 --rays 1 --photons 300 --seeds 2
+/// \file chapters/experiments/26_experiments.cpp
+/// \brief Chapter 26: caustics. Figures 8 and 11, table 2, and a caustic on paper.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <ljus/inspect/photon_dots.hpp>
+#include <ljus/ljus.hpp>
+#include <ljus/scenes/report_rooms.hpp>
+
+#include "common/clock.hpp"
+#include "common/command_line.hpp"
+#include "common/convergence.hpp"
+#include "common/plot.hpp"
+#include "common/rendered.hpp"
+#include "common/terminal.hpp"
+#include "experiments/window.hpp"
+
+using namespace ljus;
+
+namespace {
+
+using examples::rendered;
+constexpr double pi = std::numbers::pi;
+
+/// What the user may set besides the common options.
+struct Sizes {
+    long long photons = 0; ///< The largest number of photons.
+    int seeds = 0;         ///< Maps behind each error.
+};
+
+// --- A caustic on paper ---------------------------------------------------------------
+
+/// A point light above a ball of glass above a floor.
+struct Setup {
+    double light = 2;    ///< D, from the ball's middle up to the light.
+    double floor = 0.6;  ///< From the ball's middle down to the floor.
+    double radius = 0.5; ///< R.
+    double index = 1.5;  ///< n.
+};
+
+/// Where a ray of light lands, and how much of it.
+struct Landing {
+    double rho = 0;   ///< Signed distance from the axis.
+    double share = 0; ///< (1 - F)^2.
+};
+
+/// The ray that leaves the light at an angle, refracted twice.
+// [landing]
+Landing landing(const Setup& setup, double alpha) {
+    const double sine = std::sin(alpha) * setup.light / setup.radius;
+    const double ti = std::asin(sine);
+    const double tt = std::asin(sine / setup.index);
+    const double exit = ti - alpha + pi - 2 * tt; // angle from the ball's top
+    const double way = exit + ti;
+    const double x = setup.radius * std::sin(exit);
+    const double height = setup.floor + setup.radius * std::cos(exit);
+    const double f = fresnel(std::cos(ti), 1.0, setup.index);
+    return {x - height * std::tan(way), (1 - f) * (1 - f)};
+}
+// [landing]
+
+/// The irradiance on the floor for an intensity of 1 W/sr: a ring of directions over
+/// the ring of the floor on which it lands, wherever a ray lands there.
+double irradiance(const Setup& setup, double rho) {
+    constexpr int steps = 4000;
+    const double width = std::asin(setup.radius / setup.light) / steps;
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) {
+        const double alpha = (i + 0.5) * width;
+        const Landing a = landing(setup, alpha - width / 2);
+        const Landing b = landing(setup, alpha + 0.499 * width);
+        for (const double at : {rho, -rho})
+            if ((a.rho < at) != (b.rho < at))
+                sum += std::sin(alpha) * a.share /
+                       (rho * std::abs((b.rho - a.rho) / width));
+    }
+    return sum;
+}
+
+/// A floor, and what stands above it.
+using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror>,
+                    Lights<PointLight>>;
+
+/// The irradiance that an estimate reads on a floor: a white one sends E/pi.
+double read(const PhotonMap& map, const Vec3& at,
+            const DensityEstimateSettings& gather) {
+    VertexT<float> floor{.point{.position = at, .normal{0, 1, 0}}};
+    floor.frame = frame_around(floor.point.normal);
+    std::uint64_t gathered = 0;
+    return pi * double(estimate_radiance(map, floor, Lambertian{.albedo = Rgb{1}},
+                                         Vec3{0, 0, 1}, gather, all_kinds, gathered)
+                           .x);
+}
+
+PhotonMap map_of(const World<Stage>& stage, long long photons, std::uint64_t seed) {
+    return make_photon_map(
+        trace_photons(stage, MapType::caustics, {.photons = photons, .seed = seed})
+            .photons);
+}
+
+World<Stage> ball_stage(const Setup& setup) {
+    Stage stage;
+    examples::add_floor(stage, float(-setup.floor));
+    stage.add(Sphere{.radius = float(setup.radius)},
+              stage.add(Glass{.index = float(setup.index)}));
+    stage.add(PointLight{.position{0, float(setup.light), 0}});
+    return World(std::move(stage));
+}
+
+constexpr std::array kernels{Kernel::box, Kernel::cone, Kernel::gaussian,
+                             Kernel::epanechnikov, Kernel::biweight};
+constexpr std::array kernel_names{"box", "cone", "Gaussian", "Epanechnikov",
+                                  "biweight"};
+
+/// The profile of the caustic, by geometric optics and by photons, and what the kernels
+/// make of few photons.
+void profile(const examples::Options& options, long long photons) {
+    const Setup setup;
+    const World stage = ball_stage(setup);
+    const auto y = float(-setup.floor);
+    const PhotonMap map = map_of(stage, photons, options.seed);
+    examples::Plot plot{.name = "caustics-profile",
+                        .columns = {"distance from the axis", "geometric optics",
+                                    "photons within 0.004"},
+                        .y_label = "irradiance, W/m^2",
+                        .log_y = true,
+                        .more = "set yrange [0.1:100]\n"};
+    for (int i = 1; i <= 160; ++i) {
+        const double rho = 0.001 * i - 0.0003;
+        const double exact = irradiance(setup, rho);
+        const double found = read(map, {float(rho), y, 0}, {.radius = 0.004f});
+        const double empty = std::numeric_limits<double>::quiet_NaN();
+        plot.rows.push_back(
+            {rho, exact > 0 ? exact : empty, found > 0 ? found : empty});
+    }
+    save_plot(options.out, plot);
+
+    const int size = options.pick(160, 400, 480);
+    const PhotonMap few = map_of(stage, std::min(photons, 20000LL), options.seed);
+    for (std::size_t k = 0; k < kernels.size(); ++k) {
+        Image image = make_image(size, size);
+        for (int i = 0; i < size; ++i)
+            for (int j = 0; j < size; ++j) {
+                const Vec3 at{0.4f * (float(i) + 0.5f) / float(size) - 0.2f, y,
+                              0.4f * (float(j) + 0.5f) / float(size) - 0.2f};
+                pixel(image, i, j) = Rgb{float(
+                    0.2 * read(few, at, {.radius = 0.012f, .kernel = kernels[k]}))};
+            }
+        save_png(image, options.path("caustics-kernel-" + std::to_string(k) + ".png"));
+    }
+}
+
+// --- Error against radius, number and kernel ------------------------------------------
+
+/// The mean squared error of several ways to gather, relative to the light at the
+/// middle, over the seeds.
+std::vector<double> errors(const World<Stage>& stage, long long photons, int seeds,
+                           const examples::Strip& strip,
+                           const std::vector<DensityEstimateSettings>& ways) {
+    std::vector<double> sum(ways.size());
+    constexpr int places = 100;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const PhotonMap map =
+            map_of(stage, photons, 1000 + static_cast<std::uint64_t>(seed));
+        for (int place = 0; place < places; ++place) {
+            const double x = strip.at(place, places);
+            const double z = 0.5 * std::sin(2.4 * place);
+            const double right = examples::window_light(x, z);
+            for (std::size_t i = 0; i < ways.size(); ++i) {
+                const double error =
+                    read(map, {float(x), 0, float(z)}, ways[i]) - right;
+                sum[i] += error * error / places / seeds;
+            }
+        }
+    }
+    const double light = examples::window_light(0, 0);
+    for (double& value : sum) value /= light * light;
+    return sum;
+}
+
+/// Ways to gather with radii around one that grows by a third of an octave.
+std::vector<DensityEstimateSettings> around(double radius,
+                                            Kernel kernel = Kernel::epanechnikov) {
+    std::vector<DensityEstimateSettings> ways;
+    for (int i = -5; i <= 5; ++i)
+        ways.push_back(
+            {.radius = float(radius * std::exp2(i / 3.0)), .kernel = kernel});
+    return ways;
+}
+
+/// The error against the radius, for few photons and for many.
+void error_by_radius(const examples::Options& options, const Sizes& sizes) {
+    const World stage(examples::window_scene<Stage>());
+    examples::Plot plot{.name = "caustics-radius",
+                        .columns = {"radius", "middle 1000", "middle 100 000",
+                                    "edge 1000", "edge 100 000"},
+                        .y_label = "mean squared error",
+                        .log_x = true,
+                        .log_y = true};
+    std::vector<DensityEstimateSettings> ways;
+    for (int i = 0; i <= 16; ++i)
+        ways.push_back({.radius = float(0.05 * std::exp2(i / 3.0))});
+    std::array<std::vector<double>, 4> found;
+    for (const std::size_t i : {0u, 1u, 2u, 3u})
+        found[i] = errors(stage, i % 2 == 0 ? 1000 : 100000, sizes.seeds,
+                          i < 2 ? examples::middle : examples::edge, ways);
+    for (std::size_t i = 0; i < ways.size(); ++i)
+        plot.rows.push_back({double(ways[i].radius), found[0][i], found[1][i],
+                             found[2][i], found[3][i]});
+    save_plot(options.out, plot);
+}
+
+/// The error at the best radius against the number of photons, and its two laws.
+void error_by_number(const examples::Options& options, const Sizes& sizes) {
+    const World stage(examples::window_scene<Stage>());
+    examples::Plot plot{
+        .name = "caustics-number",
+        .columns = {"photons aimed", "middle", "edge", "N^(-2/3)", "N^(-1/3)"},
+        .y_label = "mean squared error at the best radius",
+        .log_x = true,
+        .log_y = true};
+    std::vector<double> numbers, smooth, sharp;
+    for (int i = 0; i <= options.pick(4, 6, 7); ++i) {
+        const double count = std::round(300 * std::pow(10.0, i / 2.0));
+        const auto best = [&](const examples::Strip& strip, double radius) {
+            const auto all = errors(stage, static_cast<long long>(count), sizes.seeds,
+                                    strip, around(radius));
+            return *std::min_element(all.begin(), all.end());
+        };
+        numbers.push_back(count);
+        smooth.push_back(best(examples::middle, 2.6 * std::pow(count, -1.0 / 6)));
+        sharp.push_back(best(examples::edge, 4.0 * std::pow(count, -1.0 / 3)));
+    }
+    // The laws, as straight lines below the last points.
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const double share = numbers[i] / numbers.back();
+        plot.rows.push_back({numbers[i], smooth[i], sharp[i],
+                             0.6 * smooth.back() * std::pow(share, -2.0 / 3),
+                             0.6 * sharp.back() * std::pow(share, -1.0 / 3)});
+    }
+    save_plot(options.out, plot);
+
+    const double in_middle = examples::fit_power(numbers, smooth).slope;
+    const double at_edge = examples::fit_power(numbers, sharp).slope;
+    save_table(
+        options.out,
+        examples::Table{.name = "caustics-slopes",
+                        .columns = {"where", "law", "measured"},
+                        .rows = {{"middle", "-0.67", examples::text(in_middle, "%.2f")},
+                                 {"edge", "-0.33", examples::text(at_edge, "%.2f")}}});
+    if (!options.quiet)
+        std::printf("slopes of the best error: middle %.3f, edge %.3f\n", in_middle,
+                    at_edge);
+}
+
+/// The error of each kernel, at one radius and at its best one.
+void error_by_kernel(const examples::Options& options, const Sizes& sizes) {
+    const World stage(examples::window_scene<Stage>());
+    examples::Table table{.name = "caustics-kernels",
+                          .columns = {"kernel", "mean of w^2", "middle, r = 0.25",
+                                      "middle, best r", "edge, r = 0.25",
+                                      "edge, best r"}};
+    constexpr std::array squares{"1", "1.5", "1.313", "1.333", "1.8"};
+    for (std::size_t k = 0; k < kernels.size(); ++k) {
+        std::vector<std::string> row{kernel_names[k], squares[k]};
+        for (const examples::Strip& strip : {examples::middle, examples::edge}) {
+            auto tried = around(strip.first < 0 ? 0.6 : 0.2, kernels[k]);
+            tried.push_back({.radius = 0.25f, .kernel = kernels[k]});
+            const auto all = errors(stage, 10000, sizes.seeds, strip, tried);
+            const auto best = std::min_element(all.begin(), all.end() - 1);
+            const auto radius = double(tried[std::size_t(best - all.begin())].radius);
+            row.push_back(examples::text(std::sqrt(all.back()), "%.3f"));
+            row.push_back(examples::text(std::sqrt(*best), "%.3f") +
+                          " (r = " + examples::text(radius, "%.2f") + ")");
+        }
+        table.rows.push_back(row);
+    }
+    save_table(options.out, table);
+}
+
+// --- Figure 8 -------------------------------------------------------------------------
+
+/// The caustic photons as dots.
+void figure_8(const examples::Options& options) {
+    const auto room = four_glass_room();
+    const auto traced = trace_photons(room.world, MapType::caustics,
+                                      {.photons = 20000, .seed = options.seed});
+    const int size = std::max(300, options.width);
+    Image image = scene_drawing(room.world, room.camera, size, size);
+    const auto color = [](const Photon& photon) { return dot_color(photon); };
+    (void)add_photon_dots(image, room.world, room.camera, traced.photons,
+                          {.radius = 1.2f, .brightness = 0.7f}, color);
+    save_png(image, options.path("fig-8.png"));
+}
+
+// --- Figure 11 and table 2 ------------------------------------------------------------
+
+/// The caustics without a radius: each photon is joined to the pinhole, and counted in
+/// the pixel that sees it. A pixel's radiance is the mean over its solid angle, of which
+/// the surface around the photon covers cos dA / d^2.
+// [light image]
+template <typename S>
+Image light_image(const Room<S>& room, const RenderSettings& picture,
+                  long long photons) {
+    const Camera& camera = room.camera;
+    Image image = make_image(picture.width, picture.height);
+    const double side = 2 * double(camera.half_height) / picture.height;
+    const long long batches = std::max(1LL, photons / 500000);
+    for (long long batch = 0; batch < batches; ++batch) {
+        const auto traced =
+            trace_photons(room.world, MapType::caustics,
+                          {.photons = photons / batches,
+                           .seed = picture.seed,
+                           .iteration = static_cast<std::uint64_t>(batch),
+                           .threads = picture.threads});
+        for (const Photon& photon : traced.photons) {
+            const auto place = photon_in_sight(room.world, camera, photon,
+                                               picture.width, picture.height);
+            if (!place) continue;
+            const Vec3 way = photon.position - camera.position;
+            const double d = double(glm::length(way));
+            const Ray ray{.origin = camera.position, .direction = way / float(d)};
+            const auto hit = closest_hit(room.world, ray);
+            if (!hit) continue;
+            const auto at = vertex_at(room.world, ray, *hit);
+            const Vec3 wo = to_local(at.frame, -ray.direction);
+            const Vec3 wi = to_local(at.frame, -photon.direction);
+            const Rgb f = room.world.visit_material(
+                at.object.material,
+                [&](const auto& material) { return evaluate(material, wo, wi); });
+            const double film = double(glm::dot(ray.direction, camera.forward));
+            const double angle = side * side * film * film * film;
+            pixel(image, int(place->x), int(place->y)) +=
+                float(double(std::abs(wo.z)) / (d * d * angle * double(batches))) * f *
+                photon.flux;
+        }
+        examples::stop_if_asked();
+    }
+    return image;
+}
+// [light image]
+
+/// A log that keeps the light of E D S+ L: what the caustics map adds at the first
+/// surface, seen with nothing between.
+struct CausticLog {
+    Rgb sum{0};
+    bool first = true;
+
+    void begin() { first = true; }
+    void vertex(char, const Vec3&, const Rgb&, float) { first = false; }
+    void term(std::string_view owner, std::string_view, const Rgb& value) {
+        if (first && owner == "caustics map") sum += value;
+    }
+};
+
+/// A photon mapper of which the picture shows the caustics alone.
+template <typename Renderer>
+struct CausticsOf {
+    using Stream = typename Renderer::Stream;
+    const Renderer& renderer; ///< The whole.
+};
+
+/// The caustics' share of what radiance() finds for the whole.
+template <typename Renderer>
+Rgb radiance(const CausticsOf<Renderer>& part, const Ray& ray, auto& context) {
+    CausticLog log;
+    auto told = context_of(context.stream, context.counts, log);
+    (void)radiance(part.renderer, ray, told);
+    return log.sum;
+}
+
+/// The squared error of a picture in some of its pixels, mean over channels.
+double squared_error(const Image& image, const Image& truth,
+                     const std::vector<bool>& region) {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < region.size(); ++i) {
+        if (!region[i]) continue;
+        const Rgb e = image.pixels[i] - truth.pixels[i];
+        sum += double(glm::dot(e, e)) / 3;
+        count += 1;
+    }
+    return count > 0 ? sum / count : 0;
+}
+
+/// Whether a pixel and a little around it see the same matt object.
+template <typename S>
+bool sees_matt(const Room<S>& room, const examples::Options& options, int x, int y) {
+    std::optional<ObjectId> first;
+    for (const Vec2 offset : {Vec2{-0.2f, -0.2f}, Vec2{1.2f, -0.2f}, Vec2{-0.2f, 1.2f},
+                              Vec2{1.2f, 1.2f}, Vec2{0.5f, 0.5f}}) {
+        const auto hit = closest_hit(
+            room.world, primary_ray(room.camera, Vec2{float(x), float(y)} + offset,
+                                    options.width, options.height));
+        if (!hit || (first && hit->object != *first)) return false;
+        first = hit->object;
+        if (room.world.visit_material(
+                room.world.object(hit->object).material,
+                [](const auto& m) { return lobes(m) != Lobes::diffuse; }))
+            return false;
+    }
+    return true;
+}
+
+/// The light of the caustics as it is, and where it is to be seen.
+struct CausticTruth {
+    Image light = {};              ///< The mean of two halves.
+    std::vector<bool> region = {}; ///< Pixels with more of it than the mean.
+    double noise = 0;              ///< Its own squared error in the region.
+    double level = 0;              ///< Its mean in the region.
+    double pixels = 0;             ///< Of the region.
+};
+
+/// Pixels that see one matt surface with all of their area, and in which, with their
+/// neighbours, there is more light than the mean.
+template <typename S>
+std::vector<bool> caustic_region(const Room<S>& room, const Image& light,
+                                 const examples::Options& options) {
+    double mean = 0;
+    for (const Rgb& color : light.pixels)
+        mean += double(luminance(color)) / double(light.pixels.size());
+    std::vector<bool> region;
+    for (int y = 0; y < light.height; ++y)
+        for (int x = 0; x < light.width; ++x) {
+            double sum = 0, count = 0;
+            for (int j = std::max(0, y - 1); j <= std::min(light.height - 1, y + 1);
+                 ++j)
+                for (int i = std::max(0, x - 1); i <= std::min(light.width - 1, x + 1);
+                     ++i, ++count)
+                    sum += double(luminance(pixel(light, i, j)));
+            region.push_back(sum / count > mean && sees_matt(room, options, x, y));
+        }
+    return region;
+}
+
+/// The truth in two halves, which tell its own error.
+template <typename S>
+CausticTruth caustic_truth(const Room<S>& room, const examples::Options& options,
+                           long long photons) {
+    std::array<Image, 2> halves;
+    for (const std::size_t i : {0u, 1u})
+        halves[i] = light_image(room,
+                                {.width = options.width,
+                                 .height = options.height,
+                                 .seed = 1001 + i,
+                                 .threads = options.threads},
+                                photons);
+    CausticTruth truth{.light = halves[0]};
+    for (std::size_t i = 0; i < truth.light.pixels.size(); ++i)
+        truth.light.pixels[i] = (halves[0].pixels[i] + halves[1].pixels[i]) / 2.0f;
+    truth.region = caustic_region(room, truth.light, options);
+    truth.noise = squared_error(halves[0], truth.light, truth.region);
+    for (std::size_t i = 0; i < truth.region.size(); ++i) {
+        if (!truth.region[i]) continue;
+        truth.level += double(luminance(truth.light.pixels[i]));
+        truth.pixels += 1;
+    }
+    truth.level /= std::max(truth.pixels, 1.0);
+    return truth;
+}
+
+/// Pictures of one size side by side.
+Image in_a_row(const std::vector<Image>& pictures) {
+    const int width = pictures[0].width, height = pictures[0].height;
+    const int gap = std::max(1, width / 50);
+    const int count = static_cast<int>(pictures.size());
+    Image all = make_image(count * width + (count - 1) * gap, height, Rgb{1});
+    for (int i = 0; i < count; ++i)
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                pixel(all, i * (width + gap) + x, y) =
+                    pixel(pictures[static_cast<std::size_t>(i)], x, y);
+    return all;
+}
+
+/// One picture of figure 11: what it cost, and how far its caustics are off.
+struct Figure11 {
+    Image image{};
+    double first_pass = 0, second_pass = 0; ///< Processor seconds.
+    double error = 0;                       ///< Root mean square, of the caustics.
+    double found = 0;                       ///< Photons per query.
+    std::size_t stored = 0;                 ///< Photons in the map.
+};
+
+/// The report's settings with some photons.
+/// \param name  Of the picture, for the progress bar.
+template <typename R>
+Figure11 shoot_figure_11(const std::string& name, const R& room,
+                         const CausticTruth& truth, long long photons,
+                         const examples::Options& options) {
+    PhotonMappingSettings settings{.max_depth = 4, .roulette_depth = 5};
+    settings.caustics.photons = photons;
+    settings.caustics.seed = options.seed;
+    settings.caustics.threads = options.threads;
+    settings.caustics_estimate.radius = 0.05f; // the report's
+    Figure11 figure;
+    const double start = examples::processor_seconds();
+    const PhotonMapper mapper(room.world, settings);
+    figure.first_pass = examples::processor_seconds() - start;
+    figure.stored = mapper.maps().caustics.records.size();
+    const RenderSettings picture{options.width, options.height, options.samples,
+                                 options.seed};
+    const auto result = rendered(name, mapper, room.camera, picture, options);
+    figure.second_pass = examples::processor_seconds() - start - figure.first_pass;
+    figure.image = result.image;
+    const double queries = double(result.counts.map_queries);
+    figure.found = queries == 0 ? 0 : double(result.counts.map_photons) / queries;
+
+    settings.indirect = IndirectLight::none;         // for the caustics at D alone
+    const PhotonMapper direct(room.world, settings); // the same photons
+    const Image part =
+        rendered(name + " caustics", CausticsOf<decltype(direct)>{direct}, room.camera,
+                 picture, options)
+            .image;
+    figure.error = std::sqrt(
+        std::max(0.0, squared_error(part, truth.light, truth.region) - truth.noise));
+    return figure;
+}
+
+/// Figure 11 and table 2: the report's settings, and beside the time the error of the
+/// caustics.
+void table_2(const examples::Options& options, const Sizes& sizes) {
+    const auto room = four_glass_room();
+    const CausticTruth truth =
+        caustic_truth(room, options, options.pick(1, 10, 100) * sizes.photons);
+    examples::Table table{.name = "table-2",
+                          .columns = {"photons", "the report's time", "photons, s",
+                                      "picture, s", "RMSE of the caustics", "of all",
+                                      "stored", "found per query"}};
+    examples::Table strip{.name = "fig-11-errors", .columns = {"photons"}, .rows = {}};
+    std::vector<std::string> errors_row{"RMSE"}, relative_row{"of all"};
+    std::vector<Image> pictures;
+    double none = 1;
+    const std::array counts{0LL, 1000LL, 10000LL, 100000LL, 1000000LL};
+    constexpr std::array report{"26 s", "37 s", "44 s", "53 s", ""};
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        const std::string name = "fig-11-" + std::to_string(counts[i]);
+        const Figure11 figure = shoot_figure_11(
+            name, room, truth, std::min(counts[i], sizes.photons), options);
+        save_png(figure.image, options.path(name + ".png"));
+        pictures.push_back(figure.image);
+        if (i == 0) none = figure.error; // all of the caustics' light is missing
+        const std::string error = examples::text(figure.error, "%.3f");
+        const std::string relative =
+            examples::text(100 * figure.error / none, "%.1f %%");
+        table.rows.push_back({std::to_string(counts[i]), report[i],
+                              examples::text(figure.first_pass, "%.2f"),
+                              examples::text(figure.second_pass, "%.2f"), error,
+                              relative, std::to_string(figure.stored),
+                              examples::text(figure.found, "%.1f")});
+        strip.columns.push_back(std::to_string(counts[i]));
+        errors_row.push_back(error);
+        relative_row.push_back(relative);
+    }
+    strip.rows = {errors_row, relative_row};
+    save_table(options.out, table);
+    save_table(options.out, strip);
+    save_png(in_a_row(pictures), options.path("fig-11.png"));
+    if (!options.quiet) {
+        std::printf("reference: noise %.3f of a level of %.3f, %.0f pixels\n",
+                    std::sqrt(truth.noise), truth.level, truth.pixels);
+        examples::print_rows(table, 10);
+    }
+}
+
+} // namespace
+
+/// Makes the figures of chapter 26.
+/// \param argc  Number of arguments.
+/// \param argv  The command line; `--help` explains it.
+/// \return 0; 2 with one sentence for anything that is wrong.
+int main(int argc, char** argv) {
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        Sizes sizes;
+        line.about("Chapter 26, caustics: figures 8 and 11, table 2.");
+        line.add("--photons", sizes.photons, "The largest number of photons", 1,
+                 100000000);
+        line.add("--seeds", sizes.seeds, "Maps behind each error", 1, 1000);
+        const examples::Options options =
+            line.parse({.draft{.width = 160, .height = 160, .samples = 6},
+                        .report{.width = 400, .height = 400, .samples = 64},
+                        .reference{.width = 400, .height = 400, .samples = 1024}});
+        if (!line.given("--photons")) sizes.photons = 1000000;
+        if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
+        profile(options, options.pick(sizes.photons / 5, sizes.photons, sizes.photons));
+        error_by_radius(options, sizes);
+        error_by_number(options, sizes);
+        error_by_kernel(options, sizes);
+        figure_8(options);
+        table_2(options, sizes);
+    });
+}

@@ -1,0 +1,695 @@
+// smoke: --quality draft --width 16 --height 16 --rays 4 --photons 2000 --seeds 2
+/// \file chapters/experiments/28_experiments.cpp
+/// \brief Chapter 28: photons seen directly, gathered, and precomputed.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <ljus/image/flip.hpp>
+#include <ljus/ljus.hpp>
+#include <ljus/render/gathering.hpp>
+#include <ljus/scenes/cornell_box.hpp>
+
+#include "common/clock.hpp"
+#include "common/command_line.hpp"
+#include "common/rendered.hpp"
+#include "common/terminal.hpp"
+#include "drawings/drawing.hpp"
+#include "experiments/oracle.hpp"
+
+using namespace ljus;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// What the user may set besides the common options.
+struct Sizes {
+    long long photons = 0; ///< The largest number of photons.
+    int seeds = 0;         ///< Runs behind each bias and variance.
+    int truth = 0;         ///< Rays per pixel of the reference.
+};
+
+// --- Where a surface ends ------------------------------------------------------------
+
+using Flat = World<Scene<Shapes<Quad>, Materials<Lambertian>>>;
+
+/// A unit square at z = 0.
+Flat unit_square() {
+    Scene<Shapes<Quad>, Materials<Lambertian>> scene;
+    scene.add(Quad{.corner{0, 0, 0}, .edge_u{1, 0, 0}, .edge_v{0, 1, 0}},
+              scene.add(Lambertian{.albedo = Rgb{0.5f}}));
+    return Flat(std::move(scene));
+}
+
+Vertex square_vertex(const Flat& square, float x, float y) {
+    const Ray ray{.origin{x, y, 0.1f}, .direction{0, 0, -1}};
+    return vertex_at(square, ray, closest_hit(square, ray).value());
+}
+
+/// Indirect photons, evenly on the unit square: 1 W in all, so that E is 1 W/m^2.
+PhotonMap even_photons(int count, std::uint64_t seed) {
+    auto stream = random_stream(seed, Pass::user, 0, 0);
+    std::vector<Photon> photons;
+    for (int i = 0; i < count; ++i)
+        photons.push_back({.position = Vec3(next_2d(stream), 0),
+                           .direction{0, 0, -1},
+                           .flux = Rgb{1 / float(count)},
+                           .kind = PhotonKind::indirect,
+                           .normal = small_normal(Vec3{0, 0, 1})});
+    return make_photon_map(photons);
+}
+
+/// Lets every photon count, for estimate_irradiance().
+constexpr auto all_photons = [](std::uint32_t) { return true; };
+
+/// A mean, and how sure it is.
+struct Mean {
+    double count = 0, sum = 0, squares = 0;
+
+    void add(double x) { ++count, sum += x, squares += x * x; }
+    double mean() const { return sum / count; }
+    double error() const {
+        return std::sqrt(std::max(0.0, squares / count - mean() * mean()) /
+                         std::max(1.0, count - 1));
+    }
+    std::string text() const {
+        return examples::text(mean(), "%.3f") + " +- " +
+               examples::text(error(), "%.3f");
+    }
+};
+
+/// The part of Epanechnikov's kernel in a corner whose edges lie at s and t, over the
+/// radius, by the midpoint rule.
+double corner_by_rule(double s, double t) {
+    constexpr int n = 200;
+    double sum = 0;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const double x = 2 * (i + 0.5) / n - 1, y = 2 * (j + 0.5) / n - 1;
+            if (x * x + y * y < 1 && x < s && y < t)
+                sum += 2 / pi * (1 - x * x - y * y) * 4 / (double(n) * n);
+        }
+    return sum;
+}
+
+constexpr float border_radius = 0.1f; ///< Of the disc that photons are counted in.
+constexpr int border_steps = 24;      ///< From the edge to where it is out of reach.
+
+/// A place on the square, and what estimates read there.
+struct Place {
+    const char* name;
+    float x, y;
+    const char* part; ///< Of the disc, as the table has it.
+    Mean plain{}, corrected{};
+};
+
+/// What the photons of several maps say of an even light.
+struct Borders {
+    std::vector<Mean> with, without; ///< The correction, step by step from an edge.
+    std::vector<Place> places{{"in the middle", 0.5f, 0.5f, "1"},
+                              {"at an edge", 0.5f, 1e-4f, "1/2"},
+                              {"in a corner", 1e-4f, 1e-4f, "1/4"}};
+};
+
+Borders measure_borders(int maps, std::uint64_t seed) {
+    const Flat square = unit_square();
+    const Vec3 up{0, 0, 1};
+    IrradiancePointSettings corrected{.nearest = 512, .radius = border_radius};
+    IrradiancePointSettings plain = corrected;
+    plain.edges = false;
+    Borders found{.with = std::vector<Mean>(border_steps + 1),
+                  .without = std::vector<Mean>(border_steps + 1)};
+    for (int m = 0; m < maps; ++m) {
+        const PhotonMap map = even_photons(6000, seed + std::uint64_t(m));
+        const auto estimate = [&](float x, float y, const auto& how) {
+            return double(estimate_irradiance(square, map, square_vertex(square, x, y),
+                                              up, how, border_radius, all_photons)
+                              .x);
+        };
+        for (int i = 0; i <= border_steps; ++i)
+            for (const float x : {0.2f, 0.4f, 0.6f, 0.8f}) {
+                const float y =
+                    std::max(1e-4f, 1.2f * border_radius * float(i) / border_steps);
+                found.with[std::size_t(i)].add(estimate(x, y, corrected));
+                found.without[std::size_t(i)].add(estimate(x, y, plain));
+            }
+        for (Place& place : found.places) {
+            place.plain.add(estimate(place.x, place.y, plain));
+            place.corrected.add(estimate(place.x, place.y, corrected));
+        }
+    }
+    return found;
+}
+
+/// The estimates from an edge inwards, beside the part of the kernel that lies inside.
+void plot_edge(const Borders& found, const examples::Options& options) {
+    examples::Plot plot{
+        .name = "final-gathering-edge",
+        .columns = {"distance from the edge over the radius", "part of the kernel",
+                    "photons as they are", "divided by the part"},
+        .y_label = "estimate over the truth",
+        .more = "set yrange [0:1.3]\nset key inside bottom right vertical\n"};
+    for (int i = 0; i <= border_steps; ++i) {
+        const double s = 1.2 * double(i) / border_steps;
+        const auto k = std::size_t(i);
+        plot.rows.push_back(
+            {s, detail::kernel_part(s), found.without[k].mean(), found.with[k].mean()});
+    }
+    save_plot(options.out, plot);
+}
+
+/// How far the product of two edges' parts is from the part in a corner, at worst.
+double worst_product() {
+    double worst = 0;
+    for (double s = 0; s < 1; s += 0.1)
+        for (double t = 0; t < 1; t += 0.1)
+            worst = std::max(worst,
+                             std::abs(detail::kernel_part(s) * detail::kernel_part(t) /
+                                          corner_by_rule(s, t) -
+                                      1));
+    return worst;
+}
+
+/// What photons say of an even light near an edge and in a corner.
+void borders(const examples::Options& options) {
+    const Borders found = measure_borders(options.pick(32, 128, 512), options.seed);
+    plot_edge(found, options);
+    examples::Table table{
+        .name = "final-gathering-corner",
+        .columns = {"where", "part of the disc", "photons, uncorrected", "corrected"}};
+    for (const Place& place : found.places)
+        table.rows.push_back(
+            {place.name, place.part, place.plain.text(), place.corrected.text()});
+    table.rows.push_back(
+        {"near a corner, at worst", "product of two", "",
+         "off by " + examples::text(100 * worst_product(), "%.1f %%")});
+    save_table(options.out, table);
+    if (!options.quiet)
+        for (const auto& row : table.rows)
+            std::printf("%-26s %-16s %-16s %s\n", row[0].c_str(), row[1].c_str(),
+                        row[2].c_str(), row[3].c_str());
+}
+
+void print(const examples::Table& table, const examples::Options& options) {
+    if (options.quiet) return;
+    examples::print_rows(table, 10);
+}
+
+/// By how many percent the points of one map are too bright under an even light.
+struct Deviation {
+    double at_points = 0; ///< The mean over the points.
+    double over_surface =
+        0; ///< The mean over the surface, each place taking its point's.
+};
+
+/// Finds the deviation of points that are chosen in one of three ways.
+/// \param map     Photons of an even light of 1 W/m^2.
+/// \param how     How many photons an estimate takes.
+/// \param chosen  Whether the photon of a record becomes a point.
+/// \param wanted  Whether the second record's photon counts at the first one's point.
+/// \param share   The part of all photons that counts.
+template <typename Chosen, typename Wanted>
+Deviation deviation(const PhotonMap& map, const IrradiancePointSettings& how,
+                    const Chosen& chosen, const Wanted& wanted, double share) {
+    const Flat square = unit_square();
+    const Vec3 up{0, 0, 1};
+    std::vector<Vec3> places;
+    std::vector<double> known;
+    for (std::uint32_t i = 0; i < map.records.size(); ++i) {
+        const Vec3 p = map.tree.point(i);
+        if (!chosen(i) || std::max(std::abs(p.x - 0.5f), std::abs(p.y - 0.5f)) > 0.4f)
+            continue;
+        places.push_back(p);
+        known.push_back(
+            double(estimate_irradiance(square, map, square_vertex(square, p.x, p.y), up,
+                                       how, 0.15f,
+                                       [&](std::uint32_t k) { return wanted(i, k); })
+                       .x) /
+            share);
+    }
+    Deviation result;
+    for (const double e : known)
+        result.at_points += 100 * (e - 1) / double(known.size());
+    const KdTree8 tree(places);
+    constexpr int side = 60; // of the lookups
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const auto nearest = tree.nearest(
+                Vec3{0.2f + 0.01f * float(x), 0.2f + 0.01f * float(y), 0}, 1.0f);
+            const double e = known[tree.point_ids()[nearest->index]];
+            result.over_surface += 100 * (e - 1) / (side * side);
+        }
+    return result;
+}
+
+/// What estimates at photons find, with those photons counted and without.
+void own_photon(const examples::Options& options) {
+    const int maps = options.pick(16, 64, 256);
+    constexpr std::size_t every = 8;
+    examples::Table table{.name = "final-gathering-own",
+                          .columns = {"k", "2 / (k - 2)", "all photons: at the points",
+                                      "own left out: at the points",
+                                      "own left out: over the surface",
+                                      "all points' left out: over the surface"}};
+    for (const std::size_t k : {16u, 64u, 256u}) {
+        const IrradiancePointSettings how{.nearest = k};
+        Mean counted, own, own_surface, free_surface;
+        for (int m = 0; m < maps; ++m) {
+            const PhotonMap map = even_photons(20000, options.seed + std::uint64_t(m));
+            const auto& ids = map.tree.point_ids();
+            const auto in_order = [](std::uint32_t i) { return i % every == 0; };
+            const auto by_chance = [&](std::uint32_t i) { return ids[i] % every == 0; };
+            counted.add(deviation(
+                            map, how, in_order, [](auto, auto) { return true; }, 1)
+                            .at_points);
+            const Deviation without = deviation(
+                map, how, in_order, [](auto i, auto other) { return other != i; }, 1);
+            own.add(without.at_points);
+            own_surface.add(without.over_surface);
+            free_surface.add(deviation(
+                                 map, how, by_chance,
+                                 [&](auto, auto other) { return !by_chance(other); },
+                                 1 - 1.0 / every)
+                                 .over_surface);
+        }
+        const auto percent = [](const Mean& m) {
+            return examples::text(m.mean(), "%.1f") + " +- " +
+                   examples::text(m.error(), "%.1f") + " %";
+        };
+        table.rows.push_back({std::to_string(k),
+                              examples::text(200 / (double(k) - 2), "%.1f %%"),
+                              percent(counted), percent(own), percent(own_surface),
+                              percent(free_surface)});
+    }
+    print(table, options);
+    save_table(options.out, table);
+}
+
+// --- The idea ------------------------------------------------------------------------
+
+/// A room cut open: photons, the points chosen from them, and rays that look those up.
+void draw_idea(const examples::Options& options) {
+    examples::Drawing figure{
+        .name = "final-gathering-idea",
+        .description = "Rays from x end on walls and take what the nearest point knows",
+        .low{-0.35, -0.35},
+        .high{4.35, 2.35},
+        .scale = 150};
+    const double width = 4, height = 2;
+    draw_line(figure, {{0, height}, {0, 0}, {width, 0}, {width, height}, {0, height}});
+    // Along the walls but the floor: a photon every so often, irregularly.
+    struct Dot {
+        examples::Point at, normal;
+    };
+    std::vector<Dot> points;
+    auto stream = random_stream(options.seed, Pass::user, 0, 0);
+    const double way = 2 * height + width;
+    int number = 0;
+    for (double s = 0.05; s < way; s += 0.04 + 0.08 * double(next_1d(stream))) {
+        const Dot dot = s < height           ? Dot{{0, s}, {1, 0}}
+                        : s < height + width ? Dot{{s - height, height}, {0, -1}}
+                                             : Dot{{width, way - s}, {-1, 0}};
+        if (number++ % 6 == 3)
+            points.push_back(dot);
+        else
+            draw_dot(figure, dot.at, 2.2, examples::colors::blue);
+    }
+    const examples::Point x{1.7, 0};
+    for (int i = 0; i < 9; ++i) {
+        // Evenly over the cosine: seen from the side, the sine has equal steps.
+        const double sine = -1 + 2 * (i + 0.5) / 9, cosine = std::sqrt(1 - sine * sine);
+        double t = height / cosine;
+        if (sine > 0) t = std::min(t, (width - x.x) / sine);
+        if (sine < 0) t = std::min(t, x.x / -sine);
+        const examples::Point end{x.x + t * sine, t * cosine};
+        draw_arrow(figure, x, end, {"currentColor", 1});
+        const auto distance = [&](const Dot& dot) {
+            return std::hypot(dot.at.x - end.x, dot.at.y - end.y);
+        };
+        const Dot& nearest = *std::min_element(
+            points.begin(), points.end(),
+            [&](const Dot& a, const Dot& b) { return distance(a) < distance(b); });
+        draw_line(figure, {end, nearest.at}, {examples::colors::orange, 4});
+    }
+    for (const Dot& dot : points) {
+        draw_arrow(figure, dot.at,
+                   {dot.at.x + 0.22 * dot.normal.x, dot.at.y + 0.22 * dot.normal.y},
+                   {examples::colors::orange, 1.5});
+        draw_dot(figure, dot.at, 5, examples::colors::orange);
+    }
+    draw_dot(figure, x, 5, "currentColor");
+    draw_label(figure, {x.x, -0.18}, "x");
+    save_drawing(options.out, figure);
+}
+
+// --- Pictures ------------------------------------------------------------------------
+
+/// A renderer that shows what a gather ray would bring, if the camera cast it.
+template <typename Mapper>
+struct PointsSeen {
+    using Stream = RandomStream;
+    const Mapper& mapper;
+};
+
+template <typename Mapper>
+Rgb radiance(const PointsSeen<Mapper>& seen, const Ray& ray, auto& context) {
+    const auto& world = seen.mapper.world();
+    const auto& points = seen.mapper.template state<Gathering>().points;
+    const auto path = camera_path(world, ray, context.stream);
+    return gather_ray(world, points, path, 20, context).radiance;
+}
+
+/// The settings that all pictures share.
+PhotonMappingSettings gather_settings(IndirectLight indirect, long long photons,
+                                      std::uint64_t seed,
+                                      const examples::Options& options) {
+    PhotonMappingSettings settings{
+        .direct = DirectLight::analytic, .split_glass = true, .indirect = indirect};
+    settings.caustics.photons = photons;
+    settings.general.photons = photons;
+    settings.general.shadow_photons = false;
+    settings.caustics.seed = settings.general.seed = seed;
+    settings.caustics.threads = settings.general.threads = options.threads;
+    settings.caustics_estimate.radius = settings.general_estimate.radius = 0;
+    return settings;
+}
+
+template <typename Room>
+Image photographed(const Room& room, const PhotonMappingSettings& settings, int samples,
+                   std::uint64_t seed, const examples::Options& options) {
+    const PhotonMapper mapper(room.world, settings, abilities<Gathering>);
+    auto picture = examples::picture_settings(options);
+    picture.samples = samples;
+    picture.seed = seed;
+    return examples::rendered("picture", mapper, room.camera, picture, options).image;
+}
+
+/// The box by each of the ways, and what gather rays see of it.
+void pictures(examples::Options options, const Sizes& sizes) {
+    const auto room = cornell_box();
+    const long long photons = std::min(sizes.photons, 20000LL);
+    const int rays = options.samples;
+    const int larger = options.pick(3, 7, 7); // than those whose errors are measured
+    options.width *= larger;
+    options.height *= larger;
+    const auto take = [&](const std::string& name, IndirectLight indirect,
+                          int samples) {
+        const auto settings = gather_settings(indirect, photons, options.seed, options);
+        save_png(photographed(room, settings, samples, options.seed, options),
+                 options.path("final-gathering-" + name + ".png"));
+    };
+    take("photons", IndirectLight::photons, rays);
+    take("map", IndirectLight::map, rays);
+    take("gather-1", IndirectLight::gather, 1);
+    take("gather-few", IndirectLight::gather, std::max(2, rays / 4));
+    take("gather-many", IndirectLight::gather, rays);
+    for (const bool edges : {false, true}) {
+        auto settings =
+            gather_settings(IndirectLight::gather, photons, options.seed, options);
+        settings.irradiance.edges = edges;
+        const PhotonMapper mapper(room.world, settings, abilities<Gathering>);
+        const PointsSeen<decltype(mapper)> seen{mapper};
+        save_png(render(seen, room.camera,
+                        {.width = options.width,
+                         .height = options.height,
+                         .samples = std::min(rays, 16),
+                         .seed = options.seed,
+                         .threads = options.threads})
+                     .image,
+                 options.path(edges ? "final-gathering-points.png"
+                                    : "final-gathering-points-dark.png"));
+    }
+}
+
+// --- The trade -----------------------------------------------------------------------
+
+/// The pictures of all seeds, and what one of them costs.
+struct Runs {
+    std::vector<Image> images{};
+    std::vector<double> first{}, second{}; ///< Processor seconds of either pass.
+};
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+/// Ways that take turns seed by seed, so that a busy machine is unkind to all of them.
+template <typename Room>
+std::vector<Runs> compare(const Room& room,
+                          const std::vector<PhotonMappingSettings>& ways, int samples,
+                          int seeds, const examples::Options& options) {
+    std::vector<Runs> runs(ways.size());
+    for (int seed = 1; seed <= seeds; ++seed)
+        for (std::size_t w = 0; w < ways.size(); ++w) {
+            auto settings = ways[w];
+            settings.caustics.seed = settings.general.seed = std::uint64_t(seed);
+            const double begin = examples::processor_seconds();
+            const PhotonMapper mapper(room.world, settings, abilities<Gathering>);
+            const double middle = examples::processor_seconds();
+            runs[w].images.push_back(render(mapper, room.camera,
+                                            {.width = options.width,
+                                             .height = options.height,
+                                             .samples = samples,
+                                             .seed = std::uint64_t(seed),
+                                             .threads = options.threads})
+                                         .image);
+            runs[w].first.push_back(middle - begin);
+            runs[w].second.push_back(examples::processor_seconds() - middle);
+            examples::stop_if_asked();
+        }
+    return runs;
+}
+
+/// What one way does with so many photons and rays.
+struct Setting {
+    std::size_t way;             ///< 0: photons, 1: map, 2: gather.
+    double seconds, error, seen; ///< Processor seconds, relMSE, FLIP.
+};
+
+/// For each way the settings that no faster one of the same way beats, or comes near.
+template <typename Error>
+examples::Plot frontier(const std::string& name, const std::string& label,
+                        const std::vector<Setting>& by_time, const Error& error) {
+    examples::Plot plot{.name = name,
+                        .columns = {"processor seconds", "photons", "map", "gather"},
+                        .y_label = label,
+                        .log_x = true,
+                        .log_y = true};
+    std::array best{1e300, 1e300, 1e300};
+    for (const Setting& setting : by_time) {
+        if (error(setting) > 0.95 * best[setting.way]) continue;
+        best[setting.way] = error(setting);
+        examples::Row row{setting.seconds, std::nan(""), std::nan(""), std::nan("")};
+        row[setting.way + 1] = error(setting);
+        plot.rows.push_back(row);
+    }
+    return plot;
+}
+
+constexpr std::array way_names{"photons", "map", "gather"};
+constexpr std::array way_kinds{IndirectLight::photons, IndirectLight::map,
+                               IndirectLight::gather};
+
+/// All settings that were tried, as the plots and the table show them.
+struct Trade {
+    examples::Plot split{.name = "final-gathering-split",
+                         .columns = {"photons", "photons: squared bias",
+                                     "photons: variance", "map: squared bias",
+                                     "map: variance", "gather: squared bias",
+                                     "gather: variance"},
+                         .y_label = "part of relMSE, most rays",
+                         .log_x = true,
+                         .log_y = true};
+    examples::Table table{.name = "final-gathering-table",
+                          .columns = {"photons", "rays per pixel", "way",
+                                      "first pass, s", "second pass, s", "relMSE",
+                                      "squared bias", "variance", "FLIP"}};
+    std::vector<Setting> tried{};
+};
+
+/// Adds what one way has made of some photons and rays.
+/// \return Its bias and variance.
+BiasVariance add_way(Trade& trade, std::size_t way, long long photons, int samples,
+                     const Runs& runs, const examples::Oracle& oracle) {
+    const auto split =
+        examples::relative_split(runs.images, oracle.truth, oracle.noise);
+    double seen = 0;
+    for (const Image& image : runs.images)
+        seen += flip(image, oracle.truth) / double(runs.images.size());
+    const double first = median(runs.first), second = median(runs.second);
+    const double error = split.bias_squared + split.variance;
+    trade.tried.push_back({way, first + second, error, seen});
+    trade.table.rows.push_back(
+        {std::to_string(photons), std::to_string(samples), way_names[way],
+         examples::text(first, "%.2f"), examples::text(second, "%.2f"),
+         examples::text(error, "%.2g"), examples::text(split.bias_squared, "%.2g"),
+         examples::text(split.variance, "%.2g"), examples::text(seen, "%.3f")});
+    return split;
+}
+
+/// Tries the three ways with each number of photons and of rays.
+template <typename Room>
+Trade try_settings(const Room& room, const examples::Oracle& oracle,
+                   const examples::Options& options, const Sizes& sizes) {
+    Trade trade;
+    for (const long long part : {100, 32, 10, 3, 1})
+        for (int samples = 1; samples <= options.samples; samples *= 4) {
+            const long long photons = std::max(1000LL, sizes.photons / part);
+            std::vector<PhotonMappingSettings> ways;
+            for (const IndirectLight kind : way_kinds)
+                ways.push_back(gather_settings(kind, photons, 1, options));
+            const auto runs = compare(room, ways, samples, sizes.seeds, options);
+            examples::Row row{double(photons)};
+            for (std::size_t w = 0; w < ways.size(); ++w) {
+                const auto split = add_way(trade, w, photons, samples, runs[w], oracle);
+                row.push_back(split.bias_squared > 0 ? split.bias_squared
+                                                     : std::nan(""));
+                row.push_back(split.variance);
+            }
+            const bool most = 4LL * samples > options.samples;
+            if (most) trade.split.rows.push_back(row);
+        }
+    return trade;
+}
+
+/// Error against time: three ways, photons and rays.
+void trade(const examples::Options& options, const Sizes& sizes) {
+    const auto room = matt_cornell_box();
+    const auto oracle = examples::find_oracle("matt-cornell", room, options.width,
+                                              sizes.truth, options);
+    auto [split, table, tried] = try_settings(room, oracle, options, sizes);
+    std::sort(tried.begin(), tried.end(),
+              [](const Setting& a, const Setting& b) { return a.seconds < b.seconds; });
+    save_plot(options.out, frontier("final-gathering-trade", "relMSE", tried,
+                                    [](const Setting& s) { return s.error; }));
+    save_plot(options.out, frontier("final-gathering-flip", "FLIP", tried,
+                                    [](const Setting& s) { return s.seen; }));
+    save_plot(options.out, split);
+    save_table(options.out, table);
+    print(table, options);
+}
+
+/// Processor seconds in which the points of precomputed irradiance are made.
+template <typename Room>
+double seconds_of_points(const Room& room, const PhotonMappingSettings& gather,
+                         int threads) {
+    const PhotonMapper mapper(room.world, gather, abilities<Gathering>);
+    const double begin = examples::processor_seconds();
+    (void)make_irradiance_points(room.world, mapper.maps().general,
+                                 mapper.maps().caustics, gather.irradiance, 1, threads);
+    return examples::processor_seconds() - begin;
+}
+
+/// What a lookup saves: the general map and precomputed irradiance at equal settings.
+template <typename Room>
+void table_of_ratios(const Room& room, const examples::Oracle& oracle,
+                     const examples::Options& options, const Sizes& sizes) {
+    const int rays = options.pick(16, 100, 100);
+    const int seeds = std::min(sizes.seeds, options.pick(2, 3, 16));
+    examples::Table table{.name = "final-gathering-ratio",
+                          .columns = {"photons per estimate", "map, s", "gather, s",
+                                      "ratio", "points, s", "share of the time saved",
+                                      "relMSE: map", "gather"}};
+    for (const std::size_t k : {0u, 32u, 64u, 128u, 256u}) {
+        auto map = gather_settings(IndirectLight::map, sizes.photons, 1, options);
+        if (k > 0) map.general_estimate = {.radius = 1, .nearest = k};
+        auto gather = map;
+        gather.indirect = IndirectLight::gather;
+        gather.irradiance.nearest = k > 0 ? k : 64;
+        const auto runs = compare(room, {map, gather}, rays, seeds, options);
+        const double slow = median(runs[0].second), fast = median(runs[1].second);
+        const double extra = seconds_of_points(room, gather, options.threads);
+        const auto error = [&](const Runs& r) {
+            const auto split =
+                examples::relative_split(r.images, oracle.truth, oracle.noise);
+            return examples::text(split.bias_squared + split.variance, "%.2g");
+        };
+        table.rows.push_back(
+            {k > 0 ? "the nearest " + std::to_string(k) : "64 typically",
+             examples::text(slow, "%.2f"), examples::text(fast, "%.2f"),
+             examples::text(slow / fast, "%.1f"), examples::text(extra, "%.2f"),
+             examples::text(100 * extra / (slow - fast), "%.0f %%"), error(runs[0]),
+             error(runs[1])});
+    }
+    save_table(options.out, table);
+    print(table, options);
+}
+
+/// Points at every second photon, every fourth, and so on.
+template <typename Room>
+void table_of_every(const Room& room, const examples::Oracle& oracle,
+                    const examples::Options& options, const Sizes& sizes) {
+    examples::Table every{.name = "final-gathering-every",
+                          .columns = {"photons per point", "points", "first pass, s",
+                                      "second pass, s", "relMSE", "squared bias"}};
+    std::vector<PhotonMappingSettings> ways;
+    for (const int n : {2, 4, 8, 16, 64, 256, 1024}) {
+        ways.push_back(
+            gather_settings(IndirectLight::gather, sizes.photons, 1, options));
+        ways.back().irradiance.every = n;
+    }
+    const int few = std::min(sizes.seeds, 8);
+    const auto runs = compare(room, ways, options.pick(4, 25, 25), few, options);
+    for (std::size_t w = 0; w < ways.size(); ++w) {
+        const auto split =
+            examples::relative_split(runs[w].images, oracle.truth, oracle.noise);
+        const PhotonMapper mapper(room.world, ways[w], abilities<Gathering>);
+        every.rows.push_back(
+            {std::to_string(ways[w].irradiance.every),
+             std::to_string(mapper.template state<Gathering>().points.records.size()),
+             examples::text(median(runs[w].first), "%.2f"),
+             examples::text(median(runs[w].second), "%.2f"),
+             examples::text(split.bias_squared + split.variance, "%.2g"),
+             examples::text(split.bias_squared, "%.2g")});
+    }
+    save_table(options.out, every);
+    print(every, options);
+}
+
+/// Precomputed irradiance: what it saves, and how many points it takes.
+void ratio(const examples::Options& options, const Sizes& sizes) {
+    const auto room = matt_cornell_box();
+    const auto oracle = examples::find_oracle("matt-cornell", room, options.width,
+                                              sizes.truth, options);
+    table_of_ratios(room, oracle, options, sizes);
+    table_of_every(room, oracle, options, sizes);
+}
+
+} // namespace
+
+/// Makes the figures of chapter 28.
+/// \param argc  Number of arguments.
+/// \param argv  The command line; `--help` explains it.
+/// \return 0; 2 with one sentence for anything that is wrong.
+int main(int argc, char** argv) {
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        Sizes sizes;
+        line.about("Chapter 28, final gathering: blotches, rays, and a lookup.");
+        line.add("--photons", sizes.photons, "The largest number of photons", 1,
+                 100000000);
+        line.add("--seeds", sizes.seeds, "Runs behind bias and variance", 2, 1000);
+        line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8, 1000000);
+        const examples::Options options =
+            line.parse({.draft{.width = 32, .height = 32, .samples = 16},
+                        .report{.width = 64, .height = 64, .samples = 64},
+                        .reference{.width = 128, .height = 128, .samples = 256}});
+        if (!line.given("--photons"))
+            sizes.photons = options.pick(20000LL, 200000LL, 1000000LL);
+        if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
+        if (!line.given("--truth")) sizes.truth = options.pick(512, 4096, 65536);
+        draw_idea(options);
+        borders(options);
+        own_photon(options);
+        pictures(options, sizes);
+        trade(options, sizes);
+        ratio(options, sizes);
+    });
+}

@@ -1,0 +1,859 @@
+// smoke: --quality draft --width 24 --height 24 --seeds 2 --truth 16
+/// \file chapters/experiments/29_experiments.cpp
+/// \brief Chapter 29: the irradiance cache. What interpolating costs and what it buys.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <ljus/image/flip.hpp>
+#include <ljus/inspect/photon_dots.hpp>
+#include <ljus/ljus.hpp>
+#include <ljus/math/stratified_stream.hpp>
+#include <ljus/path/light_transport.hpp>
+#include <ljus/render/adaptive.hpp>
+#include <ljus/render/gathering.hpp>
+#include <ljus/scenes/cornell_box.hpp>
+
+#include "common/clock.hpp"
+#include "common/command_line.hpp"
+#include "common/convergence.hpp"
+#include "common/plot.hpp"
+#include "drawings/drawing.hpp"
+#include "experiments/oracle.hpp"
+
+using namespace ljus;
+
+namespace {
+
+using examples::text;
+using Box = decltype(cornell_box());
+/// The photon mapper of the preset `fast`.
+using Mapper = PhotonMapper<decltype(Box::world), StratifiedStream, Gathering>;
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// What the user may set besides the common options.
+struct Sizes {
+    int seeds = 0; ///< Runs behind each bias and variance.
+    int truth = 0; ///< Rays per pixel of the references.
+    int side = 0;  ///< Of the pictures whose errors are measured, in pixels.
+};
+
+/// Prints a table as it is saved.
+void show(const examples::Options& options, const examples::Table& table) {
+    save_table(options.out, table);
+    if (options.quiet) return;
+    std::printf("%s\n", table.name.c_str());
+    examples::print_rows(table, 12);
+}
+
+// --- The idea ------------------------------------------------------------------------
+
+/// A room in the plane: how far a point of its floor sees, as a harmonic mean.
+double distance_on_floor(double x, double width, double height) {
+    double inverse = 0;
+    constexpr int rays = 4000;
+    for (int i = 0; i < rays; ++i) {
+        const double along = (2 * i + 1.0) / rays - 1; // the cosine law in the plane
+        const double up = std::sqrt(1 - along * along);
+        const double wall = along < 0 ? x / -along : (width - x) / along;
+        inverse += 1 / std::min(wall, height / up) / rays;
+    }
+    return 1 / inverse;
+}
+
+/// Points on a floor, how far each of them counts, and a place that asks.
+void draw_idea(const examples::Options& options) {
+    constexpr double width = 9, height = 2.4, reach = 0.5;
+    constexpr std::array places{0.12, 0.45, 0.8, 1.35, 1.9, 2.4, 3.0, 3.5, 4.2, 4.75};
+    examples::Drawing figure{
+        .name = "irradiance_cache-idea",
+        .description = "Points on a floor beside a wall; those near the wall count for "
+                       "a short distance",
+        .low{-0.2, -0.5},
+        .high{5.3, 1.75},
+        .scale = 130};
+    draw_area(figure, {{-0.2, -0.1}, {5.3, -0.1}, {5.3, 0}, {-0.2, 0}}, "currentColor");
+    draw_area(figure, {{-0.2, 0}, {0, 0}, {0, 1.75}, {-0.2, 1.75}}, "currentColor");
+    draw_line(figure, {{0, 1.75}, {0, 0}, {5.3, 0}});
+    for (const double x : places) {
+        const double r = reach * distance_on_floor(x, width, height);
+        draw_arc(figure, {x, 0}, r, 0, std::numbers::pi,
+                 {examples::colors::blue, 1, true});
+    }
+    // Six points take part, the nearest says how far they may lie.
+    constexpr double asked = 2.6, around = 1.25;
+    for (const double x : places) {
+        const double share = (x - asked) * (x - asked) / (around * around);
+        const double r = reach * distance_on_floor(x, width, height);
+        if (share < 1 && std::abs(x - asked) < r)
+            draw_line(figure, {{asked, 0.42}, {x, 0}},
+                      {examples::colors::orange, 0.5 + 5 * (1 - share)});
+        draw_dot(figure, {x, 0}, 5, examples::colors::blue);
+    }
+    draw_dot(figure, {asked, 0.42}, 6, examples::colors::orange);
+    draw_line(figure, {{asked, 0.42}, {asked, 0}}, {"currentColor", 1, true});
+    draw_label(figure, {asked, 0.62}, "E ?", examples::colors::orange);
+    draw_label(figure, {2.6, -0.3},
+               "points that have gathered, and how far each counts",
+               examples::colors::blue);
+    save_drawing(options.out, figure);
+}
+
+// --- A corner where irradiance is known ----------------------------------------------
+
+/// The irradiance on a floor at a distance from an endless wall of height 1 whose
+/// radiosity is 1; nothing else shines.
+double beside_wall(double x) {
+    return 0.5 * (1 - x / std::hypot(x, 1.0));
+}
+
+/// The harmonic mean distance there, by rays spread evenly over the cosine; a ray that
+/// misses the wall goes to infinity.
+double sees_as_far(double x) {
+    constexpr int side = 32;
+    double inverse = 0;
+    for (int i = 0; i < side * side; ++i) {
+        const Vec3T<double> d = sample_cosine_hemisphere(
+            Vec2T<double>{(i % side + 0.5) / side, (double(i / side) + 0.5) / side});
+        if (!(d.x < 0)) continue;
+        const double t = x / -d.x;
+        if (t * d.z < 1) inverse += 1 / t / (side * side);
+    }
+    return inverse > 0 ? 1 / inverse : std::numeric_limits<double>::infinity();
+}
+
+constexpr double corner_step = 0.1;               ///< Side of a square of the floor.
+constexpr int corner_places = 40;                 ///< Where it is asked.
+constexpr std::array reaches{0.1, 0.3, 1.0, 4.0}; ///< Of the records.
+
+/// How far from the wall a place is: from 0.01 to 1.5 of its height.
+double corner_place(int i) {
+    return 0.01 * std::pow(150.0, double(i) / (corner_places - 1));
+}
+
+/// Records with the exact irradiance beside the wall: one for each square of the floor,
+/// anywhere in it.
+IrradianceCacheT<double> exact_cache(int run, std::uint64_t seed) {
+    constexpr int columns = 22, rows = 9;
+    auto stream =
+        random_stream(seed, Pass::gathering, 0, static_cast<std::uint64_t>(run));
+    std::vector<Vec3T<double>> positions;
+    std::vector<GatheredT<double>> records;
+    for (int i = 0; i < columns * rows; ++i) {
+        const auto u = next_2d<double>(stream);
+        const Vec3T<double> p{corner_step * (i % columns + u.x),
+                              corner_step * (double(i / columns) - rows * 0.5 + u.y),
+                              0};
+        positions.push_back(p);
+        records.push_back({.irradiance = RgbT<double>{beside_wall(p.x)},
+                           .distance = sees_as_far(p.x)});
+    }
+    IrradianceCacheT<double> cache;
+    cache.tree = KdTree8T<double>(positions, 1);
+    for (const std::uint32_t i : cache.tree.point_ids())
+        cache.records.push_back(records[i]);
+    detail::measure_spacing(cache, GatherSettings{}, 1);
+    return cache;
+}
+
+/// What interpolation with one reach brings at the places, means over the runs.
+struct AtCorner {
+    std::array<double, corner_places> squares{};  ///< Of the relative error.
+    std::array<double, corner_places> gathered{}; ///< How often nothing is near enough.
+};
+
+/// Adds what one cache says, as one of so many runs.
+void add_run(AtCorner& corner, const IrradianceCacheT<double>& cache, double reach,
+             int runs) {
+    for (int i = 0; i < corner_places; ++i) {
+        const auto slot = static_cast<std::size_t>(i);
+        const double exact = beside_wall(corner_place(i));
+        const auto found = interpolate(cache, Vec3T<double>{corner_place(i), 0, 0},
+                                       Vec3T<double>{0, 0, 1}, reach);
+        if (!found) {
+            corner.gathered[slot] += 1.0 / runs; // exactly
+            continue;
+        }
+        const double e = found->x / exact - 1;
+        corner.squares[slot] += e * e / runs;
+    }
+}
+
+/// One for each reach.
+using Corner = std::array<AtCorner, reaches.size()>;
+
+void plot_corner(const Corner& corner, const examples::Options& options) {
+    examples::Plot plot{.name = "irradiance_cache-corner",
+                        .columns = {"distance from the wall, over its height",
+                                    "reach 0.1", "reach 0.3", "reach 1", "reach 4"},
+                        .y_label = "relative error, root mean square",
+                        .log_x = true,
+                        .log_y = true};
+    for (int i = 0; i < corner_places; ++i) {
+        examples::Row row{corner_place(i)};
+        for (const AtCorner& at : corner) {
+            const double e = std::sqrt(at.squares[static_cast<std::size_t>(i)]);
+            row.push_back(e > 0 ? e : nothing);
+        }
+        plot.rows.push_back(row);
+    }
+    save_plot(options.out, plot);
+}
+
+/// Near the wall and farther out, in means.
+void table_of_corner(const Corner& corner, const examples::Options& options) {
+    examples::Table table{.name = "irradiance_cache-corner-table",
+                          .columns = {"reach", "error within a step of the wall",
+                                      "farther out", "gathered anew within a step",
+                                      "farther out"}};
+    for (std::size_t k = 0; k < reaches.size(); ++k) {
+        std::array<double, 2> error{}, anew{}, count{};
+        for (int i = 0; i < corner_places; ++i) {
+            const std::size_t part = corner_place(i) < corner_step ? 0 : 1;
+            error[part] += corner[k].squares[static_cast<std::size_t>(i)];
+            anew[part] += corner[k].gathered[static_cast<std::size_t>(i)];
+            count[part] += 1;
+        }
+        table.rows.push_back({text(reaches[k])});
+        for (const std::size_t part : {0u, 1u})
+            table.rows.back().push_back(
+                text(100 * std::sqrt(error[part] / count[part]), "%.2f %%"));
+        for (const std::size_t part : {0u, 1u})
+            table.rows.back().push_back(
+                text(100 * anew[part] / count[part], "%.1f %%"));
+    }
+    show(options, table);
+}
+
+/// Exact records, no noise: what is wrong then is the interpolation alone.
+void corner(const examples::Options& options) {
+    const int runs = options.pick(32, 400, 2000);
+    Corner found{};
+    for (int run = 0; run < runs; ++run) {
+        const auto cache = exact_cache(run, options.seed);
+        for (std::size_t k = 0; k < reaches.size(); ++k)
+            add_run(found[k], cache, reaches[k], runs);
+    }
+    plot_corner(found, options);
+    table_of_corner(found, options);
+}
+
+// --- The pictures --------------------------------------------------------------------
+
+/// A renderer whose gathered light alone is seen.
+template <typename R>
+struct GatheredOnly {
+    using Stream = typename R::Stream;
+    const R& renderer;
+};
+
+/// Adds up what was gathered or interpolated, and drops all else.
+struct GatheredLog {
+    Rgb sum{0};
+    void begin() const {}
+    void vertex(char, const Vec3&, const Rgb&, float) const {}
+    void term(std::string_view owner, std::string_view, const Rgb& value) {
+        if (owner == "irradiance cache" || owner == "irradiance points") sum += value;
+    }
+};
+
+template <typename R>
+Rgb radiance(const GatheredOnly<R>& only, const Ray& ray, auto& context) {
+    GatheredLog log;
+    auto told = context_of(context.stream, context.counts, log);
+    (void)radiance(only.renderer, ray, told);
+    return log.sum;
+}
+
+/// The preset `fast` for one seed.
+PhotonMappingSettings fast(int side, std::uint64_t seed, int threads) {
+    auto settings = preset_settings(Preset::fast, side, side);
+    settings.general.seed = settings.caustics.seed = seed;
+    settings.general.threads = settings.caustics.threads = threads;
+    return settings;
+}
+
+/// Indirect light alone.
+Image gathered_light(const Box& room, const Mapper& mapper,
+                     const RenderSettings& picture) {
+    auto image = render(GatheredOnly<Mapper>{mapper}, room.camera, picture).image;
+    examples::stop_if_asked();
+    return image;
+}
+
+void pictures(const examples::Options& options) {
+    const Box room = cornell_box();
+    auto settings = fast(options.width, options.seed, options.threads);
+    settings.gather.rays = 100; // as many for both, so that both can be looked at
+    const RenderSettings picture{.width = options.width,
+                                 .height = options.height,
+                                 .samples = 4,
+                                 .seed = options.seed,
+                                 .threads = options.threads};
+    Mapper mapper(room.world, settings);
+    save_png(gathered_light(room, mapper, picture),
+             options.path("irradiance_cache-everywhere.png"),
+             {.exposure = 2}); // no cache yet
+    mapper.fill_cache(room.camera, picture);
+    save_png(gathered_light(room, mapper, picture),
+             options.path("irradiance_cache-interpolated.png"), {.exposure = 2});
+
+    // The points as dots: as photons that have come to them from the side that is seen.
+    std::vector<Photon> dots;
+    const IrradianceCache& cache = mapper.state<Gathering>().cache;
+    for (std::size_t i = 0; i < cache.records.size(); ++i)
+        dots.push_back({.position = cache.tree.point(i),
+                        .direction = -cache.records[i].normal,
+                        .flux = cache.records[i].irradiance});
+    Image drawing =
+        scene_drawing(room.world, room.camera, options.width, options.height);
+    const auto seen = add_photon_dots(
+        drawing, room.world, room.camera, dots,
+        {.radius = std::max(0.8f, float(options.width) / 250), .brightness = 1},
+        [](const Photon& dot) { return dot_color(dot); });
+    save_png(drawing, options.path("irradiance_cache-points.png"));
+    show(options, {.name = "irradiance_cache-points-table",
+                   .columns = {"pixels", "points", "of which in sight", "gather rays"},
+                   .rows = {{std::to_string(options.width) + " x " +
+                                 std::to_string(options.height),
+                             std::to_string(dots.size()), std::to_string(seen),
+                             std::to_string(cache.counts.bounce_rays)}}});
+}
+
+// --- Each knob -----------------------------------------------------------------------
+
+/// The mean of a picture over that of another, less 1.
+template <typename T, typename U>
+double mean_error(const ImageT<T>& image, const ImageT<U>& truth) {
+    double sum = 0, all = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const RgbT<double> a(image.pixels[i]), b(truth.pixels[i]);
+        sum += a.x + a.y + a.z;
+        all += b.x + b.y + b.z;
+    }
+    return sum / all - 1;
+}
+
+/// A picture that is believed, by eight independent pieces, and its own noise.
+examples::Oracle oracle_of(const std::function<Image(int, std::uint64_t)>& shot,
+                           int rays, int side) {
+    constexpr int pieces = 8;
+    const int part = std::max(1, rays / pieces);
+    examples::Oracle oracle{.truth = make_image<double>(side, side),
+                            .rays = part * pieces};
+    std::vector<Image> runs;
+    for (std::uint64_t piece = 0; piece < pieces; ++piece) {
+        runs.push_back(shot(part, 9000 + piece));
+        for (std::size_t i = 0; i < runs.back().pixels.size(); ++i)
+            oracle.truth.pixels[i] += RgbT<double>(runs.back().pixels[i]) / 8.0;
+    }
+    oracle.noise = examples::relative_split(runs, oracle.truth).variance / pieces;
+    oracle.block_noise =
+        examples::relative_split(runs, oracle.truth, 0, 10).variance / pieces;
+    return oracle;
+}
+
+/// The box as all settings of the cache see it: with the same photons, beside two
+/// references of its indirect light.
+struct Bench {
+    const Box& room;
+    const examples::Options& options;
+    const Sizes& sizes;
+    PhotonMappingSettings settings; ///< The preset `fast`.
+    examples::Oracle twin{};   ///< Gathered at every vertex, from the same photons.
+    examples::Oracle traced{}; ///< By path tracing.
+
+    [[nodiscard]] RenderSettings picture(int samples, std::uint64_t seed) const {
+        return {.width = sizes.side,
+                .height = sizes.side,
+                .samples = samples,
+                .seed = seed,
+                .threads = options.threads};
+    }
+};
+
+/// The references of the bench.
+void add_oracles(Bench& bench) {
+    const int side = bench.sizes.side, truth = bench.sizes.truth;
+    auto one_by_one = bench.settings;
+    one_by_one.indirect = IndirectLight::gather;
+    const Mapper mapper(bench.room.world, one_by_one);
+    bench.twin = oracle_of(
+        [&](int rays, std::uint64_t seed) {
+            return gathered_light(bench.room, mapper, bench.picture(rays, seed));
+        },
+        4 * truth, side);
+    const PathTracer tracer(bench.room.world);
+    const OnlyPaths indirect(tracer, "E.*D.*D.*L");
+    bench.traced = oracle_of(
+        [&](int rays, std::uint64_t seed) {
+            auto image =
+                render(indirect, bench.room.camera, bench.picture(rays, seed)).image;
+            examples::stop_if_asked();
+            return image;
+        },
+        truth, side);
+}
+
+/// A way to gather, and which curve of the plot it belongs to.
+struct Knob {
+    std::string name;
+    GatherSettings gather{};
+    std::size_t curve = 0; ///< Which column; 0: none.
+    bool cached = true;    ///< Or gathered at every vertex.
+};
+
+/// Each knob of the cache turned, while the others stay where they are.
+std::vector<Knob> all_knobs() {
+    std::vector<Knob> all{Knob{.name = "tile 3, 25 rays, 6 nearest, reach 1"}};
+    for (const int tile : {2, 3, 4, 6})
+        all.push_back({"tile " + std::to_string(tile), {.tile = tile}, 1});
+    for (const int rays : {9, 16, 25, 49, 100})
+        all.push_back({std::to_string(rays) + " gather rays", {.rays = rays}, 2});
+    for (const std::size_t nearest : {3u, 6u, 10u, 20u})
+        all.push_back({std::to_string(nearest) + " nearest", {.nearest = nearest}, 3});
+    for (const float reach : {0.3f, 0.5f, 1.0f, 2.0f, 4.0f})
+        all.push_back({"reach " + text(double(reach), "%.1f"), {.reach = reach}, 4});
+    all.push_back({"25 rays at every vertex, no cache", {}, 0, false});
+    return all;
+}
+
+/// What a knob brings, over several seeds.
+struct Turned {
+    double seconds = 0, mean = 0, flip = 0;
+    std::size_t points = 0;
+    BiasVariance from_twin{}, from_traced{}, blocks{};
+};
+
+Turned turn(const Bench& bench, const Knob& knob) {
+    auto now = bench.settings;
+    now.gather = knob.gather;
+    Mapper mapper(bench.room.world, now); // the same photons for all
+    Turned found;
+    std::vector<Image> runs;
+    const int seeds = bench.sizes.seeds;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const RenderSettings picture =
+            bench.picture(9, static_cast<std::uint64_t>(seed));
+        const double start = examples::processor_seconds();
+        if (knob.cached) mapper.fill_cache(bench.room.camera, picture);
+        found.points = mapper.state<Gathering>().cache.records.size();
+        runs.push_back(gathered_light(bench.room, mapper, picture));
+        found.seconds += (examples::processor_seconds() - start) / seeds;
+        found.flip += flip(runs.back(), bench.traced.truth) / seeds;
+        found.mean += mean_error(runs.back(), bench.traced.truth) / seeds;
+    }
+    const examples::Oracle &twin = bench.twin, &traced = bench.traced;
+    found.from_twin = examples::relative_split(runs, twin.truth, twin.noise);
+    found.from_traced = examples::relative_split(runs, traced.truth, traced.noise);
+    found.blocks = examples::relative_split(runs, traced.truth, traced.block_noise, 10);
+    return found;
+}
+
+/// Which references there are, and how good they are.
+void table_of_oracles(const Bench& bench) {
+    show(bench.options,
+         {.name = "irradiance_cache-truth",
+          .columns = {"reference", "rays per pixel", "its own relMSE"},
+          .rows = {{"gathered at every vertex, the same photons",
+                    std::to_string(bench.twin.rays), text(bench.twin.noise, "%.2g")},
+                   {"path tracing", std::to_string(bench.traced.rays),
+                    text(bench.traced.noise, "%.2g")}}});
+}
+
+/// Indirect light alone, one knob after the other.
+void knobs(const examples::Options& options, const Sizes& sizes) {
+    const Box room = cornell_box();
+    const auto settings = fast(sizes.side, options.seed, options.threads);
+    Bench bench{room, options, sizes, settings};
+    add_oracles(bench);
+    examples::Table table{
+        .name = "irradiance_cache-knobs",
+        .columns = {"", "processor seconds", "points", "bias² of interpolating",
+                    "noise", "bias² with the photons'", "blocks", "mean", "FLIP"}};
+    examples::Plot plot{
+        .name = "irradiance_cache-knobs-plot",
+        .columns = {"processor seconds", "tile", "gather rays", "nearest", "reach"},
+        .y_label = "relMSE of indirect light",
+        .rows = {}};
+    for (const Knob& knob : all_knobs()) {
+        const Turned found = turn(bench, knob);
+        const auto& [bias, noise] = found.from_twin;
+        table.rows.push_back(
+            {knob.name, text(found.seconds, "%.3f"), std::to_string(found.points),
+             text(bias, "%.2g"), text(noise, "%.2g"),
+             text(found.from_traced.bias_squared, "%.2g"),
+             text(found.blocks.bias_squared + found.blocks.variance, "%.2g"),
+             text(100 * found.mean, "%+.2f %%"), text(found.flip, "%.3f")});
+        if (knob.curve == 0) continue;
+        examples::Row row(plot.columns.size(), nothing);
+        row[0] = found.seconds;
+        row[knob.curve] = std::max(bias + noise, 1e-9);
+        plot.rows.push_back(row);
+    }
+    show(options, table);
+    save_plot(options.out, plot);
+    table_of_oracles(bench);
+}
+
+// --- Whole pictures ------------------------------------------------------------------
+
+/// A way to make a whole picture: rays per pixel and a seed for all.
+struct Method {
+    std::string name;
+    std::function<Image(int, std::uint64_t)> shoot;
+};
+
+/// What a method brought, over several seeds.
+struct Result {
+    double seconds = 0; ///< Of a processor, both passes.
+    BiasVariance pixels{}, blocks{};
+    double mean = 0, flip = 0, trimmed = 0;
+    [[nodiscard]] double error() const { return pixels.bias_squared + pixels.variance; }
+    [[nodiscard]] double block_error() const {
+        return blocks.bias_squared + blocks.variance;
+    }
+};
+
+Result try_method(const Method& method, int rays, const examples::Oracle& oracle,
+                  int seeds) {
+    Result result;
+    std::vector<Image> runs;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const double start = examples::processor_seconds();
+        runs.push_back(method.shoot(rays, static_cast<std::uint64_t>(seed)));
+        result.seconds += (examples::processor_seconds() - start) / seeds;
+        result.flip += flip(runs.back(), oracle.truth) / seeds;
+        result.mean += mean_error(runs.back(), oracle.truth) / seeds;
+        result.trimmed += trimmed_rel_mse(runs.back(), oracle.truth) / seeds;
+        examples::stop_if_asked();
+    }
+    result.pixels = examples::relative_split(runs, oracle.truth, oracle.noise);
+    result.blocks =
+        examples::relative_split(runs, oracle.truth, oracle.block_noise, 10);
+    return result;
+}
+
+/// A picture by photons: both passes.
+template <typename Draws>
+Image by_photons(const Box& room, const PhotonMappingSettings& settings,
+                 const RenderSettings& picture, int more = 0) {
+    // [by_photons]
+    PhotonMapper mapper(room.world, settings, abilities<Draws, Gathering>);
+    mapper.fill_cache(room.camera, picture);
+    if (more == 0) return render(mapper, room.camera, picture).image;
+    RenderSettings most = picture;
+    most.samples += more;
+    return render_adaptive(mapper, room.camera, most,
+                           {.first = picture.samples,
+                            .more = more,
+                            .batches = 1,
+                            .disagreement = PresetRays{}.disagreement})
+        .image;
+    // [by_photons]
+}
+
+void methods(const examples::Options& options, const Sizes& sizes,
+             const examples::Oracle& oracle) {
+    const Box room = cornell_box();
+    const int side = sizes.side;
+    const auto picture = [&](int rays, std::uint64_t seed) {
+        return RenderSettings{.width = side,
+                              .height = side,
+                              .samples = rays,
+                              .seed = seed,
+                              .threads = options.threads};
+    };
+    const auto photons = [&](IndirectLight indirect) {
+        return [&, indirect](int rays, std::uint64_t seed) {
+            auto settings = fast(side, seed, options.threads);
+            settings.indirect = indirect;
+            return by_photons<StratifiedStream>(room, settings, picture(rays, seed));
+        };
+    };
+    const PathTracer tracer(room.world);
+    const std::vector<Method> all{
+        {"cache", photons(IndirectLight::cache)},
+        {"gather", photons(IndirectLight::gather)},
+        {"photons", photons(IndirectLight::photons)},
+        {"rays", photons(IndirectLight::rays)},
+        {"path tracing", [&](int rays, std::uint64_t seed) {
+             return render(tracer, room.camera, picture(rays, seed)).image;
+         }}};
+    std::vector<int> rungs{1, 4, 16};
+    if (options.pick(false, true, true)) rungs.push_back(64);
+    examples::Plot plot{.name = "irradiance_cache-trade",
+                        .columns = {"processor seconds"},
+                        .y_label = "relMSE of the picture",
+                        .log_x = true,
+                        .log_y = true};
+    for (const Method& method : all) plot.columns.push_back(method.name);
+    examples::Table table{.name = "irradiance_cache-trade-table",
+                          .columns = {"indirect light by", "rays per pixel",
+                                      "processor seconds", "bias²", "noise",
+                                      "blocks: bias²", "noise", "mean", "FLIP"}};
+    for (std::size_t m = 0; m < all.size(); ++m)
+        for (const int rays : rungs) {
+            const Result r = try_method(all[m], rays, oracle, sizes.seeds);
+            examples::Row row(all.size() + 1, nothing);
+            row[0] = r.seconds;
+            row[m + 1] = std::max(r.error(), 1e-9);
+            plot.rows.push_back(row);
+            if (rays != 4 && rays != rungs.back()) continue;
+            table.rows.push_back(
+                {all[m].name, std::to_string(rays), text(r.seconds, "%.3f"),
+                 text(r.pixels.bias_squared, "%.2g"), text(r.pixels.variance, "%.2g"),
+                 text(r.blocks.bias_squared, "%.2g"), text(r.blocks.variance, "%.2g"),
+                 text(100 * r.mean, "%+.2f %%"), text(r.flip, "%.3f")});
+        }
+    save_plot(options.out, plot);
+    show(options, table);
+}
+
+/// One idea more than the rung before.
+struct Rung {
+    const char* idea;
+    int shadow_rays;
+    DirectLight direct;
+    IndirectLight indirect;
+    bool stratified;
+    int more; ///< Rays where the first ones disagree.
+};
+constexpr std::array ladder_rungs{
+    Rung{"the report's: one shadow ray", 1, DirectLight::sampled, IndirectLight::rays,
+         false, 0},
+    Rung{"+ four shadow rays, stratified", 4, DirectLight::sampled, IndirectLight::rays,
+         false, 0},
+    Rung{"+ a stratified stream", 4, DirectLight::sampled, IndirectLight::rays, true,
+         0},
+    Rung{"+ lamps in closed form", 4, DirectLight::analytic, IndirectLight::rays, true,
+         0},
+    Rung{"+ the cache for indirect rays", 4, DirectLight::analytic,
+         IndirectLight::cache, true, 0},
+    Rung{"+ 8 more rays where 2 disagree", 4, DirectLight::analytic,
+         IndirectLight::cache, true, 8}};
+
+/// The room as a rung of the ladder renders it.
+Image shoot_rung(const Rung& rung, const Box& room, const RenderSettings& picture) {
+    auto settings = fast(picture.width, picture.seed, picture.threads);
+    settings.shadow_rays = rung.shadow_rays;
+    settings.direct = rung.direct;
+    settings.indirect = rung.indirect;
+    return rung.stratified
+               ? by_photons<StratifiedStream>(room, settings, picture, rung.more)
+               : by_photons<RandomStream>(room, settings, picture, rung.more);
+}
+
+/// From the report's photon mapper to the preset `fast`, one idea after the other.
+void ladder(const examples::Options& options, const Sizes& sizes,
+            const examples::Oracle& oracle) {
+    const Box room = cornell_box();
+    examples::Table table{.name = "irradiance_cache-ladder",
+                          .columns = {"", "processor seconds", "relMSE", "trimmed",
+                                      "of blocks", "mean", "FLIP"}};
+    for (const Rung& rung : ladder_rungs) {
+        const Method method{rung.idea, [&](int rays, std::uint64_t seed) {
+                                return shoot_rung(rung, room,
+                                                  {.width = sizes.side,
+                                                   .height = sizes.side,
+                                                   .samples = rays,
+                                                   .seed = seed,
+                                                   .threads = options.threads});
+                            }};
+        const Result r = try_method(method, 2, oracle, sizes.seeds);
+        table.rows.push_back({rung.idea, text(r.seconds, "%.3f"),
+                              text(r.error(), "%.2g"), text(r.trimmed, "%.2g"),
+                              text(r.block_error(), "%.2g"),
+                              text(100 * r.mean, "%+.2f %%"), text(r.flip, "%.3f")});
+    }
+    show(options, table);
+}
+
+/// What "three seconds" looks like.
+void fast_picture(const examples::Options& options) {
+    const Box room = cornell_box();
+    const double start = examples::processor_seconds();
+    const Image image = by_photons<StratifiedStream>(
+        room, fast(options.width, options.seed, options.threads),
+        {.width = options.width,
+         .height = options.height,
+         .samples = 2,
+         .seed = options.seed,
+         .threads = options.threads},
+        8);
+    show(options, {.name = "irradiance_cache-fast-table",
+                   .columns = {"pixels", "processor seconds of both passes"},
+                   .rows = {{std::to_string(options.width) + " x " +
+                                 std::to_string(options.height),
+                             text(examples::processor_seconds() - start, "%.2f")}}});
+    save_png(image, options.path("irradiance_cache-fast.png"));
+}
+
+// --- The closed form in a penumbra ---------------------------------------------------
+
+using Stage = Scene<Shapes<Quad>, Materials<Lambertian>>;
+
+/// A square lamp over a floor.
+struct Lamp {
+    const char* name;
+    float side, height;
+};
+constexpr std::array lamps{Lamp{"side 2, 1 above the floor", 2, 1},
+                           Lamp{"that of the box: side 0.5, 2 above", 0.5f, 2}};
+
+/// A floor, a lamp, and halfway between them half a ceiling whose edge is over x = 0.
+World<Stage> penumbra_stage(const Lamp& lamp) {
+    Stage stage;
+    const auto white = stage.add(Lambertian{.albedo = Rgb{1}});
+    const auto black = stage.add(Lambertian{.albedo = Rgb{0}});
+    const float h = lamp.height, s = lamp.side;
+    stage.add(Quad{.corner{-4, 0, -4}, .edge_u{0, 0, 8}, .edge_v{8, 0, 0}}, white);
+    stage.add(Quad{.corner{-8, h / 2, -8}, .edge_u{8, 0, 0}, .edge_v{0, 0, 16}}, black);
+    stage.add(Quad{.corner{-s / 2, h, -s / 2}, .edge_u{s, 0, 0}, .edge_v{0, 0, s}},
+              black, Rgb{1});
+    return World(std::move(stage));
+}
+
+constexpr std::array shadow_rays{1, 2, 4, 9};
+
+/// What the closed form with its shadow rays brings at one place, in parts of the whole
+/// lamp's light; one number for each number of shadow rays.
+struct InPenumbra {
+    double x = 0; ///< Of the place; the penumbra is -1 to 1.
+    std::array<double, shadow_rays.size()> bias{}, noise{}, sampled{};
+};
+
+InPenumbra measure_penumbra(const World<Stage>& stage, const Lamp& lamp, double place,
+                            std::uint64_t number, long long trials,
+                            std::uint64_t seed) {
+    InPenumbra here{.x = place};
+    const float h = lamp.height, s = lamp.side, x = float(place) * s / 2;
+    const Ray down{.origin{x, h / 4, 0}, .direction{0, -1, 0}};
+    const auto vertex = vertex_at(stage, down, *closest_hit(stage, down));
+    const Lambertian white{.albedo = Rgb{1}};
+    // From x the edge hides all of the lamp that is left of -x.
+    const auto from = [&](float left) {
+        const Quad part{
+            .corner{left, h, -s / 2}, .edge_u{s / 2 - left, 0, 0}, .edge_v{0, 0, s}};
+        if (!(left < s / 2)) return 0.0;
+        const auto& at = vertex.point;
+        return double(
+            form_factor_from(at.position, at.normal, part, false).value_or(0));
+    };
+    const double whole = from(-s / 2), exact = from(std::max(-s / 2, -x));
+    for (std::size_t k = 0; k < shadow_rays.size(); ++k)
+        for (const DirectLight how : {DirectLight::analytic, DirectLight::sampled}) {
+            double sum = 0, squares = 0;
+            for (long long t = 0; t < trials; ++t) {
+                auto stream =
+                    random_stream(seed, Pass::gathering, 1 + k,
+                                  number * std::uint64_t(trials) + std::uint64_t(t));
+                Counts counts;
+                auto context = context_of(stream, counts);
+                const double value =
+                    double(sample_all_lights(stage, vertex, white,
+                                             {how, shadow_rays[k]}, context)
+                               .x) /
+                    whole;
+                sum += value / double(trials);
+                squares += value * value / double(trials);
+            }
+            const double spread = std::sqrt(std::max(0.0, squares - sum * sum));
+            if (how == DirectLight::analytic) {
+                here.bias[k] = sum - exact / whole;
+                here.noise[k] = spread;
+            } else {
+                here.sampled[k] = spread;
+            }
+        }
+    return here;
+}
+
+void penumbra(const examples::Options& options) {
+    const int places = options.pick(10, 24, 24);
+    const long long trials = options.pick(8000, 100000, 1000000);
+    examples::Plot plot{
+        .name = "irradiance_cache-penumbra",
+        .columns = {"place; the penumbra is from -1 to 1", "1 ray", "2", "4", "9"},
+        .y_label = "bias, % of the whole lamp's light"};
+    examples::Table table{.name = "irradiance_cache-penumbra-table",
+                          .columns = {"lamp", "shadow rays", "largest bias",
+                                      "its standard error", "noise, closed form",
+                                      "noise, sampled", "in full light: closed form",
+                                      "sampled"}};
+    const auto percent = [](double share) { return text(100 * share, "%.2f %%"); };
+    for (const Lamp& lamp : lamps) {
+        const World stage = penumbra_stage(lamp);
+        std::vector<InPenumbra> found(static_cast<std::size_t>(places));
+        const auto at_place = [&](long long i) {
+            found[static_cast<std::size_t>(i)] = measure_penumbra(
+                stage, lamp, 1.2 * (2 * (double(i) + 0.5) / places - 1),
+                static_cast<std::uint64_t>(i), trials, options.seed);
+        };
+        (void)parallel_blocks(places, at_place, {.threads = options.threads});
+        examples::stop_if_asked();
+        if (plot.rows.empty())
+            for (const InPenumbra& f : found) {
+                plot.rows.push_back({f.x});
+                for (const double b : f.bias) plot.rows.back().push_back(100 * b);
+            }
+        for (std::size_t k = 0; k < shadow_rays.size(); ++k) {
+            double largest = 0, its = 0, noise = 0, sampled = 0;
+            for (const InPenumbra& f : found) {
+                if (std::abs(f.bias[k]) > std::abs(largest)) {
+                    largest = f.bias[k];
+                    its = f.noise[k] / std::sqrt(double(trials));
+                }
+                noise = std::max(noise, f.noise[k]);
+                sampled = std::max(sampled, f.sampled[k]);
+            }
+            table.rows.push_back({lamp.name, std::to_string(shadow_rays[k]),
+                                  percent(largest), percent(its), percent(noise),
+                                  percent(sampled), percent(found.back().noise[k]),
+                                  percent(found.back().sampled[k])});
+        }
+    }
+    save_plot(options.out, plot);
+    show(options, table);
+}
+
+} // namespace
+
+/// Makes the figures of chapter 29.
+/// \param argc  Number of arguments.
+/// \param argv  The command line; `--help` explains it.
+/// \return 0; 2 with one sentence for anything that is wrong.
+int main(int argc, char** argv) {
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        Sizes sizes;
+        line.about("Chapter 29, the irradiance cache: points, knobs, trades.");
+        line.add("--seeds", sizes.seeds, "Runs behind each error", 2, 1000);
+        line.add("--truth", sizes.truth, "Rays per pixel of the references", 8,
+                 100000000);
+        const examples::Options options =
+            line.parse({.draft{.width = 96, .height = 96, .samples = 4},
+                        .report{.width = 400, .height = 400, .samples = 4},
+                        .reference{.width = 400, .height = 400, .samples = 4}});
+        if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
+        if (!line.given("--truth")) sizes.truth = options.pick(256, 1024, 16384);
+        sizes.side = std::min(options.pick(40, 120, 200), options.width);
+        draw_idea(options);
+        corner(options);
+        penumbra(options);
+        pictures(options);
+        knobs(options, sizes);
+        const auto oracle = examples::find_oracle("cornell", cornell_box(), sizes.side,
+                                                  2 * sizes.truth, options);
+        methods(options, sizes, oracle);
+        ladder(options, sizes, oracle);
+        fast_picture(options);
+    });
+}
