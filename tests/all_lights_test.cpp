@@ -427,6 +427,45 @@ TEST_CASE("all lights: what a ray finds by itself, number by number") {
     CHECK(met > 100);
 }
 
+namespace {
+
+/// A stream that notes to which bounces' numbers it is moved.
+struct NotingStream {
+    RandomStream stream;
+    std::vector<std::uint64_t>* bounces;
+};
+template <std::floating_point T>
+T next_1d(NotingStream& noting) {
+    return next_1d<T>(noting.stream);
+}
+template <std::floating_point T>
+Vec2T<T> next_2d(NotingStream& noting) {
+    return next_2d<T>(noting.stream);
+}
+template <std::floating_point T>
+Vec3T<T> next_3d(NotingStream& noting) {
+    return next_3d<T>(noting.stream);
+}
+void start_bounce(NotingStream& noting, std::uint64_t bounce) {
+    noting.bounces->push_back(bounce);
+    start_bounce(noting.stream, bounce);
+}
+
+} // namespace
+
+TEST_CASE("all lights: the ray towards a lamp takes no numbers of the path's own") {
+    const World world(lit_floor(false));
+    const Vertex at = below(world, {0.2f, 0.5f, 0.1f});
+    std::vector<std::uint64_t> bounces;
+    NotingStream stream{random_stream(1, Pass::user, 0, 0), &bounces};
+    Counts counts;
+    auto context = context_of(stream, counts);
+    (void)detail::found_light(world, at, Lambertian{.albedo = Rgb{0.5f}}, 1, context);
+    REQUIRE(bounces.size() == 1);
+    // The path's bounces count from 1; no path has as many as 2^32.
+    CHECK(bounces[0] > 0xffffffffu);
+}
+
 TEST_CASE("all lights: the rays of a pixel share out all cells of a lamp") {
     // Five shadow rays have 25 cells and stand in 5 of them. A screen hides a quarter
     // of the lamp, 2 1/2 cells by 2 1/2: if all rays of a pixel chose the same 5, no

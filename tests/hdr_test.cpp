@@ -348,6 +348,19 @@ TEST_CASE("hdr: a row too narrow or too wide for the coding is read as it stands
     }
 }
 
+TEST_CASE("hdr: a plain row whose first colour begins like a coded one") {
+    // 2, 2 and a third byte of 128 or more, which no coded row has: a colour.
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.hdr");
+    std::string row{2, 2, char(200), char(130)};
+    for (int x = 1; x < 8; ++x) row += "\x03\x05\x07\x81";
+    ScratchFolder::write(path, "#?RADIANCE\n\n-Y 1 +X 8\n" + row);
+    REQUIRE(message_of_load(path) == "loaded");
+    const ljus::Image image = ljus::load_hdr(path);
+    CHECK(image.pixels[0] == ljus::Rgb{2 / 64.0f, 2 / 64.0f, 200 / 64.0f});
+    CHECK(image.pixels[7] == ljus::Rgb{3 / 128.0f, 5 / 128.0f, 7 / 128.0f});
+}
+
 TEST_CASE("hdr: a coded row may have any width from 8 to 32 767") {
     const ScratchFolder folder;
     const std::string path = folder.file("a.hdr");

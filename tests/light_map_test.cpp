@@ -310,11 +310,22 @@ TEST_CASE("light_map: a map of another scene is refused") {
     ++wrong.key.scene;
     refused(room.world, wrong);
     wrong = all->map;
-    wrong.grids[0].object.index = 99;
-    refused(room.world, wrong);
-    wrong = all->map;
-    wrong.grids[0].object.type = 7;
-    refused(room.world, wrong);
+    // A shape or a type of shapes that does not exist: the first beyond the list, too.
+    const PatchGrid& first = all->map.grids[0];
+    const auto shapes = std::uint32_t(std::get<0>(room.world.objects()).size());
+    REQUIRE(first.object.type == 0);
+    for (const std::uint32_t index : {shapes, shapes + 1, 99u}) {
+        wrong = all->map;
+        wrong.grids[0].object.index = index;
+        refused(room.world, wrong);
+    }
+    constexpr std::uint32_t types =
+        std::tuple_size_v<std::remove_cvref_t<decltype(room.world.objects())>>;
+    for (const std::uint32_t type : {types, types + 1, 99u}) {
+        wrong = all->map;
+        wrong.grids[0].object.type = type;
+        refused(room.world, wrong);
+    }
     wrong = all->map;
     wrong.grids[0].kind = detail::GridKind::triangle;
     refused(room.world, wrong);

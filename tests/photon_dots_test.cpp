@@ -222,6 +222,41 @@ TEST_CASE("photon dots: in the corners of a picture too, and just outside of non
         }
 }
 
+TEST_CASE("photon dots: in pictures that are wider than high, and higher than wide") {
+    Room room;
+    room.add(Quad{.corner{-50, -50, 0}, .edge_u{100, 0, 0}, .edge_v{0, 100, 0}},
+             room.add(Lambertian{.albedo = Rgb{0.5f}}));
+    const World world(std::move(room));
+    const auto seen = [&](Vec3 position, int width, int height) {
+        return photon_in_sight(world, front(), photon_at(position, {0, 0, -1}), width,
+                               height);
+    };
+    for (const auto& [width, height] : {std::pair{100, 60}, {60, 100}}) {
+        // Five units of the wall are half of the picture's height.
+        const float per_unit = float(height) / 10;
+        for (const float x : {-0.5f, 0.5f})
+            for (const float y : {-0.5f, 0.5f})
+                for (const float side : {0.98f, 1.02f}) {
+                    CAPTURE(width);
+                    CAPTURE(x);
+                    CAPTURE(y);
+                    CAPTURE(side);
+                    // In the last column or just beyond it, then the last row.
+                    const Vec2 across{x * side * float(width), 0.3f * float(height)};
+                    const Vec2 along{0.3f * float(width), y * side * float(height)};
+                    for (const Vec2 at : {across, along}) {
+                        const auto place =
+                            seen({at.x / per_unit, at.y / per_unit, 0}, width, height);
+                        CHECK(place.has_value() == (side < 1));
+                        if (place)
+                            CHECK(glm::distance(
+                                      *place, Vec2{float(width) / 2 + at.x,
+                                                   float(height) / 2 - at.y}) < 1e-3f);
+                    }
+                }
+    }
+}
+
 TEST_CASE("photon dots: the drawing darkens by the cosine, as it says") {
     // 0.16 (0.3 + 0.7 cos) times the albedo, away from the middle of the picture.
     const ClosedRoom room(wall(true));

@@ -67,3 +67,9 @@ ljus_break_it(NAME all-lights-found-flux HEADER path/all_lights.hpp TEST all_lig
     TO   "scatter(vertex, material, next_3d<T>(context.stream),
                               Transport::flux,"
     CASES "all lights: what a ray finds*")
+
+# The ray towards a lamp takes the numbers of the path's next bounce.
+ljus_break_it(NAME all-lights-branch HEADER path/all_lights.hpp TEST all_lights
+    FROM ".branch = std::uint64_t(1) << 44"
+    TO   ".branch = 0"
+    CASES "all lights: the ray towards a lamp*")

@@ -21,3 +21,9 @@ ljus_break_it(NAME hdr-wide-row HEADER io/hdr.hpp TEST hdr
     FROM "first[2] < 128)"
     TO   "first[2] < 2)"
     CASES "hdr: a coded row may have*")
+
+# A colour is taken for the beginning of a coded row.
+ljus_break_it(NAME hdr-plain-row HEADER io/hdr.hpp TEST hdr
+    FROM "first[1] == 2 && first[2] < 128)"
+    TO   "first[1] == 2)"
+    CASES "hdr: a plain row*")

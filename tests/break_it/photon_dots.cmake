@@ -21,3 +21,9 @@ ljus_break_it(NAME photon-dots-lamp HEADER path/vertex.hpp TEST photon_dots
     FROM "wo.z > T(0) && !is_black(object.emission)"
     TO   "!is_black(object.emission)"
     CASES "photon dots: the drawing*")
+
+# A picture is taken to be as high as it is wide.
+ljus_break_it(NAME photon-dots-height HEADER inspect/photon_dots.hpp TEST photon_dots
+    FROM "place->y < T(height)"
+    TO   "place->y < T(width)"
+    CASES "photon dots: in pictures that are wider*")

@@ -159,3 +159,9 @@ ljus_break_it(NAME light-map-most HEADER io/light_map_file.hpp TEST light_map
     FROM "if (patches > most)"
     TO   "if (false)"
     CASES "light_map: it comes back*")
+
+# A map is believed that has a grid of a shape beyond the last one.
+ljus_break_it(NAME light-map-beyond HEADER radiosity/light_map.hpp TEST light_map
+    FROM "grid.object.index < grid_of_[grid.object.type].size()"
+    TO   "grid.object.index <= grid_of_[grid.object.type].size()"
+    CASES "light_map: a map of another scene*")
