@@ -387,6 +387,112 @@ TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named")
           }).find("empty.png is no picture that can be read: ") == 0);
 }
 
+TEST_CASE("texture: a PNG file of another kind, and one of another gamma") {
+    const std::string apple = LJUS_TEST_INPUTS "/cgbi_red.png";
+    std::string said;
+    try {
+        (void)load_image(apple);
+    } catch (const std::runtime_error& error) {
+        said = error.what();
+    }
+    CHECK(said == apple +
+                      " is a PNG file of Apple's own kind (CgBI), which has red and "
+                      "blue exchanged; save it as plain PNG.");
+    // A chunk between the header, which ends at byte 33, and the pixels.
+    const auto with = [](const std::string& name, std::uint32_t value, bool as_number) {
+        Bytes file = encode_png(make_image<float>(2, 1, Rgb{0.5f}));
+        Bytes chunk{0, 0, 0, static_cast<unsigned char>(as_number ? 4 : 1)};
+        chunk.insert(chunk.end(), name.begin(), name.end());
+        for (int shift = as_number ? 24 : 0; shift >= 0; shift -= 8)
+            chunk.push_back(static_cast<unsigned char>(value >> shift & 255u));
+        const std::uint32_t sum = detail::png_sum(chunk, 4, chunk.size());
+        for (int shift = 24; shift >= 0; shift -= 8)
+            chunk.push_back(static_cast<unsigned char>(sum >> shift & 255u));
+        file.insert(file.begin() + 33, chunk.begin(), chunk.end());
+        return file;
+    };
+    // sRGB of 0.5 is byte 188.
+    const auto shown = [](const Bytes& file) {
+        return double(decode_image(file, "a").pixels[1].y);
+    };
+    CHECK(shown(with("gAMA", 100000, true)) == doctest::Approx(188 / 255.0));
+    CHECK(shown(with("gAMA", 50000, true)) ==
+          doctest::Approx(188 / 255.0 * (188 / 255.0)));
+    const double srgb = shown(with("teXt", 0, true));
+    CHECK(srgb == doctest::Approx(0.5).epsilon(0.01));
+    CHECK(shown(with("gAMA", 45455, true)) == srgb);
+    CHECK(shown(with("sRGB", 0, false)) == srgb);
+}
+
+TEST_CASE("texture: a photograph stands upright, as its EXIF segment says") {
+    // 24 x 16, in fields of 8: the first is red, the last blue, the others grey.
+    constexpr int width = 24, height = 16;
+    Bytes pixels;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const bool red = x < 8 && y < 8, blue = x >= 16 && y >= 8;
+            for (const int v : {blue  ? 0
+                                : red ? 255
+                                      : 90,
+                                red || blue ? 0 : 90,
+                                red    ? 0
+                                : blue ? 255
+                                       : 90})
+                pixels.push_back(static_cast<unsigned char>(v));
+        }
+    Bytes plain;
+    stbi_write_jpg_to_func(
+        [](void* to, void* data, int size) {
+            const auto* bytes = static_cast<const unsigned char*>(data);
+            static_cast<Bytes*>(to)->insert(static_cast<Bytes*>(to)->end(), bytes,
+                                            bytes + size);
+        },
+        &plain, width, height, 3, pixels.data(), 100);
+    const auto turned = [&](int orientation, bool low_first) {
+        Bytes file(plain.begin(), plain.begin() + 2);
+        const auto two = [&](int a, int b) {
+            return low_first ? std::array{b, a} : std::array{a, b};
+        };
+        const auto [kind_a, kind_b] = two(low_first ? 'I' : 'M', low_first ? 'I' : 'M');
+        const auto [mark_a, mark_b] = two(0, 42);
+        const auto [tag_a, tag_b] = two(0x01, 0x12);
+        const auto [type_a, type_b] = two(0, 3);
+        const auto [value_a, value_b] = two(0, orientation);
+        const auto [count_a, count_b] = two(0, 1);
+        const int low = low_first ? 8 : 0, high = low_first ? 0 : 8;
+        const int one_low = low_first ? 1 : 0, one_high = low_first ? 0 : 1;
+        ljus_test::add_jpeg_segment(
+            file, 0xe1, {'E',     'x',     'i',      'f',     0,       0,      kind_a,
+                         kind_b,  mark_a,  mark_b,   low,     0,       0,      high,
+                         count_a, count_b, tag_a,    tag_b,   type_a,  type_b, one_low,
+                         0,       0,       one_high, value_a, value_b, 0,      0});
+        file.insert(file.end(), plain.begin() + 2, plain.end());
+        return decode_image(file, "photo.jpg");
+    };
+    CHECK(decode_image(plain, "plain.jpg").width == width);
+    // Where the first field lies once it is upright: from the right, from below.
+    const bool right[] = {false, true, true, false, false, true, true, false};
+    const bool below[] = {false, false, true, true, false, false, true, true};
+    for (const bool low_first : {true, false})
+        for (int orientation = 1; orientation <= 8; ++orientation) {
+            CAPTURE(orientation);
+            CAPTURE(low_first);
+            const Image image = turned(orientation, low_first);
+            const bool lies = orientation >= 5;
+            REQUIRE(image.width == (lies ? height : width));
+            REQUIRE(image.height == (lies ? width : height));
+            const std::size_t i = std::size_t(orientation) - 1;
+            const int x = right[i] ? image.width - 4 : 3;
+            const int y = below[i] ? image.height - 4 : 3;
+            const Rgb red = pixel(image, x, y);
+            const Rgb blue = pixel(image, image.width - 1 - x, image.height - 1 - y);
+            CHECK(red.x > 0.9f);
+            CHECK(red.z < 0.1f);
+            CHECK(blue.z > 0.9f);
+            CHECK(blue.x < 0.1f);
+        }
+}
+
 TEST_CASE("texture: of pictures only those are read whose reader is trusted, and of "
           "PNG files only whole ones") {
     const auto refusal_of = [](const Bytes& bytes) -> std::string {

@@ -107,3 +107,21 @@ ljus_break_it(NAME texture-edge-size HEADER image/texture.hpp TEST texture
     FROM [[require(std::isnormal(v2), "plane_map.edge_v"]]
     TO   [[require(v2 > T(0), "plane_map.edge_v"]]
     CASES "texture: fields? edges? colours*")
+
+# The gamma of a PNG file is passed over.
+ljus_break_it(NAME png-gamma HEADER io/load_image.hpp TEST texture
+    FROM "if (png) picture.gamma = png_gamma(bytes);"
+    TO   ""
+    CASES "texture: a PNG file of another kind*")
+
+# A photograph that was taken upright lies.
+ljus_break_it(NAME jpeg-orientation HEADER io/load_image.hpp TEST texture
+    FROM "const bool from_below = turn == 3 || turn == 4 || turn == 6 || turn == 7;"
+    TO   "const bool from_below = turn == 3 || turn == 4 || turn == 8 || turn == 7;"
+    CASES "texture: a photograph*")
+
+# Red and blue of Apple's PNG files are exchanged.
+ljus_break_it(NAME png-apple HEADER io/load_image.hpp TEST texture
+    FROM "if (png && png_number(bytes, 12) == 0x43674249u)"
+    TO   "if (false)"
+    CASES "texture: a PNG file of another kind*")

@@ -74,6 +74,7 @@
 #endif
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -102,9 +103,11 @@ inline constexpr std::size_t max_image_file = std::size_t(1) << 27;
 inline constexpr int max_image_pixels = 1 << 25;
 
 #ifdef LJUS_HAS_STB_IMAGE
-// A picture as a file has it: sRGB, three bytes per pixel.
+// A picture as a file has it: three bytes per pixel.
 struct DecodedBytes {
     int width = 0, height = 0;
+    double gamma = 0;    // light to this power is what the bytes are; 0: sRGB
+    int orientation = 1; // jpeg_orientation()
     std::unique_ptr<stbi_uc, void (*)(void*)> pixels{nullptr, stbi_image_free};
 };
 
@@ -122,6 +125,9 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
                                 : jpeg ? jpeg_trouble(bytes)
                                        : nullptr)
         refuse(join({"is damaged: ", why}));
+    if (png && png_number(bytes, 12) == 0x43674249u) // CgBI
+        refuse("is a PNG file of Apple's own kind (CgBI), which has red and blue "
+               "exchanged; save it as plain PNG");
     // A channel of 16 bits takes twice the room before it is made one of 8.
     const bool is_deep = png && byte_at(bytes, 24) == 16;
     const int most_pixels = is_deep ? max_image_pixels / 2 : max_image_pixels;
@@ -135,6 +141,8 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
     if (png && png_number(bytes, 12) == 0x49484452u)
         require_size(png_number(bytes, 16), png_number(bytes, 20));
     DecodedBytes picture;
+    if (png) picture.gamma = png_gamma(bytes);
+    if (jpeg) picture.orientation = jpeg_orientation(bytes);
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const auto size = static_cast<int>(bytes.size());
     int &width = picture.width, &height = picture.height, channels = 0;
@@ -159,7 +167,9 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
 /// A picture from the bytes of a file.
 /// \param bytes  The file.
 /// \param path   What messages call it.
-/// \return Linear colours in [0, 1]; a transparent file's own, without its alpha.
+/// \return Linear colours in [0, 1]; a transparent file's own, without its alpha. A
+///         PNG file is decoded by its gamma, if it has a gAMA chunk and neither sRGB nor
+///         a profile (which is not read); a photograph stands upright as EXIF says.
 /// \throws std::runtime_error  with path and reason, if it is no picture.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path) {
@@ -170,12 +180,28 @@ template <std::floating_point T = float>
     const detail::DecodedBytes picture = detail::decode_bytes(bytes, refuse);
     std::array<T, 256> linear{};
     for (std::size_t i = 0; i < 256; ++i)
-        linear[i] = static_cast<T>(srgb_decode(static_cast<double>(i) / 255.0));
-    ImageT<T> image = make_image<T>(picture.width, picture.height);
-    const stbi_uc* next = picture.pixels.get();
-    for (RgbT<T>& color : image.pixels)
-        for (T* const channel : {&color.x, &color.y, &color.z})
-            *channel = linear[*next++];
+        linear[i] = static_cast<T>(
+            picture.gamma > 0
+                ? std::pow(static_cast<double>(i) / 255.0, 1 / picture.gamma)
+                : srgb_decode(static_cast<double>(i) / 255.0));
+    // 2 to 4: mirrored or turned by half; 5 to 8: those with rows for columns.
+    const int turn = picture.orientation;
+    const bool rows_for_columns = turn >= 5 && turn <= 8;
+    const bool from_right = turn == 2 || turn == 3 || turn == 7 || turn == 8;
+    const bool from_below = turn == 3 || turn == 4 || turn == 6 || turn == 7;
+    ImageT<T> image = rows_for_columns ? make_image<T>(picture.height, picture.width)
+                                       : make_image<T>(picture.width, picture.height);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            int column = rows_for_columns ? y : x, row = rows_for_columns ? x : y;
+            if (from_right) column = picture.width - 1 - column;
+            if (from_below) row = picture.height - 1 - row;
+            const stbi_uc* const from =
+                picture.pixels.get() +
+                3 * (std::size_t(row) * std::size_t(picture.width) +
+                     std::size_t(column));
+            pixel(image, x, y) = {linear[from[0]], linear[from[1]], linear[from[2]]};
+        }
     return image;
 #else
     (void)bytes;

@@ -3,7 +3,9 @@
 /// \file ljus/io/detail/picture_damage.hpp
 /// \brief What is wrong with a PNG or JPEG file that stb_image does not ask about.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -46,6 +48,22 @@ inline const char* png_trouble(const Bytes& file) {
         at += 12 + size;
     }
     return "it ends before its last chunk";
+}
+
+// The exponent 1/gamma by which a PNG file is coded, if it says so and does not say that
+// it is sRGB or has a profile; else 0. png_trouble() has found nothing.
+inline double png_gamma(const Bytes& file) {
+    double gamma = 0;
+    for (std::size_t at = 8; file.size() - at >= 12;
+         at += 12 + std::size_t(png_number(file, at))) {
+        const std::uint32_t name = png_number(file, at + 4);
+        if (name == 0x73524742u || name == 0x69434350u) return 0; // sRGB, iCCP
+        if (name == 0x49444154u) break;                           // IDAT
+        if (name == 0x67414d41u && png_number(file, at) == 4)     // gAMA
+            gamma = png_number(file, at + 8) / 1e5;
+    }
+    // That of sRGB, nearly: so do files say it that have no other word for it.
+    return std::abs(gamma - 0.45455) < 0.005 ? 0 : gamma;
 }
 
 // A byte of a file; 0 behind its end, as stb_image has it.
@@ -104,6 +122,36 @@ inline std::size_t behind_pixels(const Bytes& file, std::size_t at) {
 // most; a progressive one, whose parts refine one another, has some ten as a rule.
 inline bool too_many_scans(int scans, bool in_parts) {
     return scans > (in_parts ? 64 : 4);
+}
+
+// How a JPEG file says that it is to be turned, by the orientation of its EXIF segment: 1
+// as it is, 2 to 8 as load_image() does it. The segment is a TIFF file: which byte of a
+// number comes first, where the first list of fields stands, its fields of 12 bytes each.
+inline int jpeg_orientation(const Bytes& file) {
+    constexpr unsigned char exif = 0xe1, scan = 0xda;
+    for (std::size_t at = 2; at + 4 <= file.size() && file[at] == 0xff;
+         at += 2 + std::size_t(file[at + 2]) * 256 + file[at + 3]) {
+        if (file[at + 1] == scan) break;
+        constexpr std::array<unsigned char, 6> name{'E', 'x', 'i', 'f', 0, 0};
+        const std::size_t tiff = at + 10;
+        if (file[at + 1] != exif || tiff + 8 > file.size() ||
+            !std::equal(name.begin(), name.end(), file.data() + at + 4))
+            continue;
+        const bool low_first = file[tiff] == 'I';
+        const auto number = [&](std::size_t i, std::size_t bytes) {
+            std::size_t value = 0;
+            for (std::size_t k = 0; k < bytes; ++k)
+                value =
+                    value * 256 + byte_at(file, i + (low_first ? bytes - 1 - k : k));
+            return value;
+        };
+        const std::size_t fields = tiff + number(tiff + 4, 4);
+        for (std::size_t i = 0; i < number(fields, 2); ++i)
+            if (const std::size_t field = fields + 2 + 12 * i;
+                number(field, 2) == 0x112)
+                return static_cast<int>(number(field + 8, 2));
+    }
+    return 1;
 }
 
 // What is wrong with a JPEG file, segment by segment: stb_image trusts its tables, and
