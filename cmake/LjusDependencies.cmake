@@ -37,11 +37,6 @@ ljus_package(nlohmann_json HEADER nlohmann/json.hpp PACKAGE nlohmann_json
     REPOSITORY https://github.com/nlohmann/json.git
     COMMIT 9cca280a4d0ccf0c08f47a99aa71d1b0e52f8d03 # 3.11.3
     INCLUDE include)
-ljus_package(tinyobjloader HEADER tiny_obj_loader.h PACKAGE tinyobjloader
-    TARGET tinyobjloader::tinyobjloader APT libtinyobjloader-dev
-    REPOSITORY https://github.com/tinyobjloader/tinyobjloader.git
-    COMMIT cab4ad7254cbf7eaaafdb73d272f99e92f166df8
-    INCLUDE BUILD) # compiled, as above
 ljus_package(benchmark HEADER benchmark/benchmark.h PACKAGE benchmark
     TARGET benchmark::benchmark APT libbenchmark-dev
     REPOSITORY https://github.com/google/benchmark.git

@@ -361,6 +361,14 @@ TEST_CASE("hdr: a plain row whose first colour begins like a coded one") {
     CHECK(image.pixels[7] == ljus::Rgb{3 / 128.0f, 5 / 128.0f, 7 / 128.0f});
 }
 
+TEST_CASE("hdr: a header whose lines end in CR LF, as some systems have it") {
+    const ljus::Image image = ljus::load_hdr(LJUS_TEST_INPUTS "/crlf.hdr");
+    REQUIRE(image.width == 8);
+    REQUIRE(image.height == 2);
+    for (const ljus::Rgb& color : image.pixels)
+        CHECK(color == ljus::Rgb{1, 0.5f, 0.25f});
+}
+
 TEST_CASE("hdr: a coded row may have any width from 8 to 32 767") {
     const ScratchFolder folder;
     const std::string path = folder.file("a.hdr");

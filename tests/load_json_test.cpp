@@ -601,7 +601,7 @@ TEST_CASE("load_json: broken JSON is refused with line and column") {
     CHECK(endless.find("44...; it must be finite.") != std::string::npos);
     for (const char* const begin : {"\xff\xfe{", "\xfe\xff"})
         CHECK(refusal(begin) ==
-              "a.json: the text is UTF-16; it must be saved as UTF-8.");
+              "cannot read 'a.json': its text is UTF-16; save it as UTF-8.");
     const std::string deep(100'000, '[');
     CHECK(refusal(deep).find("is nested too deeply; at most 32 levels are allowed.") !=
           std::string::npos);

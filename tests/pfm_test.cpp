@@ -182,3 +182,11 @@ TEST_CASE("pfm: a size with many digits is no small one, a word has at most 64")
     CHECK(message(std::string(64, '0') + "1") ==
           "its header has a word of more than 64 letters.");
 }
+
+TEST_CASE("pfm: blanks behind the words of the header are no pixels") {
+    const ljus::Image image = ljus::load_pfm(LJUS_TEST_INPUTS "/spaces.pfm");
+    REQUIRE(image.width == 4);
+    REQUIRE(image.height == 2);
+    for (const ljus::Rgb& color : image.pixels)
+        CHECK(color == ljus::Rgb{0.5f, 0.25f, 0.125f});
+}

@@ -3,9 +3,6 @@
 
 #include "fuzz.hpp"
 
-#define TINYOBJLOADER_IMPLEMENTATION // compiled here, so that it is looked at as well
-#include <tiny_obj_loader.h>
-
 #include "ljus/io/load_obj.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

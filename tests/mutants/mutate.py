@@ -235,7 +235,7 @@ def with_headers(command, folder):
 
 def libraries():
     """What the headers of /usr/include have to be linked with."""
-    needed = {"mpfr.h": ["-lmpfr", "-lgmp"], "tiny_obj_loader.h": ["-ltinyobjloader"]}
+    needed = {"mpfr.h": ["-lmpfr", "-lgmp"]}
     return [
         library
         for header, names in needed.items() for library in names

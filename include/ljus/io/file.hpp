@@ -126,6 +126,24 @@ inline void require_writable(const std::string& path) {
     }
 }
 
+namespace detail {
+
+// A text without the byte order mark of UTF-8; UTF-16 is refused.
+inline std::string_view plain_text(std::string_view text, const std::string& path) {
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+        fail_to_read(path, "its text is UTF-16; save it as UTF-8");
+    return text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
+}
+
+// The plain_text() of a file.
+inline std::string load_text(const std::string& path, std::size_t most) {
+    const Bytes bytes = load_file(path, most);
+    return std::string(
+        plain_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path));
+}
+
+} // namespace detail
+
 /// \}
 
 } // namespace ljus

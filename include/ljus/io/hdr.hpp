@@ -162,7 +162,7 @@ template <std::floating_point T = float>
     const std::string y_size = reader.word();
     const std::string x_word = reader.word();
     const int height = reader.size(y_size);
-    const int width = reader.size(reader.word());
+    const int width = reader.size(reader.last_word());
     if (y_word != "-Y" || x_word != "+X")
         reader.fail("its rows go " + shown(y_word) + " " + shown(x_word) +
                     "; only -Y +X is read");

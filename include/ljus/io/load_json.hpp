@@ -163,9 +163,8 @@ template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT
 template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT<T>>
 [[nodiscard]] LoadedSceneT<T> load_json(const std::string& path,
                                         LoadMeshes load_meshes = {}) {
-    const Bytes bytes = load_file(path, detail::max_scene_file);
-    return read_json_scene<T>(
-        {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, load_meshes);
+    return read_json_scene<T>(detail::load_text(path, detail::max_scene_file), path,
+                              load_meshes);
 }
 
 /// \}

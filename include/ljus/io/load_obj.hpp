@@ -3,12 +3,6 @@
 /// \file ljus/io/load_obj.hpp
 /// \brief Meshes from OBJ files.
 
-#include <sstream>
-
-#ifndef TINY_OBJ_LOADER_H_ // it guards its names, and not what it implements
-#include <tiny_obj_loader.h>
-#endif
-
 #include "ljus/accel/mesh.hpp"
 #include "ljus/io/detail/obj_reader.hpp"
 #include "ljus/io/load_image.hpp"
@@ -21,8 +15,7 @@
 namespace ljus {
 
 /// \defgroup load_obj Mesh files
-/// \brief Optional (tinyobjloader, its library is linked too): OBJ files and their MTL
-/// files.
+/// \brief OBJ files and their MTL files.
 ///
 ///     const auto teapot = load_obj("teapot.obj", {.scale = 0.1});
 ///     std::fputs(to_text(teapot.report).c_str(), stderr);
@@ -30,23 +23,18 @@ namespace ljus {
 ///     scene.add(teapot.parts[0].mesh, scene.add(Glass{}));  // or one's own
 /// \{
 
-namespace detail {
-
 /// All faces of one material.
 template <std::floating_point T>
 struct ObjPartT {
-    MeshT<T> mesh;                ///< Its triangles.
-    detail::ObjMaterial material; ///< What the file says that it is made of.
+    MeshT<T> mesh;        ///< Its triangles.
+    ObjMaterial material; ///< What the file says that it is made of.
 };
-
-} // namespace detail
 
 /// What a mesh file holds.
 template <std::floating_point T>
 struct LoadedObjT {
-    std::vector<detail::ObjPartT<T>>
-        parts{};        ///< One a material, in order of first use.
-    ObjReport report{}; ///< What is wrong with it.
+    std::vector<ObjPartT<T>> parts{}; ///< One per material, in order of first use.
+    ObjReport report{};               ///< What is wrong with it.
     /// Those that could be read of the parts' materials, by their paths.
     std::map<std::string, ImageT<T>> pictures{};
 };
@@ -58,30 +46,6 @@ using ObjPictureT = Textured<LambertianT<T>, PictureTextureT<T, UvMapT<T>>>;
 using ObjPicture = ObjPictureT<float>; ///< ObjPictureT in float.
 
 namespace detail {
-
-// What tinyobjloader calls while it reads: the reader, which finds the numbers itself.
-template <std::floating_point T>
-tinyobj::callback_t calls_of_reader() {
-    using Reader = ObjReader<T>;
-    using Real = tinyobj::real_t;
-    tinyobj::callback_t calls;
-    calls.vertex_cb = [](void* reader, Real, Real, Real, Real) {
-        static_cast<Reader*>(reader)->vertex();
-    };
-    calls.normal_cb = [](void* reader, Real, Real, Real) {
-        static_cast<Reader*>(reader)->normal();
-    };
-    calls.texcoord_cb = [](void* reader, Real, Real, Real) {
-        static_cast<Reader*>(reader)->texture();
-    };
-    calls.index_cb = [](void* reader, tinyobj::index_t* corners, int count) {
-        static_cast<Reader*>(reader)->face(corners, static_cast<std::size_t>(count));
-    };
-    calls.usemtl_cb = [](void* reader, const char* name, int) {
-        static_cast<Reader*>(reader)->use(name);
-    };
-    return calls;
-}
 
 [[noreturn]] inline void refuse_without_faces(const std::string& file,
                                               const ObjReport& report) {
@@ -102,7 +66,7 @@ void load_picture(const ObjMaterial& material, LoadedObjT<T>& loaded) {
     try {
         loaded.pictures.emplace(path, load_image<T>(path));
     } catch (const std::runtime_error& wrong) {
-        loaded.report.pictures.push_back(
+        loaded.report.notes.push_back(
             (material.picture_at + ": ").append(wrong.what()));
     }
 }
@@ -122,17 +86,11 @@ void load_picture(const ObjMaterial& material, LoadedObjT<T>& loaded) {
 ///         trouble: line 7: 12 faces name a vertex or a normal that is not there; ..."
 /// \throws std::invalid_argument  for a scale that is not finite and above 0.
 template <std::floating_point T = float>
-[[nodiscard]] LoadedObjT<T> read_obj(std::string text, const std::string& file,
+[[nodiscard]] LoadedObjT<T> read_obj(std::string_view text, const std::string& file,
                                      const ObjSettings& settings = {}) {
     require_positive("the scale of a mesh file", settings.scale);
-    detail::blunt_exponents(text);
-    std::istringstream stream(std::move(text));
-    detail::ObjReader<T> reader{.settings = settings, .line{.stream = stream}};
-    reader.materials =
-        detail::read_materials(stream.view(), detail::folder_of(file), reader.report);
-    std::string warning, error; // ours are in the report
-    tinyobj::LoadObjWithCallback(stream, detail::calls_of_reader<T>(), &reader, nullptr,
-                                 &warning, &error);
+    detail::ObjReader<T> reader{.file = file, .settings = settings};
+    reader.read(detail::plain_text(text, file));
     if (reader.parts.empty()) detail::refuse_without_faces(file, reader.report);
 
     LoadedObjT<T> loaded{.report = std::move(reader.report)};
@@ -159,8 +117,7 @@ template <std::floating_point T = float>
 template <std::floating_point T = float>
 [[nodiscard]] LoadedObjT<T> load_obj(const std::string& path,
                                      const ObjSettings& settings = {}) {
-    const Bytes bytes = load_file(path, detail::max_obj_file);
-    return read_obj<T>(std::string(bytes.begin(), bytes.end()), path, settings);
+    return read_obj<T>(detail::load_text(path, detail::max_obj_file), path, settings);
 }
 
 /// Adds all meshes of a file to a scene, each made of what the file says: glass and
@@ -171,8 +128,8 @@ template <std::floating_point T = float>
 /// \param loaded  What load_obj() returned.
 template <typename Scene, std::floating_point T>
 void add_obj(Scene& scene, const LoadedObjT<T>& loaded) {
-    for (const detail::ObjPartT<T>& part : loaded.parts) {
-        const detail::ObjMaterial& is = part.material;
+    for (const ObjPartT<T>& part : loaded.parts) {
+        const ObjMaterial& is = part.material;
         const GlassT<T> glass{.index = static_cast<T>(is.index)};
         const MirrorT<T> mirror{.reflectance = RgbT<T>(is.specular)};
         MaterialId id = [&] {
@@ -199,7 +156,7 @@ void add_obj(Scene& scene, const LoadedObjT<T>& loaded) {
 template <typename Scene, std::floating_point T>
 void add_obj(Scene& scene, const LoadedObjT<T>& loaded, MaterialId material,
              const RgbT<T>& radiance = RgbT<T>{0}) {
-    for (const detail::ObjPartT<T>& part : loaded.parts)
+    for (const ObjPartT<T>& part : loaded.parts)
         scene.add(part.mesh, material, radiance);
 }
 

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <cstdint>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
+
+#include <glm/geometric.hpp>
 
 #include "ljus/accel/mesh_data.hpp"
 
@@ -20,18 +23,24 @@ namespace ljus {
 
 /// What may be wrong with a mesh file.
 enum class ObjTrouble : std::uint8_t {
-    bad_number,   ///< A coordinate that is none, or not finite; its faces are left out.
-    bad_normal,   ///< A normal that is none; its faces are flat.
-    bad_uv,       ///< A texture coordinate that is none; its faces have (0, 0).
-    no_uv,        ///< A face without texture coordinates in a mesh that has some.
-    bad_index,    ///< A face with a vertex, uv or normal that is not there, left out.
-    few_corners,  ///< A face with fewer than three corners, left out.
-    many_corners, ///< A face with more than 1000 corners, left out.
-    no_area,      ///< A face without an area, left out.
+    bad_number, ///< A coordinate that is none, or not finite; its faces are left out.
+    bad_normal, ///< A normal that is none; its faces are flat.
+    bad_uv,     ///< A texture coordinate that is none; its faces have (0, 0).
+    no_uv,      ///< A face without texture coordinates in a mesh that has some.
+    bad_index,  ///< A face with a vertex that is not there, left out.
+    no_such_uv, ///< A face with a uv that is not there: it has (0, 0).
+    no_such_normal, ///< A face with a normal that is not there: it is flat.
+    few_corners,    ///< A face with fewer than three corners, left out.
+    many_corners,   ///< A face with more than 1000 corners, left out.
+    no_area,        ///< A face without an area, left out.
+    crossed,        ///< A face that crosses itself: its triangles overlap.
     turned,       ///< A face whose normals point to its inner side; they are not used.
     edge_of_many, ///< An edge of three faces or more: no side is inside.
     edge_turned,  ///< An edge whose two faces are wound in different ways.
     edge_open,    ///< An edge of one face: the mesh is not closed, no good for glass.
+    inside_out,   ///< All meshes are closed, and their volume is below 0.
+    vertex_color, ///< A vertex with a colour of its own, which is not used.
+    no_face,      ///< A line, point, curve or surface, left out.
     no_material,  ///< A material that is not there.
     no_library,   ///< A material file that cannot be read.
 };
@@ -39,29 +48,30 @@ enum class ObjTrouble : std::uint8_t {
 namespace detail {
 
 /// How many there are.
-inline constexpr std::size_t obj_troubles = 14;
+inline constexpr std::size_t obj_troubles = 20;
 
-/// How often, and where first.
+} // namespace detail
+
+/// How often a trouble was seen, and where first.
 struct ObjCount {
     long long count = 0; ///< How often.
     long long line = 0;  ///< The first line, from 1.
 };
 
-} // namespace detail
-
 /// All of it.
 struct ObjReport {
-    std::array<detail::ObjCount, detail::obj_troubles> counts{}; ///< By ObjTrouble.
-    /// A sentence a picture that cannot be read, with its line of the material file.
-    std::vector<std::string> pictures{};
+    std::array<ObjCount, detail::obj_troubles> counts{}; ///< By ObjTrouble.
+    /// What is wrong with material files and their pictures, a sentence each, with its
+    /// file and line.
+    std::vector<std::string> notes{};
 
     /// Counts one more.
     void add(ObjTrouble trouble, long long line) {
-        detail::ObjCount& at = counts[static_cast<std::size_t>(trouble)];
+        ObjCount& at = counts[static_cast<std::size_t>(trouble)];
         if (at.count++ == 0 || line < at.line) at.line = line;
     }
     /// How often, and where first.
-    [[nodiscard]] const detail::ObjCount& operator[](ObjTrouble trouble) const {
+    [[nodiscard]] const ObjCount& operator[](ObjTrouble trouble) const {
         return counts[static_cast<std::size_t>(trouble)];
     }
 };
@@ -76,15 +86,20 @@ struct ObjReport {
         "normals are 0 or no finite numbers; faces there are flat",
         "texture coordinates are no finite numbers; (0, 0) is taken",
         "faces have no texture coordinates, others of their mesh do; (0, 0) is taken",
-        "faces name a vertex, a texture coordinate or a normal that is not there; they "
-        "are left out",
+        "faces name a vertex that is not there; they are left out",
+        "faces name a texture coordinate that is not there; (0, 0) is taken",
+        "faces name a normal that is not there; they are flat",
         "faces have fewer than three corners; they are left out",
         "faces have more than 1000 corners; they are left out",
         "faces have no area; they are left out",
+        "faces cross themselves; their triangles overlap",
         "faces have normals that point to their inner side; they are shaded flat",
         "edges belong to three faces or more; no side there is the inside",
         "edges have faces that are wound in opposite ways; one of them is inside out",
         "edges belong to one face only; such a mesh is not closed, no good for glass",
+        "closed meshes are inside out; as glass they are bubbles of air",
+        "vertices have colours of their own; they are not used",
+        "lines, points, curves or surfaces are no faces; they are left out",
         "uses of a material that no material file has; the default is taken",
         "material files cannot be read; the default material is taken"};
     std::string text;
@@ -97,25 +112,33 @@ struct ObjReport {
                 .append(" ")
                 .append(words[i])
                 .append(".\n");
-    for (const std::string& picture : report.pictures)
-        text.append(picture).append("\n");
+    for (const std::string& note : report.notes) text.append(note).append("\n");
     return text;
 }
 
 namespace detail {
 
 // Counts the edges of a mesh that a closed surface does not have, with the lines of its
-// triangles. Vertices at the same place count as one. O(n log n).
+// triangles, and whether a closed one is inside out. Vertices at the same place count as
+// one. O(n log n).
 template <std::floating_point T>
 void count_edges(const MeshDataT<T>& data, const std::vector<long long>& lines,
                  ObjReport& report) {
-    std::map<std::array<T, 3>, std::uint32_t> places;
-    std::vector<std::uint32_t> place;
-    for (const Vec3T<T>& p : data.positions)
-        place.push_back(
-            places
-                .try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(places.size()))
-                .first->second);
+    // For each vertex the first one at its place.
+    std::vector<std::uint32_t> order, place(data.positions.size());
+    for (const auto& triangle : data.triangles)
+        order.insert(order.end(), triangle.begin(), triangle.end());
+    const auto key = [&](std::uint32_t vertex) {
+        const Vec3T<T>& p = data.positions[vertex];
+        return std::tuple{p.x, p.y, p.z};
+    };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return std::tuple{key(a), a} < std::tuple{key(b), b};
+    });
+    for (std::size_t i = 0; i < order.size(); ++i)
+        place[order[i]] = i > 0 && key(order[i]) == key(order[i - 1])
+                              ? place[order[i - 1]]
+                              : order[i];
     struct Edge {
         std::uint32_t low, high; // its ends
         bool forwards;           // as its triangle has it
@@ -132,8 +155,11 @@ void count_edges(const MeshDataT<T>& data, const std::vector<long long>& lines,
             if (a != b) edges.push_back({std::min(a, b), std::max(a, b), a < b, i});
         }
     std::sort(edges.begin(), edges.end());
+    bool closed = !edges.empty();
     for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
         while (next < edges.size() && !(edges[i] < edges[next])) ++next;
+        if (next - i == 2 && edges[i].forwards != edges[i + 1].forwards) continue;
+        closed = false;
         long long line = lines[edges[i].triangle];
         for (std::size_t k = i; k < next; ++k)
             line = std::min(line, lines[edges[k].triangle]);
@@ -141,9 +167,17 @@ void count_edges(const MeshDataT<T>& data, const std::vector<long long>& lines,
             report.add(ObjTrouble::edge_of_many, line);
         else if (next - i == 1)
             report.add(ObjTrouble::edge_open, line);
-        else if (edges[i].forwards == edges[i + 1].forwards)
+        else
             report.add(ObjTrouble::edge_turned, line);
     }
+    if (!closed) return;
+    double volume = 0; // six times, from a corner of the mesh
+    const glm::dvec3 from(data.positions[data.triangles[0][0]]);
+    for (const auto& [a, b, c] : data.triangles)
+        volume += glm::dot(glm::dvec3(data.positions[a]) - from,
+                           glm::cross(glm::dvec3(data.positions[b]) - from,
+                                      glm::dvec3(data.positions[c]) - from));
+    if (volume < 0) report.add(ObjTrouble::inside_out, lines[0]);
 }
 
 } // namespace detail

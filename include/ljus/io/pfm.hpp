@@ -68,6 +68,7 @@ template <std::floating_point T = float>
     const std::size_t channels = kind == "PF" ? 3 : 1;
     const std::size_t expected = 4 * channels * static_cast<std::size_t>(width) *
                                  static_cast<std::size_t>(height);
+    reader.skip_blanks(expected);
     if (reader.left() != expected)
         reader.fail("its " + std::to_string(width) + " x " + std::to_string(height) +
                     " pixels require " + std::to_string(expected) +

@@ -77,6 +77,14 @@ struct ByteReader {
         return text;
     }
 
+    // The last word of a line, and the end of the line.
+    std::string last_word() {
+        std::string text = line();
+        text.erase(0, text.find_first_not_of(" \t"));
+        text.erase(text.find_last_not_of(" \t") + 1);
+        return text;
+    }
+
     // The characters up to the end of the line, which is taken as well.
     std::string line() {
         std::string text;
@@ -87,6 +95,11 @@ struct ByteReader {
         }
         if (!text.empty() && text.back() == '\r') text.pop_back();
         return text;
+    }
+
+    // Passes over white space that stands between the header and so many bytes.
+    void skip_blanks(std::size_t expected) noexcept {
+        while (left() > expected && is_space(to_char(bytes[position]))) ++position;
     }
 
     // The number of pixels that a word of the header says.

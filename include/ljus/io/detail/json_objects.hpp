@@ -49,7 +49,7 @@ struct NoMeshesT {
         throw std::runtime_error(
             shown_path(file) +
             ": meshes are not read here; load_json() must be given ObjMeshes, of "
-            "ljus/io/load_obj.hpp, which needs tinyobjloader.");
+            "ljus/io/load_obj.hpp.");
     }
 };
 

@@ -1,14 +1,14 @@
 #pragma once
 
 /// \file ljus/io/detail/obj_material.hpp
-/// \brief What mesh files say of materials.
+/// \brief The materials of a mesh file, from its material files (MTL).
 
 #include <algorithm>
-#include <sstream>
+#include <cmath>
+#include <map>
+#include <stdexcept>
 
-#ifndef TINY_OBJ_LOADER_H_ // it guards its names, and not what it implements
-#include <tiny_obj_loader.h>
-#endif
+#include <glm/common.hpp>
 
 #include "ljus/io/detail/obj_text.hpp"
 #include "ljus/io/file.hpp"
@@ -19,20 +19,14 @@ namespace ljus {
 /// \addtogroup obj_reader
 /// \{
 
-namespace detail {
-
-/// The largest file that load_obj() takes, in bytes.
-inline constexpr std::size_t max_obj_file = std::size_t(1) << 30;
-
-/// What a material file says of a material; numbers as in the file, clamped to what
-/// they may be.
+/// What a material file says of a material.
 struct ObjMaterial {
     std::string name{};       ///< Empty for faces without a material.
-    glm::dvec3 diffuse{0.5};  ///< Kd, in [0, 1].
+    glm::dvec3 diffuse{0.5};  ///< Kd, in [0, 1]; 1 if there is a picture and no Kd.
     glm::dvec3 specular{0};   ///< Ks, in [0, 1].
     glm::dvec3 emission{0};   ///< Ke, W/(m^2 sr), at least 0.
     double index = 1.5;       ///< Ni, within [0.001, 1000].
-    double dissolve = 1;      ///< d: 0 is clear.
+    double dissolve = 1;      ///< d, or 1 - Tr: 0 is clear.
     int illumination = 2;     ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass.
     std::string picture{};    ///< map_Kd, which Kd multiplies: its path; empty: none.
     std::string picture_at{}; ///< Where that stands: "room.mtl, line 12".
@@ -48,74 +42,149 @@ struct ObjMaterial {
     }
 };
 
-inline ObjMaterial material_of(const tinyobj::material_t& from) {
-    const auto within = [](double x, double low, double high) { // NaN: low
-        return x > low ? (x < high ? x : high) : low;
-    };
-    const auto color = [&](const tinyobj::real_t* c, double most) {
-        return glm::dvec3(within(double(c[0]), 0, most), within(double(c[1]), 0, most),
-                          within(double(c[2]), 0, most));
-    };
-    return {.name = from.name,
-            .diffuse = color(from.diffuse, 1),
-            .specular = color(from.specular, 1),
-            .emission = color(from.emission, 1e12),
-            .index = within(double(from.ior), 1e-3, 1e3),
-            .dissolve = within(double(from.dissolve), 0, 1),
-            .illumination = from.illum};
+namespace detail {
+
+/// The largest file that load_obj() takes, in bytes.
+inline constexpr std::size_t max_obj_file = std::size_t(1) << 30;
+
+// The file that another one names, on any system: "maps\wall.png" beside it.
+inline std::string file_named(const std::string& beside, std::string name) {
+    std::replace(name.begin(), name.end(), '\\', '/');
+    return path_beside(beside, name);
 }
 
-// The line of a material file that names a picture, from 1; 0 for none.
-inline long long line_of_picture(std::string_view text, std::string_view picture) {
-    long long first = 0;
-    each_line(text, [&](std::string_view line, long long number) {
-        const auto words = words_of(line);
-        const bool names =
-            !words.empty() && words[0] == "map_Kd" && line.find(picture) != line.npos;
-        if (names && first == 0) first = number;
-    });
-    return first;
-}
+// Reads one material file, line by line.
+struct MaterialReader {
+    const std::string& path;                       // of the file
+    std::map<std::string, ObjMaterial>& materials; // takes what is read
+    std::vector<std::string>& notes;               // takes a sentence a trouble
 
-// Adds the materials of one material file; of a name that is there the first one stays.
-inline void add_library(std::map<std::string, ObjMaterial>& materials,
-                        const std::string& path) {
-    const Bytes bytes = load_file(path, max_obj_file);
-    std::string text(bytes.begin(), bytes.end());
-    blunt_exponents(text);
-    std::istringstream stream(text);
-    std::map<std::string, int> names;
-    std::vector<tinyobj::material_t> found;
-    std::string warning, error;
-    tinyobj::LoadMtl(&names, &found, &stream, &warning, &error);
-    for (const tinyobj::material_t& from : found) {
-        ObjMaterial material = material_of(from);
-        if (std::string picture = from.diffuse_texname; !picture.empty()) {
-            material.picture_at = shown_path(path) + ", line " +
-                                  std::to_string(line_of_picture(text, picture));
-            std::replace(picture.begin(), picture.end(), '\\', '/');
-            material.picture = path_beside(path, picture);
-        }
-        materials.try_emplace(from.name, std::move(material));
+    ObjMaterial ignored{}; // for lines before the first material, or of a name again
+    ObjMaterial* material = &ignored;
+    bool has_diffuse = false, has_dissolve = false;
+    long long number = 0; // of the line
+
+    std::string where() const {
+        return shown_path(path) + ", line " + std::to_string(number);
     }
-}
-
-// The materials of all files that a mesh file names; the first of a name counts.
-inline std::map<std::string, ObjMaterial>
-read_materials(std::string_view text, const std::string& folder, ObjReport& report) {
-    std::map<std::string, ObjMaterial> materials;
-    each_line(text, [&](std::string_view line, long long number) {
-        const auto words = words_of(line);
-        if (words.empty() || words[0] != "mtllib") return;
-        for (std::size_t i = 1; i < words.size(); ++i) {
-            try {
-                add_library(materials, folder + std::string(words[i]));
-            } catch (const std::runtime_error&) {
-                report.add(ObjTrouble::no_library, number);
+    void note(std::string_view keyword, const std::string& what) {
+        if (material != &ignored)
+            notes.push_back(where() + ": " + shown(std::string(keyword)) + " " + what);
+    }
+    // One number, or three; of one there are three alike.
+    void color(std::string_view keyword, Words words, glm::dvec3& to, double most) {
+        const std::string text = words.name();
+        glm::dvec3 value(number_of(words.next()));
+        if (const auto green = words.next(); !green.empty()) {
+            value.y = number_of(green);
+            value.z = number_of(words.next());
+        }
+        const std::string is = "is " + shown(text) +
+                               "; it must be one number or three, "
+                               "from 0 to " +
+                               to_text(most);
+        if (std::isnan(value.x + value.y + value.z))
+            return note(keyword, is + ". It is not used.");
+        to = glm::clamp(value, glm::dvec3(0), glm::dvec3(most));
+        if (to != value) note(keyword, is + ". The nearest is taken.");
+    }
+    void value(std::string_view keyword, Words words, double& to, double least,
+               double most) {
+        const std::string text = words.name();
+        const double value = number_of(words.next());
+        if (value >= least && value <= most)
+            to = value;
+        else
+            note(keyword, "is " + shown(text) + "; it must be a number from " +
+                              to_text(least) + " to " + to_text(most) +
+                              ". It is not used.");
+    }
+    // The name of a picture, behind options that say how it lies.
+    void picture(Words words) {
+        std::string options;
+        for (Words after = words;; words = after) {
+            const std::string_view option = after.next();
+            if (option.size() < 2 || option[0] != '-') break;
+            options.append(options.empty() ? "" : " ").append(option);
+            const bool three = option == "-o" || option == "-s" || option == "-t";
+            for (int count = option == "-mm" ? 2 : three ? 3 : 1; count > 0; --count) {
+                Words ahead = after;
+                const std::string_view word = ahead.next();
+                if (three && std::isnan(number_of(word))) break;
+                after = ahead;
             }
         }
-    });
-    return materials;
+        if (!options.empty())
+            note("map_Kd", "has options, " + shown(options) + "; they are not used.");
+        if (const std::string name = words.name(); !name.empty()) {
+            material->picture = file_named(path, name);
+            material->picture_at = where();
+        } else {
+            note("map_Kd", "names no file.");
+        }
+    }
+    void finish() {
+        if (!has_diffuse && !material->picture.empty())
+            material->diffuse = glm::dvec3(1);
+        has_diffuse = has_dissolve = false;
+    }
+    void read(std::string_view text) {
+        each_line(text, [&](std::string_view line, long long at) {
+            Words words{line};
+            number = at;
+            const std::string_view keyword = words.next();
+            if (keyword == "newmtl") {
+                finish();
+                const auto [entry, fresh] = materials.try_emplace(words.name());
+                material = fresh ? &entry->second : &ignored;
+                material->name = entry->first;
+            } else if (keyword == "Kd") {
+                has_diffuse = true;
+                color(keyword, words, material->diffuse, 1);
+            } else if (keyword == "Ks") {
+                color(keyword, words, material->specular, 1);
+            } else if (keyword == "Ke") {
+                color(keyword, words, material->emission, 1e12);
+            } else if (keyword == "Ni") {
+                value(keyword, words, material->index, 1e-3, 1e3);
+            } else if (keyword == "d") {
+                has_dissolve = true;
+                value(keyword, words, material->dissolve, 0, 1);
+            } else if (keyword == "Tr" && !has_dissolve) {
+                double clear = 1 - material->dissolve;
+                value(keyword, words, clear, 0, 1);
+                material->dissolve = 1 - clear;
+            } else if (keyword == "illum") {
+                double model = material->illumination;
+                value(keyword, words, model, 0, 10);
+                material->illumination = static_cast<int>(model);
+            } else if (keyword == "map_Kd") {
+                picture(words);
+            }
+        });
+        finish();
+    }
+};
+
+// The materials of all files that a mesh file names; the first of a name counts. A line
+// "mtllib" has the name of one file, or those of several without blanks.
+inline void add_library(const std::string& names, const std::string& file,
+                        long long line, std::map<std::string, ObjMaterial>& materials,
+                        ObjReport& report) {
+    const auto read = [&](const std::string& path) {
+        try {
+            const std::string text = load_text(path, max_obj_file);
+            MaterialReader{path, materials, report.notes}.read(text);
+            return true;
+        } catch (const std::runtime_error&) {
+            return false;
+        }
+    };
+    if (read(file_named(file, names))) return;
+    Words words{names};
+    for (std::string_view name = words.next(); !name.empty(); name = words.next())
+        if (name.size() == names.size() || !read(file_named(file, std::string(name))))
+            report.add(ObjTrouble::no_library, line);
 }
 
 } // namespace detail

@@ -7,10 +7,7 @@
 #include <compare>
 #include <map>
 #include <optional>
-
-#ifndef TINY_OBJ_LOADER_H_ // it guards its names, and not what it implements
-#include <tiny_obj_loader.h>
-#endif
+#include <unordered_map>
 
 #include "ljus/geometry/detail/polygon.hpp"
 #include "ljus/io/detail/obj_material.hpp"
@@ -18,8 +15,8 @@
 namespace ljus {
 
 /// \defgroup obj_reader Reading mesh files
-/// \brief Optional (tinyobjloader): it finds lines and words; numbers, which it takes
-/// for 0 or for another number if it cannot read them, are read again.
+/// \brief Lines, words and numbers of OBJ and MTL files. No number is trusted: what
+/// cannot be used is counted in the report, with its line.
 /// \{
 
 /// Which normals a mesh from a file gets.
@@ -44,7 +41,18 @@ struct ObjCorner {
     std::optional<std::uint32_t> normal{};
     std::optional<std::uint32_t> uv{};
 
-    friend auto operator<=>(const ObjCorner&, const ObjCorner&) = default;
+    friend bool operator==(const ObjCorner&, const ObjCorner&) = default;
+};
+struct ObjCornerHash {
+    std::size_t operator()(const ObjCorner& corner) const noexcept {
+        const auto number = [](const std::optional<std::uint32_t>& from) {
+            return std::uint64_t(from.value_or(0xffffffffu));
+        };
+        std::uint64_t hash = corner.position;
+        for (const std::uint64_t more : {number(corner.uv), number(corner.normal)})
+            hash = (hash ^ more) * 0x9e3779b97f4a7c15u;
+        return static_cast<std::size_t>(hash ^ hash >> 32);
+    }
 };
 
 // The faces of one material, as far as they have been read.
@@ -52,17 +60,20 @@ template <std::floating_point T>
 struct ObjFacesT {
     ObjMaterial material{};
     MeshDataT<T> data{};
-    std::map<ObjCorner, std::uint32_t> vertices{}; // of `data`: one for equal corners
-    bool smooth = false;                           // whether any face has normals
-    bool has_uv = false;                 // whether any face has texture coordinates
-    std::vector<long long> without_uv{}; // lines of faces that have none
+    // Of `data`: one for equal corners.
+    std::unordered_map<ObjCorner, std::uint32_t, ObjCornerHash> vertices{};
+    std::vector<std::uint32_t> positions{}; // of the vertices, in the file
+    bool smooth = false;                    // whether any face has normals
+    bool has_uv = false;                    // whether any face has texture coordinates
+    std::vector<long long> without_uv{};    // lines of faces that have none
 };
 
 // What is known while a file is read.
 template <std::floating_point T>
 struct ObjReader {
+    const std::string& file; // its name, beside which its material files are
     const ObjSettings& settings;
-    LastLine line;
+    long long line = 0; // that is read
     ObjReport report{};
     MeshDataT<T> whole{};            // all vertices of the file, NaN for a bad one
     std::vector<glm::dvec3> exact{}; // the same, in the file's own units
@@ -72,81 +83,109 @@ struct ObjReader {
     std::map<std::string, ObjMaterial> materials{};
     std::map<std::string, std::size_t> numbers{}; // of the parts, by material
     std::vector<ObjFacesT<T>> parts{};
-    std::string material{}; // that faces have from here on
+    std::string material{};                   // that faces have from here on
+    std::vector<ObjCorner> face_corners{};    // of the face that is read
+    std::vector<glm::dvec3> face_positions{}; // of these
 
-    void vertex() {
-        exact.push_back(numbers_of(line.text()));
+    void read(std::string_view text) {
+        each_line(text, [&](std::string_view all, long long number) {
+            Words words{all};
+            if (words.next() == "mtllib") // wherever it stands
+                add_library(words.name(), file, number, materials, report);
+        });
+        each_line(text, [&](std::string_view all, long long number) {
+            Words words{all};
+            line = number;
+            const std::string_view keyword = words.next();
+            if (keyword == "v")
+                vertex(words);
+            else if (keyword == "vn")
+                normal(words);
+            else if (keyword == "vt")
+                texture(words);
+            else if (keyword == "f" || keyword == "fo") // as old files have it
+                face(words);
+            else if (keyword == "usemtl")
+                use(words.name());
+            else if (keyword == "l" || keyword == "p" || keyword == "curv" ||
+                     keyword == "curv2" || keyword == "surf")
+                report.add(ObjTrouble::no_face, line);
+        });
+    }
+    void vertex(Words words) {
+        exact.push_back(three_numbers(words));
         whole.positions.emplace_back(settings.scale * exact.back());
         if (!is_finite(whole.positions.back()))
-            report.add(ObjTrouble::bad_number, line.number);
+            report.add(ObjTrouble::bad_number, line);
+        (void)words.next(); // a weight, or red: a colour has three numbers
+        if (!words.next().empty()) report.add(ObjTrouble::vertex_color, line);
     }
-    void normal() {
-        const glm::dvec3 n = numbers_of(line.text());
+    void normal(Words words) {
+        const glm::dvec3 n = three_numbers(words);
         const double length = glm::length(n);
         const bool good = length > 0 && std::isfinite(length);
-        if (!good) report.add(ObjTrouble::bad_normal, line.number);
+        if (!good) report.add(ObjTrouble::bad_normal, line);
         normals.emplace_back(good ? n / length : glm::dvec3(0));
     }
-    void texture() {
-        const std::string_view text = line.text();
-        glm::dvec3 at = numbers_of(text);
-        if (words_of(text).size() < 3) at.y = 0; // of a picture of one row
-        uv.emplace_back(T(at.x), T(at.y));
-        if (!has_place(uv.back())) report.add(ObjTrouble::bad_uv, line.number);
+    void texture(Words words) {
+        const double u = number_of(words.next());
+        const std::string_view second = words.next(); // of a picture of one row: none
+        uv.emplace_back(T(u), second.empty() ? T(0) : T(number_of(second)));
+        if (!has_place(uv.back())) report.add(ObjTrouble::bad_uv, line);
     }
     static bool has_place(const Vec2T<T>& uv) {
         return std::isfinite(uv.x) && std::isfinite(uv.y);
     }
-    void use(std::string name) {
-        (void)line.text();
-        while (!name.empty() && (name.back() == ' ' || name.back() == '\t'))
-            name.pop_back();
-        const bool known = materials.count(name) > 0;
-        if (!known) report.add(ObjTrouble::no_material, line.number);
+    void use(const std::string& name) {
+        const bool known = materials.contains(name);
+        if (!known) report.add(ObjTrouble::no_material, line);
         material = known ? name : std::string();
     }
-    // A corner as a face names it; nothing if it names what is not there.
-    std::optional<ObjCorner> corner_of(const tinyobj::index_t& named) const {
-        const auto position = place_of(named.vertex_index, exact.size());
-        const auto normal = place_of(named.normal_index, normals.size());
-        const auto place = place_of(named.texcoord_index, uv.size());
-        if (!position || (named.normal_index != 0 && !normal) ||
-            (named.texcoord_index != 0 && !place))
-            return std::nullopt;
-        return ObjCorner{*position, normal, place};
-    }
-    void face(const tinyobj::index_t* named, std::size_t count) {
-        const bool good = all_read(line.text(), count);
-        if (count < 3) return report.add(ObjTrouble::few_corners, line.number);
-        if (count > 1000) return report.add(ObjTrouble::many_corners, line.number);
-        std::vector<ObjCorner> corners;
-        std::vector<glm::dvec3> points;
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto corner = corner_of(named[i]);
-            if (!good || !corner) return report.add(ObjTrouble::bad_index, line.number);
-            if (!is_finite(whole.positions[corner->position]))
-                return; // said at the vertex
-            corners.push_back(*corner);
-            points.push_back(exact[corner->position]);
+    void face(Words words) {
+        face_corners.clear();
+        face_positions.clear();
+        bool good = true, all_uv = true, all_normals = true;
+        for (auto word = words.next(); !word.empty(); word = words.next()) {
+            if (face_corners.size() == 1000)
+                return report.add(ObjTrouble::many_corners, line);
+            const ObjIndices named = indices_of(word).value_or(ObjIndices{});
+            const auto position = place_of(named.position, exact.size());
+            face_corners.push_back({position.value_or(0),
+                                    place_of(named.normal, normals.size()),
+                                    place_of(named.uv, uv.size())});
+            good = good && position;
+            all_uv = all_uv && (named.uv == 0 || face_corners.back().uv);
+            all_normals =
+                all_normals && (named.normal == 0 || face_corners.back().normal);
         }
-        keep_what_all_have(corners);
-        const auto triangles = cut_polygon(points);
-        bool empty = triangles.empty();
-        for (const auto& [a, b, c] : triangles)
-            empty = !add({corners[a], corners[b], corners[c]}) || empty;
-        if (empty) report.add(ObjTrouble::no_area, line.number);
+        if (face_corners.size() < 3) return report.add(ObjTrouble::few_corners, line);
+        if (!good) return report.add(ObjTrouble::bad_index, line);
+        if (!all_uv) report.add(ObjTrouble::no_such_uv, line);
+        if (!all_normals) report.add(ObjTrouble::no_such_normal, line);
+        for (const ObjCorner& corner : face_corners) {
+            if (!is_finite(whole.positions[corner.position]))
+                return; // said at the vertex
+            face_positions.push_back(exact[corner.position]);
+        }
+        keep_what_all_have();
+        const CutPolygon cut = cut_polygon(face_positions);
+        bool empty = cut.triangles.empty();
+        for (const auto& [a, b, c] : cut.triangles)
+            empty = !add({face_corners[a], face_corners[b], face_corners[c]}) || empty;
+        if (empty) report.add(ObjTrouble::no_area, line);
+        if (cut.crossed) report.add(ObjTrouble::crossed, line);
     }
     // Normals and texture coordinates that are not good at every corner of a face are
     // used at none.
-    void keep_what_all_have(std::vector<ObjCorner>& corners) const {
+    void keep_what_all_have() {
         bool all_normals = settings.normals == ObjNormals::file;
         bool all_uv = true;
-        for (const ObjCorner& corner : corners) {
+        for (const ObjCorner& corner : face_corners) {
             all_normals =
                 all_normals && corner.normal && normals[*corner.normal] != Vec3T<T>{0};
             all_uv = all_uv && corner.uv && has_place(uv[*corner.uv]);
         }
-        for (ObjCorner& corner : corners) {
+        for (ObjCorner& corner : face_corners) {
             if (!all_normals) corner.normal.reset();
             if (!all_uv) corner.uv.reset();
         }
@@ -161,17 +200,17 @@ struct ObjReader {
             whole.triangles.pop_back();
             return false;
         }
-        lines.push_back(line.number);
+        lines.push_back(line);
         if (corners[0].normal && !normals_point_along(across, corners)) {
-            report.add(ObjTrouble::turned, line.number);
+            report.add(ObjTrouble::turned, line);
             for (ObjCorner& corner : corners) corner.normal.reset();
         }
         ObjFacesT<T>& part = part_in_use();
         part.smooth = part.smooth || corners[0].normal;
         part.has_uv = part.has_uv || corners[0].uv;
         auto& without = part.without_uv;
-        if (!corners[0].uv && (without.empty() || without.back() != line.number))
-            without.push_back(line.number);
+        if (!corners[0].uv && (without.empty() || without.back() != line))
+            without.push_back(line);
         part.data.triangles.push_back({vertex_of(part, corners[0]),
                                        vertex_of(part, corners[1]),
                                        vertex_of(part, corners[2])});
@@ -196,6 +235,7 @@ struct ObjReader {
         const auto [at, fresh] = part.vertices.try_emplace(
             corner, static_cast<std::uint32_t>(part.data.positions.size()));
         if (fresh) {
+            part.positions.push_back(corner.position);
             part.data.positions.push_back(whole.positions[corner.position]);
             part.data.normals.push_back(corner.normal ? normals[*corner.normal]
                                                       : Vec3T<T>{0});
@@ -209,13 +249,14 @@ struct ObjReader {
 template <std::floating_point T>
 void smooth_across_seams(ObjFacesT<T>& part) {
     MeshDataT<T> seamless{.triangles = part.data.triangles};
-    std::map<std::uint32_t, std::uint32_t> numbers; // by position in the file
-    std::vector<std::uint32_t> of(part.data.positions.size());
-    for (const auto& [corner, vertex] : part.vertices) {
-        const auto [at, fresh] = numbers.try_emplace(
-            corner.position, static_cast<std::uint32_t>(seamless.positions.size()));
+    std::unordered_map<std::uint32_t, std::uint32_t> numbers; // by position in the file
+    std::vector<std::uint32_t> of;
+    for (std::size_t vertex = 0; vertex < part.positions.size(); ++vertex) {
+        const auto [at, fresh] =
+            numbers.try_emplace(part.positions[vertex],
+                                static_cast<std::uint32_t>(seamless.positions.size()));
         if (fresh) seamless.positions.push_back(part.data.positions[vertex]);
-        of[vertex] = at->second;
+        of.push_back(at->second);
     }
     for (auto& triangle : seamless.triangles)
         for (std::uint32_t& vertex : triangle) vertex = of[vertex];

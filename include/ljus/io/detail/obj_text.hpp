@@ -1,17 +1,16 @@
 #pragma once
 
 /// \file ljus/io/detail/obj_text.hpp
-/// \brief The lines, words and numbers of a mesh file.
+/// \brief The lines, words and numbers of a mesh file and of a material file.
 
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <system_error>
 
 #include <glm/vec3.hpp>
 
@@ -22,120 +21,109 @@ namespace ljus {
 
 namespace detail {
 
-// Where the line ends that begins at a place, and where the next one begins.
-struct LineEnd {
-    std::size_t last, next;
-};
-inline LineEnd line_end(std::string_view text, std::size_t begin) {
-    const std::size_t last = std::min(text.find_first_of("\r\n", begin), text.size());
-    const std::size_t next = last + (text.substr(last, 2) == "\r\n" ? 2 : 1);
-    return {last, std::min(next, text.size())};
+// Takes a line from the front of a text; it ends in LF, CR or CR LF.
+inline std::string_view take_line(std::string_view& text) {
+    const auto ends = [](char c) { return c == '\n' || c == '\r'; };
+    const auto end = static_cast<std::size_t>(
+        std::find_if(text.begin(), text.end(), ends) - text.begin());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end);
+    if (!text.empty()) text.remove_prefix(text.starts_with("\r\n") ? 2 : 1);
+    return line;
 }
 
-// Calls use(line, number) for each line of a text; the first is number 1.
+// Calls use(line, number) for each line of a text, numbered from 1. A line that ends in
+// a backslash goes on with the next one.
 template <typename Use>
 void each_line(std::string_view text, Use use) {
-    std::size_t begin = 0;
-    for (long long number = 1; begin < text.size(); ++number) {
-        const LineEnd end = line_end(text, begin);
-        use(text.substr(begin, end.last - begin), number);
-        begin = end.next;
+    std::string joined;
+    for (long long number = 1, next = 1; !text.empty(); number = next) {
+        std::string_view line = take_line(text);
+        ++next;
+        if (line.ends_with('\\') && !text.empty()) {
+            for (joined.clear(); line.ends_with('\\') && !text.empty(); ++next) {
+                joined.append(line.substr(0, line.size() - 1)).append(" ");
+                line = take_line(text);
+            }
+            line = joined.append(line);
+        }
+        use(line, number);
     }
 }
 
-// The line that a stream has read last, and its number; asked after each line, so that
-// lines are counted once.
-struct LastLine {
-    std::istringstream& stream;
-    std::size_t begin = 0;
-    LineEnd end{};
-    long long number = 0;
+inline constexpr std::string_view blanks = " \t";
 
-    [[nodiscard]] std::string_view text() {
-        std::string_view all = stream.view();
-        const auto at = stream.tellg(); // -1 at the end
-        if (at >= 0) all = all.substr(0, static_cast<std::size_t>(at));
-        while (end.next < all.size()) {
-            begin = end.next;
-            end = line_end(all, begin);
-            ++number;
-        }
-        return all.substr(begin, end.last - begin);
+// A text without the blanks around it.
+inline std::string_view trimmed(std::string_view text) {
+    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    return text.substr(0, text.find_last_not_of(blanks) + 1);
+}
+
+// The words of a line, one after another. A word that begins with # begins a comment.
+struct Words {
+    std::string_view rest; // of the line
+
+    // The next word; empty at the end.
+    std::string_view next() {
+        rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+        if (rest.starts_with('#')) rest = {};
+        const std::size_t end = std::min(rest.find_first_of(blanks), rest.size());
+        const std::string_view word = rest.substr(0, end);
+        rest.remove_prefix(end);
+        return word;
+    }
+    // All that is left: a name, which may have blanks in it, and a # that no blank
+    // follows.
+    [[nodiscard]] std::string name() const {
+        return std::string(trimmed(rest.substr(0, rest.find(" # "))));
     }
 };
 
-// The words of a line, as tinyobjloader sees them: up to a 0.
-inline std::vector<std::string_view> words_of(std::string_view line) {
-    line = line.substr(0, line.find('\0'));
-    std::vector<std::string_view> words;
-    while (true) {
-        const std::size_t begin = line.find_first_not_of(" \t");
-        if (begin == line.npos) return words;
-        line.remove_prefix(begin);
-        const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-        words.push_back(line.substr(0, end));
-        line.remove_prefix(end);
-    }
+// The number that a word is; NaN for anything else.
+inline double number_of(std::string_view word) {
+    if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
+    double value = 0;
+    const char* const end = word.data() + word.size();
+    const auto [stop, error] = std::from_chars(word.data(), end, value);
+    return stop == end && error == std::errc{}
+               ? value
+               : std::numeric_limits<double>::quiet_NaN();
 }
 
-// The three numbers of a line "v 1 2 3"; NaN where there is none. tinyobjloader takes
-// what it cannot read for 0.
-inline glm::dvec3 numbers_of(std::string_view line) {
-    const auto words = words_of(line);
-    glm::dvec3 result(std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t i = 0; i < 3 && i + 1 < words.size(); ++i) {
-        std::string_view word = words[i + 1];
-        if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
-        double value = 0;
-        const char* const end = word.data() + word.size();
-        const auto [stop, error] = std::from_chars(word.data(), end, value);
-        if (stop == end && error == std::errc{})
-            result[static_cast<glm::length_t>(i)] = value;
+// The next three numbers of a line.
+inline glm::dvec3 three_numbers(Words& words) {
+    const double x = number_of(words.next()), y = number_of(words.next());
+    return {x, y, number_of(words.next())};
+}
+
+// A corner of a face as it is written, "1/2/3", "1//3" or "-1": which vertex, texture
+// coordinate and normal, counted from 1 or, if negative, from the end. 0 for none.
+struct ObjIndices {
+    long long position = 0, uv = 0, normal = 0;
+};
+
+// Reads a corner; nothing if it is written otherwise.
+inline std::optional<ObjIndices> indices_of(std::string_view word) {
+    ObjIndices result;
+    for (long long* const number : {&result.position, &result.uv, &result.normal}) {
+        const std::size_t end = std::min(word.find('/'), word.size());
+        const char* const last = word.data() + end;
+        const auto [stop, error] = std::from_chars(word.data(), last, *number);
+        if (end > 0 && (stop != last || error != std::errc{} || *number == 0))
+            return std::nullopt;
+        word.remove_prefix(end);
+        if (word.empty()) break;
+        word.remove_prefix(1);
     }
+    if (!word.empty() || result.position == 0) return std::nullopt;
     return result;
 }
 
-// Whether tinyobjloader has read the numbers of a line "f 1/2/3 4/5/6 ...", of so many
-// corners, to their ends. It stops at other characters and at 2^31 without a word.
-inline bool all_read(std::string_view line, std::size_t corners) {
-    const auto words = words_of(line);
-    bool good = words.size() == corners + 1;
-    for (std::size_t i = 1; i < words.size(); ++i) {
-        int digits = 0;
-        for (const char c : words[i]) {
-            digits = c >= '0' && c <= '9' ? digits + 1 : 0;
-            good = good && digits < 10 && (digits > 0 || c == '/' || c == '-');
-        }
-    }
-    return good;
-}
-
-// A number of a vertex: from 1, or from the end if negative; none if it is not there.
-inline std::optional<std::uint32_t> place_of(int number, std::size_t count) {
+// The place in a list of so many that a number names; none if it is not there.
+inline std::optional<std::uint32_t> place_of(long long number, std::size_t count) {
     const auto all = static_cast<long long>(count);
-    const long long place = number > 0 ? number - 1LL : number + all;
-    if (number == 0 || place < 0 || place >= all) return std::nullopt;
-    return static_cast<std::uint32_t>(place);
-}
-
-// tinyobjloader's exponents overflow from ten digits on. In what begins as a number and
-// has so many, the letter E gives way to one that ends it, which numbers_of() refuses.
-inline void blunt_exponents(std::string& text) {
-    const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-    bool number = true; // the word up to here
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if ((c == 'e' || c == 'E') && number) {
-            std::size_t first = i + 1;
-            if (first < text.size() && (text[first] == '-' || text[first] == '+'))
-                ++first;
-            std::size_t last = first;
-            while (last < text.size() && digit(text[last])) ++last;
-            if (last - first >= 10) text[i] = 'x';
-        }
-        const bool space = c == ' ' || c == '\t' || c == '\r' || c == '\n';
-        number = space || (number && (digit(c) || c == '.' || c == '-' || c == '+'));
-    }
+    if (number == 0 || number > all || number < -all) return std::nullopt;
+    return static_cast<std::uint32_t>(number > 0 ? number - 1 : number + all);
 }
 
 } // namespace detail

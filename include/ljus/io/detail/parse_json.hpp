@@ -144,11 +144,9 @@ private:
 // that is there twice, or of a value that is nested too deeply.
 [[nodiscard]] inline nlohmann::json parse_json(std::string_view source,
                                                const std::string& file) {
+    source = plain_text(source, file);
     if (source.find_first_not_of(" \t\r\n") == std::string_view::npos)
         throw std::runtime_error(shown_path(file) + ": the file is empty.");
-    if (source.starts_with("\xff\xfe") || source.starts_with("\xfe\xff"))
-        throw std::runtime_error(shown_path(file) +
-                                 ": the text is UTF-16; it must be saved as UTF-8.");
     JsonBuilder builder{.source = source, .file = file};
     nlohmann::json::sax_parse(source.begin(), source.end(), &builder);
     return std::move(builder.root);
