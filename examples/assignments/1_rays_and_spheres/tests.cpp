@@ -154,6 +154,9 @@ TEST_CASE("1.10 (2 points) a lamp is seen unless a ball is between or the horizo
     CHECK_FALSE(sees(balls, {0, 1, 0}, {0, 1, 0}, {0, 9, 0})); // behind it
     CHECK_FALSE(sees(balls, {0, 1, 0}, {0, 1, 0}, {5, 0.5f, 0})); // below the horizon
     CHECK(sees(balls, {1, 0, 0}, {1, 0, 0}, {5, 0, 0}));
+    // On a plane, where no ball hides what is below the horizon.
+    CHECK_FALSE(sees({}, {0, 0, 0}, {0, 1, 0}, {3, -1, 0}));
+    CHECK(sees({}, {0, 0, 0}, {0, 1, 0}, {3, 1, 0}));
 }
 
 TEST_CASE("1.11 (3 points) no ball shades itself whatever the unit of length") {
@@ -171,6 +174,14 @@ TEST_CASE("1.11 (3 points) no ball shades itself whatever the unit of length") {
         }
         CAPTURE(scale);
         CHECK(wrong == 0);
+        // From the top of one ball towards a lamp behind another one that nearly touches
+        // it, at a fiftieth of a radius; and to a lamp between the two.
+        const Ball below{.center = scale * Vec3{3, 1, -6}, .radius = scale};
+        const Ball above{.center = scale * Vec3{3, 3.02f, -6}, .radius = scale};
+        const Vec3 top = scale * Vec3{3, 2, -6}, up{0, 1, 0};
+        INFO("the step away from the surface must be far smaller than the gap");
+        CHECK_FALSE(sees({below, above}, top, up, scale * Vec3{3, 9, -6}));
+        CHECK(sees({below, above}, top, up, scale * Vec3{3, 2.01f, -6}));
     }
 }
 
