@@ -497,18 +497,14 @@ template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] inline std::optional<SceneHitT<T>>
 closest_hit(const World<S, Compute>& world, const RayT<T>& ray) {
     if (world.ids().empty()) return closest_hit_plain(world, ray);
-    NearestHitT<T> nearest;
-    ObjectId object;
-    world.tree().closest(ray, [&](std::uint32_t slot, RayT<T>& rest) {
-        const ObjectId id = world.ids()[slot];
-        const auto hit = world.visit_shape(id, [&](const auto& shape) {
-            return detail::hit_of<Compute>(rest, shape);
+    const auto nearest =
+        nearest_hit(world.tree(), ray, [&](std::uint32_t slot, const RayT<T>& rest) {
+            return world.visit_shape(world.ids()[slot], [&](const auto& shape) {
+                return detail::hit_of<Compute>(rest, shape);
+            });
         });
-        if (hit && nearest.offer(*hit, world.tree().primitive_ids()[slot], rest))
-            object = id;
-    });
     if (!nearest.found) return std::nullopt;
-    return SceneHitT<T>{nearest.at, object};
+    return SceneHitT<T>{nearest.at, world.ids()[nearest.slot]};
 }
 
 /// Whether anything lies on a ray: the question of a shadow ray.
