@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/photons/photon_path.hpp
-/// \brief The life of one photon: it leaves its light, is stored, is scattered, and ends.
+/// \brief One photon from beginning to end: it leaves its light, is stored, is
+/// scattered, until it is absorbed or leaves the scene.
 
 #include <algorithm>
 #include <optional>
