@@ -1,7 +1,7 @@
 /// \file light_choice_test.cpp
 /// \brief One light of many, in proportion to its power.
 
-#include "ljus/lights/light_choice.hpp"
+#include "ljus/scene/world.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,6 +3,7 @@
 /// arithmetic are in triangle_exact_test.cpp.
 
 #include "ljus/geometry/quad.hpp"
+#include "ljus/geometry/triangle.hpp"
 
 #include <doctest/doctest.h>
 

@@ -538,16 +538,20 @@ TEST_CASE("triangle: a point of doubles tells how badly the plane is known") {
     CHECK(tilt(1.0f) == 0); // a test in double does not turn it
 }
 
-TEST_CASE("triangle: u is within [0, 1] whatever the shape asks of it and of v") {
+TEST_CASE("triangle: of a parallelogram u and v are within [0, 1] each") {
     const auto hit = [](float x, float y) {
-        return moller_trumbore<double>(down_at(x, y), {0, 0, -4}, {1, 0, 0}, {0, 1, 0},
-                                       [](double, double, double) { return true; });
+        return moller_trumbore<Spanned::parallelogram, double>(
+            down_at(x, y), {0, 0, -4}, {1, 0, 0}, {0, 1, 0});
     };
-    for (const float y : {-7.0f, 0.5f, 7.0f}) {
-        CHECK(hit(0, y));
-        CHECK(hit(1, y));
-        CHECK_FALSE(hit(-0.001f, y));
-        CHECK_FALSE(hit(1.001f, y));
+    for (const float along : {0.0f, 0.25f, 1.0f}) {
+        CHECK(hit(along, 0));
+        CHECK(hit(along, 1));
+        CHECK(hit(0, along));
+        CHECK(hit(1, along));
+        CHECK_FALSE(hit(along, -0.001f));
+        CHECK_FALSE(hit(along, 1.001f));
+        CHECK_FALSE(hit(-0.001f, along));
+        CHECK_FALSE(hit(1.001f, along));
     }
     REQUIRE(hit(0.25f, 0.5f));
     CHECK(hit(0.25f, 0.5f)->part == 0);

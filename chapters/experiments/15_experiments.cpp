@@ -578,9 +578,9 @@ float pdf(const WrongMatt&, const Vec3& wo, const Vec3& wi,
 std::optional<ljus::BsdfSample> sample(const WrongMatt& matt, const Vec3& wo,
                                        const Vec3& u, ljus::Transport,
                                        ljus::Lobes which = ljus::Lobes::all) {
-    return ljus::sample_cosine_lobe(wo, u, which, [&](const Vec3& wi) {
-        return evaluate(matt, wo, wi) * std::numbers::pi_v<float>;
-    });
+    auto next = ljus::sample_cosine_lobe(wo, u, which);
+    if (next) next->weight = evaluate(matt, wo, next->wi) * std::numbers::pi_v<float>;
+    return next;
 }
 void check(const WrongMatt&) {}
 

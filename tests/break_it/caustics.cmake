@@ -29,7 +29,7 @@ ljus_break_it(NAME caustics-k HEADER photons/irradiance_estimate.hpp TEST causti
     CASES "caustics: k nearest*")
 
 # Photons that were aimed at one ball and meet another first count for both.
-ljus_break_it(NAME caustics-overlap HEADER photons/tracing.hpp TEST caustics
+ljus_break_it(NAME caustics-overlap HEADER photons/photon_path.hpp TEST caustics
     FROM "vertex->id != *sent.target"
     TO   "false"
     CASES "caustics: overlapping targets*")

@@ -1,5 +1,5 @@
 # The report's program: the flux times the cosine that the density already holds.
-ljus_break_it(NAME emission-cosine HEADER photons/emission.hpp TEST emission
+ljus_break_it(NAME emission-cosine HEADER photons/photon_path.hpp TEST emission
     FROM ".flux = photon.flux / chosen.probability,"
     TO   ".flux = photon.flux * sample_cosine_hemisphere(u_direction).z /
                     chosen.probability,"
@@ -12,7 +12,7 @@ ljus_break_it(NAME emission-uniform HEADER lights/area_light.hpp TEST emission
     CASES "emission: photons of a quad*")
 
 # A light that is chosen rarely must be paid for it.
-ljus_break_it(NAME emission-probability HEADER photons/emission.hpp TEST emission
+ljus_break_it(NAME emission-probability HEADER photons/photon_path.hpp TEST emission
     FROM "photon.flux / chosen.probability"
     TO   "photon.flux"
     CASES "emission: lights are chosen*")
@@ -110,7 +110,7 @@ ljus_break_it(NAME emission-point-direction HEADER lights/point_light.hpp TEST e
     CASES "emission: one point of the square*")
 
 # The light of number 300 is told as that of number 44.
-ljus_break_it(NAME emission-light-number HEADER photons/emission.hpp TEST emission
+ljus_break_it(NAME emission-light-number HEADER photons/photon_path.hpp TEST emission
     FROM "static_cast<std::uint16_t>(chosen.light)"
     TO   "static_cast<std::uint8_t>(chosen.light)"
     CASES "emission: a photon knows its light*")

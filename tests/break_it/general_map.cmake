@@ -1,49 +1,49 @@
 # Shadow photons only where the surface's own normal faces the light: the other side of a
 # quad, lit or not, would look as if nothing could ever stand in its way.
-ljus_break_it(NAME general-map-shadow-normal HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-shadow-normal HEADER photons/photon_path.hpp TEST general_map
     FROM "if (world.visit_material(vertex->object.material, diffuse))"
     TO   [[if (world.visit_material(vertex->object.material, diffuse) &&
                glm::dot(vertex->point.normal, path.ray.direction) < T(0))]]
     CASES "general map: direct + shadow*")
 
 # And the wrong way round.
-ljus_break_it(NAME general-map-shadow-side HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-shadow-side HEADER photons/photon_path.hpp TEST general_map
     FROM "out.push_back({vertex->point.position, path.ray.direction, photon.flux,"
     TO   "out.push_back({vertex->point.position, -path.ray.direction, photon.flux,"
     CASES "general map: direct + shadow*")
 
 # One shadow photon a path: only the next surface behind is told.
-ljus_break_it(NAME general-map-shadow-one HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-shadow-one HEADER photons/photon_path.hpp TEST general_map
     FROM "path.depth < 1000"
     TO   "path.depth < 1"
     CASES "general map: direct + shadow*")
 
 # The surface that hides counts itself among the hidden.
-ljus_break_it(NAME general-map-shadow-first HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-shadow-first HEADER photons/photon_path.hpp TEST general_map
     FROM "PathStateT<T> path{.ray = straight_on(first)};"
     TO   "(void)first; PathStateT<T> path{.ray = photon.ray};"
     CASES "general map: direct + shadow*")
 
 # Photons on mirrors and glass.
-ljus_break_it(NAME general-map-mirror HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-mirror HEADER photons/photon_path.hpp TEST general_map
     FROM "if (!owned || !has(lobes(material), Lobes::non_specular)) return;"
     TO   "if (!owned) return;"
     CASES "general map: photons lie on matt*")
 
 # Shadow photons on mirrors and glass.
-ljus_break_it(NAME general-map-shadow-mirror HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-shadow-mirror HEADER photons/photon_path.hpp TEST general_map
     FROM "has(lobes(m), Lobes::non_specular)"
     TO   "has(lobes(m), Lobes::all)"
     CASES "general map: photons lie on matt*")
 
 # Each photon says that it comes from the first light.
-ljus_break_it(NAME general-map-light HEADER photons/emission.hpp TEST general_map
+ljus_break_it(NAME general-map-light HEADER photons/photon_path.hpp TEST general_map
     FROM ".light = static_cast<std::uint16_t>(chosen.light)};"
     TO   ".light = 0};"
     CASES "general map: photons lie on matt*")
 
 # Direct photons counted as indirect, and the other way round.
-ljus_break_it(NAME general-map-kind HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-kind HEADER photons/photon_path.hpp TEST general_map
     FROM "if (path.met_diffuse) return PhotonKind::indirect;"
     TO   "if (!path.met_diffuse) return PhotonKind::indirect;"
     CASES "general map: direct and indirect*")
@@ -55,7 +55,7 @@ ljus_break_it(NAME general-map-number HEADER photons/tracing.hpp TEST general_ma
     CASES "general map: direct and indirect*")
 
 # The cosine a second time, as the report's program has it at each bounce.
-ljus_break_it(NAME general-map-cosine HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-cosine HEADER photons/photon_path.hpp TEST general_map
     FROM [[path.throughput = *survivor;]]
     TO   [[path.throughput = *survivor * std::abs(glm::dot(path.ray.direction, vertex.point.normal));]]
     CASES "general map: direct and indirect*")

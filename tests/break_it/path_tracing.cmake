@@ -1,5 +1,5 @@
 # One light of several is asked, but answers for all.
-ljus_break_it(NAME path-tracing-light-choice HEADER render/path_tracing.hpp
+ljus_break_it(NAME path-tracing-light-choice HEADER path/direct_light.hpp
     TEST path_tracing
     FROM "chosen.probability;"
     TO   "T(1);"

@@ -17,7 +17,7 @@ ljus_break_it(NAME photon-dots-cone HEADER inspect/photon_dots.hpp TEST photon_d
     CASES "photon dots: a dot is a cone*")
 
 # The emission's back is as bright as its front.
-ljus_break_it(NAME photon-dots-lamp HEADER path/vertex.hpp TEST photon_dots
+ljus_break_it(NAME photon-dots-lamp HEADER path/next_vertex.hpp TEST photon_dots
     FROM "wo.z > T(0) && !is_black(object.emission)"
     TO   "!is_black(object.emission)"
     CASES "photon dots: the drawing*")

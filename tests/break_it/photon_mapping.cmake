@@ -5,7 +5,7 @@ ljus_break_it(NAME photon-mapping-n2 HEADER materials/glass.hpp TEST photon_mapp
     CASES "photon mapping: a matt ball embedded*")
 
 # Flux that enters glass as if it were radiance.
-ljus_break_it(NAME photon-mapping-flux HEADER photons/tracing.hpp TEST photon_mapping
+ljus_break_it(NAME photon-mapping-flux HEADER photons/photon_path.hpp TEST photon_mapping
     FROM "continue_path(path, vertex, material, Transport::flux, which, stream)"
     TO   "continue_path(path, vertex, material, Transport::radiance, which, stream)"
     CASES "photon mapping: a matt ball embedded*")

@@ -5,7 +5,7 @@ ljus_break_it(NAME shading_normals-adjoint HEADER path/continue_path.hpp TEST me
     CASES "mesh: photons and camera*")
 
 # The same for where a photon lands.
-ljus_break_it(NAME shading_normals-landing HEADER path/vertex.hpp TEST mesh
+ljus_break_it(NAME shading_normals-landing HEADER path/next_vertex.hpp TEST mesh
     FROM "return std::abs(vertex.wo.z / glm::dot(direction, vertex.point.normal));"
     TO   "return T(1);"
     CASES "mesh: photons land*")
@@ -23,13 +23,13 @@ ljus_break_it(NAME shading_normals-black HEADER path/continue_path.hpp TEST mesh
     CASES "mesh: mirrors*")
 
 # A surface that its shading normal shows from behind.
-ljus_break_it(NAME shading_normals-turned HEADER path/vertex.hpp TEST mesh
+ljus_break_it(NAME shading_normals-turned HEADER path/next_vertex.hpp TEST mesh
     FROM "vertex.turned ? geometric : normal"
     TO   "normal"
     CASES "mesh: mirrors*")
 
 # The shading normal alone decides which side a direction is on.
-ljus_break_it(NAME shading_normals-side HEADER path/vertex.hpp TEST mesh
+ljus_break_it(NAME shading_normals-side HEADER path/next_vertex.hpp TEST mesh
     FROM "const T side = glm::dot(world, vertex.point.normal);"
     TO   "const T side = T(0) * world.x + local.z;"
     CASES "mesh: no light leaks*")

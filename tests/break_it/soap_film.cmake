@@ -38,7 +38,7 @@ ljus_break_it(NAME thin_surfaces-photon HEADER path/continue_path.hpp TEST soap_
     CASES "thin sheets: a bubble in a furnace*")
 
 # Reflected as if the film were equally thick everywhere: the bubble shows in a furnace.
-ljus_break_it(NAME thin_surfaces-place HEADER path/vertex.hpp TEST soap_film
+ljus_break_it(NAME thin_surfaces-place HEADER path/next_vertex.hpp TEST soap_film
     FROM "return f(material_at(m, vertex.point.position, vertex.uv));"
     TO   "return f(m);"
     CASES "thin sheets: a bubble in a furnace*")

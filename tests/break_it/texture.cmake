@@ -25,13 +25,13 @@ ljus_break_it(NAME textured-product HEADER materials/textured.hpp TEST texture
     CASES "texture: the hook*")
 
 # The hook forgotten: every place looks like the base.
-ljus_break_it(NAME textured-hook HEADER path/vertex.hpp TEST texture
+ljus_break_it(NAME textured-hook HEADER path/next_vertex.hpp TEST texture
     FROM "return f(material_at(m, vertex.point.position, vertex.uv));"
     TO   "return f(m);"
     CASES "texture: in a white furnace*")
 
 # The shape's coordinates never worked out: an image in its own first pixel's colour.
-ljus_break_it(NAME texture-no-uv HEADER path/vertex.hpp TEST texture
+ljus_break_it(NAME texture-no-uv HEADER path/next_vertex.hpp TEST texture
     FROM "if (detail::uses_uv(world, vertex.object.material))"
     TO   "if (!detail::uses_uv(world, vertex.object.material))"
     CASES "texture: a UvMap*")

@@ -1,5 +1,5 @@
 # As the report's program has it: survivors carry no more than before.
-ljus_break_it(NAME tracing-roulette HEADER photons/tracing.hpp TEST tracing
+ljus_break_it(NAME tracing-roulette HEADER photons/photon_path.hpp TEST tracing
     FROM "reflected / probability"
     TO   "reflected"
     CASES "tracing: all the lights' flux*")
@@ -13,13 +13,13 @@ ljus_break_it(NAME tracing-stored HEADER photons/tracing.hpp TEST tracing
     CASES "tracing: a caustic has*")
 
 # What the glass has focused is kept by both maps.
-ljus_break_it(NAME tracing-owner HEADER photons/tracing.hpp TEST tracing
+ljus_break_it(NAME tracing-owner HEADER photons/photon_path.hpp TEST tracing
     FROM "const bool owned = (kind == PhotonKind::caustic) == caustics && keep.has(kind);"
     TO   "const bool owned = true;"
     CASES "tracing: the kinds*")
 
 # Where cones overlap, photons count for whatever they meet.
-ljus_break_it(NAME tracing-target HEADER photons/tracing.hpp TEST tracing
+ljus_break_it(NAME tracing-target HEADER photons/photon_path.hpp TEST tracing
     FROM "first && sent.target && vertex->id != *sent.target"
     TO   "false"
     CASES "tracing: aimed photons*")
@@ -31,7 +31,7 @@ ljus_break_it(NAME tracing-aim HEADER photons/aiming.hpp TEST tracing
     CASES "tracing: a caustic has*")
 
 # From each light as many photons as from the next, all with its own flux.
-ljus_break_it(NAME tracing-light-choice HEADER photons/emission.hpp TEST tracing
+ljus_break_it(NAME tracing-light-choice HEADER photons/photon_path.hpp TEST tracing
     FROM ".flux = photon.flux / chosen.probability,"
     TO   ".flux = photon.flux,"
     CASES "tracing: all the lights' flux*")
@@ -73,13 +73,13 @@ ljus_break_it(NAME tracing-progress HEADER photons/tracing.hpp TEST tracing
     CASES "tracing: progress*")
 
 # Shadows fall where things were when the shutter opened.
-ljus_break_it(NAME tracing-shadow-time HEADER photons/tracing.hpp TEST tracing
+ljus_break_it(NAME tracing-shadow-time HEADER photons/photon_path.hpp TEST tracing
     FROM "spawn_ray(from, photon.ray.direction, photon.ray.time)"
     TO   "spawn_ray(from, photon.ray.direction)"
     CASES "tracing: a shadow falls*")
 
 # No shadow falls on what is matt and a mirror at once.
-ljus_break_it(NAME tracing-shadow-mixture HEADER photons/tracing.hpp TEST tracing
+ljus_break_it(NAME tracing-shadow-mixture HEADER photons/photon_path.hpp TEST tracing
     FROM "has(lobes(m), Lobes::non_specular);
         };"
     TO   "!has(lobes(m), Lobes::specular);
@@ -87,7 +87,7 @@ ljus_break_it(NAME tracing-shadow-mixture HEADER photons/tracing.hpp TEST tracin
     CASES "tracing: a shadow photon on each*")
 
 # Kinds that nobody wants are kept all the same.
-ljus_break_it(NAME tracing-keep HEADER photons/tracing.hpp TEST tracing
+ljus_break_it(NAME tracing-keep HEADER photons/photon_path.hpp TEST tracing
     FROM "== caustics && keep.has(kind);"
     TO   "== caustics;"
     CASES "tracing: only kinds*")

@@ -1,41 +1,41 @@
 # Without u + v <= 1 the triangle is a strip without an end.
-ljus_break_it(NAME triangle-u-plus-v HEADER geometry/triangle.hpp TEST triangle
+ljus_break_it(NAME triangle-u-plus-v HEADER geometry/surface_point.hpp TEST triangle
     FROM " && u + v <= C(1) + border"
     TO   ""
     CASES "triangle: each of the three edges*")
 
 # u + v <= 1 holds where v is negative.
-ljus_break_it(NAME triangle-v HEADER geometry/triangle.hpp TEST triangle
+ljus_break_it(NAME triangle-v HEADER geometry/surface_point.hpp TEST triangle
     FROM "v >= -border && u + v"
     TO   "u + v"
     CASES "triangle: each of the three edges*")
 
 # The conditions that the report forgets: what lies beside the triangle is hit.
-ljus_break_it(NAME triangle-conditions HEADER geometry/triangle.hpp TEST triangle
+ljus_break_it(NAME triangle-conditions HEADER geometry/surface_point.hpp TEST triangle
     FROM "if (!(within(near) && inverse != C(0)))"
     TO   "if (!(inverse != C(0)))"
     CASES "triangle: each of the three edges*")
 
 # The usual guard against parallel rays: an epsilon with a unit loses every small mesh.
-ljus_break_it(NAME triangle-epsilon HEADER geometry/triangle.hpp TEST triangle
+ljus_break_it(NAME triangle-epsilon HEADER geometry/surface_point.hpp TEST triangle
     FROM "inverse != C(0)"
     TO   "glm::abs(inverse) < C(1e6)"
     CASES "triangle: a mesh of any size*")
 
 # A determinant that overflows makes all quotients 0.
-ljus_break_it(NAME triangle-overflow HEADER geometry/triangle.hpp TEST triangle
+ljus_break_it(NAME triangle-overflow HEADER geometry/surface_point.hpp TEST triangle
     FROM " && inverse != C(0)"
     TO   ""
     CASES "triangle: sizes beyond*")
 
 # t_max is infinite by default, and so may be t.
-ljus_break_it(NAME triangle-infinity HEADER geometry/triangle.hpp TEST triangle
+ljus_break_it(NAME triangle-infinity HEADER geometry/surface_point.hpp TEST triangle
     FROM " && t <= max"
     TO   ""
     CASES "triangle: sizes beyond*")
 
 # The cube of a size leaves the range of float.
-ljus_break_it(NAME triangle-cube HEADER geometry/triangle.hpp TEST triangle
+ljus_break_it(NAME triangle-cube HEADER geometry/surface_point.hpp TEST triangle
     FROM "glm::dot(inverse * q, e2)"
     TO   "glm::dot(q, e2) * inverse"
     CASES "triangle: a mesh of any size*")
@@ -47,7 +47,7 @@ ljus_break_it(NAME triangle-normal HEADER geometry/triangle.hpp TEST triangle
     CASES "triangle: the normal is that*")
 
 # In double, without a border as wide as the rounding: ties are lost.
-ljus_break_it(NAME triangle-open HEADER geometry/triangle.hpp TEST watertight
+ljus_break_it(NAME triangle-open HEADER geometry/surface_point.hpp TEST watertight
     FROM "!within(detail::border_of_rounding(d, to, e1, e2, inverse, near))"
     TO   "true"
     CASES "watertight: rays that meet*")
@@ -63,13 +63,13 @@ ljus_break_it(NAME triangle-default HEADER geometry/triangle.hpp TEST tree_leaks
     CASES "tree leaks: half a million*")
 
 # In the plane of a sliver rounding moves u and v by any amount: the border must end.
-ljus_break_it(NAME triangle-sliver HEADER geometry/triangle.hpp TEST triangle
+ljus_break_it(NAME triangle-sliver HEADER geometry/surface_point.hpp TEST triangle
     FROM "return border <= most ? border : C(0);"
     TO   "return border <= most ? border : most;"
     CASES "triangle: the border*")
 
 # A border that is narrower than the rounding: the two triangles at an edge miss.
-ljus_break_it(NAME triangle-narrow-border HEADER geometry/triangle.hpp TEST triangle
+ljus_break_it(NAME triangle-narrow-border HEADER geometry/surface_point.hpp TEST triangle
     FROM "rounding_bound<C>(16)"
     TO   "C(0)"
     CASES "triangle: the border*")
@@ -82,19 +82,19 @@ ljus_break_it(NAME triangle-no-area-rounded HEADER geometry/surface_point.hpp
     CASES "triangle: no area in data*")
 
 # A coordinate just below 0, where an image begins again from its other end.
-ljus_break_it(NAME triangle-below-0 HEADER geometry/triangle.hpp TEST triangle
+ljus_break_it(NAME triangle-below-0 HEADER geometry/surface_point.hpp TEST triangle
     FROM "static_cast<T>(glm::max(u, C(0)))"
     TO   "static_cast<T>(u)"
     CASES "triangle: a hit in the border*")
 
 # Open on the third side alone.
-ljus_break_it(NAME triangle-open-side HEADER geometry/triangle.hpp TEST triangle
+ljus_break_it(NAME triangle-open-side HEADER geometry/surface_point.hpp TEST triangle
     FROM "u + v <= C(1) + border"
     TO   "u + v <= C(1)"
     CASES "triangle: a hit in the border*")
 
 # Open at the far end of the first edge.
-ljus_break_it(NAME triangle-open-end HEADER geometry/triangle.hpp TEST triangle
+ljus_break_it(NAME triangle-open-end HEADER geometry/surface_point.hpp TEST triangle
     FROM "u <= C(1) + near)"
     TO   "u <= C(1))"
     CASES "triangle: a hit in the border*")

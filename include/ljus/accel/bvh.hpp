@@ -27,7 +27,8 @@ template <std::floating_point T>
 struct NearestHitT {
     FlatHitT<T> at{};                                                 ///< Where it is.
     std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Of what.
-    bool found = false; ///< Whether there is one.
+    bool found = false;     ///< Whether there is one.
+    std::uint32_t slot = 0; ///< Of what, in the order of a tree: see nearest_hit().
 
     /// Takes a hit, if it is nearer, and shortens the ray to it: to one unit in the
     /// last place beyond it, because a primitive at the same t, computed in double, may
@@ -50,6 +51,26 @@ struct NearestHitT {
 // [nearest]
 using NearestHit = NearestHitT<float>; ///< NearestHitT in float.
 
+/// The nearest hit of all primitives in a tree.
+/// \param tree  A BvhT, a Bvh8 or a TriangleBvh.
+/// \param ray   Hits count in [t_min, t_max].
+/// \param ask   Called as ask(slot, ray) for those that the ray may meet; returns where
+///              it does, an optional FlatHitT. The ray is shorter each time.
+/// \return What asking all of them in turn would find.
+// [nearest_hit]
+template <typename Tree, std::floating_point T, typename Ask>
+[[nodiscard]] NearestHitT<T> nearest_hit(const Tree& tree, const RayT<T>& ray,
+                                         Ask&& ask) {
+    NearestHitT<T> nearest;
+    tree.closest(ray, [&](std::uint32_t slot, RayT<T>& rest) {
+        const auto hit = ask(slot, rest);
+        if (hit && nearest.offer(*hit, tree.primitive_ids()[slot], rest))
+            nearest.slot = slot;
+    });
+    return nearest;
+}
+// [nearest_hit]
+
 /// A binary tree of boxes over any primitives that have one \cite rubin1980. What the
 /// primitives are, and where, is the caller's: a search calls back with a primitive's
 /// *slot* in the tree's order, and primitive_ids() says which one that is.
@@ -57,12 +78,10 @@ using NearestHit = NearestHitT<float>; ///< NearestHitT in float.
 ///     std::vector<Box> boxes;
 ///     for (const Triangle& triangle : triangles) boxes.push_back(bounds(triangle));
 ///     const Bvh tree(boxes);
-///     NearestHit nearest;
-///     tree.closest(ray, [&](std::uint32_t slot, Ray& rest) {
-///         const std::uint32_t i = tree.primitive_ids()[slot];
-///         if (const auto hit = intersect(rest, triangles[i]))
-///             nearest.offer(*hit, i, rest);
-///     });
+///     const NearestHit nearest =
+///         nearest_hit(tree, ray, [&](std::uint32_t slot, const Ray& rest) {
+///             return intersect(rest, triangles[tree.primitive_ids()[slot]]);
+///         });
 template <std::floating_point T>
 class BvhT {
 public:

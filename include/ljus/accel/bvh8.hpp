@@ -65,18 +65,18 @@ public:
             test(slot, ray);
             return false;
         };
-        detail::walk<false>(wide_, ray, each_place(ask), watch);
+        detail::walk<false>(wide_, ray, each_slot(ask), watch);
     }
 
     /// Whether any of the primitives that a ray may meet says yes: as BvhT::any().
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
-        return detail::walk<true>(wide_, ray, each_place(test), watch);
+        return detail::walk<true>(wide_, ray, each_slot(test), watch);
     }
 
     /// A leaf for detail::walk() that asks slot by slot.
     template <typename Ask>
-    [[nodiscard]] auto each_place(Ask& ask) const {
+    [[nodiscard]] auto each_slot(Ask& ask) const {
         return [this, &ask](std::uint32_t first, std::uint32_t count,
                             const detail::Bvh8Ray*) {
             for (std::uint32_t slot = first; slot < first + count; ++slot)

@@ -121,14 +121,11 @@ using Mesh = MeshT<float>; ///< MeshT in float.
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<FlatHitT<T>> intersect(const RayT<T>& ray,
                                                    const MeshT<T>& mesh) {
-    NearestHitT<T> nearest;
-    const auto& primitive_ids = mesh.tree().primitive_ids();
     const auto prepared = prepare<Compute>(ray);
-    mesh.tree().closest(ray, [&](std::uint32_t slot, RayT<T>& rest) {
-        const auto triangle = mesh.triangle_at(slot);
-        if (const auto hit = intersect<Compute>(rest, triangle, prepared))
-            nearest.offer(*hit, primitive_ids[slot], rest);
-    });
+    NearestHitT<T> nearest =
+        nearest_hit(mesh.tree(), ray, [&](std::uint32_t slot, const RayT<T>& rest) {
+            return intersect<Compute>(rest, mesh.triangle_at(slot), prepared);
+        });
     if (!nearest.found) return std::nullopt;
     nearest.at.part = nearest.number;
     return nearest.at;

@@ -104,10 +104,10 @@ template <typename Caller>
 /// filter has just been.
 ///
 ///     const TriangleBvh tree(count, [&](std::uint32_t i) { return triangles[i]; });
-///     tree.closest(ray, [&](std::uint32_t slot, Ray& rest) {
-///         if (const auto hit = intersect<double>(rest, tree.triangle(slot)))
-///             nearest.offer(*hit, tree.primitive_ids()[slot], rest);
-///     });
+///     const NearestHit nearest =
+///         nearest_hit(tree, ray, [&](std::uint32_t slot, const Ray& rest) {
+///             return intersect<double>(rest, tree.triangle(slot));
+///         });
 /// \cost About 60 bytes per triangle.
 class TriangleBvh {
 public:
@@ -184,7 +184,7 @@ private:
         bool operator()(std::uint32_t first, std::uint32_t count,
                         const detail::Bvh8Ray* ready) const {
             if (ready == nullptr || !ready->moderate)
-                return of.tree_.each_place(ask)(first, count, ready);
+                return of.tree_.each_slot(ask)(first, count, ready);
             detail::FilteredTriangles found = detail::conservative_filter<Ask>(
                 of.blocks_[first / detail::lane_count], *ready, ray);
             if (definite_ends && found.definite != 0) return true;

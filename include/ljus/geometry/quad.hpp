@@ -12,7 +12,6 @@
 #include "ljus/geometry/ray.hpp"
 #include "ljus/geometry/sphere.hpp"
 #include "ljus/geometry/surface_point.hpp"
-#include "ljus/geometry/triangle.hpp"
 #include "ljus/math/require.hpp"
 
 namespace ljus {
@@ -61,11 +60,8 @@ template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<FlatHitT<T>> intersect(const RayT<T>& ray,
                                                    const QuadT<T>& quad) noexcept {
     using C = ComputeT<Compute, WideT<T>>;
-    auto hit = moller_trumbore<C>(ray, Vec3T<C>{quad.corner}, Vec3T<C>{quad.edge_u},
-                                  Vec3T<C>{quad.edge_v}, [](C u, C v, C border) {
-                                      return u <= C(1) + border && v >= -border &&
-                                             v <= C(1) + border;
-                                  });
+    auto hit = moller_trumbore<Spanned::parallelogram, C>(
+        ray, Vec3T<C>{quad.corner}, Vec3T<C>{quad.edge_u}, Vec3T<C>{quad.edge_v});
     if (hit && !detail::has_area(quad)) hit.reset();
     return hit;
 }

@@ -1,12 +1,16 @@
 #pragma once
 
 /// \file ljus/geometry/surface_point.hpp
-/// \brief A point of a surface, how well it is known, and how a ray leaves it.
+/// \brief A point of a surface: how well it is known, how a ray leaves it, and where a
+/// ray meets a flat one.
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "ljus/geometry/ray.hpp"
+#include "ljus/math/rounding.hpp"
 
 namespace ljus {
 
@@ -41,22 +45,6 @@ inline void set_point(SurfacePointT<T>& to, const SurfacePointT<T>& from) noexce
     set(to.error, from.error);
     set(to.normal, from.normal);
     to.tilt = from.tilt;
-}
-
-/// The relative error of n roundings in a row, n u / (1 - n u).
-/// \tparam T  The precision; u is its unit roundoff.
-/// \param n   How many roundings, at least 0.
-/// \return The bound, without a unit.
-template <std::floating_point T>
-[[nodiscard]] constexpr T rounding_bound(int n) noexcept {
-    const T nu = T(n) * std::numeric_limits<T>::epsilon() / T(2);
-    return nu / (T(1) - nu);
-}
-
-/// The sum of the sizes of the components.
-template <std::floating_point T>
-[[nodiscard]] T size_of(const Vec3T<T>& v) noexcept {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
 /// Adds to a point of a flat shape how far the next test of the same shape may see its
@@ -174,6 +162,111 @@ template <std::floating_point T>
             .time = time};
 }
 // [spawn_ray_to]
+
+/// \}
+
+/// \addtogroup triangle
+/// \{
+
+namespace detail {
+
+/// How far the rounding of moller_trumbore() may move u, v and u + v.
+///
+/// Their numerators are sums of products with at most 8 roundings on the way, none
+/// larger than \f$ |D|\,|E|\,|T| \f$ with \f$ |X| = |X_x| + |X_y| + |X_z| \f$; u + v
+/// has both. Where that is no small part of the shape, nothing is known.
+/// \param d        D.
+/// \param to       T.
+/// \param e1       \f$E_1\f$.
+/// \param e2       \f$E_2\f$.
+/// \param inverse  1 over the determinant.
+/// \param most     No wider border is of use.
+/// \return A bound without a unit; 0 where it would be above `most`.
+// [border]
+template <std::floating_point C>
+[[nodiscard]] C border_of_rounding(const Vec3T<C>& d, const Vec3T<C>& to,
+                                   const Vec3T<C>& e1, const Vec3T<C>& e2, C inverse,
+                                   C most) noexcept {
+    const C largest = size_of(d) * size_of(to) * (size_of(e1) + size_of(e2));
+    const C border = rounding_bound<C>(16) * largest * std::abs(inverse);
+    return border <= most ? border : C(0);
+}
+// [border]
+
+} // namespace detail
+
+/// What two edges span from a corner.
+enum class Spanned : std::uint8_t {
+    triangle,     ///< u and v at least 0, u + v at most 1.
+    parallelogram ///< u and v in [0, 1].
+};
+
+/// Solves \f$ O + tD = V_1 + uE_1 + vE_2 \f$ by Cramer's rule.
+///
+/// With \f$ T = O - V_1 \f$, \f$ P = D \times E_2 \f$ and \f$ Q = T \times E_1 \f$:
+/// \f[ t = \frac{Q \cdot E_2}{P \cdot E_1}, \quad u = \frac{P \cdot T}{P \cdot E_1},
+///     \quad v = \frac{Q \cdot D}{P \cdot E_1} \f]
+///
+/// No epsilon guards the determinant: where it is 0 the quotients are infinite or NaN,
+/// and no shape holds those; where it overflows they are 0, which is refused as well.
+///
+/// Two triangles round a ray at their common edge each in its own way. In a precision
+/// wider than that of the data the shape is closed, its border as wide as this rounding
+/// may be: then at least one of the two is hit. Where that is more than the rounding of
+/// the data, for slivers in whose plane the ray almost lies, the border is open again.
+/// See border_of_rounding().
+///
+/// \tparam shape    What the two edges span.
+/// \tparam Compute  The precision of the arithmetic; results are rounded to T once. In
+///                  float, for shapes and distances between 1e-15 and 1e15.
+/// \param ray     Any length of direction but zero; hits count in [t_min, t_max].
+/// \param v1      A corner.
+/// \param e1      The edge along which u runs.
+/// \param e2      The edge along which v runs.
+/// \return Distance and coordinates; nothing for a miss or a non-finite input.
+/// \cost One division, 25 multiplications, and 6 more for t \cite moller1997.
+/// \report{Section 3.1.5}
+/// \erratum{The report leaves out u, v and their conditions, without which every ray
+///          that crosses the plane hits.}
+// [moller_trumbore]
+template <Spanned shape, typename Compute = void, std::floating_point T>
+[[nodiscard]] std::optional<FlatHitT<T>>
+moller_trumbore(const RayT<T>& ray, const Vec3T<ComputeT<Compute, T>>& v1,
+                const Vec3T<ComputeT<Compute, T>>& e1,
+                const Vec3T<ComputeT<Compute, T>>& e2) noexcept {
+    using C = ComputeT<Compute, T>;
+    const Vec3T<C> d{ray.direction};
+    const Vec3T<C> to = Vec3T<C>{ray.origin} - v1;
+    const Vec3T<C> p = glm::cross(d, e2);
+    const C inverse = C(1) / glm::dot(p, e1);
+    const C u = glm::dot(p, to) * inverse;
+    constexpr bool closed = sizeof(C) > sizeof(T);
+    // No wider than the data's own rounding, or what lies beside the shape is hit.
+    constexpr C near = closed ? C(std::numeric_limits<T>::epsilon()) : C(0);
+    if (!(u >= -near && u <= C(1) + near)) return std::nullopt; // most rays miss here
+
+    const Vec3T<C> q = glm::cross(to, e1);
+    const C v = glm::dot(q, d) * inverse;
+    // Written so that NaN is a miss.
+    const auto within = [&](C border) {
+        if (!(u >= -border)) return false;
+        if (shape == Spanned::triangle) return v >= -border && u + v <= C(1) + border;
+        return u <= C(1) + border && v >= -border && v <= C(1) + border;
+    };
+    if (!(within(near) && inverse != C(0))) return std::nullopt;
+
+    // Not dot(q, e2) * inverse: the cube of a size leaves the range of float first.
+    const C t = glm::dot(inverse * q, e2);
+    constexpr C max{std::numeric_limits<T>::max()};
+    if (!(C(ray.t_min) <= t && t <= C(ray.t_max) && t <= max)) return std::nullopt;
+    // The border is asked for last: few hits are so near to an edge that it decides.
+    if (closed && !within(C(0)) &&
+        !within(detail::border_of_rounding(d, to, e1, e2, inverse, near)))
+        return std::nullopt;
+    return FlatHitT<T>{static_cast<T>(t), static_cast<T>(glm::max(u, C(0))),
+                       static_cast<T>(glm::max(v, C(0))), 0};
+}
+// [moller_trumbore]
 
 /// \}
 

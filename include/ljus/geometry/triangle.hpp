@@ -35,100 +35,6 @@ using Triangle = TriangleT<float>; ///< TriangleT in float.
 
 namespace detail {
 
-/// How far the rounding of moller_trumbore() may move u, v and u + v.
-///
-/// Their numerators are sums of products with at most 8 roundings on the way, none
-/// larger than \f$ |D|\,|E|\,|T| \f$ with \f$ |X| = |X_x| + |X_y| + |X_z| \f$; u + v
-/// has both. Where that is no small part of the shape, nothing is known.
-/// \param d        D.
-/// \param to       T.
-/// \param e1       \f$E_1\f$.
-/// \param e2       \f$E_2\f$.
-/// \param inverse  1 over the determinant.
-/// \param most     No wider border is of use.
-/// \return A bound without a unit; 0 where it would be above `most`.
-// [border]
-template <std::floating_point C>
-[[nodiscard]] C border_of_rounding(const Vec3T<C>& d, const Vec3T<C>& to,
-                                   const Vec3T<C>& e1, const Vec3T<C>& e2, C inverse,
-                                   C most) noexcept {
-    const auto size = [](const Vec3T<C>& x) {
-        return std::abs(x.x) + std::abs(x.y) + std::abs(x.z);
-    };
-    const C largest = size(d) * size(to) * (size(e1) + size(e2));
-    const C border = rounding_bound<C>(16) * largest * std::abs(inverse);
-    return border <= most ? border : C(0);
-}
-// [border]
-
-} // namespace detail
-
-/// Solves \f$ O + tD = V_1 + uE_1 + vE_2 \f$ by Cramer's rule.
-///
-/// With \f$ T = O - V_1 \f$, \f$ P = D \times E_2 \f$ and \f$ Q = T \times E_1 \f$:
-/// \f[ t = \frac{Q \cdot E_2}{P \cdot E_1}, \quad u = \frac{P \cdot T}{P \cdot E_1},
-///     \quad v = \frac{Q \cdot D}{P \cdot E_1} \f]
-///
-/// No epsilon guards the determinant: where it is 0 the quotients are infinite or NaN,
-/// and `inside` refuses both; where it overflows they are 0, which is refused as well.
-///
-/// Two triangles round a ray at their common edge each in its own way. In a precision
-/// wider than that of the data the shape is closed, its border as wide as this rounding
-/// may be: then at least one of the two is hit. Where that is more than the rounding of
-/// the data, for slivers in whose plane the ray almost lies, the border is open again.
-/// See border_of_rounding().
-///
-/// \tparam Compute  The precision of the arithmetic; results are rounded to T once. In
-///                  float, for shapes and distances between 1e-15 and 1e15.
-/// \param ray     Any length of direction but zero; hits count in [t_min, t_max].
-/// \param v1      A corner.
-/// \param e1      The edge along which u runs.
-/// \param e2      The edge along which v runs.
-/// \param inside  Whether (u, v), of which 0 <= u <= 1 is known, lies in the shape or
-///                in the border around it, its third argument; false for NaN.
-/// \return Distance and coordinates; nothing for a miss or a non-finite input.
-/// \cost One division, 25 multiplications, and 6 more for t \cite moller1997.
-/// \report{Section 3.1.5}
-/// \erratum{The report leaves out u, v and their conditions, without which every ray
-///          that crosses the plane hits.}
-// [moller_trumbore]
-template <typename Compute = void, std::floating_point T, typename Inside>
-[[nodiscard]] std::optional<FlatHitT<T>>
-moller_trumbore(const RayT<T>& ray, const Vec3T<ComputeT<Compute, T>>& v1,
-                const Vec3T<ComputeT<Compute, T>>& e1,
-                const Vec3T<ComputeT<Compute, T>>& e2, Inside inside) noexcept {
-    using C = ComputeT<Compute, T>;
-    const Vec3T<C> d{ray.direction};
-    const Vec3T<C> to = Vec3T<C>{ray.origin} - v1;
-    const Vec3T<C> p = glm::cross(d, e2);
-    const C inverse = C(1) / glm::dot(p, e1);
-    const C u = glm::dot(p, to) * inverse;
-    constexpr bool closed = sizeof(C) > sizeof(T);
-    // No wider than the data's own rounding, or what lies beside the shape is hit.
-    constexpr C near = closed ? C(std::numeric_limits<T>::epsilon()) : C(0);
-    if (!(u >= -near && u <= C(1) + near)) return std::nullopt; // most rays miss here
-
-    const Vec3T<C> q = glm::cross(to, e1);
-    const C v = glm::dot(q, d) * inverse;
-    // Written so that NaN is a miss.
-    const auto within = [&](C border) { return u >= -border && inside(u, v, border); };
-    if (!(within(near) && inverse != C(0))) return std::nullopt;
-
-    // Not dot(q, e2) * inverse: the cube of a size leaves the range of float first.
-    const C t = glm::dot(inverse * q, e2);
-    constexpr C max{std::numeric_limits<T>::max()};
-    if (!(C(ray.t_min) <= t && t <= C(ray.t_max) && t <= max)) return std::nullopt;
-    // The border is asked for last: few hits are so near to an edge that it decides.
-    if (closed && !within(C(0)) &&
-        !within(detail::border_of_rounding(d, to, e1, e2, inverse, near)))
-        return std::nullopt;
-    return FlatHitT<T>{static_cast<T>(t), static_cast<T>(glm::max(u, C(0))),
-                       static_cast<T>(glm::max(v, C(0))), 0};
-}
-// [moller_trumbore]
-
-namespace detail {
-
 /// \f$ E_1 \times E_2 \f$, in double: in float the normal of a thin triangle is off,
 /// and its length, the fourth power of a size on the way, leaves the range beyond 1e9.
 /// \param triangle  Any triangle.
@@ -166,9 +72,8 @@ template <typename Compute = void, std::floating_point T>
 intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
     using C = ComputeT<Compute, WideT<T>>;
     const Vec3T<C> v1{triangle.v1};
-    auto hit = moller_trumbore<C>(
-        ray, v1, Vec3T<C>{triangle.v2} - v1, Vec3T<C>{triangle.v3} - v1,
-        [](C u, C v, C border) { return v >= -border && u + v <= C(1) + border; });
+    auto hit = moller_trumbore<Spanned::triangle, C>(
+        ray, v1, Vec3T<C>{triangle.v2} - v1, Vec3T<C>{triangle.v3} - v1);
     // Rounded, corners on a line may span a triangle. (No second return: a function
     // that returns one variable does not copy it.)
     if (hit && !detail::has_area(triangle)) hit.reset();

@@ -10,7 +10,7 @@
 
 #include "ljus/image/image.hpp"
 #include "ljus/materials/material.hpp"
-#include "ljus/path/vertex.hpp"
+#include "ljus/path/next_vertex.hpp"
 #include "ljus/photons/photon.hpp"
 #include "ljus/scene/camera.hpp"
 

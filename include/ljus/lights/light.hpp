@@ -200,7 +200,7 @@ template <Light L>
              requires(L l) { center_sample(l); }},
         // [light hooks]
     };
-    // clang-format on
+// clang-format on
 }
 
 /// The cone that holds all that a point of a light sends; every direction for a light
@@ -212,18 +212,6 @@ template <typename L, typename Point>
         return emission_cone(light, point);
     else
         return {};
-}
-
-/// A ray that leaves a light: from a surface safely, from a point as it is.
-template <std::floating_point T>
-[[nodiscard]] RayT<T> leave(const SurfacePointT<T>& point,
-                            const Vec3T<T>& direction) noexcept {
-    return spawn_ray(point, direction);
-}
-/// From a point that lies on no surface.
-template <std::floating_point T>
-[[nodiscard]] RayT<T> leave(const Vec3T<T>& point, const Vec3T<T>& direction) noexcept {
-    return {.origin = point, .direction = direction};
 }
 
 /// The position of a point of a light.
@@ -262,40 +250,6 @@ template <std::floating_point T>
 }
 
 } // namespace detail
-
-/// A photon as it leaves its light.
-template <std::floating_point T>
-struct LeavingPhotonT {
-    RayT<T> ray{};      ///< Where it is and where it goes; its time is still to be set.
-    RgbT<T> flux{T(0)}; ///< W, of all photons of the light together.
-};
-
-/// A photon of a light, with the density of what the light sends: uniform over a lamp's
-/// area and with cos / pi in direction; uniform over the sphere from a point; as the
-/// intensity from a spot; and from afar side by side, over the disc that the sphere
-/// around the scene throws as its shadow.
-/// \param light        The light, as its scene keeps it.
-/// \param u_point      Point of the unit square: where on the light.
-/// \param u_direction  Point of the unit square: where to.
-/// \param time         Of the photon, in [0, 1].
-/// \return Ray and flux.
-// [emit_photon]
-template <Light L, std::floating_point T>
-[[nodiscard]] LeavingPhotonT<T> emit_photon(const L& light, const Vec2T<T>& u_point,
-                                            const Vec2T<T>& u_direction, T time) {
-    if constexpr (FarLight<L>) {
-        const ArrivalT<T> arrival = sample_arrival(light, u_direction);
-        const SphereT<T>& around = light.around;
-        return {detail::ray_from_afar(around, arrival.direction, around.center,
-                                      around.radius, u_point),
-                detail::disc_area(around.radius) * arrival.irradiance};
-    } else {
-        const auto point = emission_point(light, u_point, time);
-        return {detail::leave(point, sample_emission(light, point, u_direction)),
-                power(light)};
-    }
-}
-// [emit_photon]
 
 /// \}
 

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "ljus/materials/cosine_lobe.hpp"
+#include "ljus/materials/material.hpp"
 #include "ljus/math/require.hpp"
 
 namespace ljus {
@@ -69,9 +69,10 @@ template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const LambertianT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport /*transport*/, Lobes which = Lobes::all) noexcept {
-    if (is_black(surface.albedo)) return std::nullopt;
-    return sample_cosine_lobe(wo, u, which,
-                              [&](const Vec3T<T>&) { return surface.albedo; });
+    auto next =
+        sample_cosine_lobe(wo, u, is_black(surface.albedo) ? Lobes::none : which);
+    if (next) next->weight = surface.albedo;
+    return next;
 }
 
 /// Refuses an albedo outside [0, 1].

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/materials/material.hpp
-/// \brief What a material is: six functions, and the sample that one of them returns.
+/// \brief What a material is: six functions, and the sample that one of them returns;
+/// how matt ones are sampled.
 
 #include <array>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <optional>
 
 #include "ljus/hook.hpp"
+#include "ljus/math/sampling.hpp"
 #include "ljus/math/vector.hpp"
 
 namespace ljus {
@@ -226,6 +228,50 @@ template <Material M>
 }
 
 } // namespace detail
+
+/// \}
+
+/// \defgroup cosine_lobe Sampling matt surfaces
+/// \brief Section 3.2.4: cosine-weighted sampling, for every f that is close to a
+/// constant; also for materials of one's own.
+/// \{
+
+/// The density of sample_cosine_lobe().
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
+/// \param wi     Unit vector in the surface's frame, to where it comes from.
+/// \param which  The parts to sample from.
+/// \return |cos(theta)|/pi per steradian on the side of `wo`; 0 elsewhere, and 0
+///         without Lobes::diffuse.
+/// \report{Section 3.2.4}
+template <std::floating_point T>
+[[nodiscard]] constexpr T pdf_cosine_lobe(const Vec3T<T>& wo, const Vec3T<T>& wi,
+                                          Lobes which) noexcept {
+    if (!has(which, Lobes::diffuse) || !same_side(wo, wi)) return T(0);
+    return (wi.z < T(0) ? -wi.z : wi.z) * std::numbers::inv_pi_v<T>;
+}
+
+/// A direction on the side of `wo`, with density cos/pi.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
+/// \param u      Point of [0,1)^3; z is not used.
+/// \param which  The parts to sample from.
+/// \return The sample, its weight that of f = 1/pi: 1. The weight of another f is
+///         f cos/pdf, which is pi f. Nothing if `wo` lies on the surface or without
+///         Lobes::diffuse.
+/// \cost One sine, one cosine, one square root.
+/// \report{Section 3.2.4}
+template <std::floating_point T>
+[[nodiscard]] std::optional<BsdfSampleT<T>>
+sample_cosine_lobe(const Vec3T<T>& wo, const Vec3T<T>& u, Lobes which) noexcept {
+    std::optional<BsdfSampleT<T>> next;
+    if (!has(which, Lobes::diffuse) || !(wo.z > T(0) || wo.z < T(0))) return next;
+    next.emplace(); // filled where it stands: a copy of what was just written is slow
+    Vec3T<T>& wi = next->wi;
+    wi = sample_cosine_hemisphere(Vec2T<T>{u.x, u.y});
+    next->pdf = pdf_cosine_hemisphere(wi);
+    wi.z = std::copysign(wi.z, wo.z);
+    next->weight = RgbT<T>{T(1)};
+    return next;
+}
 
 /// \}
 

@@ -166,14 +166,15 @@ sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
     const T choice = u.z * sum;
 
     if (choice < share.diffuse) {
-        auto matt = sample_cosine_lobe(wo, u, Lobes::diffuse, [&](const Vec3T<T>& wi) {
-            const RgbT<T> tint = mixture.color / max_component(mixture.color);
-            const T ratio = detail::oren_nayar_ratio(mixture.sigma, wo, wi);
-            return tint * (sum * ratio * (T(1) - detail::boundary_share(mixture, wi)));
-        });
-        if (matt) matt->pdf *= share.diffuse / sum;
+        auto matt = sample_cosine_lobe(wo, u, Lobes::diffuse);
+        if (!matt) return matt;
+        const RgbT<T> tint = mixture.color / max_component(mixture.color);
+        const T ratio = detail::oren_nayar_ratio(mixture.sigma, wo, matt->wi);
+        matt->weight =
+            tint * (sum * ratio * (T(1) - detail::boundary_share(mixture, matt->wi)));
+        matt->pdf *= share.diffuse / sum;
         // So dark beside its gloss that no number says how seldom it is chosen.
-        if (matt && !(matt->pdf > T(0))) matt.reset();
+        if (!(matt->pdf > T(0))) matt.reset();
         return matt;
     }
     if (choice < share.diffuse + share.refract) {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "ljus/materials/cosine_lobe.hpp"
+#include "ljus/materials/material.hpp"
 #include "ljus/math/require.hpp"
 
 namespace ljus {
@@ -117,10 +117,12 @@ template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const OrenNayarT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport /*transport*/, Lobes which = Lobes::all) noexcept {
-    if (is_black(surface.albedo)) return std::nullopt;
-    return sample_cosine_lobe(wo, u, which, [&](const Vec3T<T>& wi) {
-        return surface.albedo * detail::oren_nayar_ratio(surface.sigma, wo, wi);
-    });
+    auto next =
+        sample_cosine_lobe(wo, u, is_black(surface.albedo) ? Lobes::none : which);
+    if (next)
+        next->weight =
+            surface.albedo * detail::oren_nayar_ratio(surface.sigma, wo, next->wi);
+    return next;
 }
 
 namespace detail {

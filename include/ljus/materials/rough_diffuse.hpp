@@ -226,10 +226,10 @@ template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport /*transport*/, Lobes which = Lobes::all) noexcept {
-    if (is_black(surface.albedo)) return std::nullopt;
-    return sample_cosine_lobe(wo, u, which, [&](const Vec3T<T>& wi) {
-        return detail::rough_weight(surface, wo, wi);
-    });
+    auto next =
+        sample_cosine_lobe(wo, u, is_black(surface.albedo) ? Lobes::none : which);
+    if (next) next->weight = detail::rough_weight(surface, wo, next->wi);
+    return next;
 }
 
 /// Refuses an albedo outside [0, 1], a roughness that is no angle, and for `fon` one

@@ -5,7 +5,7 @@
 
 #include "ljus/math/random.hpp"
 #include "ljus/path/path_state.hpp"
-#include "ljus/path/vertex.hpp"
+#include "ljus/path/next_vertex.hpp"
 
 namespace ljus {
 

@@ -202,6 +202,30 @@ template <AnyWorld W, std::floating_point T, Material M>
         .arrived;
 }
 
+/// The light of one light, chosen by power, at a vertex of a path: by a shadow ray,
+/// with the weight that it leaves to the path itself.
+/// \param world      The closed scene, with at least one light.
+/// \param path       The path.
+/// \param vertex     The surface.
+/// \param material   What it is made of.
+/// \param heuristic  How the light is shared with the path.
+/// \param context    Three numbers are drawn; the ray is counted.
+/// \return Throughput times radiance times the weight.
+/// \report{Section 3.2.3}
+// [sampled]
+template <AnyWorld W, std::floating_point T, Material M, typename Context>
+[[nodiscard]] RgbT<T> sample_one_light(const W& world, const PathStateT<T>& path,
+                                       const VertexT<T>& vertex, const M& material,
+                                       MisHeuristic heuristic, Context& context) {
+    const auto chosen = choose_light(world.light_choice(), next_1d<T>(context.stream));
+    const MisT<T> mis{.heuristic = heuristic, .factor = chosen.probability};
+    return path.throughput *
+           direct_light(world, chosen.light, vertex, material,
+                        next_2d<T>(context.stream), mis, context.counts) /
+           chosen.probability;
+}
+// [sampled]
+
 /// \}
 
 } // namespace ljus

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "ljus/lights/point_light.hpp"
-#include "ljus/photons/emission.hpp"
+#include "ljus/photons/photon_path.hpp"
 
 namespace ljus {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "ljus/materials/lambertian.hpp"
-#include "ljus/path/vertex.hpp"
+#include "ljus/path/next_vertex.hpp"
 #include "ljus/photons/irradiance_estimate.hpp"
 
 namespace ljus {

@@ -122,31 +122,6 @@ template <AnyWorld W, std::floating_point T>
     return sum;
 }
 
-/// The light of one light, chosen by power, at a vertex of a path: by a shadow ray,
-/// with the weight that it leaves to the path itself.
-/// \param tracer    The world and the limits.
-/// \param path      The path.
-/// \param vertex    The surface.
-/// \param material  What it is made of.
-/// \param context   Three numbers are drawn; the ray is counted.
-/// \return Throughput times radiance times the weight.
-/// \report{Section 3.2.3}
-// [sampled]
-template <AnyWorld W, std::floating_point T, Material M, typename Context>
-[[nodiscard]] RgbT<T>
-sample_one_light(const PathTracer<W>& tracer, const PathStateT<T>& path,
-                 const VertexT<T>& vertex, const M& material, Context& context) {
-    const W& world = tracer.world();
-    const auto chosen = choose_light(world.light_choice(), next_1d<T>(context.stream));
-    const MisT<T> mis{.heuristic = tracer.settings().heuristic,
-                      .factor = chosen.probability};
-    return path.throughput *
-           direct_light(world, chosen.light, vertex, material,
-                        next_2d<T>(context.stream), mis, context.counts) /
-           chosen.probability;
-}
-// [sampled]
-
 } // namespace detail
 
 /// The radiance that one random path finds.
@@ -184,9 +159,9 @@ template <AnyWorld W, std::floating_point T, typename Context>
         const auto at_material = [&](const auto& material) {
             if (has(lobes(material), Lobes::non_specular) && settings.sample_lights &&
                 world.light_count() > 0)
-                terms.add(
-                    "shadow ray", "DL",
-                    detail::sample_one_light(tracer, path, *vertex, material, context));
+                terms.add("shadow ray", "DL",
+                          sample_one_light(world, path, *vertex, material,
+                                           settings.heuristic, context));
             return continue_path(path, *vertex, material, Transport::radiance,
                                  Lobes::all, context.stream);
         };

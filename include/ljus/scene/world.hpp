@@ -3,16 +3,81 @@
 /// \file ljus/scene/world.hpp
 /// \brief A closed scene: what rays and photons travel in.
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "ljus/accel/bvh8.hpp"
-#include "ljus/lights/light_choice.hpp"
 #include "ljus/math/frame.hpp"
 #include "ljus/ref.hpp"
 #include "ljus/scene/scene.hpp"
 
 namespace ljus {
+
+/// \defgroup light_choice Choosing a light
+/// \brief Photons, and the path tracer's shadow rays, start at one light of all: a
+/// bright one more often.
+/// \{
+
+/// The lights of a scene, by power.
+struct LightChoice {
+    std::vector<double> cumulative; ///< Sums of the powers up to each light, in W.
+};
+
+/// One chosen light.
+template <std::floating_point T>
+struct ChosenLightT {
+    std::uint32_t light = 0; ///< Its number.
+    T probability = T(0);    ///< Of choosing this one.
+};
+
+/// The sums that choose_light() needs; a light's power is the sum of its channels.
+/// \param powers  The flux of each light, in W.
+/// \return One sum per light.
+template <std::floating_point T>
+[[nodiscard]] LightChoice light_choice(const std::vector<RgbT<T>>& powers) {
+    LightChoice choice{std::vector<double>(powers.size())};
+    double sum = 0;
+    for (std::size_t i = 0; i < powers.size(); ++i) {
+        const RgbT<double> flux{powers[i]};
+        choice.cumulative[i] = sum += flux.x + flux.y + flux.z;
+    }
+    return choice;
+}
+
+/// The probability with which choose_light() returns a light.
+/// \param choice  Of the scene's lights.
+/// \param light   Its number.
+/// \return Its share of the power.
+template <std::floating_point T>
+[[nodiscard]] T probability_of(const LightChoice& choice,
+                               std::uint32_t light) noexcept {
+    const double before = light == 0 ? 0.0 : choice.cumulative[light - 1];
+    return static_cast<T>((choice.cumulative[light] - before) /
+                          choice.cumulative.back());
+}
+
+/// A light, with a probability in proportion to its power.
+/// \param choice  Of the scene's lights; at least one.
+/// \param u       In [0, 1).
+/// \return Its number and the probability, which is never 0.
+/// \cost A binary search.
+template <std::floating_point T>
+[[nodiscard]] ChosenLightT<T> choose_light(const LightChoice& choice, T u) noexcept {
+    const double power = double(u) * choice.cumulative.back();
+    const auto place =
+        std::upper_bound(choice.cumulative.begin(), choice.cumulative.end() - 1, power);
+    const auto light = static_cast<std::uint32_t>(place - choice.cumulative.begin());
+    // Beside one 1e38 times as strong, a light's share may be too small for T, but the
+    // light's flux is divided by it.
+    return {light,
+            std::max(probability_of<T>(choice, light), std::numeric_limits<T>::min())};
+}
+
+/// \}
 
 /// \defgroup world Worlds
 /// \brief Section 3.1: "determine the first object intersected by a ray"; discussion:
@@ -432,18 +497,14 @@ template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] inline std::optional<SceneHitT<T>>
 closest_hit(const World<S, Compute>& world, const RayT<T>& ray) {
     if (world.ids().empty()) return closest_hit_plain(world, ray);
-    NearestHitT<T> nearest;
-    ObjectId object;
-    world.tree().closest(ray, [&](std::uint32_t slot, RayT<T>& rest) {
-        const ObjectId id = world.ids()[slot];
-        const auto hit = world.visit_shape(id, [&](const auto& shape) {
-            return detail::hit_of<Compute>(rest, shape);
+    const auto nearest =
+        nearest_hit(world.tree(), ray, [&](std::uint32_t slot, const RayT<T>& rest) {
+            return world.visit_shape(world.ids()[slot], [&](const auto& shape) {
+                return detail::hit_of<Compute>(rest, shape);
+            });
         });
-        if (hit && nearest.offer(*hit, world.tree().primitive_ids()[slot], rest))
-            object = id;
-    });
     if (!nearest.found) return std::nullopt;
-    return SceneHitT<T>{nearest.at, object};
+    return SceneHitT<T>{nearest.at, world.ids()[nearest.slot]};
 }
 
 /// Whether anything lies on a ray: the question of a shadow ray.

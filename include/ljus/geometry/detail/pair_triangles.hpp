@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ljus/geometry/quad.hpp"
+#include "ljus/geometry/triangle.hpp"
 
 namespace ljus::detail {
 

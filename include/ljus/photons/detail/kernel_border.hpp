@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "ljus/path/vertex.hpp"
+#include "ljus/path/next_vertex.hpp"
 
 namespace ljus::detail {
 

@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Followed as they run, a camera ray and a photon take no more calls, and no more files,
+# than the house allows: the numbers stand in scripts/journey.
+. "$(dirname "$0")/common.sh"
+[ -n "${LJUS_PYTHON:-}" ] || skip "Python is not installed"
+command -v addr2line >/dev/null || skip "addr2line (binutils) is not installed"
+case $("$LJUS_CXX" --version) in
+    *clang*) skip "clang reports no functions of chosen files alone; g++ does" ;;
+esac
+CXX=$LJUS_CXX CXXFLAGS=${LJUS_PACKAGE_FLAGS//;/ } \
+    "$LJUS_PYTHON" "$LJUS_ROOT/scripts/journey" --check
