@@ -24,8 +24,8 @@ ljus_break_it(NAME vertex-adjoint HEADER path/continue_path.hpp TEST vertex
 
 # A lamp in glass shines as if there were none.
 ljus_break_it(NAME vertex-begins-inside HEADER path/next_vertex.hpp TEST vertex
-    FROM "path.depth == 1 && from_behind"
-    TO   "false"
+    FROM "path.medium = medium_at(world, path.ray);"
+    TO   ";"
     CASES "vertex: a path that begins in glass*")
 
 # A shape that is turned inside out keeps its frame in the world.
@@ -46,12 +46,6 @@ ljus_break_it(NAME vertex-stale-pdf HEADER path/continue_path.hpp TEST vertex
     FROM "path.pdf = next.pdf;"
     TO   "if (!next.specular) path.pdf = next.pdf;"
     CASES "vertex: a path keeps nothing*")
-
-# Any surface met from behind says what the path is in, and not only the first one.
-ljus_break_it(NAME vertex-later-inside HEADER path/next_vertex.hpp TEST vertex
-    FROM "if (path.depth == 1 && from_behind)"
-    TO   "if (from_behind)"
-    CASES "vertex: a path that begins in glass*")
 
 # Shadow rays that find all things where they were when the shutter opened; the second row
 # in scenes with thin surfaces.
@@ -93,3 +87,21 @@ ljus_break_it(NAME vertex-roulette-red HEADER path/path_state.hpp TEST vertex
     FROM "max_component(throughput) / eta_scale"
     TO   "throughput.x / eta_scale"
     CASES "vertex: roulette's threshold*")
+
+# Who leaves a bubble in glass is in air.
+ljus_break_it(NAME medium-nested HEADER path/continue_path.hpp TEST vertex
+    FROM "!(vertex.wo.z < T(0) && next.wi.z > T(0));"
+    TO   "true;"
+    CASES "vertex: where a path begins*")
+
+# A body that was entered on the way counts as one around the beginning.
+ljus_break_it(NAME medium-entered HEADER path/next_vertex.hpp TEST vertex
+    FROM "if (body == last) return absorption(m);"
+    TO   "return absorption(m);"
+    CASES "vertex: where a path begins*")
+
+# Light from behind a surface comes through what is before it.
+ljus_break_it(NAME medium-behind HEADER path/direct_light.hpp TEST vertex
+    FROM "medium_beyond(vertex.medium, material, vertex.wo, wi)"
+    TO   "vertex.medium"
+    CASES "vertex: light from behind*")

@@ -165,6 +165,12 @@ requires std::floating_point<typename M::Scalar>
     return RgbT<typename M::Scalar>{0};
 }
 
+/// A material that may have a medium inside: it says what it absorbs.
+template <typename M>
+concept MayAbsorb = requires(const detail::Own<M>& m) {
+    absorption(m);
+};
+
 /// The emitted radiance, for every material that says nothing else: none.
 /// \return 0 W/(m^2 sr).
 template <typename M>

@@ -115,7 +115,9 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
     if (!next) return RgbT<T>{T(0)};
     PathStateT<T> path{.ray = spawn_ray(vertex.point, next->wi, vertex.time),
                        .throughput = next->sample.weight,
-                       .medium = vertex.medium,
+                       .medium = detail::medium_beyond(vertex.medium, material,
+                                                       vertex.wo, next->sample.wi),
+                       .medium_known = true,
                        .depth = 1,
                        .branch = std::uint64_t(1) << 44};
     auto numbers = context.stream; // next_vertex() moves them to the ray's own place

@@ -4,8 +4,8 @@
 /// \brief How a path goes on from a vertex, be it radiance or flux.
 
 #include "ljus/math/random.hpp"
-#include "ljus/path/path_state.hpp"
 #include "ljus/path/next_vertex.hpp"
+#include "ljus/path/path_state.hpp"
 
 namespace ljus {
 
@@ -78,20 +78,6 @@ scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
 
 namespace detail {
 
-/// The absorption after a scattering: of the material's inside, if the path went in;
-/// none, if it came out; else what it was.
-/// \param medium    Before, per scene unit.
-/// \param material  Of the surface.
-/// \param wo        Unit vector in the surface's frame, to where the light goes.
-/// \param wi        Unit vector in the surface's frame, to where it comes from.
-/// \return Per scene unit.
-template <typename M, std::floating_point T>
-[[nodiscard]] RgbT<T> medium_beyond(const RgbT<T>& medium, const M& material,
-                                    const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
-    if (same_side(wo, wi)) return medium;
-    return wi.z < T(0) ? absorption(material) : RgbT<T>{T(0)};
-}
-
 /// Continues a path in a direction that is known.
 /// \param path      Gets its new ray, throughput and medium.
 /// \param vertex    Where it is.
@@ -105,6 +91,8 @@ void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
     if (vertex.stop_probability < T(1)) path.throughput /= vertex.stop_probability;
     path.eta_scale *= next.eta_scale;
     path.medium = medium_beyond(path.medium, material, vertex.wo, next.wi);
+    if constexpr (MayAbsorb<M>) // who comes out may be in another body
+        path.medium_known = !(vertex.wo.z < T(0) && next.wi.z > T(0));
     path.previous = vertex.point.position;
     path.pdf = next.pdf;
     path.specular = next.specular;

@@ -170,9 +170,10 @@ template <AnyWorld W, std::floating_point T, Material M>
         if (is_black(visible)) return share;
     }
     share.arrived = share.sent;
-    if (!is_black(vertex.medium))
+    const RgbT<T> medium = medium_beyond(vertex.medium, material, vertex.wo, wi);
+    if (!is_black(medium))
         share.arrived *= transmittance(
-            vertex.medium, glm::distance(point.position, sampled->point.position));
+            medium, glm::distance(point.position, sampled->point.position));
     share.arrived *= visible;
     return share;
 }

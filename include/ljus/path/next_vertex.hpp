@@ -4,6 +4,9 @@
 /// \brief The vertex of a path: what is met next, all that is known of it, and how much
 /// of the light between two points arrives.
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <optional>
 
 #include "ljus/geometry/shape.hpp"
@@ -363,11 +366,79 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
 
 } // namespace detail
 
+namespace detail {
+
+/// Whether a type of scene lists a material with a medium inside.
+template <AnyWorld W>
+inline constexpr bool lists_media = W::any_material([]<typename M>() {
+    return MayAbsorb<M>;
+});
+
+} // namespace detail
+
+/// The absorption of what a ray begins in: of the innermost body around its origin. A
+/// body whose surface it leaves without having entered it is around the origin; what is
+/// opaque is looked through. Bodies are closed, of one shape or of several.
+/// \param world  The closed scene.
+/// \param ray    Any ray from there, of unit direction.
+/// \return Per scene unit; 0 outside of all bodies.
+/// \cost A comparison outside of a box around all that absorbs; inside of it a ray for
+///       each surface up to the end of the body.
+// [medium_at]
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] RgbT<T> medium_at(const W& world, RayT<T> ray) {
+    if (!detail::lists_media<W> || !world.may_be_in_medium(ray.origin))
+        return RgbT<T>{T(0)};
+    std::array<MaterialId, 16> entered{};
+    std::size_t count = 0;
+    for (int surfaces = 0; surfaces < 256; ++surfaces) {
+        const auto hit = closest_hit(world, ray);
+        if (!hit) break;
+        const VertexT<T> vertex = vertex_at(world, ray, *hit);
+        const MaterialId id = vertex.object.material;
+        const auto found = world.visit_material(
+            id, [&]<typename M>(const M& m) -> std::optional<RgbT<T>> {
+                if constexpr (MayAbsorb<M>) {
+                    if (vertex.wo.z > T(0)) {
+                        if (count < entered.size()) entered[count++] = id;
+                        return std::nullopt;
+                    }
+                    const auto last = entered.begin() + std::ptrdiff_t(count);
+                    const auto body = std::find(entered.begin(), last, id);
+                    if (body == last) return absorption(m);
+                    *body = entered[--count];
+                }
+                return std::nullopt;
+            });
+        if (found) return *found;
+        ray = spawn_ray(vertex.point, ray.direction, ray.time);
+    }
+    return RgbT<T>{T(0)};
+}
+// [medium_at]
+
+namespace detail {
+
+/// The absorption beyond a surface where light is scattered: of the material's inside,
+/// if the light comes from there; none, if it comes from outside; else what it is on
+/// the side of `wo`.
+/// \param medium    On that side, per scene unit.
+/// \param material  Of the surface.
+/// \param wo        Unit vector in the surface's frame, to where the light goes.
+/// \param wi        Unit vector in the surface's frame, to where it comes from.
+/// \return Per scene unit.
+template <typename M, std::floating_point T>
+[[nodiscard]] RgbT<T> medium_beyond(const RgbT<T>& medium, const M& material,
+                                    const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
+    if (same_side(wo, wi)) return medium;
+    return wi.z < T(0) ? absorption(material) : RgbT<T>{T(0)};
+}
+
+} // namespace detail
+
 /// Sends a path to its next vertex. Media and thin surfaces on the way take their part
-/// of the throughput.
-///
-/// A path that begins within a material, as that of a lamp in glass, is in the medium
-/// of the first surface that it meets from behind.
+/// of the throughput. Where a path begins, and where it leaves a body that may lie in
+/// another one, medium_at() says what it is in.
 /// \param world   The closed scene.
 /// \param path    Gets its depth, the last part of its ray and its throughput.
 /// \param stream  Moved to the start of the bounce; a number is drawn for each thin
@@ -377,6 +448,11 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] std::optional<VertexT<T>> next_vertex(const W& world, PathStateT<T>& path,
                                                     Stream& stream) {
+    if constexpr (detail::lists_media<W>) {
+        if (!path.medium_known && (path.depth == 0 || world.has_nested_media()))
+            path.medium = medium_at(world, path.ray);
+        path.medium_known = true;
+    }
     start_bounce(stream, path.branch + static_cast<std::uint64_t>(++path.depth));
     auto hit = closest_hit(world, path.ray);
     detail::PassageT<T> passage;
@@ -387,10 +463,6 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     if (!hit) return vertex;
 
     detail::fill_vertex(vertex.emplace(), world, path.ray, *hit);
-    const bool from_behind = glm::dot(vertex->frame.normal, path.ray.direction) > T(0);
-    if (path.depth == 1 && from_behind)
-        path.medium = world.visit_material(vertex->object.material,
-                                           [](const auto& m) { return absorption(m); });
     vertex->medium = path.medium;
     vertex->distance += passage.distance;
     vertex->stop_probability = passage.stop_probability;

@@ -24,6 +24,7 @@ struct PathStateT {
                                ///< finds. Of a photon: its flux, in W.
     T eta_scale = T(1);        ///< The part of the throughput that is (n_i/n_t)^2.
     RgbT<T> medium{T(0)};      ///< Absorption of what it is in, per scene unit.
+    bool medium_known = false; ///< Whether that is so; else next_vertex() looks.
     Vec3T<T> previous{T(0)};   ///< The last vertex.
     T pdf = T(0);              ///< Of its direction, per steradian; 0: a delta.
     bool specular = false;     ///< Whether its last scattering was by a delta.

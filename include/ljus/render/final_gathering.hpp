@@ -136,6 +136,7 @@ gather_irradiance(const W& world, const IrradiancePointsT<T>& points,
         const Vec3T<T> wi = to_world(vertex.frame, Vec3T<T>{up.x, up.y, side * up.z});
         const PathStateT<T> path{.ray = spawn_ray(vertex.point, wi, vertex.time),
                                  .medium = vertex.medium,
+                                 .medium_known = true,
                                  .previous = vertex.point.position,
                                  .met_diffuse = true,
                                  .depth = 1,

@@ -205,6 +205,8 @@ public:
                    scene.materials);
         close_lights(scene);
         materials_ = std::move(scene.materials);
+        if constexpr (any_material([]<typename M>() { return MayAbsorb<M>; }))
+            find_media();
     }
 
     /// All shapes, an array per type.
@@ -217,6 +219,14 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     /// A box around the bounding spheres of all shapes.
     [[nodiscard]] const BoxT<Scalar>& box() const noexcept { return box_; }
+    /// Whether a point may lie within a body that absorbs: in a box around all of them.
+    [[nodiscard]] bool may_be_in_medium(const Vec3T<Scalar>& point) const noexcept {
+        return glm::all(glm::lessThanEqual(media_.low, point)) &&
+               glm::all(glm::lessThanEqual(point, media_.high));
+    }
+    /// Whether boxes around bodies with a medium overlap, one of which absorbs: who
+    /// leaves one of them may still be in another.
+    [[nodiscard]] bool has_nested_media() const noexcept { return nested_media_; }
     /// How many lights there are: emissive objects and others, in the order in which
     /// they were added.
     [[nodiscard]] std::size_t light_count() const noexcept { return lights_.size(); }
@@ -355,6 +365,38 @@ private:
             ids_.push_back(all[primitive]);
     }
 
+    void find_media() {
+        struct Body {
+            BoxT<Scalar> box;
+            bool absorbs;
+        };
+        std::vector<Body> bodies;
+        std::uint32_t type = 0;
+        const auto add = [&](const auto& list) {
+            for (std::uint32_t i = 0; i < list.size(); ++i)
+                visit_material(objects_[type][i].material, [&]<typename M>(const M& m) {
+                    if constexpr (MayAbsorb<M>)
+                        bodies.push_back(
+                            {detail::box_around(list[i]), !is_black(absorption(m))});
+                });
+            ++type;
+        };
+        std::apply([&](const auto&... lists) { (add(lists), ...); }, shapes_);
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+            const auto& [box, absorbs] = bodies[i];
+            if (!absorbs) continue;
+            media_.low = glm::min(media_.low, box.low);
+            media_.high = glm::max(media_.high, box.high);
+            // Of very many bodies it is taken for granted.
+            nested_media_ = nested_media_ || bodies.size() > 4096;
+            for (std::size_t k = 0; k < bodies.size() && !nested_media_; ++k)
+                nested_media_ =
+                    k != i && (!bodies[k].absorbs || k > i) &&
+                    glm::all(glm::lessThanEqual(box.low, bodies[k].box.high)) &&
+                    glm::all(glm::lessThanEqual(bodies[k].box.low, box.high));
+        }
+    }
+
     // A thousandth wider than it need be, so that no rounding leaves a corner dark.
     [[nodiscard]] SphereT<Scalar> around() const {
         const Vec3T<Scalar> half = (box_.high - box_.low) / Scalar(2);
@@ -409,6 +451,8 @@ private:
         frames_;
     std::size_t size_ = 0;
     BoxT<Scalar> box_{};
+    BoxT<Scalar> media_{}; // of bodies that absorb; empty without any
+    bool nested_media_ = false;
     Tree tree_{};
     std::vector<ObjectId> ids_{};
     Kept kept_{};

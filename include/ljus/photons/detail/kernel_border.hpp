@@ -44,7 +44,9 @@ vertex_below(const W& world, const Vec3T<T>& place, const Vec3T<T>& normal, T he
                        .t_max = T(2) * height};
     const auto hit = closest_hit(world, down);
     if (!hit) return std::nullopt;
-    return vertex_at(world, down, *hit);
+    VertexT<T> vertex = vertex_at(world, down, *hit);
+    vertex.medium = medium_at(world, down);
+    return vertex;
 }
 
 /// Whether a surface goes on at a place near one of its points: a short ray straight
