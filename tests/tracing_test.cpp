@@ -990,7 +990,8 @@ TEST_CASE("tracing: what is stored where, by both normals, for its own map") {
     vertex.wo = to_local(vertex.frame, -path.ray.direction);
     const auto stored = [&](MapType map, const auto& material) {
         std::vector<PhotonT<double>> out;
-        detail::store_photon(path, vertex, material, 7, map, light_kinds, out);
+        detail::store_photon(World(RoomT<double>{}), path, vertex, material, 7, map,
+                             light_kinds, out);
         return out;
     };
     const auto flat = stored(MapType::general, matt);

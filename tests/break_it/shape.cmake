@@ -20,3 +20,9 @@ ljus_break_it(NAME shape-moving-check HEADER geometry/moving.hpp TEST moving
     FROM "    check(moving.shape);"
     TO   ""
     CASES "moving: *")
+
+# Photons lie where they have landed, wherever the shape is later.
+ljus_break_it(NAME moving-photons HEADER path/next_vertex.hpp TEST moving
+    FROM "resting.point.position -= vertex.time * shape.way;"
+    TO   ";"
+    CASES "moving: photons see*")

@@ -220,6 +220,28 @@ inline constexpr bool lists_moving = W::any_shape([]<typename G>() {
     return detail::is_moving<G>;
 });
 
+/// Where a vertex of a moving shape was at time 0, when the shutter opened. There photons
+/// are kept, and asked for: those of all times then lie together on what moves, and each
+/// place of it receives the mean of what falls on it while the shutter is open.
+/// \param world   The closed scene.
+/// \param vertex  Any.
+/// \return The vertex, its position at time 0; itself in a scene in which nothing moves.
+// [at_rest]
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] decltype(auto) at_rest(const W& world, const VertexT<T>& vertex) {
+    if constexpr (lists_moving<W>) {
+        VertexT<T> resting = vertex;
+        world.visit_shape(vertex.id, [&]<typename G>(const G& shape) {
+            if constexpr (is_moving<G>)
+                resting.point.position -= vertex.time * shape.way;
+        });
+        return resting;
+    } else {
+        return (vertex);
+    }
+}
+// [at_rest]
+
 /// Whether a scene has a thin surface among its materials: the pass is on.
 /// \param world  The closed scene.
 /// \return False also if it only lists such a type, and has none.

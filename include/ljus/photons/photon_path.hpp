@@ -178,8 +178,8 @@ void trace_shadow(const W& world, const EmittedPhotonT<T>& photon,
             return has(lobes(m), Lobes::non_specular);
         };
         if (world.visit_material(vertex->object.material, diffuse))
-            out.push_back({vertex->point.position, path.ray.direction, photon.flux,
-                           photon.light, PhotonKind::shadow,
+            out.push_back({at_rest(world, *vertex).point.position, path.ray.direction,
+                           photon.flux, photon.light, PhotonKind::shadow,
                            small_normal(vertex->point.normal)});
         path.ray = straight_on(vertex->point);
     }
@@ -196,6 +196,7 @@ template <std::floating_point T>
 }
 
 /// Stores a photon, if the surface is diffuse and the map keeps photons of its kind.
+/// \param world     The closed scene.
 /// \param path      The path of the photon; its throughput is the flux.
 /// \param vertex    Where it is.
 /// \param material  What the surface is made of.
@@ -203,8 +204,8 @@ template <std::floating_point T>
 /// \param map       For which map.
 /// \param keep      Which kinds are kept.
 /// \param out       Takes it.
-template <std::floating_point T, Material M>
-void store_photon(const PathStateT<T>& path, const VertexT<T>& vertex,
+template <AnyWorld W, std::floating_point T, Material M>
+void store_photon(const W& world, const PathStateT<T>& path, const VertexT<T>& vertex,
                   const M& material, std::uint16_t light, MapType map, PhotonKinds keep,
                   std::vector<PhotonT<T>>& out) {
     const PhotonKind kind = kind_of(path);
@@ -213,8 +214,9 @@ void store_photon(const PathStateT<T>& path, const VertexT<T>& vertex,
     if (!owned || !has(lobes(material), Lobes::non_specular)) return;
     const T landing = detail::landing_factor(vertex, path.ray.direction);
     if (!(landing > T(0))) return;
-    out.push_back({vertex.point.position, path.ray.direction, landing * path.throughput,
-                   light, kind, small_normal(vertex.point.normal)});
+    out.push_back({at_rest(world, vertex).point.position, path.ray.direction,
+                   landing * path.throughput, light, kind,
+                   small_normal(vertex.point.normal)});
 }
 
 /// Scatters a photon at a vertex, unless roulette ends it there.
@@ -292,8 +294,8 @@ void trace_photon(const W& world, MapType map, const SentPhotonT<T>& sent,
 
         const auto at_material = [&]<typename M>(const M& material) {
             if constexpr (!OnlySpecular<M>)
-                store_photon(path, *vertex, material, photon.light, map, pass.keep,
-                             block.photons);
+                store_photon(world, path, *vertex, material, photon.light, map,
+                             pass.keep, block.photons);
             return scatter_photon(path, *vertex, material, map, stream, audit);
         };
         if (!visit_material_at(world, *vertex, at_material)) return;

@@ -85,8 +85,9 @@ gather_ray(const W& world, const IrradiancePointsT<T>& points, PathStateT<T> pat
             const Lobes parts = lobes(material);
             if (has(parts, Lobes::non_specular)) {
                 ++counts.map_queries;
-                const RgbT<T> irradiance = irradiance_at(points, vertex->point.position,
-                                                         detail::seen_normal(*vertex));
+                const RgbT<T> irradiance = irradiance_at(
+                    points, detail::at_rest(world, *vertex).point.position,
+                    detail::seen_normal(*vertex));
                 found.radiance += path.throughput *
                                   detail::reflected(material, vertex->wo, irradiance,
                                                     Lobes::non_specular, stream);

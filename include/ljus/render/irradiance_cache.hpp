@@ -93,7 +93,7 @@ irradiance_between(const W& world, const IrradiancePointsT<T>& points,
                    const IrradianceCacheT<T>& cache, const VertexT<T>& vertex,
                    const GatherSettings& settings, Context& context) {
     ++context.counts.map_queries;
-    const auto known = interpolate(cache, vertex.point.position,
+    const auto known = interpolate(cache, detail::at_rest(world, vertex).point.position,
                                    detail::seen_normal(vertex), T(settings.reach));
     if (known) return *known;
     return gather_irradiance(world, points, vertex, settings, context).irradiance;
@@ -133,7 +133,8 @@ void gather_along(const W& world, const IrradiancePointsT<T>& points,
             const auto at_material = [&](const auto& material) {
                 const Lobes parts = lobes(material);
                 if (has(parts, Lobes::diffuse)) {
-                    row.positions.push_back(vertex->point.position);
+                    row.positions.push_back(
+                        detail::at_rest(world, *vertex).point.position);
                     row.records.push_back(
                         gather_irradiance(world, points, *vertex, settings, context));
                 }

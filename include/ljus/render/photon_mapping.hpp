@@ -326,7 +326,7 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
                                   mapper.settings().shadow_rays};
     if constexpr (Mapper::template has<Skipping>)
         return sample_all_lights(mapper.world(), vertex, material, how, context,
-                                 verdicts_of(mapper, vertex));
+                                 verdicts_of(mapper, at_rest(mapper.world(), vertex)));
     else
         return sample_all_lights(mapper.world(), vertex, material, how, context);
 }
@@ -352,16 +352,17 @@ void light_at(const PhotonMapper<W, X...>& mapper, const VertexT<T>& vertex,
     using Mapper = PhotonMapper<W, X...>;
     const PhotonMappingSettings& settings = mapper.settings();
     const PhotonMapsT<T>& maps = mapper.maps();
+    const VertexT<T>& resting = detail::at_rest(mapper.world(), vertex);
     const auto ask = [&](const PhotonMapT<T>& map, const DensityEstimateSettings& how,
                          PhotonKinds kinds) {
         ++context.counts.map_queries;
-        return estimate_radiance(map, vertex, material, vertex.wo, how, kinds,
+        return estimate_radiance(map, resting, material, vertex.wo, how, kinds,
                                  context.counts.map_photons);
     };
     if constexpr (Mapper::template has<Gathering>)
         if (gather && settings.indirect != IndirectLight::map)
             return add("irradiance points", "DL|D..DL|DS+L",
-                       known_light(mapper, vertex, material, context));
+                       known_light(mapper, resting, material, context));
     if (gather)
         add("general map", "DL|D..DL",
             ask(maps.general, settings.general_estimate, light_kinds));
@@ -378,7 +379,7 @@ void light_at(const PhotonMapper<W, X...>& mapper, const VertexT<T>& vertex,
             add("irradiance cache", "D..DL",
                 cached_light(mapper, vertex, material, context));
     if (!maps.caustics.empty() &&
-        !detail::put_off(context.batch, vertex, material, add.throughput,
+        !detail::put_off(context.batch, resting, material, add.throughput,
                          settings.caustics_estimate))
         add("caustics map", "DS+L",
             ask(maps.caustics, settings.caustics_estimate, light_kinds));
@@ -454,7 +455,9 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                 Lobes which = open;
                 if constexpr (PhotonMapper<W, X...>::template has<Skipping>)
                     if (has(which, Lobes::diffuse) &&
-                        needs_no_bounce(mapper, *vertex, context.counts))
+                        needs_no_bounce(mapper,
+                                        detail::at_rest(mapper.world(), *vertex),
+                                        context.counts))
                         which = Lobes::specular;
                 return continue_path(path, *vertex, material, Transport::radiance,
                                      which, context.stream);
