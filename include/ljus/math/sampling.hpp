@@ -12,15 +12,16 @@
 namespace ljus {
 
 /// \defgroup sampling Sampling
-/// \brief Section 3.2.4: pure functions of a point u of [0,1)^2, each beside its pdf.
+/// \brief Section 3.2.4: each sampling function maps a point u of [0,1)^2, and stands
+/// beside its pdf.
 ///
-/// Directions are unit vectors around +z. The caller owns the randomness, so that every
-/// function here can be plotted, stratified and tested.
+/// Directions are unit vectors around +z. The caller supplies the random numbers, so
+/// that every function here can be plotted, stratified and tested.
 /// \{
 
 namespace detail {
 
-/// The concentric map, as rounding leaves it.
+/// The concentric map without the correction of rounding.
 /// \param u  Point of [0,1)^2.
 /// \return Point of the unit disc, or up to 2 units of roundoff outside.
 template <std::floating_point T>
@@ -39,9 +40,9 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// A point of the unit disc, uniform in area: the concentric map
-/// \cite shirley1997, which takes squares around the centre to circles. What rounding
-/// puts onto the border or beside the disc is taken 4 units of roundoff inwards.
+/// A point of the unit disc, uniform in area: the concentric map \cite shirley1997,
+/// which maps squares around the centre to circles. A point that rounding puts onto the
+/// border or outside is moved 4 units of roundoff inwards.
 /// \param u  Point of [0,1)^2.
 /// \return Point with x^2 + y^2 < 1.
 /// \cost One division, one sine, one cosine.
@@ -63,17 +64,17 @@ template <std::floating_point T>
 /// A direction above the horizon with density cos(theta)/pi: a point of the disc,
 /// lifted onto the hemisphere (Malley's method).
 ///
-/// The border of the disc would lie on the horizon, where the density is 0 and a weight
-/// f cos/pdf is 0/0. It stands for the middle of its cell of random numbers instead,
-/// which is half a roundoff inside: z >= sqrt(epsilon), always.
+/// A point on the border of the disc would lie on the horizon, where the density is 0
+/// and the weight f cos/pdf is 0/0. The map uses the middle of each cell of random
+/// numbers instead, half a roundoff inside, so that always z >= sqrt(epsilon).
 /// \param u  Point of [0,1)^2.
 /// \return Unit vector with z > 0.
-/// \cost As sample_concentric_disc(), and one square root.
+/// \cost That of sample_concentric_disc(), and one square root.
 /// \report{Section 3.2.4}
 // [cosine hemisphere]
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<T> sample_cosine_hemisphere(const Vec2T<T>& u) noexcept {
-    // `inline` is a hint that g++ takes; a path tracer is faster with it.
+    // `inline` is a hint that makes a path tracer faster with g++.
     const Vec2T<T> p = detail::concentric_map(u);
     // The map keeps the larger of |a| and |b| as the radius of p.
     const T a = std::abs(T(2) * u.x - T(1));
@@ -84,7 +85,7 @@ template <std::floating_point T>
 }
 // [cosine hemisphere]
 
-/// The density of sample_cosine_hemisphere(), per steradian; the cosine is in it.
+/// The density of sample_cosine_hemisphere(), per steradian; it contains the cosine.
 /// \param d  Unit vector.
 /// \return cos(theta)/pi, or 0 on and below the horizon.
 template <std::floating_point T>
@@ -94,8 +95,8 @@ template <std::floating_point T>
 
 /// A direction inside a cone around +z, uniform in solid angle.
 ///
-/// The cone is given by 1 - cos(theta), not by the cosine: a lamp one degree wide has
-/// cos = 0.99996, of which float keeps hardly three digits. See one_minus_cosine().
+/// The cone is given by 1 - cos(theta), which keeps its digits for small angles: a lamp
+/// one degree wide has cos = 0.99996. See one_minus_cosine().
 /// \param u                  Point of [0,1)^2.
 /// \param one_minus_cos_max  1 - cos of the half angle, in (0, 2]; 1 is the hemisphere.
 /// \return Unit vector within the cone.
@@ -109,10 +110,10 @@ template <std::floating_point T>
     return {r * std::cos(phi), r * std::sin(phi), T(1) - w};
 }
 
-/// The density of sample_uniform_cone() for the directions inside, per steradian.
+/// The density of sample_uniform_cone(), per steradian, for directions inside. The
+/// caller tests whether a direction is inside.
 /// \param one_minus_cos_max  1 - cos of the half angle, in (0, 2].
-/// \return 1 over the solid angle 2 pi (1 - cos). Whether a direction is inside is for
-///         the caller to know, who has met the lamp or not.
+/// \return 1 over the solid angle 2 pi (1 - cos).
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_uniform_cone(T one_minus_cos_max) noexcept {
     return std::numbers::inv_pi_v<T> / (T(2) * one_minus_cos_max);
@@ -157,8 +158,8 @@ template <std::floating_point T>
     return std::numbers::inv_pi_v<T> / T(4);
 }
 
-/// A point of a triangle, uniform in area: the square folded along its diagonal
-/// \cite heitz2019. Neighbours in u stay neighbours, and no square root is taken.
+/// A point of a triangle, uniform in area: the square is folded along its diagonal
+/// \cite heitz2019. Neighbours in u stay neighbours, and no square root is needed.
 /// \param u  Point of [0,1)^2.
 /// \return Barycentric coordinates of the three vertices, each >= 0, with sum 1.
 /// \cost Five additions and multiplications.
@@ -186,10 +187,9 @@ template <std::floating_point T>
 /// \brief Section 3.2.4: "two uniform random generators for the azimuth and inclination
 /// angles".
 ///
-/// A belt near the pole is shorter than one near the horizon, and gets as many
-/// directions: they crowd around the normal. That is a density like any other, if it is
-/// divided by.
-/// \erratum{The report does not mention that density. Without it the directions count
+/// A belt near the pole is shorter than one near the horizon, but gets as many
+/// directions: they crowd around the normal. An estimate must divide by this density.
+/// \erratum{The report does not mention the density. Without it the directions count
 /// as if they were cosine-weighted.}
 /// \{
 
@@ -205,7 +205,7 @@ template <std::floating_point T>
     const T inclination = u.x * pi / T(2);
     const T azimuth = T(2) * pi * u.y;
     const T r = std::sin(inclination);
-    // Not cos(inclination), which rounding takes below 0 at the horizon.
+    // Not cos(inclination), which rounding makes negative at the horizon.
     const T z = std::sin((T(1) - u.x) * pi / T(2));
     return {r * std::cos(azimuth), r * std::sin(azimuth), z};
 }
@@ -215,10 +215,10 @@ template <std::floating_point T>
 ///
 /// \f[ p(\omega) = \frac{1}{\pi^2 \sin\theta} \f]
 ///
-/// 2/pi per radian of inclination, 1/(2 pi) per radian of azimuth, and a solid angle of
-/// sin(theta) for a radian of each.
+/// The factors are 2/pi per radian of inclination, 1/(2 pi) per radian of azimuth, and
+/// 1/sin(theta), because a radian of each spans a solid angle of sin(theta).
 /// \param d  Unit vector.
-/// \return At least 1/pi^2; infinite at the pole itself, 0 on and below the horizon.
+/// \return At least 1/pi^2; infinite at the pole, 0 on and below the horizon.
 // [naive pdf]
 template <std::floating_point T>
 [[nodiscard]] T pdf_naive_hemisphere(const Vec3T<T>& d) noexcept {
