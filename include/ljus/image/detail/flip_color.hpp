@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/image/detail/flip_color.hpp
-/// \brief The two colour spaces of FLIP: one to blur in, one to measure in.
+/// \brief The two colour spaces of FLIP: one for blurring, one for distances.
 
 #include <cmath>
 
@@ -14,8 +14,8 @@ namespace ljus {
 
 namespace detail {
 
-/// The shares of red, green and blue in X, Y and Z, by the primaries of Rec. 709; each
-/// row adds up to 1, because all three are in units of the white point's.
+/// The contributions of red, green and blue to X, Y and Z (primaries of Rec. 709). Each
+/// row adds up to 1, because X, Y and Z are relative to the white point.
 inline constexpr Vec3T<double> xyz_shares[3] = {
     Vec3T<double>{10135552, 8788810, 4435075} / 23359437.0,
     Vec3T<double>{2613072, 8788810, 887015} / 12288897.0,
@@ -29,19 +29,19 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
             glm::dot(xyz_shares[2], c)};
 }
 
-/// The linear sRGB colour of XYZ: xyz_over_white() the other way round.
+/// The linear sRGB colour of XYZ: the inverse of xyz_over_white().
 /// \param xyz  X/Xn, Y/Yn, Z/Zn.
-/// \return Linear sRGB, perhaps beside [0, 1].
+/// \return Linear sRGB, not always within [0, 1].
 [[nodiscard]] inline RgbT<double> rgb_of(const Vec3T<double>& xyz) noexcept {
-    // Cramer's rule: the products of two rows, over the determinant of all three.
+    // Cramer's rule: cross products of two rows over the determinant.
     const auto& [x, y, z] = xyz_shares;
     const Vec3T<double> yz = glm::cross(y, z);
     return (xyz.x * yz + xyz.y * glm::cross(z, x) + xyz.z * glm::cross(x, y)) /
            glm::dot(x, yz);
 }
 
-/// YCxCz, in which light, red-green and blue-yellow are apart, each linear in light so
-/// that it can be blurred.
+/// YCxCz, which separates lightness, red-green and blue-yellow. Each is linear in
+/// light, so that it can be blurred.
 /// \param c  Linear sRGB.
 /// \return 116 Y - 16; 500 (X - Y); 200 (Y - Z), in units of white.
 /// \cite andersson2020
@@ -52,13 +52,13 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
 
 /// The linear sRGB colour of YCxCz.
 /// \param c  From opponent().
-/// \return Linear sRGB, perhaps beside [0, 1].
+/// \return Linear sRGB, not always within [0, 1].
 [[nodiscard]] inline RgbT<double> rgb_of_opponent(const Vec3T<double>& c) noexcept {
     const double y = (c.x + 16) / 116;
     return rgb_of({y + c.y / 500, y, y - c.z / 200});
 }
 
-/// L*a*b* of a colour, with the Hunt effect: in the dark, colours are weaker.
+/// L*a*b* of a colour with the Hunt effect: dark colours are less colourful.
 /// \param c  Linear sRGB.
 /// \return L*, and a* and b* times L*/100.
 /// \cite andersson2020
@@ -74,10 +74,10 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
             0.01 * lightness * 200 * (y - z)};
 }
 
-/// The distance HyAB, made for large differences: lightness by its amount, colour by
-/// its length.
+/// The HyAB distance, made for large differences: city-block in lightness, Euclidean in
+/// a* and b*.
 /// \param a  From hunt_lab().
-/// \param b  The other one.
+/// \param b  The other colour.
 /// \return |L1 - L2| + |(a1, b1) - (a2, b2)|.
 /// \cite andersson2020
 [[nodiscard]] inline double hyab(const Vec3T<double>& a,
