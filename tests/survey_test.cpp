@@ -304,7 +304,7 @@ TEST_CASE("survey: a hook that is misspelt shows") {
     CHECK(plan.types[1].find("shape 2          has bounds, area, ") == 0);
     CHECK(plan.types[2] ==
           "material 1       has emission; without absorption (clear), at_point (the "
-          "same anywhere), uses_uv (uv is 0), both_ways (one way by chance), "
+          "same anywhere), uses_uv (uv is 0), both_ways (one branch at random), "
           "pass_through (opaque), only_specular (write both)");
     CHECK(plan.types[3].find("material 2       has absorption, both_ways, "
                              "only_specular; without emission (black), ") == 0);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/cosine_lobe.hpp
-/// \brief Cosine-weighted directions on either side: how matt surfaces are sampled.
+/// \brief Cosine-weighted directions on either side, which sample matt surfaces.
 
 #include "ljus/materials/material.hpp"
 #include "ljus/math/sampling.hpp"
@@ -9,14 +9,14 @@
 namespace ljus {
 
 /// \defgroup cosine_lobe Sampling matt surfaces
-/// \brief Section 3.2.4: cosine-weighted sampling, for every f that is close to a
-/// constant; also for materials of one's own.
+/// \brief Section 3.2.4: cosine-weighted sampling, for every f that is almost constant;
+/// also for user-defined materials.
 /// \{
 
 /// The density of sample_cosine_lobe().
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param wi     Unit vector in the surface's frame, to where it comes from.
-/// \param which  The parts to sample from.
+/// \param wo     Outgoing direction; unit vector in the surface's frame.
+/// \param wi     Incident direction; unit vector in the surface's frame.
+/// \param which  The lobes to sample.
 /// \return |cos(theta)|/pi per steradian on the side of `wo`; 0 elsewhere, and 0
 ///         without Lobes::diffuse.
 /// \report{Section 3.2.4}
@@ -28,9 +28,9 @@ template <std::floating_point T>
 }
 
 /// A direction on the side of `wo`, with density cos/pi.
-/// \param wo      Unit vector in the surface's frame, to where the light goes.
+/// \param wo      Outgoing direction; unit vector in the surface's frame.
 /// \param u       Point of [0,1)^3; z is not used.
-/// \param which   The parts to sample from.
+/// \param which   The lobes to sample.
 /// \param weight  Called with `wi`; returns f cos/pdf, which is pi f.
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::diffuse.
 /// \cost One sine, one cosine, one square root, and weight().
@@ -41,7 +41,7 @@ sample_cosine_lobe(const Vec3T<T>& wo, const Vec3T<T>& u, Lobes which,
                    Weight weight) noexcept {
     std::optional<BsdfSampleT<T>> next;
     if (!has(which, Lobes::diffuse) || !(wo.z > T(0) || wo.z < T(0))) return next;
-    next.emplace(); // filled where it stands: a copy of what was just written is slow
+    next.emplace(); // filled in place: avoids a store-forwarding stall
     Vec3T<T>& wi = next->wi;
     wi = sample_cosine_hemisphere(Vec2T<T>{u.x, u.y});
     next->pdf = pdf_cosine_hemisphere(wi);

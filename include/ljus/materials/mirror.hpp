@@ -16,23 +16,23 @@ namespace ljus {
 /// \brief Section 3.2.4: perfectly reflective surfaces.
 /// \{
 
-/// A mirror, on both sides, equally good at every angle.
+/// A two-sided mirror with the same reflectance at every angle.
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 struct MirrorT {
     using Scalar = T;                           ///< The precision of its numbers.
     static constexpr bool only_specular = true; ///< See OnlySpecular.
-    RgbT<T> reflectance{T(1)}; ///< Share of the light that comes back, in [0, 1].
+    RgbT<T> reflectance{T(1)}; ///< Reflected fraction of the light, in [0, 1].
 };
 using Mirror = MirrorT<float>; ///< MirrorT in float.
 
 /// The mirror direction. The weight is the reflectance: delta and cosine cancel.
 /// \param mirror  The mirror.
-/// \param wo      Unit vector in the surface's frame, to where the light goes.
-/// \param which   The parts to sample from.
+/// \param wo      Outgoing direction; unit vector in the surface's frame.
+/// \param which   The lobes to sample.
 /// \return The sample; nothing if `wo` lies on the surface, if the mirror is black, or
 ///         without Lobes::specular.
-/// \cost Two changes of sign.
+/// \cost Two sign changes.
 /// \report{Section 3.2.4, Eq. (4)}
 // [mirror sample]
 template <std::floating_point T>
@@ -46,8 +46,7 @@ sample(const MirrorT<T>& mirror, const Vec3T<T>& wo, const Vec3T<T>&,
 }
 // [mirror sample]
 
-/// Refuses a reflectance outside [0, 1].
-/// \param mirror  The mirror.
+/// Requires a reflectance within [0, 1].
 /// \throws std::invalid_argument naming the reflectance.
 template <std::floating_point T>
 void check(const MirrorT<T>& mirror) {
@@ -57,10 +56,10 @@ void check(const MirrorT<T>& mirror) {
 /// \}
 
 /// \defgroup metal Polished metal
-/// \brief Section 3.2.4: a perfectly reflective surface, coloured as metals are.
+/// \brief Section 3.2.4: a perfectly reflective surface with the colour of a metal.
 /// \{
 
-/// Smooth metal, on both sides. Its colour fades to white at grazing angles.
+/// Smooth two-sided metal. Its colour fades to white at grazing angles.
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 struct MetalT {
@@ -70,10 +69,10 @@ struct MetalT {
 };
 using Metal = MetalT<float>; ///< MetalT in float.
 
-/// The mirror direction, with the reflectance of its angle as weight.
+/// The mirror direction, with the reflectance at its angle as weight.
 /// \param metal  The metal.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param which  The parts to sample from.
+/// \param wo     Outgoing direction; unit vector in the surface's frame.
+/// \param which  The lobes to sample.
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
 /// \cost Three times fresnel_conductor().
 /// \report{Section 3.2.4, Eq. (4)}
@@ -87,8 +86,7 @@ sample(const MetalT<T>& metal, const Vec3T<T>& wo, const Vec3T<T>&,
     return specular_sample(reflect(wo), fresnel_conductor(cos_theta, metal.index));
 }
 
-/// Refuses an index that no metal has.
-/// \param metal  The metal.
+/// Requires an index that a metal can have.
 /// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const MetalT<T>& metal) {

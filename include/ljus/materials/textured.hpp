@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/textured.hpp
-/// \brief Any material with a colour, its colour from a texture.
+/// \brief Any material with a colour, multiplied by a texture.
 
 #include "ljus/image/texture.hpp"
 #include "ljus/materials/material.hpp"
@@ -9,28 +9,28 @@
 namespace ljus {
 
 /// \defgroup textured Textured materials
-/// \brief A material that becomes another one at each place.
+/// \brief A material whose colour varies over the surface.
 ///
-/// Renderers ask material_at(), which asks at_point(): a plain material has none and is
-/// itself, a textured one answers with its base in the colour of the place. So no plain
-/// material knows of textures, and a scene without them compiles nothing of this.
+/// Renderers call material_at(), which calls at_point(). A plain material has no
+/// at_point() and is used as it is; a textured one returns its base in the colour of
+/// the point. So a scene without textures compiles nothing of this.
 /// \{
 
-/// A material whose colour is multiplied by a texture's.
+/// A material whose colour is multiplied by that of a texture.
 template <Material Base, typename Texture>
 struct Textured {
     using Scalar = typename Base::Scalar;            ///< The precision of its numbers.
-    static constexpr bool uses_uv = UsesUv<Texture>; ///< As its texture says.
-    Base base{};       ///< White, if the texture's colour shall stay.
-    Texture texture{}; ///< In [0, 1] everywhere.
+    static constexpr bool uses_uv = UsesUv<Texture>; ///< As the texture declares it.
+    Base base{};       ///< White, if the texture's colour is to be kept.
+    Texture texture{}; ///< Colours within [0, 1].
 };
 
 namespace detail {
 
-/// A material in another colour; its `albedo`, `reflectance`, `tint` or `color` is it.
+/// A material with its `albedo`, `reflectance`, `tint` or `color` multiplied.
 /// \param base   The material.
-/// \param color  What its colour is multiplied by.
-/// \return The same material in the new colour.
+/// \param color  The factor.
+/// \return The material in the new colour.
 template <Material Base>
 [[nodiscard]] constexpr Base
 colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
@@ -47,10 +47,10 @@ colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
 
 } // namespace detail
 
-/// The material of a place: the base in the texture's colour.
+/// The material at a point: the base in the texture's colour.
 /// \param textured  The material.
-/// \param position  In scene units.
-/// \param uv        The coordinates of the place on its shape.
+/// \param position  The point, in scene units.
+/// \param uv        The coordinates of the point on its shape.
 /// \return A base material.
 /// \cost color_at() of the texture.
 // [at_point]
@@ -62,34 +62,34 @@ template <typename Base, typename Texture, std::floating_point T>
 }
 // [at_point]
 
-/// What goes straight on through a textured pane; only of a base that is thin, and of a
-/// texture that looks up by the place alone, which is all that is known here.
+/// The transmittance of a textured pane. Its texture may depend on the position only,
+/// because uv is not known here.
 /// \param textured  The material.
-/// \param position  Where.
-/// \param wo        Unit vector in the surface's frame, to where the light goes.
-/// \return Of each channel, what the base lets through there.
+/// \param position  The point.
+/// \param wo        Outgoing direction; unit vector in the surface's frame.
+/// \return The base's transmittance per channel.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] auto pass_through(const Textured<Base, Texture>& textured,
                                 const Vec3T<T>& position, const Vec3T<T>& wo) noexcept
     -> decltype(pass_through(textured.base, position, wo)) {
-    static_assert(!UsesUv<Texture>,
-                  "The texture of a pane looks up by the place, not by uv.");
+    static_assert(!UsesUv<Texture>, "The texture of a pane must not use uv: "
+                                    "give it a PlaneMap or a GlobeMap.");
     const Base here = at_point(textured, position, Vec2T<T>{T(0)});
     return pass_through(here, position, wo);
 }
 
-/// \name What the base says
-/// What is asked of no place in particular: by a survey, or when a shape is added.
+/// \name Functions of the base
+/// They answer for the whole material: for a survey, or when a shape is added.
 /// \{
 
-/// The parts of the base.
+/// The lobes of the base.
 /// \param m  The material.
 template <typename Base, typename Texture>
 [[nodiscard]] constexpr Lobes lobes(const Textured<Base, Texture>& m) noexcept {
     return lobes(m.base);
 }
 
-/// The absorption inside: the base's.
+/// The base's absorption coefficient inside.
 /// \param m  The material.
 /// \return Per scene unit.
 template <typename Base, typename Texture>
@@ -98,7 +98,7 @@ absorption(const Textured<Base, Texture>& m) noexcept {
     return absorption(m.base);
 }
 
-/// The emitted radiance: the base's, everywhere.
+/// The base's emitted radiance, everywhere.
 /// \param m  The material.
 /// \return W/(m^2 sr).
 template <typename Base, typename Texture>
@@ -107,10 +107,10 @@ emission(const Textured<Base, Texture>& m) noexcept {
     return emission(m.base);
 }
 
-/// f of the base in its own colour; that of a place is evaluate(material_at(m, ...)).
+/// f of the base in its own colour; at a point use evaluate(material_at(m, ...)).
 /// \param m   The material.
-/// \param wo  Unit vector in the surface's frame, to where the light goes.
-/// \param wi  Unit vector in the surface's frame, to where it comes from.
+/// \param wo  Outgoing direction; unit vector in the surface's frame.
+/// \param wi  Incident direction; unit vector in the surface's frame.
 /// \return f in 1/sr, without the cosine.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const Textured<Base, Texture>& m, const Vec3T<T>& wo,
@@ -120,9 +120,9 @@ template <typename Base, typename Texture, std::floating_point T>
 
 /// The density of the base's sample().
 /// \param m      The material.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param wi     Unit vector in the surface's frame, to where it comes from.
-/// \param which  The parts to sample from.
+/// \param wo     Outgoing direction; unit vector in the surface's frame.
+/// \param wi     Incident direction; unit vector in the surface's frame.
+/// \param which  The lobes to sample.
 /// \return Per steradian.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] T pdf(const Textured<Base, Texture>& m, const Vec3T<T>& wo,
@@ -132,11 +132,11 @@ template <typename Base, typename Texture, std::floating_point T>
 
 /// A sample of the base in its own colour.
 /// \param m          The material.
-/// \param wo         Unit vector in the surface's frame, to where the light goes.
+/// \param wo         Outgoing direction; unit vector in the surface's frame.
 /// \param u          Point of [0,1)^3.
 /// \param transport  Radiance or flux.
-/// \param which      The parts to sample from.
-/// \return The sample; nothing as for the base.
+/// \param which      The lobes to sample.
+/// \return The sample; nothing where the base returns none.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const Textured<Base, Texture>& m, const Vec3T<T>& wo, const Vec3T<T>& u,
@@ -146,8 +146,7 @@ sample(const Textured<Base, Texture>& m, const Vec3T<T>& wo, const Vec3T<T>& u,
 
 /// \}
 
-/// Refuses what the base or the texture refuses.
-/// \param textured  The material.
+/// Checks the base and the texture.
 /// \throws std::invalid_argument naming the member.
 template <typename Base, typename Texture>
 void check(const Textured<Base, Texture>& textured) {

@@ -75,10 +75,10 @@ template <std::floating_point T>
 /// \f$ G_1(w_o) \max(0, w_o \cdot h) D(h) / w_{o,z} \f$ \cite heitz2018.
 ///
 /// Stretching turns the facets into a hemisphere. The mirror directions of the
-/// stretched `wo` fill a spherical cap uniformly \cite dupuy2023, so that a point of the
-/// cap gives the normal. The cap is parametrised by the distance t from its top, which avoids
-/// cancellation: it is a hemisphere at grazing angles, and the whole sphere at normal
-/// incidence.
+/// stretched `wo` fill a spherical cap uniformly \cite dupuy2023, so that one point of
+/// it gives the normal. The cap is parametrised by the distance t from its top, which
+/// avoids cancellation: it is a hemisphere at grazing angles, and the whole sphere at
+/// normal incidence.
 /// \param alpha  Roughness.
 /// \param wo     Unit vector in the surface's frame, the outgoing direction.
 /// \param u      Point of the unit square.
