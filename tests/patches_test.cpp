@@ -114,7 +114,7 @@ TEST_CASE("patches: what there is, and what is left out") {
     CHECK(area == doctest::Approx(20.5));
     CHECK(flux.x == doctest::Approx(std::numbers::pi * 0.25 * 17));
     REQUIRE(all.left_out.size() == 1);
-    CHECK(all.left_out[0] == "2 objects do not look equally bright from everywhere");
+    CHECK(all.left_out[0] == "2 objects are not Lambertian and reflect no light");
 
     const auto furnace = sphere_furnace<float>(grey(1), grey(0.5f));
     const Patches inside = make_patches(furnace.world, {.size = 1});
@@ -133,7 +133,8 @@ TEST_CASE("patches: what there is, and what is left out") {
     odd.add(Triangle{{0, 0, 2}, {0, 1, 2}, {1, 0, 2}}, white);
     const Patches two = make_patches(World(odd), {.size = 10});
     CHECK(two.patches.size() == 2); // one without an area has no patch
-    CHECK(two.left_out == std::vector<std::string>{"1 light is no surface"});
+    CHECK(two.left_out ==
+          std::vector<std::string>{"1 light is not a surface and is left out"});
 }
 
 TEST_CASE("patches: too many are refused before they take any memory") {
@@ -352,12 +353,13 @@ TEST_CASE("patches: how many cells, at least, and what a ball reaches over") {
     moving.add(Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, grey);
     moving.add(Moving<Quad>{Quad{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}}, {0, 0, 1}}, grey);
     const Patches all = make_patches(World(moving), {.size = 9});
-    CHECK(all.left_out == std::vector<std::string>{
-                              "1 object is of a shape that is not cut into patches"});
+    CHECK(all.left_out ==
+          std::vector<std::string>{
+              "1 object is of a shape that is not divided into patches"});
     moving.add(Moving<Quad>{Quad{{0, 0, 5}, {0, 1, 0}, {1, 0, 0}}, {0, 0, 1}}, grey);
     const World moving_world(std::move(moving));
     CHECK(make_patches(moving_world, {.size = 9}).left_out[0] ==
-          "2 objects are of a shape that is not cut into patches");
+          "2 objects are of a shape that is not divided into patches");
 }
 
 TEST_CASE("form_factors: the visible share has the weights of the form factor") {

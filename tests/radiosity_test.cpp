@@ -221,7 +221,7 @@ TEST_CASE("radiosity: extremes") {
               (void)make_radiosity(
                   bright.world,
                   {.patches = {.size = 1}, .factors = {.analytic = false, .rays = 30}});
-          }).starts_with("the largest share of its light"));
+          }).starts_with("the largest fraction of its light"));
     CHECK(make_radiosity(bright.world,
                          {.patches = {.size = 1},
                           .factors = {.analytic = false, .rays = 30, .closed = true}}));
@@ -480,9 +480,9 @@ TEST_CASE("radiosity: how far a solver goes, and what it refuses, channel by cha
         for (int channel = 0; channel < 3; ++channel) {
             Color albedo(0.5);
             albedo[channel] = most;
-            CHECK(refusal([&] {
-                      (void)solve_radiosity(closed, of(albedo));
-                  }).starts_with("the largest share of its light that a patch gets"));
+            CHECK(refusal([&] { (void)solve_radiosity(closed, of(albedo)); })
+                      .starts_with(
+                          "the largest fraction of its light that a patch regains"));
         }
     CHECK_NOTHROW((void)solve_radiosity(closed, of(Color(1 - 1e-11)),
                                         {.solver = RadiositySolver::lu}));
