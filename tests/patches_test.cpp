@@ -127,8 +127,8 @@ TEST_CASE("patches: what there is, and what is left out") {
     const auto white = odd.add(Lambertian{});
     odd.add(Quad{}, white);
     CHECK(refusal([&] { (void)make_patches(World(odd)); }) ==
-          "the number of patches is 0; it must be at least 1: a diffuse quad, triangle "
-          "or ball that sees another.");
+          "the number of patches is 0; it must be at least 1: add a Lambertian quad, "
+          "triangle or ball that sees another.");
     odd.add(Quad{.corner{0, 0, 1}, .edge_u{1, 0, 0}, .edge_v{1, 0, 0}}, white);
     odd.add(Triangle{{0, 0, 2}, {0, 1, 2}, {1, 0, 2}}, white);
     const Patches two = make_patches(World(odd), {.size = 10});
@@ -139,10 +139,9 @@ TEST_CASE("patches: what there is, and what is left out") {
 
 TEST_CASE("patches: too many are refused before they take any memory") {
     const auto room = cornell_box();
-    CHECK(
-        refusal([&] { (void)make_patches(room.world, {.size = 0.01}); }) ==
-        "the number of patches is 40000; it must be at most 8192, for there is a form "
-        "factor for each pair of them: take larger ones.");
+    CHECK(refusal([&] { (void)make_patches(room.world, {.size = 0.01}); }) ==
+          "the number of patches is 40000; it must be at most 8192 (each pair has a "
+          "form factor): choose larger patches.");
     CHECK(refusal([&] {
               (void)make_patches(room.world, {.size = 1e-300});
           }).starts_with("the number of patches is 1e+12; "));

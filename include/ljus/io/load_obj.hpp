@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#ifndef TINY_OBJ_LOADER_H_ // it guards its names, and not what it implements
+#ifndef TINY_OBJ_LOADER_H_ // the header guards its declarations only
 #include <tiny_obj_loader.h>
 #endif
 
@@ -21,13 +21,13 @@
 namespace ljus {
 
 /// \defgroup load_obj Mesh files
-/// \brief Optional (tinyobjloader, its library is linked too): OBJ files and their MTL
-/// files.
+/// \brief Optional (tinyobjloader, whose library must be linked): OBJ files and their
+/// MTL files.
 ///
 ///     const auto teapot = load_obj("teapot.obj", {.scale = 0.1});
 ///     std::fputs(to_text(teapot.report).c_str(), stderr);
-///     add_obj(scene, teapot);                          // colours of the file
-///     scene.add(teapot.parts[0].mesh, scene.add(Glass{}));  // or one's own
+///     add_obj(scene, teapot);                               // the file's materials
+///     scene.add(teapot.parts[0].mesh, scene.add(Glass{}));  // or another one
 /// \{
 
 namespace detail {
@@ -36,30 +36,30 @@ namespace detail {
 template <std::floating_point T>
 struct ObjPartT {
     MeshT<T> mesh;                ///< Its triangles.
-    detail::ObjMaterial material; ///< What the file says that it is made of.
+    detail::ObjMaterial material; ///< Its material in the file.
 };
 
 } // namespace detail
 
-/// What a mesh file holds.
+/// The content of a mesh file.
 template <std::floating_point T>
 struct LoadedObjT {
     std::vector<detail::ObjPartT<T>>
-        parts{};        ///< One a material, in order of first use.
-    ObjReport report{}; ///< What is wrong with it.
-    /// Those that could be read of the parts' materials, by their paths.
+        parts{};        ///< One per material, in order of first use.
+    ObjReport report{}; ///< The problems of the file.
+    /// The pictures of the materials that could be read, by path.
     std::map<std::string, ImageT<T>> pictures{};
 };
 using LoadedObj = LoadedObjT<float>; ///< LoadedObjT in float.
 
-/// A wall with the picture of a material file: what add_obj() makes of map_Kd.
+/// A matt surface with the picture of map_Kd; see add_obj().
 template <std::floating_point T>
 using ObjPictureT = Textured<LambertianT<T>, PictureTextureT<T, UvMapT<T>>>;
 using ObjPicture = ObjPictureT<float>; ///< ObjPictureT in float.
 
 namespace detail {
 
-// What tinyobjloader calls while it reads: the reader, which finds the numbers itself.
+// The callbacks of tinyobjloader, which let the reader parse numbers itself.
 template <std::floating_point T>
 tinyobj::callback_t calls_of_reader() {
     using Reader = ObjReader<T>;
@@ -89,12 +89,12 @@ tinyobj::callback_t calls_of_reader() {
     const std::string why =
         troubles.empty()
             ? "; a mesh file has lines such as 'v 0 0 1' and 'f 1 2 3'."
-            : "; the first trouble: " + troubles.substr(0, troubles.find('\n'));
-    throw std::runtime_error(shown_path(file) + ": there is no face that can be used" +
+            : "; the first problem: " + troubles.substr(0, troubles.find('\n'));
+    throw std::runtime_error(shown_path(file) + ": no face of the file can be used" +
                              why);
 }
 
-// Loads the picture of a material, if it has one that is not there yet.
+// Loads the picture of a material, unless it has none or it is loaded already.
 template <std::floating_point T>
 void load_picture(const ObjMaterial& material, LoadedObjT<T>& loaded) {
     const std::string& path = material.picture;
@@ -109,17 +109,16 @@ void load_picture(const ObjMaterial& material, LoadedObjT<T>& loaded) {
 
 } // namespace detail
 
-/// Reads meshes from the text of an OBJ file. Faces of one material, wherever they
-/// stand, are one mesh; those of more than three corners are cut by cut_polygon().
+/// Reads meshes from the text of an OBJ file. All faces of one material become one
+/// mesh; cut_polygon() splits faces with more than three corners.
 /// \param text      The text.
-/// \param file      What messages call it: its name; material files are looked for
+/// \param file      The name of the file for messages; material files are searched for
 ///                  beside it.
 /// \param settings  Scale and normals.
-/// \return The meshes, and what is wrong with the file: what cannot be used is left
-///         out, and counted.
+/// \return The meshes, and a report: what cannot be used is left out and counted.
 /// \throws std::runtime_error  with one sentence, if no face can be used, or if a mesh
-///         cannot be made: "box.obj: there is no face that can be used; the first
-///         trouble: line 7: 12 faces name a vertex or a normal that is not there; ..."
+///         cannot be made: "box.obj: no face of the file can be used; the first
+///         problem: line 7: 12 faces refer to a vertex, ... that does not exist; ..."
 /// \throws std::invalid_argument  for a scale that is not finite and above 0.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedObjT<T> read_obj(std::string text, const std::string& file,
@@ -130,7 +129,7 @@ template <std::floating_point T = float>
     detail::ObjReader<T> reader{.settings = settings, .line{.stream = stream}};
     reader.materials =
         detail::read_materials(stream.view(), detail::folder_of(file), reader.report);
-    std::string warning, error; // ours are in the report
+    std::string warning, error; // not used: the report has our own
     tinyobj::LoadObjWithCallback(stream, detail::calls_of_reader<T>(), &reader, nullptr,
                                  &warning, &error);
     if (reader.parts.empty()) detail::refuse_without_faces(file, reader.report);
@@ -154,8 +153,8 @@ template <std::floating_point T = float>
 /// \param path      The file.
 /// \param settings  Scale and normals.
 /// \return As read_obj().
-/// \throws std::runtime_error  as read_obj(); or, if the file cannot be read, with its
-///         name and the reason.
+/// \throws std::runtime_error  as read_obj(), or with path and reason if the file
+///         cannot be read.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedObjT<T> load_obj(const std::string& path,
                                      const ObjSettings& settings = {}) {
@@ -163,12 +162,11 @@ template <std::floating_point T = float>
     return read_obj<T>(std::string(bytes.begin(), bytes.end()), path, settings);
 }
 
-/// Adds all meshes of a file to a scene, each made of what the file says: glass and
-/// mirrors where the scene lists them, and else Lambert's surface with the colour Kd;
-/// with the picture of map_Kd, if there is one and the scene lists ObjPicture. What
-/// glows, glows by Ke.
-/// \param scene   A scene with meshes and Lambert's surface.
-/// \param loaded  What load_obj() returned.
+/// Adds all meshes of a file to a scene with the file's materials: glass and mirrors if
+/// the scene lists them, otherwise Lambert's with the colour Kd, or ObjPicture with
+/// map_Kd if the scene lists that. Ke is the emission.
+/// \param scene   A scene with meshes and Lambertian materials.
+/// \param loaded  From load_obj().
 template <typename Scene, std::floating_point T>
 void add_obj(Scene& scene, const LoadedObjT<T>& loaded) {
     for (const detail::ObjPartT<T>& part : loaded.parts) {
@@ -191,11 +189,11 @@ void add_obj(Scene& scene, const LoadedObjT<T>& loaded) {
     }
 }
 
-/// Adds all meshes of a file to a scene, all made of one material.
+/// Adds all meshes of a file to a scene with one material.
 /// \param scene     A scene with meshes.
-/// \param loaded    What load_obj() returned.
-/// \param material  What add() returned for it.
-/// \param radiance  What all of them emit, W/(m^2 sr).
+/// \param loaded    From load_obj().
+/// \param material  From scene.add().
+/// \param radiance  Emission of all meshes, W/(m^2 sr).
 template <typename Scene, std::floating_point T>
 void add_obj(Scene& scene, const LoadedObjT<T>& loaded, MaterialId material,
              const RgbT<T>& radiance = RgbT<T>{0}) {
@@ -203,17 +201,17 @@ void add_obj(Scene& scene, const LoadedObjT<T>& loaded, MaterialId material,
         scene.add(part.mesh, material, radiance);
 }
 
-/// Reads the meshes of a scene file: load_json("scene.json", ObjMeshes{}). They are
-/// made of what the scene file says; the colours of the mesh file are not used.
+/// Reads the meshes of a scene file: load_json("scene.json", ObjMeshes{}). The scene
+/// file sets their materials; those of the mesh file are not used.
 template <std::floating_point T>
 struct ObjMeshesT {
-    std::string* report = nullptr; ///< Takes what is wrong, a line a trouble.
+    std::string* report = nullptr; ///< Receives the problems, one per line.
 
     /// Reads one file.
     /// \param path     The file.
-    /// \param scale    Every coordinate is multiplied by this.
+    /// \param scale    Factor of every coordinate.
     /// \param normals  "file", "smooth" or "flat".
-    /// \return All its meshes.
+    /// \return All meshes of the file.
     /// \throws std::runtime_error  as load_obj().
     [[nodiscard]] std::vector<MeshT<T>> operator()(const std::string& path,
                                                    double scale,

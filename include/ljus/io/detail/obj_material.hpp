@@ -1,12 +1,12 @@
 #pragma once
 
 /// \file ljus/io/detail/obj_material.hpp
-/// \brief What mesh files say of materials.
+/// \brief The materials of mesh files.
 
 #include <algorithm>
 #include <sstream>
 
-#ifndef TINY_OBJ_LOADER_H_ // it guards its names, and not what it implements
+#ifndef TINY_OBJ_LOADER_H_ // the header guards its declarations only
 #include <tiny_obj_loader.h>
 #endif
 
@@ -21,11 +21,10 @@ namespace ljus {
 
 namespace detail {
 
-/// The largest file that load_obj() takes, in bytes.
+/// The largest file that load_obj() accepts, in bytes.
 inline constexpr std::size_t max_obj_file = std::size_t(1) << 30;
 
-/// What a material file says of a material; numbers as in the file, clamped to what
-/// they may be.
+/// A material of a material file; its numbers are clamped to their ranges.
 struct ObjMaterial {
     std::string name{};       ///< Empty for faces without a material.
     glm::dvec3 diffuse{0.5};  ///< Kd, in [0, 1].
@@ -33,16 +32,16 @@ struct ObjMaterial {
     glm::dvec3 emission{0};   ///< Ke, W/(m^2 sr), at least 0.
     double index = 1.5;       ///< Ni, within [0.001, 1000].
     double dissolve = 1;      ///< d: 0 is clear.
-    int illumination = 2;     ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass.
-    std::string picture{};    ///< map_Kd, which Kd multiplies: its path; empty: none.
-    std::string picture_at{}; ///< Where that stands: "room.mtl, line 12".
+    int illumination = 2;     ///< illum: 3, 5 and 8: mirror; 4, 6, 7 and 9: glass.
+    std::string picture{};    ///< map_Kd, multiplied by Kd: its path; or empty.
+    std::string picture_at{}; ///< The position of map_Kd: "room.mtl, line 12".
 
-    /// Whether it is glass: by illum, or because d says that it is mostly clear.
+    /// True for glass: by illum, or because d is below 1/2.
     [[nodiscard]] bool is_glass() const noexcept {
         const int i = illumination;
         return i == 4 || i == 6 || i == 7 || i == 9 || dissolve < 0.5;
     }
-    /// Whether it is a mirror.
+    /// True for a mirror.
     [[nodiscard]] bool is_mirror() const noexcept {
         return illumination == 3 || illumination == 5 || illumination == 8;
     }
@@ -65,7 +64,7 @@ inline ObjMaterial material_of(const tinyobj::material_t& from) {
             .illumination = from.illum};
 }
 
-// The line of a material file that names a picture, from 1; 0 for none.
+// The line of a material file that names a picture, counted from 1; 0 if none does.
 inline long long line_of_picture(std::string_view text, std::string_view picture) {
     long long first = 0;
     each_line(text, [&](std::string_view line, long long number) {
@@ -77,7 +76,7 @@ inline long long line_of_picture(std::string_view text, std::string_view picture
     return first;
 }
 
-// Adds the materials of one material file; of a name that is there the first one stays.
+// Adds the materials of one material file; of equal names the first one is kept.
 inline void add_library(std::map<std::string, ObjMaterial>& materials,
                         const std::string& path) {
     const Bytes bytes = load_file(path, max_obj_file);
@@ -100,7 +99,7 @@ inline void add_library(std::map<std::string, ObjMaterial>& materials,
     }
 }
 
-// The materials of all files that a mesh file names; the first of a name counts.
+// The materials of all material files of a mesh file; of equal names the first is kept.
 inline std::map<std::string, ObjMaterial>
 read_materials(std::string_view text, const std::string& folder, ObjReport& report) {
     std::map<std::string, ObjMaterial> materials;

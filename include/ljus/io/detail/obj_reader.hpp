@@ -1,14 +1,14 @@
 #pragma once
 
 /// \file ljus/io/detail/obj_reader.hpp
-/// \brief How load_obj() reads: line by line, trusting no number.
+/// \brief The reader of load_obj(), line by line; it checks every number.
 
 #include <cmath>
 #include <compare>
 #include <map>
 #include <optional>
 
-#ifndef TINY_OBJ_LOADER_H_ // it guards its names, and not what it implements
+#ifndef TINY_OBJ_LOADER_H_ // the header guards its declarations only
 #include <tiny_obj_loader.h>
 #endif
 
@@ -18,27 +18,27 @@
 namespace ljus {
 
 /// \defgroup obj_reader Reading mesh files
-/// \brief Optional (tinyobjloader): it finds lines and words; numbers, which it takes
-/// for 0 or for another number if it cannot read them, are read again.
+/// \brief Optional (tinyobjloader): it finds lines and words. It silently misreads
+/// malformed numbers, so that the reader parses numbers itself.
 /// \{
 
-/// Which normals a mesh from a file gets.
+/// The normals of a mesh from a file.
 enum class ObjNormals : std::uint8_t {
-    file,   ///< The file's; where it has none, the triangles'.
-    smooth, ///< Those of smooth_normals(), whatever the file has.
+    file,   ///< Those of the file; without them, the triangles'.
+    smooth, ///< Those of smooth_normals(), even if the file has normals.
     flat    ///< The triangles'.
 };
 
-/// How a mesh file is read.
+/// The settings of load_obj().
 struct ObjSettings {
-    double scale = 1;                      ///< Every coordinate is multiplied by this.
+    double scale = 1;                      ///< Factor of every coordinate.
     ObjNormals normals = ObjNormals::file; ///< Which normals.
-    bool pictures = true;                  ///< Whether those of map_Kd are loaded.
+    bool pictures = true;                  ///< True: loads the pictures of map_Kd.
 };
 
 namespace detail {
 
-// A corner of a face: the numbers, from 0, of what the file says of it.
+// A corner of a face: indices from 0.
 struct ObjCorner {
     std::uint32_t position = 0;
     std::optional<std::uint32_t> normal{};
@@ -47,18 +47,18 @@ struct ObjCorner {
     friend auto operator<=>(const ObjCorner&, const ObjCorner&) = default;
 };
 
-// The faces of one material, as far as they have been read.
+// The faces of one material that have been read.
 template <std::floating_point T>
 struct ObjFacesT {
     ObjMaterial material{};
     MeshDataT<T> data{};
     std::map<ObjCorner, std::uint32_t> vertices{}; // of `data`: one for equal corners
-    bool smooth = false;                           // whether any face has normals
-    bool has_uv = false;                 // whether any face has texture coordinates
+    bool smooth = false;                           // true if any face has normals
+    bool has_uv = false;                 // true if any face has texture coordinates
     std::vector<long long> without_uv{}; // lines of faces that have none
 };
 
-// What is known while a file is read.
+// The state of reading a file.
 template <std::floating_point T>
 struct ObjReader {
     const ObjSettings& settings;
@@ -70,9 +70,9 @@ struct ObjReader {
     std::vector<Vec3T<T>> normals{}; // 0 for a bad one
     std::vector<Vec2T<T>> uv{};      // NaN for a bad one
     std::map<std::string, ObjMaterial> materials{};
-    std::map<std::string, std::size_t> numbers{}; // of the parts, by material
+    std::map<std::string, std::size_t> numbers{}; // index of the part of each material
     std::vector<ObjFacesT<T>> parts{};
-    std::string material{}; // that faces have from here on
+    std::string material{}; // of the faces that follow
 
     void vertex() {
         exact.push_back(numbers_of(line.text()));
@@ -90,7 +90,7 @@ struct ObjReader {
     void texture() {
         const std::string_view text = line.text();
         glm::dvec3 at = numbers_of(text);
-        if (words_of(text).size() < 3) at.y = 0; // of a picture of one row
+        if (words_of(text).size() < 3) at.y = 0; // a picture with one row
         uv.emplace_back(T(at.x), T(at.y));
         if (!has_place(uv.back())) report.add(ObjTrouble::bad_uv, line.number);
     }
@@ -105,7 +105,7 @@ struct ObjReader {
         if (!known) report.add(ObjTrouble::no_material, line.number);
         material = known ? name : std::string();
     }
-    // A corner as a face names it; nothing if it names what is not there.
+    // A corner of a face; nothing if an index does not exist.
     std::optional<ObjCorner> corner_of(const tinyobj::index_t& named) const {
         const auto position = place_of(named.vertex_index, exact.size());
         const auto normal = place_of(named.normal_index, normals.size());
@@ -125,7 +125,7 @@ struct ObjReader {
             const auto corner = corner_of(named[i]);
             if (!good || !corner) return report.add(ObjTrouble::bad_index, line.number);
             if (!is_finite(whole.positions[corner->position]))
-                return; // said at the vertex
+                return; // reported at the vertex
             corners.push_back(*corner);
             points.push_back(exact[corner->position]);
         }
@@ -136,8 +136,8 @@ struct ObjReader {
             empty = !add({corners[a], corners[b], corners[c]}) || empty;
         if (empty) report.add(ObjTrouble::no_area, line.number);
     }
-    // Normals and texture coordinates that are not good at every corner of a face are
-    // used at none.
+    // Drops normals or texture coordinates unless they are valid at every corner of the
+    // face.
     void keep_what_all_have(std::vector<ObjCorner>& corners) const {
         bool all_normals = settings.normals == ObjNormals::file;
         bool all_uv = true;
@@ -151,7 +151,7 @@ struct ObjReader {
             if (!all_uv) corner.uv.reset();
         }
     }
-    // One triangle of a face; false if it has no area.
+    // Adds one triangle of a face; false if it has no area.
     bool add(std::array<ObjCorner, 3> corners) {
         whole.triangles.push_back(
             {corners[0].position, corners[1].position, corners[2].position});
@@ -191,7 +191,7 @@ struct ObjReader {
         }
         return parts[at->second];
     }
-    // The vertex of a part that a corner is.
+    // The index of a corner's vertex in a part; added if it is new.
     std::uint32_t vertex_of(ObjFacesT<T>& part, const ObjCorner& corner) const {
         const auto [at, fresh] = part.vertices.try_emplace(
             corner, static_cast<std::uint32_t>(part.data.positions.size()));
@@ -205,7 +205,7 @@ struct ObjReader {
     }
 };
 
-// smooth_normals(), to which a seam of the texture coordinates is no edge.
+// smooth_normals() that ignores seams of the texture coordinates.
 template <std::floating_point T>
 void smooth_across_seams(ObjFacesT<T>& part) {
     MeshDataT<T> seamless{.triangles = part.data.triangles};
@@ -225,8 +225,8 @@ void smooth_across_seams(ObjFacesT<T>& part) {
         part.data.normals.push_back(seamless.normals[vertex]);
 }
 
-// Drops the normals or texture coordinates of a part in which no face has any, and
-// reports the faces that lack what others have.
+// Drops the normals or texture coordinates of a part if no face has them, and reports
+// the faces that lack those of others.
 template <std::floating_point T>
 void finish(ObjFacesT<T>& part, ObjNormals normals, ObjReport& report) {
     if (!part.smooth) part.data.normals.clear();

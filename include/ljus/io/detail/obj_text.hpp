@@ -22,7 +22,7 @@ namespace ljus {
 
 namespace detail {
 
-// Where the line ends that begins at a place, and where the next one begins.
+// The end of the line that begins at `begin`, and the start of the next one.
 struct LineEnd {
     std::size_t last, next;
 };
@@ -43,8 +43,8 @@ void each_line(std::string_view text, Use use) {
     }
 }
 
-// The line that a stream has read last, and its number; asked after each line, so that
-// lines are counted once.
+// The last line that a stream has read, and its number. It is queried after each line,
+// so that lines are counted once.
 struct LastLine {
     std::istringstream& stream;
     std::size_t begin = 0;
@@ -64,7 +64,7 @@ struct LastLine {
     }
 };
 
-// The words of a line, as tinyobjloader sees them: up to a 0.
+// The words of a line as tinyobjloader splits them: up to a 0.
 inline std::vector<std::string_view> words_of(std::string_view line) {
     line = line.substr(0, line.find('\0'));
     std::vector<std::string_view> words;
@@ -78,8 +78,8 @@ inline std::vector<std::string_view> words_of(std::string_view line) {
     }
 }
 
-// The three numbers of a line "v 1 2 3"; NaN where there is none. tinyobjloader takes
-// what it cannot read for 0.
+// The three numbers of a line "v 1 2 3"; NaN where there is none. tinyobjloader reads
+// malformed numbers as 0.
 inline glm::dvec3 numbers_of(std::string_view line) {
     const auto words = words_of(line);
     glm::dvec3 result(std::numeric_limits<double>::quiet_NaN());
@@ -95,8 +95,8 @@ inline glm::dvec3 numbers_of(std::string_view line) {
     return result;
 }
 
-// Whether tinyobjloader has read the numbers of a line "f 1/2/3 4/5/6 ...", of so many
-// corners, to their ends. It stops at other characters and at 2^31 without a word.
+// True if tinyobjloader has read the indices of a line "f 1/2/3 4/5/6 ..." with so many
+// corners to their ends. It silently stops at other characters and at 2^31.
 inline bool all_read(std::string_view line, std::size_t corners) {
     const auto words = words_of(line);
     bool good = words.size() == corners + 1;
@@ -110,7 +110,8 @@ inline bool all_read(std::string_view line, std::size_t corners) {
     return good;
 }
 
-// A number of a vertex: from 1, or from the end if negative; none if it is not there.
+// The index of a vertex by its number: from 1, or from the end if negative; nothing if
+// it does not exist.
 inline std::optional<std::uint32_t> place_of(int number, std::size_t count) {
     const auto all = static_cast<long long>(count);
     const long long place = number > 0 ? number - 1LL : number + all;
@@ -118,11 +119,11 @@ inline std::optional<std::uint32_t> place_of(int number, std::size_t count) {
     return static_cast<std::uint32_t>(place);
 }
 
-// tinyobjloader's exponents overflow from ten digits on. In what begins as a number and
-// has so many, the letter E gives way to one that ends it, which numbers_of() refuses.
+// tinyobjloader's exponents overflow from ten digits on. In a word with such a number
+// the letter E is replaced by one that ends the number; numbers_of() then refuses it.
 inline void blunt_exponents(std::string& text) {
     const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-    bool number = true; // the word up to here
+    bool number = true; // whether the word up to here is a number
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
         if ((c == 'e' || c == 'E') && number) {
