@@ -66,9 +66,6 @@ template <std::floating_point T, typename F>
 }
 
 /// The BRDF: one reflection plus multiple scattering.
-/// \param gloss  The material.
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
-/// \param wi     Incident direction; unit vector in the surface's frame.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \cost evaluate() of GlossyT, and lost_at() twice.
 /// \cite kulla2017
@@ -89,8 +86,6 @@ template <std::floating_point T, typename F>
 namespace detail {
 
 /// The probability of sampling the first reflection: its fraction of the light.
-/// \param gloss  The material.
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
 /// \return In [0, 1]; 1 where nothing is lost.
 template <std::floating_point T, typename F>
 [[nodiscard]] T chance_of_first(const CompensatedGlossyT<T, F>& gloss,
@@ -105,10 +100,6 @@ template <std::floating_point T, typename F>
 } // namespace detail
 
 /// The density of sample().
-/// \param gloss  The material.
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
-/// \param wi     Incident direction; unit vector in the surface's frame.
-/// \param which  The lobes to sample.
 /// \return Per steradian on the side of `wo`; 0 elsewhere.
 template <std::floating_point T, typename F>
 [[nodiscard]] T pdf(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo,
@@ -123,13 +114,7 @@ template <std::floating_point T, typename F>
 }
 
 /// The mirror direction of a visible facet, or a direction of the second lobe.
-/// \param gloss  The material.
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
-/// \param u      Point of [0,1)^3; z chooses between the two.
-/// \param transport  Has no effect.
-/// \param which  The lobes to sample.
-/// \return The sample; nothing if `wo` lies on the surface, if the direction would lead
-///         into it, or without the lobe.
+/// \return Nothing, too, if the direction would lead into the surface.
 /// \cost Up to twice sample() of GlossyT.
 template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

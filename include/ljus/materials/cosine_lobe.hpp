@@ -13,10 +13,7 @@ namespace ljus {
 /// also for user-defined materials.
 /// \{
 
-/// The density of sample_cosine_lobe().
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
-/// \param wi     Incident direction; unit vector in the surface's frame.
-/// \param which  The lobes to sample.
+/// The density of sample_cosine_lobe(), as pdf() of a material.
 /// \return |cos(theta)|/pi per steradian on the side of `wo`; 0 elsewhere, and 0
 ///         without Lobes::diffuse.
 /// \report{Section 3.2.4}
@@ -27,8 +24,8 @@ template <std::floating_point T>
     return (wi.z < T(0) ? -wi.z : wi.z) * std::numbers::inv_pi_v<T>;
 }
 
-/// A direction on the side of `wo`, with density cos/pi.
-/// \param wo      Outgoing direction; unit vector in the surface's frame.
+/// Samples the density cos/pi on the side of `wo`, as sample() of a material.
+/// \param wo      Outgoing direction.
 /// \param u       Point of [0,1)^3; z is not used.
 /// \param which   The lobes to sample.
 /// \param weight  Called with `wi`; returns f cos/pdf, which is pi f.

@@ -15,10 +15,9 @@ namespace ljus {
 /// \defgroup eon Energy-preserving Oren-Nayar
 /// \brief Section 3.2.1, 31 years later: \cite eon2025.
 ///
-/// Fujii's second model loses the light that facets send to each other. The loss at
-/// each angle has a closed form, and EON returns it by a second lobe, see
-/// \ref multiple_scattering. A white surface returns exactly all light, at any
-/// roughness.
+/// Fujii's second model loses the light that facets send to each other. The loss has a
+/// closed form, and EON returns it by \ref multiple_scattering. A white surface returns
+/// exactly all light, at any roughness.
 /// \{
 
 /// A matt surface that conserves energy, two-sided.
@@ -35,8 +34,6 @@ namespace detail {
 
 /// The loss of Fujii's second model at an angle, over A r:
 /// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$.
-/// \param sine    Sine of the angle to the normal, in [0, 1].
-/// \param cosine  Cosine of that angle, in [0, 1].
 /// \return At least 0, at most 1/2 - 2/(3 pi).
 /// \cite eon2025
 // [eon loss]
@@ -65,10 +62,7 @@ inline constexpr T eon_mean_loss = fon_constant<T> -
 /// where f_F is Fujii's ratio, E its albedo at an angle, and \f$ \bar E \f$ the mean of
 /// E. The common factor A r of all losses is cancelled, so that a roughness of 0 needs
 /// no special case.
-/// \param surface  The surface.
-/// \param wo       Outgoing direction; unit vector in the surface's frame.
-/// \param wi       Incident direction, on the same side; unit vector in that frame.
-/// \return At least 0.
+/// \return At least 0; for directions on the same side.
 /// \cost Two arc tangents, four square roots, eight divisions.
 /// \cite eon2025
 // [eon]
@@ -87,10 +81,9 @@ template <std::floating_point T>
 // [eon]
 
 /// A cosine lobe that is sheared towards the outgoing direction and cut at the horizon.
-/// M maps cosine-weighted directions to a density close to f cos.
-///
-/// M has the rows (a, 0, b), (0, c, 0), (d, 0, 1) in a frame whose x axis is the
-/// azimuth of wo. The four numbers are the fit of \cite eon2025, listing 2.
+/// The matrix M with rows (a, 0, b), (0, c, 0), (d, 0, 1) maps cosine-weighted
+/// directions to a density close to f cos, in a frame whose x axis is the azimuth of
+/// wo. The four numbers are the fit of \cite eon2025, listing 2.
 template <std::floating_point T>
 struct EonLobeT {
     T a;            ///< First row of M.
@@ -103,9 +96,6 @@ struct EonLobeT {
 };
 
 /// The lobe for an outgoing direction.
-/// \param roughness  In [0, 1].
-/// \param wo         Outgoing direction; unit vector in the surface's frame.
-/// \return The lobe.
 template <std::floating_point T>
 [[nodiscard]] EonLobeT<T> eon_lobe(T roughness, const Vec3T<T>& wo) noexcept {
     const T r = roughness, mu = std::abs(wo.z);
@@ -130,8 +120,6 @@ template <std::floating_point T>
 }
 
 /// The density of a direction above the horizon: the lobe and the uniform part.
-/// \param lobe  The lobe.
-/// \param wi    Unit vector with z > 0.
 /// \return Per steradian, above 0.
 template <std::floating_point T>
 [[nodiscard]] T pdf_eon_lobe(const EonLobeT<T>& lobe, const Vec3T<T>& wi) noexcept {
@@ -150,9 +138,7 @@ template <std::floating_point T>
     return lobe.uniform * even + (T(1) - lobe.uniform) * bent;
 }
 
-/// Samples the density pdf_eon_lobe().
-/// \param lobe  The lobe.
-/// \param u     Point of [0,1)^3; z chooses the lobe or a uniform direction.
+/// Samples the density pdf_eon_lobe(); u.z chooses the lobe or a uniform direction.
 /// \return Unit vector; rounding may leave it on the horizon.
 /// \cite eon2025
 // [eon lobe sample]
@@ -183,9 +169,6 @@ template <std::floating_point T>
 }
 
 /// The BRDF.
-/// \param surface  The surface.
-/// \param wo       Outgoing direction; unit vector in the surface's frame.
-/// \param wi       Incident direction; unit vector in the surface's frame.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const EonT<T>& surface, const Vec3T<T>& wo,
@@ -195,12 +178,7 @@ template <std::floating_point T>
 }
 
 /// The density of sample().
-/// \param surface  The surface.
-/// \param wo       Outgoing direction; unit vector in the surface's frame.
-/// \param wi       Incident direction; unit vector in the surface's frame.
-/// \param which    The lobes to sample.
-/// \return Per steradian on the side of `wo`; 0 elsewhere, and 0 without
-///         Lobes::diffuse.
+/// \return Per steradian on the side of `wo`; 0 elsewhere.
 template <std::floating_point T>
 [[nodiscard]] T pdf(const EonT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
@@ -209,15 +187,8 @@ template <std::floating_point T>
                                 Vec3T<T>{wi.x, wi.y, std::abs(wi.z)});
 }
 
-/// Samples a density close to f cos.
-/// \param surface  The surface.
-/// \param wo       Outgoing direction; unit vector in the surface's frame.
-/// \param u        Point of [0,1)^3; z chooses the lobe or a uniform direction.
-/// \param which    The lobes to sample.
-/// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or
-///         without Lobes::diffuse.
-/// \cost About three times that of a cosine-weighted direction; chapter 14 shows the
-///       gain.
+/// Samples a density close to f cos; u.z chooses the lobe or a uniform direction.
+/// \cost About three times that of a cosine-weighted direction.
 /// \cite eon2025
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

@@ -45,12 +45,7 @@ struct GlassBoundaryT {
     T eta_scale = T(1);                  ///< Scale of refracted radiance.
 };
 
-/// The split of light that leaves the boundary along a direction.
-/// \param glass      The glass.
-/// \param wo         Outgoing direction; unit vector in the surface's frame; z < 0 is
-///                   inside.
-/// \param transport  Radiance from index n_t is scaled by (n_i/n_t)^2; flux is not.
-/// \return F and the refracted direction.
+/// The split of light that leaves the boundary along `wo`; inside is z < 0.
 /// \cost Three square roots, three divisions; F is not evaluated in total reflection.
 /// \report{Section 3.2.5}
 template <std::floating_point T>
@@ -71,13 +66,6 @@ template <std::floating_point T>
 
 /// Samples reflection with probability F, refraction with 1 - F. Both have weight 1,
 /// and radiance from index n_t is then scaled by (n_i/n_t)^2.
-/// \param glass      The glass.
-/// \param wo         Outgoing direction; unit vector in the surface's frame; z < 0 is
-///                   inside.
-/// \param u          Point of [0,1)^3; z chooses the branch.
-/// \param transport  Radiance or flux.
-/// \param which      The lobes to sample.
-/// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
 /// \cost That of boundary().
 /// \report{Section 3.2.5}
 template <std::floating_point T>
@@ -94,10 +82,6 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
 
 /// Both branches with their weights, for a path that splits. The noise of the random
 /// choice, for instance in a lamp's reflection in a ball, vanishes.
-/// \param glass      The glass.
-/// \param wo         Outgoing direction; unit vector in the surface's frame; z < 0 is
-///                   inside.
-/// \param transport  Radiance or flux.
 /// \return The reflected and the refracted sample; nothing if there is only one.
 template <std::floating_point T>
 [[nodiscard]] std::optional<std::array<BsdfSampleT<T>, 2>>
@@ -111,7 +95,6 @@ both_ways(const GlassT<T>& glass, const Vec3T<T>& wo, Transport transport) noexc
 }
 
 /// The absorption coefficient inside, per scene unit; see transmittance().
-/// \param glass  The glass.
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<T> absorption(const GlassT<T>& glass) noexcept {
     return glass.absorption;

@@ -71,9 +71,6 @@ template <std::floating_point T, typename F>
 ///       = \frac{F\, D}{2\,(w_{i,z}\, r(w_o) + w_{o,z}\, r(w_i))} \f]
 ///
 /// with ggx_distribution() and ggx_lambda().
-/// \param gloss  The surface.
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
-/// \param wi     Incident direction; unit vector in the surface's frame.
 /// \return f in 1/sr, without the cosine; 0 for directions on different sides, and at
 ///         grazing angles where f would overflow.
 /// \cost Three square roots, one division per cosine.
@@ -98,10 +95,6 @@ template <std::floating_point T, typename F>
 // [glossy]
 
 /// The density of sample().
-/// \param gloss  The surface.
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
-/// \param wi     Incident direction; unit vector in the surface's frame.
-/// \param which  The lobes to sample.
 /// \return \f$ G_1 D / 4 w_{o,z} = D / 2 (w_{o,z} + r(w_o)) \f$ per steradian on the
 ///         side of `wo`; 0 elsewhere. Its integral is below 1, because directions into
 ///         the surface are rejected.
@@ -119,12 +112,7 @@ template <std::floating_point T, typename F>
 
 /// The mirror direction of a facet that is visible from `wo`. The weight is
 /// \f$ F\, G_2 / G_1 \f$, at most F.
-/// \param gloss  The surface.
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
-/// \param u      Point of [0,1)^3; z is not used.
-/// \param which  The lobes to sample.
-/// \return The sample; nothing if `wo` lies on the surface, if the direction would lead
-///         into it, or without the lobe.
+/// \return Nothing, too, if the direction would lead into the surface.
 /// \cost One sine, one cosine, eight square roots.
 /// \cite heitz2018
 template <std::floating_point T, typename F>

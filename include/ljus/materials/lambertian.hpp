@@ -33,9 +33,6 @@ template <std::floating_point T>
 
 /// The BRDF: f = albedo/pi, so that the integral of f cos over the hemisphere is the
 /// albedo.
-/// \param surface  The surface.
-/// \param wo       Outgoing direction; unit vector in the surface's frame.
-/// \param wi       Incident direction; unit vector in the surface's frame.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \report{Section 3.2.1}
 // [lambertian]
@@ -57,12 +54,6 @@ template <std::floating_point T>
 }
 
 /// Samples the density cos/pi: the weight f cos/pdf is then the albedo alone.
-/// \param surface  The surface.
-/// \param wo       Outgoing direction; unit vector in the surface's frame.
-/// \param u        Point of [0,1)^3; z is not used.
-/// \param which    The lobes to sample.
-/// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or
-///         without Lobes::diffuse.
 /// \cost One sine, one cosine, one square root.
 /// \report{Section 3.2.4}
 template <std::floating_point T>

@@ -28,9 +28,13 @@ namespace ljus {
 ///     std::optional<BsdfSample> sample(m, wo, u, transport, which);
 ///     void  check(m);                   // throws, and names the wrong member
 ///
-/// `which` are the lobes that pdf() and sample() may choose, by default all. A material
-/// may have further functions. The table says what each is for and what happens without
-/// it:
+/// `u` is a point of [0,1)^3, whose z chooses a lobe, `transport` says whether radiance
+/// or flux is carried, and `which` are the lobes to sample, by default all. sample()
+/// returns nothing if `wo` lies on the surface, without a lobe of `which`, or if the
+/// surface is black. check() throws std::invalid_argument.
+///
+/// A material may have further functions. The table says what each is for and what
+/// happens without it:
 ///
 /// \snippet{lineno} ljus/materials/material.hpp material hooks
 ///

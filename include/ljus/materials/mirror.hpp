@@ -27,11 +27,6 @@ struct MirrorT {
 using Mirror = MirrorT<float>; ///< MirrorT in float.
 
 /// The mirror direction. The weight is the reflectance: delta and cosine cancel.
-/// \param mirror  The mirror.
-/// \param wo      Outgoing direction; unit vector in the surface's frame.
-/// \param which   The lobes to sample.
-/// \return The sample; nothing if `wo` lies on the surface, if the mirror is black, or
-///         without Lobes::specular.
 /// \cost Two sign changes.
 /// \report{Section 3.2.4, Eq. (4)}
 // [mirror sample]
@@ -70,10 +65,6 @@ struct MetalT {
 using Metal = MetalT<float>; ///< MetalT in float.
 
 /// The mirror direction, with the reflectance at its angle as weight.
-/// \param metal  The metal.
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
-/// \param which  The lobes to sample.
-/// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
 /// \cost Three times fresnel_conductor().
 /// \report{Section 3.2.4, Eq. (4)}
 template <std::floating_point T>

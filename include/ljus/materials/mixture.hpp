@@ -88,10 +88,7 @@ struct MixtureSharesT {
     }
 };
 
-/// The fractions in whose proportion sample() chooses.
-/// \param mixture  The material.
-/// \param wo       Outgoing direction; unit vector in the surface's frame.
-/// \param which    The lobes to sample; the others get 0.
+/// The fractions in whose proportion sample() chooses; lobes not in `which` get 0.
 template <std::floating_point T>
 [[nodiscard]] MixtureSharesT<T>
 mixture_shares(const MixtureT<T>& mixture, const Vec3T<T>& wo, Lobes which) noexcept {
@@ -108,9 +105,6 @@ mixture_shares(const MixtureT<T>& mixture, const Vec3T<T>& wo, Lobes which) noex
 
 /// f of the matt lobe. Light crosses the boundary twice, so that 1 - F appears twice
 /// and f is reciprocal.
-/// \param mixture  The material.
-/// \param wo       Outgoing direction; unit vector in the surface's frame.
-/// \param wi       Incident direction; unit vector in the surface's frame.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \report{Section 3.2.1}
 // [mixture]
@@ -128,10 +122,6 @@ template <std::floating_point T>
 // [mixture]
 
 /// The density of sample().
-/// \param mixture  The material.
-/// \param wo       Outgoing direction; unit vector in the surface's frame.
-/// \param wi       Incident direction; unit vector in the surface's frame.
-/// \param which    The lobes to sample.
 /// \return |cos(theta)|/pi per steradian times the probability of the matt lobe, on the
 ///         side of `wo`; 0 elsewhere.
 template <std::floating_point T>
@@ -146,14 +136,7 @@ template <std::floating_point T>
 /// light. The weight is then the sum of the fractions. For the matt lobe it is
 /// multiplied by the colour over its brightest channel, by 1 - F for `wi`, and by
 /// oren_nayar_ratio().
-/// \param mixture    The material.
-/// \param wo         Outgoing direction; unit vector in the surface's frame; z < 0 is
-///                   inside a transparent body.
-/// \param u          Point of [0,1)^3; z chooses the lobe.
-/// \param transport  Radiance from index n_t is scaled by (n_i/n_t)^2; flux is not.
-/// \param which      The lobes to sample.
-/// \return The sample, with a pdf above 0 unless it is specular; nothing if `wo` lies
-///         on the surface or all fractions are 0.
+/// \return A sample with a pdf above 0 unless it is specular.
 /// \cost Fresnel once for `wo`, and for the matt lobe once for `wi`.
 /// \report{Sections 3.2.1, 3.2.4 and 3.2.5}
 template <std::floating_point T>
@@ -188,14 +171,12 @@ sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
 }
 
 /// The absorption coefficient inside, per scene unit; see transmittance().
-/// \param mixture  The material.
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<T> absorption(const MixtureT<T>& mixture) noexcept {
     return mixture.absorption;
 }
 
 /// The emitted radiance, uniform over the directions of the emitting side.
-/// \param mixture  The material.
 /// \return emissivity times color, in W/(m^2 sr).
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<T> emission(const MixtureT<T>& mixture) noexcept {

@@ -57,9 +57,8 @@ template <std::floating_point T>
 /// where alpha is the larger and beta the smaller of the two angles to the normal. The
 /// product of both sines with the cosine of the azimuths is x_i x_o + y_i y_o, and the
 /// tangent leaves a division by the larger cosine: no angle is computed.
-/// \param sigma  Roughness in radians, in [0, 1000].
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
-/// \param wi     Incident direction, on the same side; unit vector in that frame.
+/// \param sigma   Roughness in radians, in [0, 1000].
+/// \param wo, wi  Unit vectors on the same side.
 /// \return The ratio: at least 1/2, and unbounded where both directions graze: up to
 ///         3e13 in float.
 /// \cost Three divisions; no trigonometric function.
@@ -80,9 +79,6 @@ template <std::floating_point T>
 /// The BRDF: Lambert's albedo/pi times oren_nayar_ratio(). Light between facets is left
 /// out, so that white returns less than all light at most angles; at grazing angles the
 /// model returns up to 1.5 percent too much.
-/// \param surface  The surface.
-/// \param wo       Outgoing direction; unit vector in the surface's frame.
-/// \param wi       Incident direction; unit vector in the surface's frame.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \report{Section 3.2.1}
 template <std::floating_point T>
@@ -102,12 +98,6 @@ template <std::floating_point T>
 }
 
 /// Samples the density cos/pi; the weight is the albedo times the ratio.
-/// \param surface  The surface.
-/// \param wo       Outgoing direction; unit vector in the surface's frame.
-/// \param u        Point of [0,1)^3; z is not used.
-/// \param which    The lobes to sample.
-/// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or
-///         without Lobes::diffuse.
 /// \cost That of Lambert's, and three divisions.
 /// \report{Section 3.2.4}
 template <std::floating_point T>

@@ -38,9 +38,6 @@ namespace detail {
 
 /// The formula of the report's program: it uses the cosine between the directions for
 /// that between their azimuths, and clamps the sum to 1.
-/// \param sigma  Radians.
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
-/// \param wi     Incident direction, on the same side; unit vector in that frame.
 /// \return The ratio to Lambert, in [1/2, 1].
 /// \report{Section 3.2.1}
 template <std::floating_point T>
@@ -70,9 +67,6 @@ struct RoughRatiosT {
 ///     \left(1 - \cos\phi \left(\frac{2\beta}{\pi}\right)^2\right) \f]
 ///
 /// where alpha is the larger of the two angles to the normal, and beta the smaller.
-/// \param sigma  Radians.
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
-/// \param wi     Incident direction, on the same side; unit vector in that frame.
 /// \return Both ratios. For opposite grazing directions the terms cancel and lose all
 ///         digits, and the sum may be negative.
 /// \cost Two arc tangents, nine divisions.
@@ -106,8 +100,6 @@ template <std::floating_point T>
 
 /// Fujii's term s/t, where s, the product of both sines with the cosine of the
 /// azimuths, is divided only if it is positive.
-/// \param wo  Outgoing direction; unit vector in the surface's frame.
-/// \param wi  Incident direction, on the same side; unit vector in that frame.
 /// \return At least -1.
 // [fujii]
 template <std::floating_point T>
@@ -117,9 +109,6 @@ template <std::floating_point T>
 }
 
 /// Fujii's improved model.
-/// \param sigma  Radians.
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
-/// \param wi     Incident direction, on the same side; unit vector in that frame.
 /// \return Both ratios.
 /// \cite fujii2012
 template <std::floating_point T>
@@ -136,9 +125,6 @@ template <std::floating_point T>
 inline constexpr T fon_constant = T(0.5) - T(2) / T(3) * std::numbers::inv_pi_v<T>;
 
 /// Fujii's second model, called FON by \cite eon2025.
-/// \param roughness  In [0, 1].
-/// \param wo         Outgoing direction; unit vector in the surface's frame.
-/// \param wi         Incident direction, on the same side; unit vector in that frame.
 /// \return The ratio to Lambert.
 /// \cost Two divisions.
 template <std::floating_point T>
@@ -156,9 +142,6 @@ template <std::floating_point T>
 namespace detail {
 
 /// Pi times the BRDF, the weight of a cosine-weighted sample.
-/// \param surface  The surface.
-/// \param wo       Outgoing direction; unit vector in the surface's frame.
-/// \param wi       Incident direction, on the same side; unit vector in that frame.
 /// \return At least 0; negative values of rough_full() become 0.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> rough_weight(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo,
@@ -189,9 +172,6 @@ template <std::floating_point T>
 }
 
 /// The BRDF of the surface's model.
-/// \param surface  The surface.
-/// \param wo       Outgoing direction; unit vector in the surface's frame.
-/// \param wi       Incident direction; unit vector in the surface's frame.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo,
@@ -209,12 +189,6 @@ template <std::floating_point T>
 }
 
 /// Samples the density cos/pi.
-/// \param surface  The surface.
-/// \param wo       Outgoing direction; unit vector in the surface's frame.
-/// \param u        Point of [0,1)^3; z is not used.
-/// \param which    The lobes to sample.
-/// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or
-///         without Lobes::diffuse.
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,

@@ -51,8 +51,6 @@ inline constexpr T max_film_thickness = T(1e6);
 } // namespace detail
 
 /// The thickness of a film at a point.
-/// \param film      The film.
-/// \param position  The point.
 /// \return In nm, in [0, 1 mm].
 // [thickness_at]
 template <std::floating_point T>
@@ -68,10 +66,7 @@ template <std::floating_point T>
 }
 // [thickness_at]
 
-/// The reflectance of a film.
-/// \param film       The film.
-/// \param cos_theta  Cosine between ray and normal, of either sign.
-/// \param thickness  In nm.
+/// The reflectance of a film, for a cosine of either sign and a thickness in nm.
 /// \return R for each channel, in [0, 1].
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> reflectance(const SoapFilmT<T>& film, T cos_theta,
@@ -112,9 +107,6 @@ template <std::floating_point T>
 
 /// The transmittance of a film at a point. A material with this function is a thin
 /// sheet.
-/// \param film      The film.
-/// \param position  The point.
-/// \param wo        Outgoing direction; unit vector in the surface's frame.
 /// \return T = 1 - R for each channel.
 // [pass_through]
 template <std::floating_point T>
@@ -126,10 +118,6 @@ template <std::floating_point T>
 
 /// The mirror direction, with the reflectance at the point as weight. Transmission is
 /// not sampled; see pass_through().
-/// \param point  A point of a film.
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
-/// \param which  The lobes to sample.
-/// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
 /// \report{Figure 4}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

@@ -28,9 +28,6 @@ struct Textured {
 namespace detail {
 
 /// A material with its `albedo`, `reflectance`, `tint` or `color` multiplied.
-/// \param base   The material.
-/// \param color  The factor.
-/// \return The material in the new colour.
 template <Material Base>
 [[nodiscard]] constexpr Base
 colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
@@ -48,10 +45,6 @@ colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
 } // namespace detail
 
 /// The material at a point: the base in the texture's colour.
-/// \param textured  The material.
-/// \param position  The point, in scene units.
-/// \param uv        The coordinates of the point on its shape.
-/// \return A base material.
 /// \cost color_at() of the texture.
 // [at_point]
 template <typename Base, typename Texture, std::floating_point T>
@@ -64,9 +57,6 @@ template <typename Base, typename Texture, std::floating_point T>
 
 /// The transmittance of a textured pane. Its texture may depend on the position only,
 /// because uv is not known here.
-/// \param textured  The material.
-/// \param position  The point.
-/// \param wo        Outgoing direction; unit vector in the surface's frame.
 /// \return The base's transmittance per channel.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] auto pass_through(const Textured<Base, Texture>& textured,
@@ -83,14 +73,12 @@ template <typename Base, typename Texture, std::floating_point T>
 /// \{
 
 /// The lobes of the base.
-/// \param m  The material.
 template <typename Base, typename Texture>
 [[nodiscard]] constexpr Lobes lobes(const Textured<Base, Texture>& m) noexcept {
     return lobes(m.base);
 }
 
 /// The base's absorption coefficient inside.
-/// \param m  The material.
 /// \return Per scene unit.
 template <typename Base, typename Texture>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
@@ -99,7 +87,6 @@ absorption(const Textured<Base, Texture>& m) noexcept {
 }
 
 /// The base's emitted radiance, everywhere.
-/// \param m  The material.
 /// \return W/(m^2 sr).
 template <typename Base, typename Texture>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
@@ -108,9 +95,6 @@ emission(const Textured<Base, Texture>& m) noexcept {
 }
 
 /// f of the base in its own colour; at a point use evaluate(material_at(m, ...)).
-/// \param m   The material.
-/// \param wo  Outgoing direction; unit vector in the surface's frame.
-/// \param wi  Incident direction; unit vector in the surface's frame.
 /// \return f in 1/sr, without the cosine.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const Textured<Base, Texture>& m, const Vec3T<T>& wo,
@@ -119,10 +103,6 @@ template <typename Base, typename Texture, std::floating_point T>
 }
 
 /// The density of the base's sample().
-/// \param m      The material.
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
-/// \param wi     Incident direction; unit vector in the surface's frame.
-/// \param which  The lobes to sample.
 /// \return Per steradian.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] T pdf(const Textured<Base, Texture>& m, const Vec3T<T>& wo,
@@ -131,12 +111,6 @@ template <typename Base, typename Texture, std::floating_point T>
 }
 
 /// A sample of the base in its own colour.
-/// \param m          The material.
-/// \param wo         Outgoing direction; unit vector in the surface's frame.
-/// \param u          Point of [0,1)^3.
-/// \param transport  Radiance or flux.
-/// \param which      The lobes to sample.
-/// \return The sample; nothing where the base returns none.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const Textured<Base, Texture>& m, const Vec3T<T>& wo, const Vec3T<T>& u,
