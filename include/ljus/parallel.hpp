@@ -68,9 +68,8 @@ namespace detail {
 #endif
 }
 
-/// The number of blocks that cover `total` items.
-/// \param total  At least 0.
-/// \param size   Items per block, at least 1; the last block may have fewer.
+/// The number of blocks of `size` items that cover `total` items; the last block may
+/// have fewer.
 [[nodiscard]] constexpr long long block_count(long long total,
                                               long long size) noexcept {
     return total / size + (total % size != 0 ? 1 : 0);
@@ -82,10 +81,7 @@ struct BlockRange {
     long long last = 0;  ///< One past the last one.
 };
 
-/// The items of block number `block`.
-/// \param block  In [0, block_count(total, size)).
-/// \param size   Items per block, at least 1.
-/// \param total  The number of all items.
+/// The items of block number `block`, in [0, block_count(total, size)).
 [[nodiscard]] constexpr BlockRange block_range(long long block, long long size,
                                                long long total) noexcept {
     const long long first = block * size;
@@ -269,12 +265,8 @@ bool parallel_blocks(long long count, Body&& body,
 
 namespace detail {
 
-/// Calls `body(i)` once for each i in [0, total), in blocks, on several threads.
-/// \param total    The number of calls.
-/// \param block    Calls per block, at least 1.
-/// \param body     Called as body(std::size_t); no two calls may write the same data.
-/// \param options  As for parallel_blocks().
-/// \return As parallel_blocks().
+/// Calls `body(i)` once for each i in [0, total), in blocks of `block` calls, on
+/// several threads; see parallel_blocks(). No two calls may write the same data.
 template <std::invocable<std::size_t> Body>
 bool parallel_each(std::size_t total, long long block, Body&& body,
                    const ParallelSettings& options = {}) {

@@ -15,7 +15,6 @@ namespace ljus {
 /// \{
 
 /// The luminance Y of a linear sRGB colour (Rec. 709 primaries, white D65).
-/// \param c  Linear colour.
 /// \return 0.2126 R + 0.7152 G + 0.0722 B; 1 for white.
 template <std::floating_point T>
 [[nodiscard]] constexpr T luminance(const RgbT<T>& c) noexcept {
@@ -23,7 +22,6 @@ template <std::floating_point T>
 }
 
 /// The sRGB curve (IEC 61966-2-1): from linear light to the encoded value.
-/// \param linear  Any number.
 /// \return The curve; 0 for NaN and for linear <= 0, 1 for linear >= 1.
 // [srgb_encode]
 [[nodiscard]] inline double srgb_encode(double linear) noexcept {
@@ -34,7 +32,6 @@ template <std::floating_point T>
 // [srgb_encode]
 
 /// The inverse of srgb_encode().
-/// \param encoded  Any number.
 /// \return Linear light; 0 for NaN and for encoded <= 0, 1 for encoded >= 1.
 [[nodiscard]] inline double srgb_decode(double encoded) noexcept {
     if (!(encoded > 0.0)) return 0.0;
@@ -43,7 +40,6 @@ template <std::floating_point T>
 }
 
 /// The byte of a picture file for one channel.
-///
 /// It is computed in double: in float, 200 of the 765 numbers at and next to the 255
 /// thresholds are off by one.
 /// \param linear  Any number: NaN and negatives give 0, 1 and above give 255.

@@ -29,17 +29,13 @@ enum class Filter : std::uint8_t {
     mitchell  ///< A cubic with negative lobes: sharper, but edges get a halo.
 };
 
-/// The radius of a filter.
-/// \param filter  The filter.
-/// \return Extent along x and along y from the pixel's centre, in pixels.
+/// The radius of a filter along x and along y, in pixels.
 [[nodiscard]] constexpr double filter_radius(Filter filter) noexcept {
     constexpr double radii[] = {0.5, 1.0, 1.5, 2.0};
     return radii[static_cast<std::size_t>(filter)];
 }
 
-/// The weight of a filter along one axis.
-/// \param filter  The filter.
-/// \param x       Distance from the pixel's centre along the axis, in pixels.
+/// The weight of a filter along one axis, at the distance x from the pixel's centre.
 /// \return Per pixel; its integral over x is 1, and it is 0 outside the radius.
 /// \cite mitchell1988
 // [filter weight]
@@ -77,9 +73,7 @@ namespace detail {
 /// at equal steps.
 using FilterTable = std::array<double, 65>;
 
-/// Makes the table of a filter.
-/// \param filter  The filter.
-/// \return Values that rise from 0 to 1.
+/// Makes the table of a filter, which rises from 0 to 1.
 [[nodiscard]] inline FilterTable make_filter_table(Filter filter) noexcept {
     constexpr std::size_t cells = std::tuple_size_v<FilterTable> - 1;
     FilterTable cdf{};
@@ -92,9 +86,8 @@ using FilterTable = std::array<double, 65>;
     return cdf;
 }
 
-/// The table of a filter whose integral has no inverse in closed form.
-/// \param filter  Gaussian or Mitchell's.
-/// \return make_filter_table(filter), made once.
+/// The table of the Gaussian or of Mitchell's filter, whose integrals have no inverse
+/// in closed form.
 [[nodiscard]] inline const FilterTable& filter_table(Filter filter) noexcept {
     static const FilterTable gaussian = make_filter_table(Filter::gaussian);
     static const FilterTable mitchell = make_filter_table(Filter::mitchell);

@@ -33,12 +33,9 @@ namespace detail {
 }
 
 /// The perceived difference of two colours without their surroundings.
-///
 /// The HyAB distance is raised to the power 0.7 and mapped to [0, 1] by two linear
 /// pieces: differences above 0.4 of the largest one, between pure green and pure blue,
 /// are compressed into the last 0.05.
-/// \param a  Linear sRGB within [0, 1].
-/// \param b  The other colour.
 /// \return 0 for equal colours, 1 for green and blue.
 /// \cite andersson2020
 [[nodiscard]] inline double color_error(const RgbT<double>& a, const RgbT<double>& b) {
@@ -56,7 +53,6 @@ namespace detail {
 
 /// FLIP of each pixel: how strongly a viewer who flips between two pictures sees it
 /// change.
-///
 /// Detail too fine for the eye is blurred, channel by channel, before colours are
 /// compared. Where only one picture has an edge or a point, the colour difference is
 /// raised to a power below 1.
@@ -110,9 +106,6 @@ namespace detail {
 /// *Trap*: FLIP is made for pictures shown alternately at the same spot of a screen, at
 /// a given distance and exposure. Its values do not add up, and do not scale with
 /// the error.
-/// \param image      Linear sRGB.
-/// \param reference  The other picture, of the same size.
-/// \param ppd        From pixels_per_degree().
 /// \return In [0, 1]; symmetric in the two pictures.
 /// \throws std::invalid_argument  as flip_map().
 template <std::floating_point T, std::floating_point U>

@@ -25,8 +25,7 @@ struct Exposures {
 
 /// A film's response, which maps any light to [0, 1]: Narkowicz's fit of ACES, without
 /// its built-in exposure.
-/// \param x  Light; NaN and negatives are black.
-/// \return In [0, 1]; 0.85 at 2.119.
+/// \return In [0, 1]; 0 for NaN and negatives, 0.85 at 2.119.
 /// \cite andersson2021
 [[nodiscard]] inline double film_curve(double x) noexcept {
     if (!(x > 0)) return 0;
@@ -36,7 +35,6 @@ struct Exposures {
 }
 
 /// The range of exposures at which a picture shows details.
-/// \param reference  Linear sRGB.
 /// \return The range from the exposure that maps the brightest luminance to 0.85 of
 ///         film_curve(), to the one that maps the median luminance to it.
 /// \throws std::invalid_argument  as check(reference).
@@ -102,9 +100,6 @@ template <std::floating_point T, std::floating_point U>
 }
 
 /// The mean of hdr_flip_map().
-/// \param image      Linear sRGB of any brightness.
-/// \param reference  The reference, of the same size.
-/// \param ppd        From pixels_per_degree().
 /// \return In [0, 1]; scaling both pictures by one number does not change it.
 /// \throws std::invalid_argument  as flip_map().
 template <std::floating_point T, std::floating_point U>

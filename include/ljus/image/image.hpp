@@ -31,8 +31,6 @@ struct ImageT {
 using Image = ImageT<float>; ///< ImageT in float.
 
 /// Requires a valid image size.
-/// \param width   Pixels per row.
-/// \param height  Number of rows.
 /// \throws std::invalid_argument  unless both are at least 1 and the image has at most
 ///         max_pixels.
 inline void require_image_size(long long width, long long height) {
@@ -47,10 +45,6 @@ inline void require_image_size(long long width, long long height) {
 }
 
 /// An image of one colour.
-/// \param width   Pixels per row, at least 1.
-/// \param height  Number of rows, at least 1.
-/// \param fill    The colour of every pixel.
-/// \return The image.
 /// \throws std::invalid_argument  as require_image_size(), before memory is allocated.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> make_image(int width, int height,
@@ -62,7 +56,6 @@ template <std::floating_point T = float>
 }
 
 /// Requires that an image has the number of pixels of its size.
-/// \param image  The image.
 /// \throws std::invalid_argument  unless pixels.size() = width * height, at least 1.
 template <std::floating_point T>
 void check(const ImageT<T>& image) {
@@ -93,9 +86,6 @@ void require_same_size(const ImageT<T>& image, const ImageT<U>& reference) {
 }
 
 /// The index of pixel (x, y) in `pixels`.
-/// \param image  The image.
-/// \param x      Column from the left, in [0, width).
-/// \param y      Row from the top, in [0, height).
 template <std::floating_point T>
 [[nodiscard]] std::size_t pixel_index(const ImageT<T>& image, int x, int y) noexcept {
     assert(x >= 0 && x < image.width && "x is a column of the image");
@@ -116,7 +106,6 @@ template <std::floating_point T>
 }
 
 /// The colour of pixel (x, y), for reading.
-/// \copydetails pixel(ImageT<T>&, int, int)
 template <std::floating_point T>
 [[nodiscard]] const RgbT<T>& pixel(const ImageT<T>& image, int x, int y) noexcept {
     return image.pixels[detail::pixel_index(image, x, y)];

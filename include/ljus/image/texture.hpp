@@ -54,10 +54,7 @@ using UvMap = UvMapT<float>; ///< UvMapT in float.
 template <typename M>
 concept UsesUv = M::uses_uv;
 
-/// The coordinates of a point on a plane.
-/// \param map    The plane.
-/// \param place  The point, in scene units.
-/// \return (u, v), in repetitions.
+/// The coordinates (u, v) of a point on a plane, in repetitions.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> map_coordinates(const PlaneMapT<T>& map, const Vec3T<T>& place,
                                        const Vec2T<T>& = Vec2T<T>{T(0)}) noexcept {
@@ -66,10 +63,7 @@ template <std::floating_point T>
             glm::dot(from, map.edge_v) / glm::dot(map.edge_v, map.edge_v)};
 }
 
-/// The coordinates of a point on a globe; (0, 0.5) at its centre.
-/// \param map    The globe.
-/// \param place  The point, in scene units.
-/// \return (u, v) in [0, 1].
+/// The coordinates (u, v) of a point on a globe, in [0, 1]; (0, 0.5) at its centre.
 /// \cost Two arc tangents.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> map_coordinates(const GlobeMapT<T>& map, const Vec3T<T>& place,
@@ -77,10 +71,7 @@ template <std::floating_point T>
     return globe_coordinates(place - map.center);
 }
 
-/// The coordinates of a point on its own shape.
-/// \param map  The scale.
-/// \param uv   From texture_coordinates().
-/// \return (u, v), in repetitions.
+/// The coordinates (u, v) of a point on its own shape, in repetitions.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> map_coordinates(const UvMapT<T>& map, const Vec3T<T>& /*place*/,
                                        const Vec2T<T>& uv) noexcept {
@@ -114,7 +105,6 @@ void check(const UvMapT<T>& map) {
 }
 
 /// A chessboard of `columns` by `rows` squares per repetition.
-///
 /// It is a plane pattern. With a solid checker that changes at y = 0, rounding would
 /// decide the colour of each pixel of a floor at y = 0.
 template <std::floating_point T, typename Map = PlaneMapT<T>>
@@ -129,11 +119,7 @@ struct CheckerT {
 using Checker = CheckerT<float>;                        ///< On a plane, in float.
 using GlobeChecker = CheckerT<float, GlobeMapT<float>>; ///< On a globe, in float.
 
-/// The colour of a checker at a point.
-/// \param checker  The texture.
-/// \param place    The point, in scene units.
-/// \param uv       From texture_coordinates(); used by a UvMap.
-/// \return One of the two colours.
+/// The colour of a checker at a point: one of the two.
 template <std::floating_point T, typename Map>
 [[nodiscard]] RgbT<T> color_at(const CheckerT<T, Map>& checker, const Vec3T<T>& place,
                                const Vec2T<T>& uv = Vec2T<T>{T(0)}) noexcept {
@@ -170,10 +156,6 @@ using PictureTexture = PictureTextureT<float>; ///< On a plane, in float.
 using UvPicture = PictureTextureT<float, UvMapT<float>>;
 
 /// The colour of a picture at a point, interpolated bilinearly between pixel centres.
-/// \param texture  The texture.
-/// \param place    The point, in scene units.
-/// \param uv       From texture_coordinates(); used by a UvMap.
-/// \return A colour between those of the four nearest pixels.
 template <std::floating_point T, typename Map>
 [[nodiscard]] RgbT<T> color_at(const PictureTextureT<T, Map>& texture,
                                const Vec3T<T>& place,

@@ -17,7 +17,6 @@ struct BiasVariance {
 };
 
 /// Splits the mean square error of a method by running it with several seeds.
-///
 /// For each pixel and channel, with m the mean of the M runs:
 /// variance = sum (x - m)^2 / (M - 1) and bias^2 = (m - r)^2 - variance / M, which
 /// subtracts the noise left in m. Their sum is the expected mean square error of a run.

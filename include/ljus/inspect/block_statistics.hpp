@@ -20,7 +20,6 @@ struct BlockStatistics {
 };
 
 /// Computes the block means of several runs, with standard errors.
-///
 /// With b the mean of a block in one of M runs and m the mean of the b:
 /// standard error = sqrt(sum (b - m)^2 / (M - 1) / M). It holds for photon maps too,
 /// whose pixels are correlated, because whole runs are compared.

@@ -42,9 +42,7 @@ struct PhotonCensus {
     }
 };
 
-/// The name of a kind for tables.
-/// \param kind  The kind.
-/// \return One word.
+/// The name of a kind for tables, one word.
 [[nodiscard]] constexpr const char* name_of(PhotonKind kind) noexcept {
     constexpr std::array<const char*, 4> names{"direct", "caustic", "indirect",
                                                "shadow"};
@@ -54,7 +52,6 @@ struct PhotonCensus {
 /// Counts photons of any list.
 /// \param photons  Photons or the records of a map: a list with index and size() of
 ///                 elements with a kind and a flux.
-/// \return The census.
 /// \cost One pass.
 template <typename Photons>
 requires requires(const Photons& p) {

@@ -45,15 +45,8 @@ struct ExplainedPixelT {
 
 namespace detail {
 
-/// Renders one pixel again, with a log.
-/// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
-/// \param camera    The camera.
-/// \param picture   Size, rays, seed: the same as in render().
-/// \param x         Column of the pixel, from the left.
-/// \param y         Row of the pixel, from the top.
-/// \param keep      The number of rays to keep in full.
-/// \return The contributions.
-/// \throws std::invalid_argument  if the pixel lies outside the picture.
+/// Renders one pixel again, with a log, and keeps the first `keep` rays in full; as
+/// explain().
 template <typename R, CameraLike C>
 [[nodiscard]] ExplainedPixelT<typename C::Scalar>
 take_apart(const R& renderer, const C& camera, const RenderSettings& picture, int x,
@@ -142,10 +135,8 @@ inline std::string line_of(const PathLogLine& step) {
            (step.pdf > 0 ? density : ", delta");
 }
 
-/// The contributions to a pixel as text.
-/// \param pixel  From take_apart().
-/// \param most   The largest number of sums to print; the rest is added up.
-/// \return Lines of text.
+/// The contributions to a pixel as text; only the `most` brightest sums are printed,
+/// and the rest is added up.
 template <std::floating_point T>
 [[nodiscard]] std::string describe(const ExplainedPixelT<T>& pixel,
                                    std::size_t most = 16) {
@@ -193,11 +184,6 @@ template <typename R, CameraLike C>
 }
 
 /// Explains one pixel of a scene, rendered by path tracing with default settings.
-/// \param world   The closed scene.
-/// \param camera  The camera.
-/// \param x       Column of the pixel, from the left, in a picture of the default size.
-/// \param y       Row of the pixel, from the top.
-/// \return The text, as above.
 /// \throws std::invalid_argument  if the pixel lies outside the picture.
 template <AnyWorld W, CameraLike C>
 [[nodiscard]] std::string explain(const W& world, const C& camera, int x, int y) {

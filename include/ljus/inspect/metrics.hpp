@@ -68,7 +68,6 @@ struct RelativeSquare {
 } // namespace detail
 
 /// The root mean square error, sqrt(mean (x - r)^2).
-///
 /// It is the metric of theory: for an unbiased method it falls as 1/sqrt(n).
 /// *Trap*: a few highlights dominate it; it says nothing of the dark regions.
 /// \param image      The picture.
@@ -83,12 +82,10 @@ template <std::floating_point T, std::floating_point U>
 
 /// The relative mean square error, mean (x - r)^2 / (r^2 + epsilon)
 /// \cite rousselle2011.
-///
 /// It is relative, like the eye, and the default here.
 /// *Trap*: values with different epsilons, or with the divisor (r + epsilon)^2 of some
 /// tools, are not comparable; state the epsilon.
-/// \param image      The picture.
-/// \param reference  The reference, of the same size.
+/// \param image, reference  The picture and the reference, of the same size.
 /// \param epsilon    Radiance squared, above 0: the scale of darkness.
 /// \return Dimensionless; 1 for a black picture of a scene that is bright throughout.
 /// \throws std::invalid_argument  as require_same_size(), or for the epsilon.
@@ -101,7 +98,6 @@ template <std::floating_point T, std::floating_point U>
 }
 
 /// The relative mean square error without the worst pixels.
-///
 /// Dropping the worst 1 % removes fireflies, and measures the rest of the picture.
 /// *Trap*: it favours a method that puts its energy into fireflies; state it beside
 /// rel_mse(), never instead of it.
@@ -137,7 +133,6 @@ template <std::floating_point T, std::floating_point U>
 }
 
 /// The image of block means: each pixel is the mean of size x size pixels.
-///
 /// If the width or height is no multiple of the block's side, the last column or row of
 /// blocks is narrower and takes the mean of its pixels.
 /// \param image  The picture.
@@ -165,7 +160,6 @@ template <std::floating_point T>
 }
 
 /// The relMSE of the means of 10 x 10 blocks, which measures bias.
-///
 /// Noise that is independent between pixels is 100 times weaker in a squared block
 /// mean; an error that neighbours share stays. A blur within a block does not show.
 /// *Trap*: neighbouring pixels share photons, so that the noise of photon maps survives

@@ -28,11 +28,6 @@ struct PhotonDotSettings {
 
 /// A background for photons: the colours of the surfaces without lighting, darkened at
 /// low angles. Mirrors and glass are grey, lamps bright.
-/// \param world   The closed scene.
-/// \param camera  The camera.
-/// \param width   Width of the picture, in pixels.
-/// \param height  Height of the picture, in pixels.
-/// \return The drawing, dark enough for dots to be visible.
 /// \throws std::invalid_argument  if the width or the height is below 1.
 /// \cost One ray per pixel.
 template <AnyWorld W, std::floating_point T>
@@ -61,7 +56,6 @@ template <AnyWorld W, std::floating_point T>
 
 /// The colour of a photon's dot: that of its flux, at full brightness. A shadow photon
 /// has the yellow of the report's program.
-/// \param photon  Any photon.
 /// \return Linear RGB, its largest channel 1; black if there is no flux.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> dot_color(const PhotonT<T>& photon) noexcept {
@@ -73,11 +67,6 @@ template <std::floating_point T>
 /// The position of a photon in the picture. The photon is visible if nothing, glass
 /// included, lies between it and the camera, and if it is on the side of its surface
 /// that faces the camera. An occluder must be nearer by a thousandth of the distance.
-/// \param world   The scene of the photon.
-/// \param camera  The camera.
-/// \param photon  The photon.
-/// \param width   Width of the picture, in pixels.
-/// \param height  Height of the picture, in pixels.
 /// \return The position in pixels, from the upper left corner; nothing if it is hidden.
 /// \cost One ray.
 // [photon_in_sight]
@@ -103,10 +92,6 @@ photon_in_sight(const W& world, const CameraT<T>& camera, const PhotonT<T>& phot
 namespace detail {
 
 /// Adds a dot to a picture.
-/// \param image  The picture.
-/// \param place  The centre of the dot, in pixels from the upper left corner.
-/// \param color  Colour at its tip.
-/// \param look   Its size and brightness.
 template <std::floating_point T>
 void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
              const PhotonDotSettings& look) {

@@ -63,7 +63,6 @@ struct Plan {
 };
 
 /// One pass of a plan as text: its name, on or off, and the reason.
-/// \param item  The pass.
 /// \return A line that ends with a line feed.
 [[nodiscard]] inline std::string to_text(const PlanItem& item) {
     std::string name = item.pass;
@@ -72,7 +71,6 @@ struct Plan {
 }
 
 /// A plan as text: one line per pass, one per type, then the remarks.
-/// \param plan  The plan.
 /// \return Lines that end with a line feed.
 [[nodiscard]] inline std::string to_text(const Plan& plan) {
     std::string text;
@@ -87,9 +85,6 @@ namespace detail {
 
 /// Makes the plan: choose_passes() with reasons. Thin films and the tree are decided by
 /// the same tests as during rendering.
-/// \param found     What the scene contains.
-/// \param settings  The user's settings.
-/// \return The plan.
 [[nodiscard]] LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
                                               const PhotonMappingSettings& settings);
 

@@ -70,16 +70,12 @@ inline std::uint64_t checksum(const Bytes& bytes) noexcept {
 } // namespace detail
 
 /// Appends a number to a file.
-/// \param bytes  The file so far.
-/// \param value  An integer or a floating-point number.
 template <typename Number>
 void put_number(Bytes& bytes, Number value) {
     for (const unsigned char byte : detail::bytes_of(value)) bytes.push_back(byte);
 }
 
 /// Appends the three components of a vector or a colour to a file.
-/// \param bytes  The file so far.
-/// \param v      The vector.
 template <typename Vector>
 void put_vector(Bytes& bytes, const Vector& v) {
     for (int axis = 0; axis < 3; ++axis) put_number(bytes, v[axis]);
@@ -100,7 +96,6 @@ template <typename... Own>
 }
 
 /// Writes the checksum of a file into its header.
-/// \param bytes  The whole file.
 inline void put_checksum(Bytes& bytes) {
     const auto sum = detail::bytes_of(detail::checksum(bytes));
     std::copy(sum.begin(), sum.end(), bytes.begin() + detail::checksum_place);
@@ -112,9 +107,7 @@ struct FileReader {
     Bytes bytes;              ///< The whole file.
     std::size_t position = 0; ///< Index of the next byte.
 
-    /// Throws an error about the file.
-    /// \param why  Such as "its size is 0": follows "cannot read 'a.map': ".
-    /// \throws std::runtime_error  always.
+    /// Throws std::runtime_error: "cannot read 'a.map': " and `why`.
     [[noreturn]] void refuse(const std::string& why) const {
         detail::fail_to_read(path, why);
     }
@@ -122,11 +115,8 @@ struct FileReader {
     /// The number of unread bytes.
     [[nodiscard]] std::size_t left() const noexcept { return bytes.size() - position; }
 
-    /// Requires that exactly `count` entries are left.
-    /// \param count         The number of entries.
-    /// \param bytes_of_one  Bytes per entry.
-    /// \param entries       Their name: "patches".
-    /// \throws std::runtime_error  if more or fewer bytes are left.
+    /// Requires that exactly `count` entries of `bytes_of_one` bytes are left; throws
+    /// as refuse(). `entries` is their name: "patches".
     void require_left(std::uint64_t count, std::size_t bytes_of_one,
                       const char* entries) const {
         if (left() / bytes_of_one == count && left() % bytes_of_one == 0) return;
@@ -153,9 +143,6 @@ struct FileReader {
 };
 
 /// Opens a file.
-/// \param path    The file.
-/// \param most    The largest size, in bytes.
-/// \param format  The format that it must have.
 /// \return The file, positioned behind its version.
 /// \throws std::runtime_error  "cannot read 'a.map': its checksum is wrong ...": if the
 ///         file is truncated, damaged, or of another version or format.

@@ -53,8 +53,6 @@ inline std::string path_beside(const std::string& file, const std::string& name)
 /// close have succeeded. If anything fails, an older file is unchanged and nothing else
 /// is left. The new file has the older one's permissions. (A program that wants to
 /// receive the error of a file-size limit must ignore SIGXFSZ.)
-/// \param path   The file; its folder must exist.
-/// \param bytes  The content of the file.
 /// \throws std::runtime_error  "cannot write 'out/a.png': No space left on device.".
 inline void save_file(const std::string& path, const Bytes& bytes) {
     detail::FileBeside file(detail::file_to_replace(path));
@@ -65,7 +63,6 @@ inline void save_file(const std::string& path, const Bytes& bytes) {
 
 /// Tests whether save_file() could write a file, before work is done: writes one byte
 /// beside it, and removes that again.
-/// \param path  The file; its folder must exist.
 /// \throws std::runtime_error  as save_file().
 inline void require_writable(const std::string& path) {
     detail::FileBeside probe(detail::file_to_replace(path));
@@ -77,7 +74,6 @@ inline void require_writable(const std::string& path) {
 /// \param path  The file; not a pipe or a device, which may never end.
 /// \param most  The largest size in bytes.
 /// \param begin The first bytes that it must have; they are tested first.
-/// \return All its bytes.
 /// \throws std::runtime_error  with path and reason.
 [[nodiscard]] inline Bytes load_file(const std::string& path, std::size_t most,
                                      std::string_view begin = {}) {

@@ -36,9 +36,7 @@ using Bytes = std::vector<unsigned char>;
 
 /// A text from a file or a user, made fit for a message: one line of limited length,
 /// with `?` for each control character and each byte that is not UTF-8.
-/// \param text   Any bytes.
-/// \param limit  The largest number of bytes; "..." follows if there are more.
-/// \return UTF-8.
+/// At most `limit` bytes are shown, then "...".
 [[nodiscard]] inline std::string shown(std::string text, std::size_t limit = 48) {
     const auto byte = [&](std::size_t i) {
         return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
@@ -61,9 +59,7 @@ using Bytes = std::vector<unsigned char>;
     return detail::join({std::string_view(text).substr(0, limit), "..."});
 }
 
-/// A path for a message; it may come from a file.
-/// \param path  Any bytes.
-/// \return shown() with a limit of 1000 bytes.
+/// A path for a message; it may come from a file. At most 1000 bytes are shown.
 [[nodiscard]] inline std::string shown_path(const std::string& path) {
     return shown(path, 1000);
 }

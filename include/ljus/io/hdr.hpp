@@ -47,7 +47,6 @@ to_rgbe(const RgbT<double>& c) noexcept {
 
 /// Decodes four bytes. Ward's own programs round mantissas down and add half a step
 /// here; this library rounds to the nearest.
-/// \param rgbe  R, G, B, E.
 /// \return (R, G, B) 2^(E - 136), or black if E is 0.
 [[nodiscard]] inline RgbT<double>
 from_rgbe(const std::array<unsigned char, 4>& rgbe) noexcept {
@@ -58,9 +57,7 @@ from_rgbe(const std::array<unsigned char, 4>& rgbe) noexcept {
 
 } // namespace detail
 
-/// Saves an image as a Radiance file, without run-length coding.
-/// \param image  Linear colours, every channel finite, at least 0 and below 1.69e38.
-/// \param path   The file; see save_file().
+/// Saves an image as a Radiance file, without run-length coding; see save_file().
 /// \throws std::invalid_argument  as check(), or for a channel out of range (PFM stores
 ///         it); std::runtime_error as save_file().
 template <std::floating_point T>
@@ -134,7 +131,6 @@ inline void read_rgbe_row(ByteReader& reader,
 } // namespace detail
 
 /// Loads a Radiance file: RGBE, rows from the top, plain or run-length coded.
-/// \param path  The file.
 /// \return Its image, divided by the EXPOSURE lines of the header, which gives
 ///     radiance.
 /// \throws std::runtime_error  with path and reason, if it cannot be read, is of an

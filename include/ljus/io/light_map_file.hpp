@@ -68,9 +68,7 @@ inline void require_key(FileReader& file, const LightMapKey& key) {
 
 } // namespace detail
 
-/// Saves a light map.
-/// \param path  The file; see save_file().
-/// \param map   The map.
+/// Saves a light map; see save_file().
 /// \throws std::runtime_error  as save_file().
 /// \cost 24 bytes per patch.
 inline void save_light_map(const std::string& path, const LightMap& map) {

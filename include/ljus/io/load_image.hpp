@@ -155,9 +155,7 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
 
 } // namespace detail
 
-/// Decodes a picture.
-/// \param bytes  The content of a file.
-/// \param path   The name of the file for messages.
+/// Decodes a picture; `path` is its name for messages.
 /// \return Linear colours in [0, 1]; alpha is ignored.
 /// \throws std::runtime_error  with path and reason, if it is not a picture.
 template <std::floating_point T = float>
@@ -183,10 +181,7 @@ template <std::floating_point T = float>
 #endif
 }
 
-/// Loads a picture, for a texture.
-/// \param path  The file.
-/// \return Linear colours in [0, 1].
-/// \throws std::runtime_error  with path and reason.
+/// Loads a picture, for a texture; as decode_image().
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_image(const std::string& path) {
     return decode_image<T>(load_file(path, detail::max_image_file), path);

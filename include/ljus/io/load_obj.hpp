@@ -150,9 +150,6 @@ template <std::floating_point T = float>
 }
 
 /// Loads an OBJ file.
-/// \param path      The file.
-/// \param settings  Scale and normals.
-/// \return As read_obj().
 /// \throws std::runtime_error  as read_obj(), or with path and reason if the file
 ///         cannot be read.
 template <std::floating_point T = float>

@@ -68,7 +68,6 @@ struct ObjReport {
 };
 
 /// A report as text, one line per problem: "line 12: 3 faces have no area; ...".
-/// \param report  The report.
 /// \return Lines that end with a line feed; empty without problems.
 [[nodiscard]] inline std::string to_text(const ObjReport& report) {
     constexpr std::array<const char*, detail::obj_troubles> words{

@@ -22,8 +22,6 @@ namespace ljus {
 
 /// Saves an image as PFM. Every float keeps its bits, even NaN and infinity; a double
 /// is rounded to float once. The file is little-endian on every machine.
-/// \param image  Linear colours.
-/// \param path   The file; see save_file().
 /// \throws std::invalid_argument  as check(); std::runtime_error as save_file().
 template <std::floating_point T>
 void save_pfm(const ImageT<T>& image, const std::string& path) {
@@ -46,7 +44,6 @@ void save_pfm(const ImageT<T>& image, const std::string& path) {
 }
 
 /// Loads a PFM file in colour or grey, of either byte order.
-/// \param path  The file.
 /// \return Its image; values are multiplied by the absolute value of the header's
 ///         scale, which save_pfm() sets to 1.
 /// \throws std::runtime_error  with path and reason, if it cannot be read, is not a PFM

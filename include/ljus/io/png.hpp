@@ -64,11 +64,8 @@ struct PngSettings {
     double exposure = 0.0; ///< In stops: +1 doubles the light. Finite.
 };
 
-/// Encodes an image as PNG.
-/// \param image    Linear colours; NaN and negative channels become 0, and channels
-///                 that exceed 1 after exposure become 255.
-/// \param options  Exposure.
-/// \return The file: 8 bits per channel, sRGB.
+/// Encodes an image as PNG: 8 bits per channel, sRGB. NaN and negative channels become
+/// 0, and channels that exceed 1 after exposure become 255.
 /// \throws std::invalid_argument  for an image without pixels or an exposure that is
 ///         not finite.
 template <std::floating_point T>
@@ -111,9 +108,6 @@ template <std::floating_point T>
 }
 
 /// Saves an image as PNG.
-/// \param image    As for encode_png().
-/// \param path     The file; see save_file().
-/// \param options  Exposure.
 /// \throws std::invalid_argument  as encode_png(); std::runtime_error as save_file().
 template <std::floating_point T>
 void save_png(const ImageT<T>& image, const std::string& path,

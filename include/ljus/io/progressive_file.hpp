@@ -70,8 +70,6 @@ inline void require_sense(const FileReader& file, const ProgressiveState& state)
 } // namespace detail
 
 /// Saves a checkpoint.
-/// \param path   The file; see save_file().
-/// \param state  After at least one pass.
 /// \throws std::runtime_error  as save_file(); std::invalid_argument without a pass.
 /// \cost 48 bytes per pixel.
 inline void save_checkpoint(const std::string& path, const ProgressiveState& state) {

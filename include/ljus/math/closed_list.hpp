@@ -29,12 +29,7 @@ inline constexpr bool each_once<First, T...> =
     !(std::is_same_v<First, T> || ...) && each_once<T...>;
 
 /// Calls f(element) with one element of a tuple of arrays, in the element's own type.
-///
 /// The last type is not tested for, so that a list of one type needs no comparison.
-/// \param arrays  One array per type.
-/// \param type    The index of the array in the tuple.
-/// \param index   The index of the element in that array.
-/// \param f       The function.
 template <std::size_t I = 0, typename Tuple, typename F>
 decltype(auto) visit_element(const Tuple& arrays, std::uint32_t type,
                              std::uint32_t index, F& f) {

@@ -38,10 +38,7 @@ template <std::floating_point T>
             .normal = n};
 }
 
-/// Converts a vector from world to local coordinates.
-/// \param frame  Orthonormal frame.
-/// \param v      Vector in world coordinates.
-/// \return The vector in local coordinates; z is its component along the normal.
+/// Converts a vector from world to local coordinates; z is its normal component.
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec3T<T> to_local(const FrameT<T>& frame,
                                           const Vec3T<T>& v) noexcept {
@@ -50,9 +47,6 @@ template <std::floating_point T>
 }
 
 /// Converts a vector from local to world coordinates.
-/// \param frame  Orthonormal frame.
-/// \param v      Vector in local coordinates.
-/// \return The vector in world coordinates.
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec3T<T> to_world(const FrameT<T>& frame,
                                           const Vec3T<T>& v) noexcept {

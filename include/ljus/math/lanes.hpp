@@ -27,7 +27,6 @@ namespace detail {
 inline constexpr int lane_count = 8;
 
 /// Calls `body(i)` for each of eight lanes, in a loop that is not unrolled.
-///
 /// g++ unrolls inner loops before it vectorises, and then finds no vector any more.
 /// \param body  Called with an int in [0, 8).
 template <typename Body>
@@ -57,13 +56,10 @@ struct alignas(32) Lanes3T {
     T z[lane_count]; ///< Third coordinates.
 
     /// The vector in one lane.
-    /// \param lane  In [0, 8).
     [[nodiscard]] constexpr Vec3T<T> operator[](std::size_t lane) const noexcept {
         return {x[lane], y[lane], z[lane]};
     }
     /// Replaces the vector in one lane.
-    /// \param lane  In [0, 8).
-    /// \param v     The new vector.
     constexpr void set(std::size_t lane, const Vec3T<T>& v) noexcept {
         x[lane] = v.x;
         y[lane] = v.y;
@@ -79,7 +75,6 @@ struct alignas(32) LaneMask {
 
 /// Packs a mask into one byte per lane, for take_lane(). It is written in two steps
 /// that compilers know: narrow to bytes, then move the bytes into one register.
-/// \param mask  The answers.
 /// \return 1 in the byte of each lane that says yes; 0 if none does.
 [[nodiscard]] constexpr std::uint64_t yes_lanes(const LaneMask& mask) noexcept {
     std::array<std::int8_t, lane_count> bytes{};
@@ -97,8 +92,6 @@ struct alignas(32) LaneMask {
 }
 
 /// Tests which of eight numbers are at most `bound`.
-/// \param numbers  The numbers.
-/// \param bound    The largest value that passes.
 /// \return A bit mask, with lane 0 in the lowest bit; a NaN does not pass.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::uint32_t lanes_up_to(const LanesT<T>& numbers,
@@ -110,7 +103,6 @@ template <std::floating_point T>
 
 /// The index of the smallest of eight numbers, up to a difference in the last three
 /// bits.
-///
 /// The bits of numbers >= 0 are ordered like the numbers. Their last three bits are
 /// replaced by the index, so that the smallest integer gives both.
 /// \param numbers  The numbers; those in `among` must be >= 0.

@@ -146,7 +146,6 @@ struct SobolStream {
 namespace detail {
 
 /// A stream with random numbers only, for code that is compiled once for both kinds.
-/// \param rest  Supplies the numbers.
 /// \return A stream past its last dimension.
 [[nodiscard]] constexpr SobolStream without_points(const RandomStream& rest) noexcept {
     return {.dimension = sobol_dimensions, .rest = rest};
@@ -156,14 +155,11 @@ namespace detail {
 
 /// Moves a stream to the start of a bounce. The dimensions of the Sobol point are not
 /// reset: paths that draw equally often per bounce use the same dimensions there.
-/// \param stream  The stream.
-/// \param bounce  The bounce.
 constexpr void start_bounce(SobolStream& stream, std::uint64_t bounce) noexcept {
     start_bounce(stream.rest, bounce);
 }
 
-/// The next number, uniform in [0, 1), never 1.
-/// \param stream  Advances by one dimension.
+/// The next number, uniform in [0, 1), never 1; uses one dimension.
 /// \return A multiple of 2^-24 (float) or 2^-32 (double, while the dimensions last).
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(SobolStream& stream) noexcept {
@@ -179,16 +175,14 @@ template <std::floating_point T = float>
         return static_cast<T>(bits) * T(0x1p-32);
 }
 
-/// The next point of the unit square [0, 1)^2.
-/// \param stream  Advances by two dimensions.
+/// The next point of the unit square [0, 1)^2; uses two dimensions.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec2T<T> next_2d(SobolStream& stream) noexcept {
     const T x = next_1d<T>(stream);
     return {x, next_1d<T>(stream)};
 }
 
-/// The next point of the unit cube [0, 1)^3.
-/// \param stream  Advances by three dimensions.
+/// The next point of the unit cube [0, 1)^3; uses three dimensions.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec3T<T> next_3d(SobolStream& stream) noexcept {
     const T x = next_1d<T>(stream);

@@ -40,10 +40,8 @@ template <std::floating_point T, std::size_t N>
     return row;
 }
 
-/// Evaluates a polynomial.
-/// \param p  The polynomial.
-/// \param u  In [0, 1].
-/// \return p(u), with an error of at most 3 N units of roundoff of the largest |c_i|.
+/// p(u) for u in [0, 1], with an error of at most 3 N units of roundoff of the largest
+/// |c_i|.
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] constexpr T value_at(const BernsteinT<T, N>& p, T u) noexcept {
     constexpr auto binomial = binomials<T, N>();
@@ -128,7 +126,6 @@ struct RootsT {
 };
 
 /// All roots of a polynomial in [0, 1].
-///
 /// Between two neighbouring roots of its derivative a polynomial is monotone: it has
 /// one root there if the signs at the ends differ, otherwise none. The derivative's
 /// roots are found in the same way, down to degree 1 \cite yuksel2022. The leading

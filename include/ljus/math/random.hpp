@@ -56,15 +56,13 @@ struct RandomStream {
         .key = mix_bits(mix_bits(work + odd * (iteration + 1)) ^ mix_bits(path + odd))};
 }
 
-/// Moves a stream to the start of a bounce, whatever the bounce before has drawn.
-/// \param stream  The stream.
-/// \param bounce  The bounce; 0 is the camera or the light.
+/// Moves a stream to the start of a bounce (0: the camera or the light), whatever was
+/// drawn before.
 constexpr void start_bounce(RandomStream& stream, std::uint64_t bounce) noexcept {
     stream.counter = bounce << 16;
 }
 
-/// The next number, uniform in [0, 1), never 1.
-/// \param stream  Advances by one dimension.
+/// The next number, uniform in [0, 1), never 1; uses one dimension.
 /// \return A multiple of 2^-24 (float) or 2^-53 (double).
 /// \cost Two multiplications and a few shifts.
 template <std::floating_point T = float>
@@ -77,18 +75,15 @@ template <std::floating_point T = float>
         return static_cast<T>(bits >> 11) * T(0x1p-53);
 }
 
-/// The next point of the unit square [0, 1)^2.
-/// \param stream  Advances by two dimensions.
-/// \return Two independent numbers.
+/// The next point of the unit square [0, 1)^2; uses two dimensions.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec2T<T> next_2d(RandomStream& stream) noexcept {
     const T x = next_1d<T>(stream);
     return {x, next_1d<T>(stream)};
 }
 
-/// The next point of the unit cube [0, 1)^3: a direction and the choice of a lobe.
-/// \param stream  Advances by three dimensions.
-/// \return Three independent numbers.
+/// The next point of the unit cube [0, 1)^3: a direction and the choice of a lobe. It
+/// uses three dimensions.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec3T<T> next_3d(RandomStream& stream) noexcept {
     const T x = next_1d<T>(stream);
@@ -97,7 +92,6 @@ template <std::floating_point T = float>
 }
 
 /// A source of random numbers: a copyable struct with these functions beside it:
-///
 /// | function                     | what it does                                      |
 /// |------------------------------|---------------------------------------------------|
 /// | next_1d<T>(stream)           | the next number of [0, 1)                         |

@@ -21,9 +21,8 @@ namespace ljus {
 
 namespace detail {
 
-/// The concentric map without the correction of rounding.
-/// \param u  Point of [0,1)^2.
-/// \return Point of the unit disc, or up to 2 units of roundoff outside.
+/// The concentric map without the correction of rounding: a point of the unit disc, or
+/// up to 2 units of roundoff outside.
 template <std::floating_point T>
 [[nodiscard]] inline Vec2T<T> concentric_map(const Vec2T<T>& u) noexcept {
     constexpr T quarter = std::numbers::pi_v<T> / T(4);
@@ -43,7 +42,6 @@ template <std::floating_point T>
 /// A point of the unit disc, uniform in area: the concentric map \cite shirley1997,
 /// which maps squares around the centre to circles. A point that rounding puts onto the
 /// border or outside is moved 4 units of roundoff inwards.
-/// \param u  Point of [0,1)^2.
 /// \return Point with x^2 + y^2 < 1.
 /// \cost One division, one sine, one cosine.
 template <std::floating_point T>
@@ -53,9 +51,7 @@ template <std::floating_point T>
     return p.x * p.x + p.y * p.y < T(1) - two ? p : (T(1) - two) * p;
 }
 
-/// The density of sample_concentric_disc(), per unit of area.
-/// \param p  Point of the plane.
-/// \return 1/pi, or 0 outside the disc.
+/// The density of sample_concentric_disc(), per unit of area: 1/pi, or 0 outside.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_concentric_disc(const Vec2T<T>& p) noexcept {
     return p.x * p.x + p.y * p.y <= T(1) ? std::numbers::inv_pi_v<T> : T(0);
@@ -63,11 +59,9 @@ template <std::floating_point T>
 
 /// A direction above the horizon with density cos(theta)/pi: a point of the disc,
 /// lifted onto the hemisphere (Malley's method).
-///
 /// A point on the border of the disc would lie on the horizon, where the density is 0
 /// and the weight f cos/pdf is 0/0. The map uses the middle of each cell of random
 /// numbers instead, half a roundoff inside, so that always z >= sqrt(epsilon).
-/// \param u  Point of [0,1)^2.
 /// \return Unit vector with z > 0.
 /// \cost That of sample_concentric_disc(), and one square root.
 /// \report{Section 3.2.4}
@@ -85,16 +79,14 @@ template <std::floating_point T>
 }
 // [cosine hemisphere]
 
-/// The density of sample_cosine_hemisphere(), per steradian; it contains the cosine.
-/// \param d  Unit vector.
-/// \return cos(theta)/pi, or 0 on and below the horizon.
+/// The density of sample_cosine_hemisphere(), per steradian: cos(theta)/pi, or 0 on and
+/// below the horizon.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_cosine_hemisphere(const Vec3T<T>& d) noexcept {
     return d.z > T(0) ? d.z * std::numbers::inv_pi_v<T> : T(0);
 }
 
 /// A direction inside a cone around +z, uniform in solid angle.
-///
 /// The cone is given by 1 - cos(theta), which keeps its digits for small angles: a lamp
 /// one degree wide has cos = 0.99996. See one_minus_cosine().
 /// \param u                  Point of [0,1)^2.
@@ -128,25 +120,20 @@ template <std::floating_point T>
     return sin_squared / (T(1) + std::sqrt(T(1) - sin_squared));
 }
 
-/// A direction above the horizon, uniform in solid angle.
-/// \param u  Point of [0,1)^2.
-/// \return Unit vector with z > 0.
+/// A direction above the horizon (z > 0), uniform in solid angle.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_uniform_hemisphere(const Vec2T<T>& u) noexcept {
     return sample_uniform_cone(u, T(1));
 }
 
-/// The density of sample_uniform_hemisphere(), per steradian.
-/// \param d  Unit vector.
-/// \return 1/(2 pi), or 0 on and below the horizon.
+/// The density of sample_uniform_hemisphere(), per steradian: 1/(2 pi), or 0 on and
+/// below the horizon.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_uniform_hemisphere(const Vec3T<T>& d) noexcept {
     return d.z > T(0) ? std::numbers::inv_pi_v<T> / T(2) : T(0);
 }
 
 /// A direction, uniform over the whole sphere.
-/// \param u  Point of [0,1)^2.
-/// \return Unit vector.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_uniform_sphere(const Vec2T<T>& u) noexcept {
     return sample_uniform_cone(u, T(2));
@@ -160,7 +147,6 @@ template <std::floating_point T>
 
 /// A point of a triangle, uniform in area: the square is folded along its diagonal
 /// \cite heitz2019. Neighbours in u stay neighbours, and no square root is needed.
-/// \param u  Point of [0,1)^2.
 /// \return Barycentric coordinates of the three vertices, each >= 0, with sum 1.
 /// \cost Five additions and multiplications.
 template <std::floating_point T>
@@ -173,9 +159,8 @@ template <std::floating_point T>
     return {u.x - half, half, T(1) - u.x};
 }
 
-/// The density of sample_uniform_triangle(), per unit of area.
-/// \param area  The triangle's area, > 0; 1/2 for the barycentric plane itself.
-/// \return 1/area.
+/// The density of sample_uniform_triangle(), per unit of area; `area` is the
+/// triangle's, 1/2 for the barycentric plane itself.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_uniform_triangle(T area) noexcept {
     return T(1) / area;
@@ -194,7 +179,6 @@ template <std::floating_point T>
 /// \{
 
 /// A direction above the horizon whose inclination and azimuth are uniform.
-/// \param u  Point of [0,1)^2.
 /// \return Unit vector with z > 0.
 /// \cost Two sines, two cosines.
 /// \report{Section 3.2.4}
@@ -217,7 +201,6 @@ template <std::floating_point T>
 ///
 /// The factors are 2/pi per radian of inclination, 1/(2 pi) per radian of azimuth, and
 /// 1/sin(theta), because a radian of each spans a solid angle of sin(theta).
-/// \param d  Unit vector.
 /// \return At least 1/pi^2; infinite at the pole, 0 on and below the horizon.
 // [naive pdf]
 template <std::floating_point T>

@@ -115,10 +115,7 @@ struct Pattern {
     detail::Strata strata{};                      ///< Its cells, if it has any.
 };
 
-/// Prepares a pattern.
-/// \param sampling  The kind of pattern.
-/// \param points    The number of points, at least 1.
-/// \return The pattern.
+/// Prepares a pattern of at least 1 point.
 [[nodiscard]] constexpr Pattern make_pattern(Sampling sampling, int points) noexcept {
     Pattern pattern{.sampling = sampling, .points = points};
     if (sampling == Sampling::jittered) pattern.strata = detail::strata_for(points);
@@ -138,7 +135,6 @@ struct Pattern {
 namespace detail {
 
 /// The x strip of a point of a multi-jittered pattern whose last row is incomplete.
-///
 /// A column with a point of the last row is wider than its neighbours by one strip.
 /// These columns are spread over the pixel from a random start. Finally all strips are
 /// shifted by the same random step, so that none is preferred.
@@ -170,7 +166,6 @@ strip_of_broken(const Pattern& pattern, std::uint32_t i, std::uint64_t key) noex
 // [broken_row]
 
 /// A point of a correlated multi-jittered pattern.
-///
 /// The points lie in a grid of m columns and n rows, where the last row may be
 /// incomplete; so any number of points is possible, even a prime. Within a cell, the x
 /// offset belongs to the point's row and the y offset to its column. Thus each of as

@@ -44,9 +44,7 @@ constexpr void start_ray(StratifiedStream& stream, std::uint64_t seed,
               .rest = random_stream(seed, Pass::camera, 0, path)};
 }
 
-/// Moves a stream to the start of a bounce, whatever the bounce before has drawn.
-/// \param stream  The stream.
-/// \param bounce  The bounce; 0 is the camera.
+/// Moves a stream to the start of a bounce (0: the camera), whatever was drawn before.
 constexpr void start_bounce(StratifiedStream& stream, std::uint64_t bounce) noexcept {
     stream.dimension = bounce << 16;
     start_bounce(stream.rest, bounce);
@@ -54,10 +52,8 @@ constexpr void start_bounce(StratifiedStream& stream, std::uint64_t bounce) noex
 
 namespace detail {
 
-/// The cell of the ray in the next draw.
-/// \param stream  Advances by one draw.
-/// \param key     Set to the draw's key.
-/// \return In [0, pattern.points).
+/// The cell of the ray in the next draw, in [0, pattern.points); also sets the draw's
+/// key.
 [[nodiscard]] constexpr std::uint32_t next_cell(StratifiedStream& stream,
                                                 std::uint64_t& key) noexcept {
     key = mix_bits(stream.key + 0x9e3779b97f4a7c15u * ++stream.dimension);
@@ -75,7 +71,6 @@ template <std::floating_point T>
 } // namespace detail
 
 /// The next number, uniform in [0, 1), stratified over the pixel's rays.
-/// \param stream  Advances by one draw.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(StratifiedStream& stream) noexcept {
     std::uint64_t key = 0;
@@ -85,7 +80,6 @@ template <std::floating_point T = float>
 }
 
 /// The next point of the unit square, stratified over the pixel's rays.
-/// \param stream  Advances by one draw.
 // [next 2d]
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec2T<T> next_2d(StratifiedStream& stream) noexcept {
@@ -98,9 +92,8 @@ template <std::floating_point T = float>
 }
 // [next 2d]
 
-/// The next point of the unit cube: a direction, and the choice of a lobe.
-/// \param stream  Advances by two draws.
-/// \return A stratified point of the square, and a stratified number.
+/// A stratified point of the square and a stratified number, in two draws: a direction,
+/// and the choice of a lobe.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec3T<T> next_3d(StratifiedStream& stream) noexcept {
     const Vec2T<T> xy = next_2d<T>(stream);

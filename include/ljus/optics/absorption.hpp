@@ -18,9 +18,7 @@ namespace ljus {
 /// \{
 
 /// The fraction of light that remains after a distance.
-///
 /// \f[ T(d) = e^{-\sigma d} \f]
-///
 /// \param sigma     Absorption coefficient per scene unit, >= 0.
 /// \param distance  In scene units, >= 0, finite.
 /// \return T in [0, 1] for each channel; 1 without absorption.

@@ -16,12 +16,8 @@ namespace ljus {
 
 namespace detail {
 
-/// A Gaussian with different widths on its two sides.
-/// \param wavelength  In nm.
-/// \param center      In nm.
-/// \param left        Inverse width below the centre, 1/nm.
-/// \param right       Inverse width above the centre, 1/nm.
-/// \return In (0, 1], 1 at the centre.
+/// A Gaussian, at most 1, with inverse widths `left` and `right` (1/nm) below and above
+/// its centre.
 template <std::floating_point T>
 [[nodiscard]] T lopsided_bell(T wavelength, T center, T left, T right) noexcept {
     const T x = (wavelength - center) * (wavelength < center ? left : right);

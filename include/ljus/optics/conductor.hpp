@@ -80,10 +80,7 @@ template <std::floating_point T>
 }
 // [fresnel_conductor]
 
-/// The reflectance of a metal in three channels.
-/// \param cos_theta  Cosine between ray and normal, in [0, 1].
-/// \param index      Index of the metal.
-/// \return R in [0, 1] for each channel.
+/// The reflectance of a metal in three channels, each in [0, 1].
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> fresnel_conductor(T cos_theta,
                                         const ConductorIndexT<T>& index) noexcept {

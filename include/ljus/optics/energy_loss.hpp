@@ -31,10 +31,8 @@ struct EnergyLossT {
     T mean = T(0);                    ///< 1 minus the mean of E over the hemisphere.
 };
 
-/// The cosine at a position in the table.
-/// \param alpha  Roughness, > 0.
-/// \param place  The position, from 0 to EnergyLossT::cells.
-/// \return mu in [0, 1]: \f$ \alpha s^2 / (\alpha + 1 - s^2) \f$, with s from 0 to 1.
+/// The cosine at a position of the table, from 0 to EnergyLossT::cells:
+/// \f$ \alpha s^2 / (\alpha + 1 - s^2) \f$, with s from 0 to 1.
 template <std::floating_point T>
 [[nodiscard]] constexpr T facet_cosine(T alpha, T place) noexcept {
     const T s = place / T(EnergyLossT<T>::cells);
@@ -42,19 +40,13 @@ template <std::floating_point T>
 }
 
 /// The position of a cosine in the table: the inverse of facet_cosine().
-/// \param alpha      Roughness, > 0.
-/// \param cos_theta  mu, in [0, 1].
-/// \return From 0 to EnergyLossT::cells.
 template <std::floating_point T>
 [[nodiscard]] T facet_place(T alpha, T cos_theta) noexcept {
     const T x = cos_theta * (T(1) + alpha) / (cos_theta + alpha);
     return std::sqrt(std::min(x, T(1))) * T(EnergyLossT<T>::cells);
 }
 
-/// The loss of white facets at an angle.
-/// \param loss       The table.
-/// \param cos_theta  mu, in [0, 1].
-/// \return 1 - E(mu), in [0, 1); 0 for a mirror.
+/// The loss of white facets at an angle: 1 - E(mu), in [0, 1); 0 for a mirror.
 /// \cost A square root, a division and two adjacent table entries.
 // [lost at]
 template <std::floating_point T>
@@ -69,9 +61,6 @@ template <std::floating_point T>
 
 /// Samples a cosine with a density proportional to the loss times the cosine. Within a
 /// cell of the table it is cosine-weighted.
-/// \param loss  The table, not a mirror's.
-/// \param u     In [0, 1).
-/// \return mu in [0, 1].
 /// \cost A binary search and a square root.
 template <std::floating_point T>
 [[nodiscard]] T sample_lost(const EnergyLossT<T>& loss, T u) noexcept {
@@ -85,10 +74,7 @@ template <std::floating_point T>
     return std::sqrt(low * low + share * (high - low) * (high + low));
 }
 
-/// The density of sample_lost() with a uniform azimuth.
-/// \param loss       The table, not a mirror's.
-/// \param cos_theta  mu, in [0, 1].
-/// \return Per steradian.
+/// The density of sample_lost() with a uniform azimuth, per steradian.
 template <std::floating_point T>
 [[nodiscard]] T pdf_lost(const EnergyLossT<T>& loss, T cos_theta) noexcept {
     const int i =

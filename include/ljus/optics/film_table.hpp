@@ -78,7 +78,6 @@ void add_cell(FilmTableT<T>& table, const RgbT<double>& color) {
 /// \param index  In [1, 1000].
 /// \param size   The resolution; the default has 42 000 colours, half a megabyte in
 ///               float.
-/// \return The table.
 /// \throws std::invalid_argument  for an index or a size out of range.
 /// \cost With the default size 10 million samples: about 0.1 s.
 template <std::floating_point T = float>
@@ -125,9 +124,6 @@ template <std::floating_point T = float>
 }
 
 /// The colour of a film by its table: bilinear, and the mean beyond the longest path.
-/// \param table      From bake_film_table().
-/// \param cos_theta  Cosine outside, in [0, 1].
-/// \param thickness  In nm, >= 0.
 /// \return R as linear sRGB, each channel in [0, 1].
 /// \cost Three square roots, a division and four table entries.
 template <std::floating_point T>

@@ -24,10 +24,8 @@ enum class FresnelModel : std::uint8_t {
 
 namespace detail {
 
-/// ((a - b)/(a + b))^2, evaluated as 1 - 4ab/(a + b)^2 where that is more precise.
-/// \param a  At least 0.
-/// \param b  At least 0; a and b may not both be 0.
-/// \return A number in [0, 1].
+/// ((a - b)/(a + b))^2, in [0, 1], evaluated as 1 - 4ab/(a + b)^2 where that is more
+/// precise; a and b are at least 0, and not both 0.
 template <std::floating_point T>
 [[nodiscard]] constexpr T squared_contrast(T a, T b) noexcept {
     const T sum = a + b;
@@ -76,9 +74,6 @@ template <std::floating_point T>
 // [fresnel]
 
 /// Schlick's approximation with the interface of fresnel().
-/// \param cos_theta_i  Cosine between incoming ray and normal, in [0, 1].
-/// \param n_i          Index on the side of the incoming ray, in [1e-9, 1e9].
-/// \param n_t          Index on the other side, in [1e-9, 1e9].
 /// \return R in [0, 1]; for n = 1.5 within 0.036 of fresnel(), from either side.
 /// \cost One square root if n_i > n_t, otherwise none.
 /// \report{Section 3.2.5}
@@ -93,11 +88,6 @@ template <std::floating_point T>
 }
 
 /// The reflectance by a material's model.
-/// \param model        Exact or Schlick.
-/// \param cos_theta_i  Cosine between incoming ray and normal, in [0, 1].
-/// \param n_i          Index on the side of the incoming ray, in [1e-9, 1e9].
-/// \param n_t          Index on the other side, in [1e-9, 1e9].
-/// \return R in [0, 1].
 template <std::floating_point T>
 [[nodiscard]] T fresnel(FresnelModel model, T cos_theta_i, T n_i, T n_t) noexcept {
     return model == FresnelModel::exact ? fresnel(cos_theta_i, n_i, n_t)

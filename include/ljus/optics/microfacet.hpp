@@ -61,9 +61,6 @@ namespace detail {
 ///
 /// G1 is the fraction of facets that are visible, G2 the fraction that are visible and
 /// lit (height-correlated Smith \cite heitz2014).
-/// \param alpha  Roughness.
-/// \param w      The direction.
-/// \return r(w), from alpha to 1.
 /// \return r(w), from alpha to 1.
 /// \cost One square root.
 template <std::floating_point T>
@@ -73,15 +70,11 @@ template <std::floating_point T>
 
 /// Samples the normal of a visible facet, with the density
 /// \f$ G_1(w_o) \max(0, w_o \cdot h) D(h) / w_{o,z} \f$ \cite heitz2018.
-///
 /// Stretching turns the facets into a hemisphere. The mirror directions of the
 /// stretched `wo` fill a spherical cap uniformly \cite dupuy2023, so that one point of
 /// it gives the normal. The cap is parametrised by the distance t from its top, which
 /// avoids cancellation: it is a hemisphere at grazing angles, and the whole sphere at
 /// normal incidence.
-/// \param alpha  Roughness.
-/// \param wo     Unit vector in the surface's frame, the outgoing direction.
-/// \param u      Point of the unit square.
 /// \return Unit vector with z >= 0.
 /// \cost One sine, one cosine, three square roots.
 // [visible normals]

@@ -31,8 +31,6 @@ template <std::floating_point T>
 
 /// The mirror direction in a material's frame, where N = +z and both directions point
 /// *away* from the surface. It is exact.
-/// \param wo  Outgoing direction in the surface's frame.
-/// \return wi, the incident direction, on the same side as `wo`.
 /// \report{Section 3.2.4, Eq. (4)}
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec3T<T> reflect(const Vec3T<T>& wo) noexcept {

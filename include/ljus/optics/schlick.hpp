@@ -45,6 +45,7 @@ template <typename T>
 /// The reflectance of a boundary crossed in either direction. It uses the cosine in the
 /// medium of lower index. The second cosine needs a square root, which a caller who
 /// refracts has already; otherwise use schlick_dielectric() in fresnel.hpp.
+/// \param n_i    Index on the side of the incoming ray, in [1e-9, 1e9].
 /// \param n_t    Index on the other side, in [1e-9, 1e9].
 /// \param cos_i  Cosine of the incoming ray, in [0, 1].
 /// \param cos_t  Cosine of the refracted ray, in [0, 1]; 0 under total reflection,

@@ -30,8 +30,6 @@ struct FilmSharesT {
 
 /// \f$ (n_t \cos\theta_t)^2 \f$, the square of index times cosine *inside* the film:
 /// \f$ \cos^2\theta + (n - 1)(n + 1) \f$, without cancellation.
-/// \param cos_theta  Cosine outside.
-/// \param index      Index of the film.
 /// \return Negative if nothing is refracted into the film.
 template <std::floating_point T>
 [[nodiscard]] constexpr T film_cosine2(T cos_theta, T index) noexcept {
@@ -57,7 +55,7 @@ template <std::floating_point T>
         if (q == T(0)) return detail::FilmSharesT<T>{};
         const T root = T(2) * cos_theta / q, ratio = root * root;
         const T reflected = T(1) / (T(1) + ratio);
-        // The smaller of the two is no difference; an infinite ratio is right, too.
+        // The smaller one needs no subtraction; the ratio may be infinite.
         return detail::FilmSharesT<T>{reflected, ratio < T(1) ? ratio * reflected
                                                               : T(1) - reflected};
     };

@@ -162,8 +162,6 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
 ///     \frac{\cos\theta_1 \cos\theta_2}{\pi r^2}\, dA_2\, dA_1
 ///   = \frac{1}{2\pi} \oint\!\oint \ln r\; dx_1 \cdot dx_2. \f]
 /// Each facet is first clipped by the plane of the other.
-/// \param one  A facet with an area.
-/// \param two  Another facet.
 /// \return In squared scene units, at least 0.
 /// \cost 1 microsecond for two axis-aligned rectangles, 40 for two at other angles; the
 ///       relative error is about 1e-15 (distance / size)^2.

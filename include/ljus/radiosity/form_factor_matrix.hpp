@@ -82,9 +82,6 @@ inline bool close_rows(FormFactors& factors) {
 
 /// Computes the form factors between all patches: between flat ones the closed form
 /// times the visible fraction, otherwise by rays from both, weighted for minimal noise.
-/// \param world     The scene of the patches.
-/// \param all       The patches.
-/// \param settings  The method.
 /// \return The form factors, symmetric to the last bit and the same for any number of
 ///         threads; nothing if the progress callback stopped the computation.
 /// \throws std::invalid_argument  if a number of rays is below 1, or rows cannot be

@@ -28,10 +28,8 @@ struct LightMapKey {
     friend bool operator==(const LightMapKey&, const LightMapKey&) = default;
 };
 
-/// The light on the surfaces of a scene, for any viewpoint.
-///
-/// It holds irradiance, not radiosity; the surface's albedo is applied when it is
-/// drawn.
+/// The light on the surfaces of a scene, for any viewpoint. It holds irradiance, not
+/// radiosity; the surface's albedo is applied when it is drawn.
 struct LightMap {
     LightMapKey key{};                      ///< Identifies scene and settings.
     std::vector<PatchGrid> grids{};         ///< One per side of an object.
@@ -64,8 +62,6 @@ template <AnyWorld W>
 
 /// The indices of a cell's vertices in its grid: four of a quad, three of a triangle.
 /// On a ball the first and the last column have one vertex each, a pole.
-/// \param grid   The grid.
-/// \param place  The cell.
 [[nodiscard]] constexpr std::array<std::uint32_t, 4>
 cell_vertices(const PatchGrid& grid, const CellPlace& place) noexcept {
     const auto vertex = [&](std::uint32_t right, std::uint32_t up) {
@@ -86,11 +82,8 @@ cell_vertices(const PatchGrid& grid, const CellPlace& place) noexcept {
 
 } // namespace detail
 
-/// The light at the vertices of a grid: the mean of the adjacent patches, after Gouraud
-/// \cite gouraud1971.
-/// \param grid        The grid.
-/// \param irradiance  One value per cell.
-/// \return One value per vertex.
+/// The light at the vertices of a grid: the mean of the adjacent cells' irradiance,
+/// after Gouraud \cite gouraud1971.
 [[nodiscard]] inline std::vector<RgbT<double>>
 vertex_light(const PatchGrid& grid, std::span<const RgbT<double>> irradiance) {
     std::vector<RgbT<double>> sum(grid.vertices(), RgbT<double>(0));
@@ -175,11 +168,8 @@ private:
 template <typename W>
 LightMapView(const W&, LightMap, const LightMapSettings& = {}) -> LightMapView<W>;
 
-/// The irradiance at a point of a grid, interpolated between its cell's vertices.
-/// \param grid      The grid.
-/// \param at        The point in (u, v) of the grid, see place_on().
-/// \param vertices  vertex_light() of the grid.
-/// \return W/m^2.
+/// The irradiance at a point of a grid, interpolated between its cell's vertices, in
+/// W/m^2.
 [[nodiscard]] inline RgbT<double>
 blended_light(const PatchGrid& grid, const glm::dvec2& at,
               std::span<const RgbT<double>> vertices) noexcept {
@@ -195,9 +185,6 @@ blended_light(const PatchGrid& grid, const glm::dvec2& at,
 }
 
 /// The radiance along a ray: one intersection and one look-up in the map.
-/// \param view     The world and its light map.
-/// \param ray      A primary ray.
-/// \param context  Its log receives each term.
 /// \return Emitted radiance plus albedo / pi times irradiance, W/(m^2 sr); surfaces
 ///         without patches are black.
 /// \report{Section 2.2}

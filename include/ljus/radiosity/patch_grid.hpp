@@ -66,10 +66,7 @@ inline std::uint32_t cells_along(double length, double size) noexcept {
 /// \name Grids for shapes
 /// \{
 
-/// The grid for the front of a shape.
-/// \param shape  A quad, a triangle or a sphere.
-/// \param size   The largest edge length of a cell, in scene units.
-/// \return The grid.
+/// The grid for the front of a shape, with cells of edge length at most `size`.
 template <std::floating_point T>
 [[nodiscard]] PatchGrid patch_grid(const QuadT<T>& shape, double size) noexcept {
     return {.columns = detail::cells_along(double(glm::length(shape.edge_u)), size),
@@ -145,9 +142,6 @@ struct HitSideT {
 };
 
 /// Finds the side of an object that a ray has hit.
-/// \param world  The closed scene.
-/// \param ray    The ray.
-/// \param hit    From closest_hit().
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] HitSideT<T> side_of(const W& world, const RayT<T>& ray,
                                   const SceneHitT<T>& hit) {
@@ -158,11 +152,8 @@ template <AnyWorld W, std::floating_point T>
     return {outer, inward != world.object(hit.object).inside_out};
 }
 
-/// The coordinates of a hit on its shape.
-/// \param kind          The kind of the grid.
-/// \param hit           Has u and v of a flat shape.
-/// \param outer_normal  The shape's own normal, which gives the coordinates on a ball.
-/// \return Point of the unit square.
+/// The coordinates of a hit on its shape, in the unit square. On a ball they come from
+/// the shape's own normal.
 template <std::floating_point T>
 [[nodiscard]] glm::dvec2 place_on(GridKind kind, const FlatHitT<T>& hit,
                                   const Vec3T<T>& outer_normal) noexcept {
@@ -173,10 +164,6 @@ template <std::floating_point T>
 }
 
 /// A point of a cell, uniform over its area.
-/// \param grid   The grid.
-/// \param shape  Its shape.
-/// \param cell   Index of the cell.
-/// \param u      Point of the unit square.
 /// \return The point, with the normal of the grid's side.
 template <typename S, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_cell(const PatchGrid& grid, const S& shape,
@@ -198,9 +185,6 @@ template <typename S, std::floating_point T>
 }
 
 /// The corners of a cell of a flat shape, facing the grid's side.
-/// \param grid  The grid.
-/// \param whole The facet of the whole shape.
-/// \param cell  Index of the cell.
 [[nodiscard]] inline Facet cell_facet(const PatchGrid& grid, const Facet& whole,
                                       std::uint32_t cell) noexcept {
     const CellPlace place = place_of(grid, cell);

@@ -21,10 +21,6 @@ namespace ljus {
 namespace detail {
 
 /// A point of a patch, uniform over its area.
-/// \param world   The closed scene.
-/// \param all     Its patches.
-/// \param number  Index of the patch.
-/// \param u       Point of the unit square.
 /// \return The point, with the normal of the patch's side.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_patch(const W& world, const Patches& all,
@@ -39,10 +35,6 @@ template <AnyWorld W, std::floating_point T>
 }
 
 /// The patch that a ray has hit.
-/// \param world  The closed scene.
-/// \param all    Its patches.
-/// \param ray    The ray.
-/// \param hit    From closest_hit().
 /// \return The patch's index; nothing for a side without patches.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<std::uint32_t> patch_at(const W& world, const Patches& all,
@@ -103,12 +95,6 @@ namespace detail {
 
 /// The visible fraction of the exchange between two patches, by rays between points of
 /// both. Each ray is weighted by the exchange along it.
-/// \param world   The closed scene.
-/// \param all     Its patches.
-/// \param one     Index of a flat patch.
-/// \param two     Index of another one.
-/// \param rays    The number of rays, at least 1.
-/// \param seed    Seed of the random streams.
 /// \return In [0, 1]; the exchange itself comes from the closed form.
 template <AnyWorld W>
 [[nodiscard]] double visible_share(const W& world, const Patches& all,

@@ -50,7 +50,6 @@ struct PatchSettings {
 
 /// The albedo of a material for radiosity. Only Lambert's material has one, because its
 /// radiance is the same in all directions.
-/// \param m  The material.
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<double> diffuse_albedo(const LambertianT<T>& m) noexcept {
     return RgbT<double>(m.albedo);
@@ -176,9 +175,6 @@ inline void say(Patches& all, long long count, const char* one, const char* many
 /// A wall has patches on both sides, except on a side that nothing lies in front of. A
 /// ball has patches on the side that its normal points to. Other objects occlude, but
 /// reflect no light: `left_out` names them.
-/// \param world     The closed scene.
-/// \param settings  Size and number of patches.
-/// \return The patches.
 /// \throws std::invalid_argument  if `size` is not above 0, if there are more patches
 ///         than `most`, or none.
 /// \cost One test per pair of objects.

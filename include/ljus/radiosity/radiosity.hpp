@@ -35,9 +35,6 @@ struct Radiosity {
 };
 
 /// The energy balance of a solution.
-/// \param patches    The patches.
-/// \param factors    The form factors.
-/// \param radiosity  Radiosity of each patch, W/m^2.
 /// \return Emitted = absorbed + escaped, up to rounding, if the equations are solved
 ///         and the form factors reciprocal, for any size of patches and number of rays.
 [[nodiscard]] inline EnergyBalance
@@ -54,11 +51,8 @@ energy_balance(const Patches& patches, const FormFactors& factors,
     return sum;
 }
 
-/// The key of a light map: a hash of the scene and of the settings that change the map.
-/// \param world     The closed scene.
-/// \param settings  Patches, form factors and solver; progress and threads do not
-///                  count.
-/// \return The key.
+/// The key of a light map: a hash of the scene and of the settings that change the map,
+/// which progress and threads do not.
 template <AnyWorld W>
 [[nodiscard]] LightMapKey light_map_key(const W& world,
                                         const RadiositySettings& settings) {
@@ -71,13 +65,8 @@ template <AnyWorld W>
     return {detail::scene_hash(world), how.value};
 }
 
-/// The light map of a solution.
-/// \param world      The closed scene.
-/// \param patches    Its patches.
-/// \param factors    Their form factors.
-/// \param radiosity  Radiosity of each patch, W/m^2. The map also has the light that a
-///                   patch has not yet shot.
-/// \return The light map; its key lacks the settings.
+/// The light map of a solution; it also has the light that a patch has not yet shot.
+/// Its key lacks the settings.
 template <AnyWorld W>
 [[nodiscard]] LightMap make_light_map(const W& world, const Patches& patches,
                                       const FormFactors& factors,
@@ -88,8 +77,6 @@ template <AnyWorld W>
 }
 
 /// Radiosity of a scene, from the patches to the light map.
-/// \param world     The closed scene; see make_patches() for what takes part.
-/// \param settings  All settings.
 /// \return All results; nothing if the progress callback of the form factors stopped
 ///         the computation. See Patches::left_out.
 /// \throws std::invalid_argument  as make_patches(), make_form_factors() and

@@ -46,8 +46,6 @@ inline void eliminate(std::vector<double>& a, std::vector<RgbT<double>>& b) {
 
 /// Solves by elimination: all channels at once if every patch is grey, otherwise one by
 /// one.
-/// \param factors  The form factors.
-/// \param patches  Albedo and emission.
 /// \return Radiosity, W/m^2.
 /// \cost Memory for n^2 numbers, n^3/3 multiplications: 10 s for 3000 patches.
 [[nodiscard]] inline std::vector<RgbT<double>>

@@ -42,9 +42,6 @@ struct RadiositySolution {
 namespace detail {
 
 /// The irradiance of all patches.
-/// \param factors    The form factors.
-/// \param radiosity  Radiosity of each patch, W/m^2.
-/// \param threads    As in ParallelSettings.
 /// \return \f$ H_i = \sum_j F_{ij} B_j \f$, in W/m^2.
 /// \cost n^2 multiplications per channel.
 [[nodiscard]] inline std::vector<RgbT<double>>
@@ -88,11 +85,7 @@ inline void require_loss(const FormFactors& factors,
 }
 
 /// Shoots the unshot light of all patches at once: one bounce.
-/// \param factors  The form factors.
-/// \param patches  Albedo.
-/// \param threads  As in ParallelSettings.
-/// \param solution The radiosity, to which the shot light is added.
-/// \param unsent   Unshot radiosity of each patch.
+/// The shot light is added to `solution` and removed from `unsent`.
 /// \cost n^2 multiplications per channel.
 inline void relax_all(const FormFactors& factors, const std::vector<Patch>& patches,
                       int threads, std::vector<RgbT<double>>& solution,
@@ -107,11 +100,7 @@ inline void relax_all(const FormFactors& factors, const std::vector<Patch>& patc
 
 /// Shoots the unshot light of one patch to all others. Gauss-Seidel and shooting repeat
 /// this step in different orders.
-/// \param factors  The form factors.
-/// \param patches  Albedo.
-/// \param i        The patch.
-/// \param solution The radiosity, to which the shot light is added.
-/// \param unsent   Unshot radiosity of each patch; that of patch i becomes 0.
+/// The shot light is added to `solution`; `unsent` of patch i becomes 0.
 /// \cost n multiplications per channel.
 // [relax]
 inline void relax_patch(const FormFactors& factors, const std::vector<Patch>& patches,
@@ -128,8 +117,6 @@ inline void relax_patch(const FormFactors& factors, const std::vector<Patch>& pa
 // [relax]
 
 /// The patch with the most unshot flux: Southwell's choice.
-/// \param factors  The form factors.
-/// \param unsent   Unshot radiosity of each patch.
 /// \return Its index; the first one of equals.
 [[nodiscard]] inline std::size_t
 brightest_patch(const FormFactors& factors, const std::vector<RgbT<double>>& unsent) {
@@ -148,9 +135,6 @@ brightest_patch(const FormFactors& factors, const std::vector<RgbT<double>>& uns
 /// All solvers except `lu` start with B = 0 and all light unshot. In a sweep of jacobi
 /// or gauss_seidel the unshot light falls at least by the factor of the largest albedo,
 /// so that \f$ \log\varepsilon / \log\rho_{max} \f$ sweeps are enough.
-/// \param factors   The form factors.
-/// \param patches   Albedo and emission.
-/// \param settings  Solver and tolerance.
 /// \return The radiosity, and the unshot flux after each sweep.
 /// \throws std::invalid_argument  if a patch reflects all the light that it receives,
 ///         or more: an albedo of 1 in a closed room, or a row sum above 1 by noise.

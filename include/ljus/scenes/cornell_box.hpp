@@ -43,7 +43,6 @@ void add_cornell_walls(S& scene) {
 }
 
 /// The camera of the box, whose picture is filled by it.
-/// \return The camera.
 template <std::floating_point T = float>
 [[nodiscard]] CameraT<T> cornell_camera() {
     return look_at(ViewT<T>{.position{T(0), T(1), T(4.4)},
@@ -68,7 +67,6 @@ void add_cornell_lamp(S& scene) {
 } // namespace detail
 
 /// The box with its lamp, a mirror ball and a glass ball.
-/// \return The scene and its camera.
 template <std::floating_point T = float>
 [[nodiscard]] Room<CornellSceneT<T>> cornell_box() {
     CornellSceneT<T> scene;
@@ -83,7 +81,6 @@ template <std::floating_point T = float>
 
 /// The box with two matt balls instead of mirror and glass: all surfaces are diffuse,
 /// so that every renderer of the book could carry all of its light.
-/// \return The scene and its camera.
 // [matt_cornell_box]
 template <std::floating_point T = float>
 [[nodiscard]] Room<CornellSceneT<T>> matt_cornell_box() {

@@ -22,7 +22,6 @@ namespace ljus {
 ///
 /// The point (x, y, z) appears at the fraction 1/2 - y/(x + 7) of the width and
 /// 1/2 - z/(x + 7) of the height, from the upper left corner.
-/// \return The camera.
 template <std::floating_point T = float>
 [[nodiscard]] CameraT<T> report_camera() {
     return look_at(ViewT<T>{.position{T(-7), T(0), T(0)},

@@ -94,7 +94,6 @@ void add_report_matt_objects(ReportSceneT<T>& scene) {
 } // namespace detail
 
 /// The room of figures 1 and 15: two lamps and every material.
-/// \return The scene and its camera.
 /// \report{Figures 1 and 15}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> final_room() {
@@ -115,7 +114,6 @@ template <std::floating_point T = float>
 }
 
 /// The room of figure 12: one lamp and one of each material.
-/// \return The scene and its camera.
 /// \report{Figure 12, Table 3}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> all_materials_room() {
@@ -132,7 +130,6 @@ template <std::floating_point T = float>
 
 /// The room of figures 11 and 13: one lamp and four glass balls. The history of the
 /// report's program lacks it; two of the balls were fitted to the picture.
-/// \return The scene and its camera.
 /// \report{Figures 11 and 13, Tables 2 and 4}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> four_glass_room() {

@@ -22,7 +22,6 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
     Vec3T<double>{1425312, 8788810, 70074185} / 80288307.0};
 
 /// XYZ of a linear sRGB colour, in units of the white point D65.
-/// \param c  Linear sRGB.
 /// \return X/Xn, Y/Yn, Z/Zn; white is (1, 1, 1).
 [[nodiscard]] inline Vec3T<double> xyz_over_white(const RgbT<double>& c) noexcept {
     return {glm::dot(xyz_shares[0], c), glm::dot(xyz_shares[1], c),
@@ -30,7 +29,6 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
 }
 
 /// The linear sRGB colour of XYZ: the inverse of xyz_over_white().
-/// \param xyz  X/Xn, Y/Yn, Z/Zn.
 /// \return Linear sRGB, not always within [0, 1].
 [[nodiscard]] inline RgbT<double> rgb_of(const Vec3T<double>& xyz) noexcept {
     // Cramer's rule: cross products of two rows over the determinant.
@@ -42,7 +40,6 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
 
 /// YCxCz, which separates lightness, red-green and blue-yellow. Each is linear in
 /// light, so that it can be blurred.
-/// \param c  Linear sRGB.
 /// \return 116 Y - 16; 500 (X - Y); 200 (Y - Z), in units of white.
 /// \cite andersson2020
 [[nodiscard]] inline Vec3T<double> opponent(const RgbT<double>& c) noexcept {
@@ -51,7 +48,6 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
 }
 
 /// The linear sRGB colour of YCxCz.
-/// \param c  From opponent().
 /// \return Linear sRGB, not always within [0, 1].
 [[nodiscard]] inline RgbT<double> rgb_of_opponent(const Vec3T<double>& c) noexcept {
     const double y = (c.x + 16) / 116;
@@ -59,7 +55,6 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
 }
 
 /// L*a*b* of a colour with the Hunt effect: dark colours are less colourful.
-/// \param c  Linear sRGB.
 /// \return L*, and a* and b* times L*/100.
 /// \cite andersson2020
 [[nodiscard]] inline Vec3T<double> hunt_lab(const RgbT<double>& c) noexcept {
@@ -76,8 +71,6 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
 
 /// The HyAB distance, made for large differences: city-block in lightness, Euclidean in
 /// a* and b*.
-/// \param a  From hunt_lab().
-/// \param b  The other colour.
 /// \return |L1 - L2| + |(a1, b1) - (a2, b2)|.
 /// \cite andersson2020
 [[nodiscard]] inline double hyab(const Vec3T<double>& a,

@@ -31,10 +31,7 @@ inline constexpr EyeGaussian eye_gaussians[3][2] = {
 /// The weights of a filter, from -radius to radius.
 using Weights = std::vector<double>;
 
-/// Samples a function at the integers.
-/// \param radius  At least 0.
-/// \param f       A function of a double.
-/// \return f(-radius), ..., f(radius).
+/// The values f(-radius), ..., f(radius) of a function.
 template <typename F>
 [[nodiscard]] Weights weights_of(int radius, F f) {
     Weights weights;
@@ -51,11 +48,6 @@ inline void make_unit(Weights& weights) noexcept {
 
 /// Convolves one channel of an image along x and along y; pixels at the border are
 /// repeated outside.
-/// \param image    The image.
-/// \param channel  0, 1 or 2.
-/// \param along_x  An odd number of weights.
-/// \param along_y  An odd number of weights.
-/// \return One number per pixel.
 [[nodiscard]] inline std::vector<double> blurred(const ImageT<double>& image,
                                                  int channel, const Weights& along_x,
                                                  const Weights& along_y) {
@@ -97,8 +89,6 @@ template <std::floating_point T>
 
 /// A picture as a distant viewer sees it: each channel is blurred by the eye's contrast
 /// sensitivity.
-/// \param image  In YCxCz.
-/// \param ppd    Pixels per degree.
 /// \return Linear sRGB within [0, 1].
 /// \cite andersson2020
 [[nodiscard]] inline ImageT<double> as_seen(const ImageT<double>& image, double ppd) {
@@ -132,8 +122,6 @@ template <std::floating_point T>
 /// The strength of edges and points at each pixel: the gradients of lightness by first
 /// and by second derivatives of a Gaussian whose width is that of the eye's edge
 /// detector, 0.082 degrees.
-/// \param image  In YCxCz.
-/// \param ppd    Pixels per degree.
 /// \return Edges in the first channel, points in the second.
 /// \cite andersson2020
 [[nodiscard]] inline ImageT<double> features(const ImageT<double>& image, double ppd) {
