@@ -371,7 +371,7 @@ TEST_CASE("form_factors: the visible share has the weights of the form factor") 
         stage.add(QuadT<double>{V(0), {1, 0, 0}, {0, 1, 0}}, white);
         stage.add(QuadT<double>{{0, 0, h}, {0, 1, 0}, {1, 0, 0}}, white);
         const Patches open = make_patches(World(stage), {.size = 1});
-        CHECK(detail::visible_share(World(stage), open, 0, 1, 100, 1) == 1);
+        CHECK(detail::visible_fraction(World(stage), open, 0, 1, 100, 1) == 1);
         stage.add(QuadT<double>{{0.25, -50, h / 2}, {50, 0, 0}, {0, 100, 0}},
                   stage.add(MirrorT<double>{}));
         const Patches all = make_patches(World(stage), {.size = 1});
@@ -390,8 +390,8 @@ TEST_CASE("form_factors: the visible share has the weights of the form factor") 
                                 : middle == 0.25 ? weight / 2
                                                  : 0;
                     }
-        const double share = detail::visible_share(World(stage), all, 0, 1, 10000,
-                                                   ljus_test::test_seed(1));
+        const double share = detail::visible_fraction(World(stage), all, 0, 1, 10000,
+                                                      ljus_test::test_seed(1));
         CAPTURE(h);
         CHECK(share == doctest::Approx(seen / whole).epsilon(0.02));
     }
@@ -417,8 +417,8 @@ TEST_CASE("form_factors: what lies behind a patch has no part in what is visible
             };
             if (side(i).z < 0.5 || side(j).x > -0.5) continue;
             ++faced;
-            CHECK(detail::visible_share(indexed, all, i, j, 1000, 1) == 1);
-            CHECK(detail::visible_share(indexed, all, j, i, 1000, 1) == 1);
+            CHECK(detail::visible_fraction(indexed, all, i, j, 1000, 1) == 1);
+            CHECK(detail::visible_fraction(indexed, all, j, i, 1000, 1) == 1);
         }
     CHECK(faced == 1);
 }
@@ -543,7 +543,7 @@ TEST_CASE("form_factors: each patch, each pair and each seed has numbers of its 
     const World indexed(stage);
     REQUIRE(all.patches.size() == 4);
     const auto share = [&](std::uint32_t i, std::uint32_t k, std::uint64_t seed) {
-        return detail::visible_share(indexed, all, i, k, 500, seed);
+        return detail::visible_fraction(indexed, all, i, k, 500, seed);
     };
     CHECK(share(0, 3, 1) == doctest::Approx(share(1, 2, 1)).epsilon(0.1));
     CHECK(std::abs(share(0, 3, 1) - share(1, 2, 1)) > 1e-9);
@@ -566,7 +566,7 @@ TEST_CASE("form_factors: each patch, each pair and each seed has numbers of its 
             if (side(i).position.z != 0 || side(i).normal.z > 0) continue;
             if (side(k).position.z != 1 || side(k).normal.z < 0) continue;
             ++asked;
-            CHECK(detail::visible_share(around, outer, i, k, 50, 1) == 0);
+            CHECK(detail::visible_fraction(around, outer, i, k, 50, 1) == 0);
         }
     CHECK(asked == 1);
 

@@ -73,8 +73,8 @@ template <std::floating_point T, std::floating_point U>
     require(ppd >= 1 && ppd <= 1000, "pixels per degree", ppd, "from 1 to 1000");
     const ImageT<double> a = detail::opponent_image(image),
                          b = detail::opponent_image(reference);
-    const ImageT<double> seen_a = detail::as_seen(a, ppd),
-                         seen_b = detail::as_seen(b, ppd);
+    const ImageT<double> seen_a = detail::eye_filtered(a, ppd),
+                         seen_b = detail::eye_filtered(b, ppd);
     const ImageT<double> features_a = detail::features(a, ppd),
                          features_b = detail::features(b, ppd);
 

@@ -88,8 +88,8 @@ namespace detail {
 /// The probability of sampling the first reflection: its fraction of the light.
 /// \return In [0, 1]; 1 where nothing is lost.
 template <std::floating_point T, typename F>
-[[nodiscard]] T chance_of_first(const CompensatedGlossyT<T, F>& gloss,
-                                const Vec3T<T>& wo) noexcept {
+[[nodiscard]] T first_probability(const CompensatedGlossyT<T, F>& gloss,
+                                  const Vec3T<T>& wo) noexcept {
     const T lost = detail::lost_at(gloss.loss, std::abs(wo.z));
     const T first = (T(1) - lost) * max_component(gloss.mean);
     const T again =
@@ -105,7 +105,7 @@ template <std::floating_point T, typename F>
 [[nodiscard]] T pdf(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo,
                     const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
     const T first = pdf(gloss.first, wo, wi, which);
-    const T chance = detail::chance_of_first(gloss, wo);
+    const T chance = detail::first_probability(gloss, wo);
     if (!has(which & lobes(gloss), Lobes::glossy) || !same_side(wo, wi) ||
         chance >= T(1))
         return first;
@@ -120,7 +120,7 @@ template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport transport, Lobes which = Lobes::all) noexcept {
-    const T chance = detail::chance_of_first(gloss, wo);
+    const T chance = detail::first_probability(gloss, wo);
     if (chance >= T(1) || !has(which & lobes(gloss), Lobes::glossy))
         return sample(gloss.first, wo, u, transport, which);
     if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;

@@ -134,7 +134,7 @@ namespace detail {
 
 /// The reflectance and transmittance of a pane.
 template <std::floating_point T>
-struct PaneSharesT {
+struct PaneFractionsT {
     RgbT<T> reflected;   ///< Fraction of the incident light.
     RgbT<T> transmitted; ///< Fraction of the incident light; the rest is absorbed.
 };
@@ -154,14 +154,14 @@ struct PaneSharesT {
 /// \cost fresnel(), one more square root, three powers if there is a tint.
 // [pane]
 template <std::floating_point T>
-[[nodiscard]] PaneSharesT<T> pane_shares(const ThinGlassT<T>& pane,
-                                         T cos_theta) noexcept {
+[[nodiscard]] PaneFractionsT<T> pane_fractions(const ThinGlassT<T>& pane,
+                                               T cos_theta) noexcept {
     const T r = fresnel(cos_theta, T(1), pane.index);
     if (!(r < T(1))) return {RgbT<T>{T(1)}, RgbT<T>{T(0)}};
     const T sine2 = (T(1) - cos_theta) * (T(1) + cos_theta);
     const T cosine =
         std::sqrt(std::max(T(0), T(1) - sine2 / (pane.index * pane.index)));
-    PaneSharesT<T> shares{};
+    PaneFractionsT<T> shares{};
     for (int c = 0; c < 3; ++c) {
         const T tint = pane.tint[c];
         const T a = tint == T(1) ? T(1) : std::pow(tint, T(1) / cosine);
@@ -178,21 +178,21 @@ template <std::floating_point T>
 /// The transmittance of a pane. A material with this function is a thin sheet.
 /// \param pane  The pane.
 /// \param wo    Outgoing direction; unit vector in the surface's frame.
-/// \return PaneSharesT::transmitted.
+/// \return PaneFractionsT::transmitted.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> pass_through(const ThinGlassT<T>& pane,
                                    const Vec3T<T>& /*position*/,
                                    const Vec3T<T>& wo) noexcept {
-    return detail::pane_shares(pane, std::min(std::abs(wo.z), T(1))).transmitted;
+    return detail::pane_fractions(pane, std::min(std::abs(wo.z), T(1))).transmitted;
 }
 
-/// The mirror direction, with PaneSharesT::reflected as weight. Transmission is not
+/// The mirror direction, with PaneFractionsT::reflected as weight. Transmission is not
 /// sampled.
 /// \param pane   The pane.
 /// \param wo     Outgoing direction; unit vector in the surface's frame.
 /// \param which  The lobes to sample.
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
-/// \cost pane_shares().
+/// \cost pane_fractions().
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
@@ -201,7 +201,8 @@ sample(const ThinGlassT<T>& pane, const Vec3T<T>& wo, const Vec3T<T>&,
     if (!has(which, Lobes::specular) || !(wo.z > T(0) || wo.z < T(0)))
         return std::nullopt;
     const T cos_theta = std::min(std::abs(wo.z), T(1));
-    return specular_sample(reflect(wo), detail::pane_shares(pane, cos_theta).reflected);
+    return specular_sample(reflect(wo),
+                           detail::pane_fractions(pane, cos_theta).reflected);
 }
 
 /// Requires a valid index and a tint within [0, 1].

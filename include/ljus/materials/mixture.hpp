@@ -67,7 +67,8 @@ namespace detail {
 /// \param w        Unit vector; z < 0 is inside a transparent body.
 /// \return specularity times fresnel(), and 1 where nothing can be refracted.
 template <std::floating_point T>
-[[nodiscard]] T boundary_share(const MixtureT<T>& mixture, const Vec3T<T>& w) noexcept {
+[[nodiscard]] T boundary_reflectance(const MixtureT<T>& mixture,
+                                     const Vec3T<T>& w) noexcept {
     const bool transparent = mixture.transparency > T(0);
     if (mixture.specularity == T(0) && !transparent) return T(0);
     const bool inside = transparent && w.z < T(0);
@@ -78,7 +79,7 @@ template <std::floating_point T>
 
 /// The fractions of light per lobe; the rest is absorbed.
 template <std::floating_point T>
-struct MixtureSharesT {
+struct LobeFractionsT {
     T diffuse; ///< Matt lobe, times its brightest channel.
     T refract; ///< Refraction.
     T reflect; ///< Mirror and boundary's reflection, which share a direction.
@@ -90,10 +91,10 @@ struct MixtureSharesT {
 
 /// The fractions in whose proportion sample() chooses; lobes not in `which` get 0.
 template <std::floating_point T>
-[[nodiscard]] MixtureSharesT<T>
-mixture_shares(const MixtureT<T>& mixture, const Vec3T<T>& wo, Lobes which) noexcept {
+[[nodiscard]] LobeFractionsT<T>
+lobe_fractions(const MixtureT<T>& mixture, const Vec3T<T>& wo, Lobes which) noexcept {
     const T entering =
-        (T(1) - mixture.reflectivity) * (T(1) - boundary_share(mixture, wo));
+        (T(1) - mixture.reflectivity) * (T(1) - boundary_reflectance(mixture, wo));
     const T specular = has(which, Lobes::specular) ? T(1) : T(0);
     const T diffuse = has(which, Lobes::diffuse) ? max_component(mixture.color) : T(0);
     return {.diffuse = diffuse * entering * (T(1) - mixture.transparency),
@@ -114,8 +115,8 @@ template <std::floating_point T>
     if (!same_side(wo, wi)) return RgbT<T>{T(0)};
     const T ratio = detail::oren_nayar_ratio(mixture.sigma, wo, wi);
     const RgbT<T> body = mixture.color * (std::numbers::inv_pi_v<T> * ratio);
-    const T out = T(1) - detail::boundary_share(mixture, wo);
-    const T in = T(1) - detail::boundary_share(mixture, wi);
+    const T out = T(1) - detail::boundary_reflectance(mixture, wo);
+    const T in = T(1) - detail::boundary_reflectance(mixture, wi);
     const T clear = mixture.transparency;
     return body * ((T(1) - mixture.reflectivity) * (T(1) - clear) * out * in);
 }
@@ -127,7 +128,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] T pdf(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
-    const auto share = detail::mixture_shares(mixture, wo, which);
+    const auto share = detail::lobe_fractions(mixture, wo, which);
     if (!(share.diffuse > T(0))) return T(0);
     return share.diffuse / share.sum() * pdf_cosine_lobe(wo, wi, Lobes::diffuse);
 }
@@ -144,7 +145,7 @@ template <std::floating_point T>
 sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport transport, Lobes which = Lobes::all) noexcept {
     if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
-    const auto share = detail::mixture_shares(mixture, wo, which);
+    const auto share = detail::lobe_fractions(mixture, wo, which);
     const T sum = share.sum();
     if (!(sum > T(0))) return std::nullopt;
     const T choice = u.z * sum;
@@ -153,7 +154,8 @@ sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
         auto matt = sample_cosine_lobe(wo, u, Lobes::diffuse, [&](const Vec3T<T>& wi) {
             const RgbT<T> tint = mixture.color / max_component(mixture.color);
             const T ratio = detail::oren_nayar_ratio(mixture.sigma, wo, wi);
-            return tint * (sum * ratio * (T(1) - detail::boundary_share(mixture, wi)));
+            return tint *
+                   (sum * ratio * (T(1) - detail::boundary_reflectance(mixture, wi)));
         });
         if (matt) matt->pdf *= share.diffuse / sum;
         // A matt lobe so dark that its probability underflows is left out.

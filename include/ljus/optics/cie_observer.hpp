@@ -19,7 +19,7 @@ namespace detail {
 /// A Gaussian, at most 1, with inverse widths `left` and `right` (1/nm) below and above
 /// its centre.
 template <std::floating_point T>
-[[nodiscard]] T lopsided_bell(T wavelength, T center, T left, T right) noexcept {
+[[nodiscard]] T piecewise_gaussian(T wavelength, T center, T left, T right) noexcept {
     const T x = (wavelength - center) * (wavelength < center ? left : right);
     return std::exp(-x * x / T(2));
 }
@@ -36,7 +36,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> cie_observer(T wavelength) noexcept {
     const auto bell = [&](double center, double left, double right) {
-        return detail::lopsided_bell(wavelength, T(center), T(left), T(right));
+        return detail::piecewise_gaussian(wavelength, T(center), T(left), T(right));
     };
     return {T(0.362) * bell(442.0, 0.0624, 0.0374) +
                 T(1.056) * bell(599.8, 0.0264, 0.0323) -

@@ -41,7 +41,7 @@ template <std::floating_point T>
 
 /// The position of a cosine in the table: the inverse of facet_cosine().
 template <std::floating_point T>
-[[nodiscard]] T facet_place(T alpha, T cos_theta) noexcept {
+[[nodiscard]] T facet_position(T alpha, T cos_theta) noexcept {
     const T x = cos_theta * (T(1) + alpha) / (cos_theta + alpha);
     return std::sqrt(std::min(x, T(1))) * T(EnergyLossT<T>::cells);
 }
@@ -52,7 +52,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] T lost_at(const EnergyLossT<T>& loss, T cos_theta) noexcept {
     if (!(loss.alpha > T(0))) return T(0);
-    const T place = facet_place(loss.alpha, cos_theta);
+    const T place = facet_position(loss.alpha, cos_theta);
     const int i = std::min(static_cast<int>(place), loss.cells - 1);
     const auto low = static_cast<std::size_t>(i);
     return loss.at[low] + (place - T(i)) * (loss.at[low + 1] - loss.at[low]);
@@ -77,8 +77,8 @@ template <std::floating_point T>
 /// The density of sample_lost() with a uniform azimuth, per steradian.
 template <std::floating_point T>
 [[nodiscard]] T pdf_lost(const EnergyLossT<T>& loss, T cos_theta) noexcept {
-    const int i =
-        std::min(static_cast<int>(facet_place(loss.alpha, cos_theta)), loss.cells - 1);
+    const int i = std::min(static_cast<int>(facet_position(loss.alpha, cos_theta)),
+                           loss.cells - 1);
     const auto cell = static_cast<std::size_t>(i);
     const T low = facet_cosine(loss.alpha, T(i));
     const T high = facet_cosine(loss.alpha, T(i + 1));

@@ -113,9 +113,9 @@ make_form_factors(const W& world, const Patches& all,
             if (!closed_form(j)) continue;
             row[j] = exchange_area(all.patches[i].facet, all.patches[j].facet);
             if (row[j] > 0 && !all.convex)
-                row[j] *= detail::visible_share(world, all, number,
-                                                static_cast<std::uint32_t>(j),
-                                                settings.shadow_rays, settings.seed);
+                row[j] *= detail::visible_fraction(world, all, number,
+                                                   static_cast<std::uint32_t>(j),
+                                                   settings.shadow_rays, settings.seed);
         }
     };
     if (!parallel_blocks(static_cast<long long>(n), fill,

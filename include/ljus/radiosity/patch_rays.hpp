@@ -97,9 +97,9 @@ namespace detail {
 /// both. Each ray is weighted by the exchange along it.
 /// \return In [0, 1]; the exchange itself comes from the closed form.
 template <AnyWorld W>
-[[nodiscard]] double visible_share(const W& world, const Patches& all,
-                                   std::uint32_t one, std::uint32_t two, int rays,
-                                   std::uint64_t seed) {
+[[nodiscard]] double visible_fraction(const W& world, const Patches& all,
+                                      std::uint32_t one, std::uint32_t two, int rays,
+                                      std::uint64_t seed) {
     using T = typename W::Scalar;
     const detail::Strata strata = detail::strata_for(rays);
     const std::uint64_t pair = (std::uint64_t(one) << 32) + two;

@@ -71,7 +71,7 @@ namespace detail {
 
 // An upper bound of a shape's extent along a normal.
 template <typename S>
-double reach_along(const S& shape, const glm::dvec3& normal) {
+double extent_along(const S& shape, const glm::dvec3& normal) {
     if constexpr (Flat<S>) {
         const Facet facet = facet_of(shape);
         double most = glm::dot(facet.corners[0], normal);
@@ -100,7 +100,7 @@ void each_shape(const W& world, F f) {
 // True if anything in the scene may lie in front of a side of a flat shape. A ball
 // always has something in front of the side that its normal points to.
 template <AnyWorld W, typename G>
-bool anything_before(const W& world, const G& shape, bool inward, bool inside_out) {
+bool faces_anything(const W& world, const G& shape, bool inward, bool inside_out) {
     if constexpr (Flat<G>) {
         const Facet side = inward ? turned(facet_of(shape)) : facet_of(shape);
         const glm::dvec3 normal = glm::normalize(area_vector(side));
@@ -111,7 +111,7 @@ bool anything_before(const W& world, const G& shape, bool inward, bool inside_ou
                                                        glm::abs(world.box().high)));
         bool any = false;
         each_shape(world, [&](const auto& other, ObjectId) {
-            any = any || reach_along(other, normal) > plane + rounding;
+            any = any || extent_along(other, normal) > plane + rounding;
         });
         return any;
     } else {
@@ -191,8 +191,8 @@ template <AnyWorld W>
         const auto& object = world.object(id);
         std::array<bool, 2> open{};
         for (const bool back : {false, true})
-            open[back] = detail::anything_before(
-                world, shape, back != object.inside_out, object.inside_out);
+            open[back] = detail::faces_anything(world, shape, back != object.inside_out,
+                                                object.inside_out);
         // A wall with something in front of one side only occludes nothing.
         all.convex =
             all.convex && (Flat<G> ? !(open[0] && open[1]) : object.inside_out);

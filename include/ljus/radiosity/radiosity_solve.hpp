@@ -62,9 +62,9 @@ multiply(const FormFactors& factors, const std::vector<RgbT<double>>& radiosity,
 
 // The unshot flux as a fraction of the emitted flux, in the channel where it is
 // largest.
-[[nodiscard]] inline double unsent_share(const FormFactors& factors,
-                                         const std::vector<RgbT<double>>& unsent,
-                                         const RgbT<double>& emitted) {
+[[nodiscard]] inline double unshot_fraction(const FormFactors& factors,
+                                            const std::vector<RgbT<double>>& unsent,
+                                            const RgbT<double>& emitted) {
     RgbT<double> sum(0);
     for (std::size_t i = 0; i < unsent.size(); ++i)
         sum += factors.area[i] * glm::abs(unsent[i]);
@@ -153,7 +153,7 @@ solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
         flux += factors.area[i] * unsent[i];
     }
     const auto keep_residual = [&] {
-        solution.residual.push_back(detail::unsent_share(factors, unsent, flux));
+        solution.residual.push_back(detail::unshot_fraction(factors, unsent, flux));
     };
     if (settings.solver == RadiositySolver::lu) {
         solution.radiosity = detail::solve_lu(factors, patches);

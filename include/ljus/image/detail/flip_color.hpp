@@ -16,7 +16,7 @@ namespace detail {
 
 /// The contributions of red, green and blue to X, Y and Z (primaries of Rec. 709). Each
 /// row adds up to 1, because X, Y and Z are relative to the white point.
-inline constexpr Vec3T<double> xyz_shares[3] = {
+inline constexpr Vec3T<double> xyz_weights[3] = {
     Vec3T<double>{10135552, 8788810, 4435075} / 23359437.0,
     Vec3T<double>{2613072, 8788810, 887015} / 12288897.0,
     Vec3T<double>{1425312, 8788810, 70074185} / 80288307.0};
@@ -24,15 +24,15 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
 /// XYZ of a linear sRGB colour, in units of the white point D65.
 /// \return X/Xn, Y/Yn, Z/Zn; white is (1, 1, 1).
 [[nodiscard]] inline Vec3T<double> xyz_over_white(const RgbT<double>& c) noexcept {
-    return {glm::dot(xyz_shares[0], c), glm::dot(xyz_shares[1], c),
-            glm::dot(xyz_shares[2], c)};
+    return {glm::dot(xyz_weights[0], c), glm::dot(xyz_weights[1], c),
+            glm::dot(xyz_weights[2], c)};
 }
 
 /// The linear sRGB colour of XYZ: the inverse of xyz_over_white().
 /// \return Linear sRGB, not always within [0, 1].
 [[nodiscard]] inline RgbT<double> rgb_of(const Vec3T<double>& xyz) noexcept {
     // Cramer's rule: cross products of two rows over the determinant.
-    const auto& [x, y, z] = xyz_shares;
+    const auto& [x, y, z] = xyz_weights;
     const Vec3T<double> yz = glm::cross(y, z);
     return (xyz.x * yz + xyz.y * glm::cross(z, x) + xyz.z * glm::cross(x, y)) /
            glm::dot(x, yz);

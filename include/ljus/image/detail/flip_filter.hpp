@@ -91,7 +91,8 @@ template <std::floating_point T>
 /// sensitivity.
 /// \return Linear sRGB within [0, 1].
 /// \cite andersson2020
-[[nodiscard]] inline ImageT<double> as_seen(const ImageT<double>& image, double ppd) {
+[[nodiscard]] inline ImageT<double> eye_filtered(const ImageT<double>& image,
+                                                 double ppd) {
     constexpr double pi = std::numbers::pi;
     // Three standard deviations of the widest Gaussian.
     const int radius = static_cast<int>(std::ceil(3 * std::sqrt(0.04 / 2) / pi * ppd));

@@ -67,7 +67,7 @@ struct MaterialFields {
     T unit(const char* name) const { return value(name, 0, 1, "within [0, 1]"); }
     T slider(const char* name) const { return has(name) ? unit(name) : T(0); }
     RgbT<T> color(const char* name) const {
-        return RgbT<T>{share_field(member(field, name))};
+        return RgbT<T>{fraction_field(member(field, name))};
     }
     T degrees(const char* name) const {
         return static_cast<T>(

@@ -40,7 +40,7 @@ inline glm::dvec3 light_field(const JsonField& field) {
     return vector_field(field, 0, max_radiance, "within [0, 1e12]");
 }
 
-inline glm::dvec3 share_field(const JsonField& field) {
+inline glm::dvec3 fraction_field(const JsonField& field) {
     return vector_field(field, 0, 1, "within [0, 1]");
 }
 
@@ -124,8 +124,8 @@ FileMapT<T> read_map(const JsonField& field) {
 template <std::floating_point T>
 CheckerT<T, FileMapT<T>> read_checker(const JsonField& field) {
     CheckerT<T, FileMapT<T>> checker{.map = read_map<T>(field),
-                                     .even{share_field(member(field, "even"))},
-                                     .odd{share_field(member(field, "odd"))}};
+                                     .even{fraction_field(member(field, "even"))},
+                                     .odd{fraction_field(member(field, "odd"))}};
     const auto count = [&](const char* name, int& fields) {
         if (const auto found = find(field, name))
             fields = static_cast<int>(whole_number(*found, 2, 1'000'000));
