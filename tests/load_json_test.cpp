@@ -211,7 +211,7 @@ TEST_CASE(
           "a.json: image has more than 268435456 pixels.");
     CHECK(refusal("box, exactly one pixel wide", "gaussian") ==
           "a.json: image.pixel_filter is \"gaussian\"; it must be \"box\", the only "
-          "filter that there is.");
+          "filter that scene files support.");
     CHECK(refusal("\"name\": \"four things\"", "\"name\": 4") ==
           "a.json: name is 4; it must be a text in quotation marks.");
     CHECK(refusal("\"name\": \"ball\"", "\"name\": 4") ==

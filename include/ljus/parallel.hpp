@@ -218,10 +218,9 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
 #ifdef _OPENMP
     if (threads > 1) {
         // At the end of the region libgomp's threads wait by spinning for milliseconds.
-        // If another program uses the processor of the last thread, they keep that
-        // program from their own: a loop of one millisecond took twenty. libgomp's
-        // threads sleep at once if there are more threads than processors, so one idle
-        // thread is added.
+        // A program that has taken the processor of the last thread cannot move to
+        // theirs meanwhile: a loop of one millisecond took twenty. The threads sleep at
+        // once if there are more of them than processors, so one idle thread is added.
         const int idle = threads == omp_get_num_procs() ? 1 : 0;
 #pragma omp parallel num_threads(threads + idle)
         if (omp_get_thread_num() < threads) loop.work();

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/file.hpp
-/// \brief Files are written beside and renamed, or read up to a limit.
+/// \brief Writes files whole or not at all, and reads them up to a limit.
 
 #include <algorithm>
 #include <cerrno>
@@ -49,7 +49,7 @@ inline std::string path_beside(const std::string& file, const std::string& name)
 
 } // namespace detail
 
-/// Writes a file: beside `path` first, renamed once every write, the flush and the
+/// Writes a file beside `path`, and renames it once every write, the flush and the
 /// close have succeeded. If anything fails, an older file is unchanged and nothing else
 /// is left. The new file has the older one's permissions. (A program that wants to
 /// receive the error of a file-size limit must ignore SIGXFSZ.)

@@ -54,7 +54,7 @@ inline void put_grid(Bytes& bytes, const PatchGrid& grid) {
     return grid;
 }
 
-// Reads the key of a file, and throws if it is another.
+// Reads the key of a file, and throws if it differs from `key`.
 inline void require_key(FileReader& file, const LightMapKey& key) {
     if (file.bytes.size() < file_front_bytes + key_bytes)
         file.refuse("it ends in the middle of its key");

@@ -142,7 +142,6 @@ sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>
 }
 
 /// Requires a valid `first` and the table of its roughness.
-/// \throws std::invalid_argument naming the member.
 template <std::floating_point T, typename F>
 void check(const CompensatedGlossyT<T, F>& gloss) {
     check(gloss.first);

@@ -20,7 +20,7 @@ namespace ljus {
 /// exactly all light, at any roughness.
 /// \{
 
-/// A matt surface that conserves energy, two-sided.
+/// A two-sided matt surface that conserves energy.
 /// \report{Section 3.2.1}
 template <std::floating_point T>
 struct EonT {
@@ -207,7 +207,6 @@ sample(const EonT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
 }
 
 /// Requires an albedo and a roughness within [0, 1].
-/// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const EonT<T>& surface) {
     require_unit("eon.albedo", surface.albedo);

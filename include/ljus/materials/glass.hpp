@@ -101,7 +101,6 @@ template <std::floating_point T>
 }
 
 /// Requires a valid index and a finite absorption of at least 0.
-/// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const GlassT<T>& glass) {
     detail::require_index("glass.index", glass.index);
@@ -206,7 +205,6 @@ sample(const ThinGlassT<T>& pane, const Vec3T<T>& wo, const Vec3T<T>&,
 }
 
 /// Requires a valid index and a tint within [0, 1].
-/// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const ThinGlassT<T>& pane) {
     detail::require_index("thin_glass.index", pane.index);

@@ -142,7 +142,6 @@ sample(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
 }
 
 /// Requires a valid reflectance, and a roughness of 0 or within [0.01, 1].
-/// \throws std::invalid_argument naming the member.
 template <std::floating_point T, typename F>
 void check(const GlossyT<T, F>& gloss) {
     if constexpr (std::same_as<F, RgbT<T>>)

@@ -45,8 +45,7 @@ template <std::floating_point T>
 }
 // [lambertian]
 
-/// The density of sample(): pdf_cosine_lobe().
-/// \return Per steradian.
+/// The density of sample(), per steradian: pdf_cosine_lobe().
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf(const LambertianT<T>&, const Vec3T<T>& wo,
                               const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
@@ -66,7 +65,6 @@ sample(const LambertianT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
 }
 
 /// Requires an albedo within [0, 1].
-/// \throws std::invalid_argument naming the albedo.
 template <std::floating_point T>
 void check(const LambertianT<T>& surface) {
     require_unit("lambertian.albedo", surface.albedo);

@@ -26,12 +26,12 @@ namespace ljus {
 ///     Rgb   evaluate(m, wo, wi);        // f in 1/sr, no cosine, no delta lobes
 ///     float pdf(m, wo, wi, which);      // density of sample(), per steradian
 ///     std::optional<BsdfSample> sample(m, wo, u, transport, which);
-///     void  check(m);                   // throws, and names the wrong member
+///     void  check(m);                   // throws std::invalid_argument
 ///
 /// `u` is a point of [0,1)^3, whose z chooses a lobe, `transport` says whether radiance
 /// or flux is carried, and `which` are the lobes to sample, by default all. sample()
 /// returns nothing if `wo` lies on the surface, without a lobe of `which`, or if the
-/// surface is black. check() throws std::invalid_argument.
+/// surface is black. The exception of check() names the wrong member.
 ///
 /// A material may have further functions. The table says what each is for and what
 /// happens without it:

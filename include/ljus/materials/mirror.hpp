@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/mirror.hpp
-/// \brief The perfect mirror.
+/// \brief The perfect mirror, and polished metal.
 
 #include <algorithm>
 
@@ -42,7 +42,6 @@ sample(const MirrorT<T>& mirror, const Vec3T<T>& wo, const Vec3T<T>&,
 // [mirror sample]
 
 /// Requires a reflectance within [0, 1].
-/// \throws std::invalid_argument naming the reflectance.
 template <std::floating_point T>
 void check(const MirrorT<T>& mirror) {
     require_unit("mirror.reflectance", mirror.reflectance);
@@ -78,7 +77,6 @@ sample(const MetalT<T>& metal, const Vec3T<T>& wo, const Vec3T<T>&,
 }
 
 /// Requires an index that a metal can have.
-/// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const MetalT<T>& metal) {
     detail::require_conductor("metal.index", metal.index);

@@ -186,7 +186,6 @@ template <std::floating_point T>
 }
 
 /// Requires every slider within its range.
-/// \throws std::invalid_argument naming the slider.
 template <std::floating_point T>
 void check(const MixtureT<T>& mixture) {
     require_unit("mixture.color", mixture.color);

@@ -89,8 +89,7 @@ template <std::floating_point T>
                              detail::oren_nayar_ratio(surface.sigma, wo, wi));
 }
 
-/// The density of sample(): pdf_cosine_lobe().
-/// \return Per steradian.
+/// The density of sample(), per steradian: pdf_cosine_lobe().
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf(const OrenNayarT<T>&, const Vec3T<T>& wo,
                               const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
@@ -124,7 +123,6 @@ void require_roughness(std::string_view what, T sigma) {
 } // namespace detail
 
 /// Requires an albedo within [0, 1] and a roughness within [0, 1000] radians.
-/// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const OrenNayarT<T>& surface) {
     require_unit("oren_nayar.albedo", surface.albedo);

@@ -180,8 +180,7 @@ template <std::floating_point T>
     return std::numbers::inv_pi_v<T> * detail::rough_weight(surface, wo, wi);
 }
 
-/// The density of sample(): pdf_cosine_lobe().
-/// \return Per steradian.
+/// The density of sample(), per steradian: pdf_cosine_lobe().
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf(const RoughDiffuseT<T>&, const Vec3T<T>& wo,
                               const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
@@ -201,7 +200,6 @@ sample(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
 
 /// Requires an albedo within [0, 1] and a valid roughness, which for `fon` is at most
 /// 1.
-/// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const RoughDiffuseT<T>& surface) {
     require_unit("rough_diffuse.albedo", surface.albedo);

@@ -137,7 +137,6 @@ sample(const SoapFilmT<T>& film, const Vec3T<T>& wo, const Vec3T<T>& u,
 }
 
 /// Requires every member within its range, and the table of the film's index.
-/// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const SoapFilmT<T>& film) {
     require(film.thickness >= T(0) && film.thickness <= detail::max_film_thickness<T>,

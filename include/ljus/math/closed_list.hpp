@@ -12,7 +12,7 @@
 
 namespace ljus::detail {
 
-/// The index of a type in a list. It is not found: the index of the last type.
+/// The index of a type in a list; that of the last type if no other one matches.
 template <typename X, typename First, typename... List>
 inline constexpr std::uint32_t type_number = 0;
 /// The case of at least two types.

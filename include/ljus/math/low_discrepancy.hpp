@@ -15,7 +15,7 @@ namespace ljus {
 /// The error of a mean of N random points falls like \f$N^{-1/2}\f$. The first
 /// \f$2^m\f$ Sobol points put one point into each cell of every dyadic grid. For a
 /// smooth function of few dimensions the error of scrambled points falls almost like
-/// \f$N^{-3/2}\f$; for one with edges it is larger, but still below the random one.
+/// \f$N^{-3/2}\f$; with edges it is larger, but below that of random points.
 /// \{
 
 namespace detail {

@@ -86,8 +86,8 @@ template <std::floating_point T, std::size_t N>
 /// The root between two points of opposite sign: Newton's method while each step is at
 /// most half as long as the last one, bisection otherwise.
 /// \param p   The polynomial.
-/// \param a   Where p has the one sign, or is zero.
-/// \param b   Where p has the other sign; a < b.
+/// \param a   A point where p has one sign, or is zero.
+/// \param b   A point where p has the other sign; a < b.
 /// \return The root, within one unit of roundoff of 1 where p is steep.
 /// \cost At most 2 steps per bit of T.
 // [root_between]
@@ -128,8 +128,8 @@ struct RootsT {
 /// All roots of a polynomial in [0, 1].
 /// Between two neighbouring roots of its derivative a polynomial is monotone: it has
 /// one root there if the signs at the ends differ, otherwise none. The derivative's
-/// roots are found in the same way, down to degree 1 \cite yuksel2022. The leading
-/// coefficient, which may be tiny or 0, is no divisor.
+/// roots are found in the same way, down to degree 1 \cite yuksel2022. Nothing
+/// is divided by the leading coefficient, which may be tiny or 0.
 /// \param p          The polynomial. One that is not finite has no roots.
 /// \param tolerance  The error of its coefficients. A value at an extremum or an end
 ///                   that is no larger counts as a root, so that no root is missed.

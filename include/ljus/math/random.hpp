@@ -92,6 +92,7 @@ template <std::floating_point T = float>
 }
 
 /// A source of random numbers: a copyable struct with these functions beside it:
+///
 /// | function                     | what it does                                      |
 /// |------------------------------|---------------------------------------------------|
 /// | next_1d<T>(stream)           | the next number of [0, 1)                         |

@@ -12,8 +12,7 @@
 namespace ljus {
 
 /// \defgroup sampling Sampling
-/// \brief Section 3.2.4: each sampling function maps a point u of [0,1)^2, and stands
-/// beside its pdf.
+/// \brief Section 3.2.4: pure functions of a point u of [0,1)^2, each beside its pdf.
 ///
 /// Directions are unit vectors around +z. The caller supplies the random numbers, so
 /// that every function here can be plotted, stratified and tested.

@@ -152,8 +152,8 @@ template <std::floating_point T = float>
 /// \defgroup multiple_scattering Multiple scattering
 /// \brief Further reflections return what the first one at a rough surface loses.
 ///
-/// White facets return the fraction E(mu) of light at a cosine mu, and 1 - E(mu) stays
-/// between them. That is returned by a lobe that is reciprocal \cite kulla2017 :
+/// White facets return the fraction E(mu) of light at a cosine mu, and lose 1 - E(mu).
+/// A second, reciprocal lobe returns the loss \cite kulla2017 :
 ///
 /// \f[ f = f_1 + \frac{\rho_m}{\pi}
 ///     \frac{(1 - E(\mu_i))\,(1 - E(\mu_o))}{1 - \bar E}, \qquad

@@ -101,7 +101,6 @@ struct ByteReader {
         return static_cast<int>(value);
     }
 
-    // Requires at most max_pixels.
     void require_pixels(int width, int height) const {
         if (width > max_pixels / height)
             fail("it has " + std::to_string(width) + " x " + std::to_string(height) +

@@ -19,9 +19,9 @@ namespace ljus::detail {
 
 // A value within a JSON file; refers to the file's data and its name.
 struct JsonField {
-    const nlohmann::json& value; // the value
-    const std::string& file;     // the name of the file, for messages
-    std::string path;            // "objects[3].radius"; empty for the whole file
+    const nlohmann::json& value;
+    const std::string& file; // the name of the file, for messages
+    std::string path;        // "objects[3].radius"; empty for the whole file
 };
 
 // A value in a message.
@@ -133,18 +133,15 @@ inline void require_object(const JsonField& field,
     refuse({field.value, field.file, path_of_member(field.path, name)}, "is missing");
 }
 
-// An entry of a list; i must be below its size.
 [[nodiscard]] inline JsonField entry(const JsonField& field, std::size_t i) {
     return {field.value[i], field.file, field.path + "[" + std::to_string(i) + "]"};
 }
 
-// The number of entries of a list.
 [[nodiscard]] inline std::size_t list_size(const JsonField& field) {
     if (!field.value.is_array()) refuse_value(field, "a list");
     return field.value.size();
 }
 
-// A text.
 [[nodiscard]] inline const std::string& text(const JsonField& field) {
     if (!field.value.is_string()) refuse_value(field, "a text in quotation marks");
     return field.value.get_ref<const std::string&>();
@@ -157,7 +154,6 @@ inline void require_object(const JsonField& field,
     return !found || found->value.is_null() ? std::string() : text(*found);
 }
 
-// Requires one of the given names.
 inline void require_one_of(const JsonField& field,
                            const std::vector<std::string>& names) {
     for (const std::string& name : names)

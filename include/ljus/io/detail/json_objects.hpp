@@ -86,7 +86,6 @@ FlatShapesT<T> read_triangles(const JsonField& field) {
     return pair_triangles<T>(points, triangles);
 }
 
-// The meshes of an object.
 template <std::floating_point T, typename LoadMeshes>
 std::vector<MeshT<T>> read_meshes(const JsonField& field, LoadMeshes& load_meshes) {
     const std::string path = path_beside(member(field, "file"));
@@ -106,7 +105,6 @@ SphereT<T> read_sphere(const JsonField& field) {
             .radius = static_cast<T>(length)};
 }
 
-// The material of an object.
 inline MaterialId material_of(const JsonField& field,
                               const std::map<std::string, MaterialId>& materials) {
     const JsonField material = member(field, "material");

@@ -18,15 +18,15 @@
 namespace ljus {
 
 /// \defgroup obj_reader Reading mesh files
-/// \brief Optional (tinyobjloader): it finds lines and words. It silently misreads
-/// malformed numbers, so that the reader parses numbers itself.
+/// \brief Optional: tinyobjloader finds lines and words. It silently misreads malformed
+/// numbers, so that the reader parses numbers itself.
 /// \{
 
 /// The normals of a mesh from a file.
 enum class ObjNormals : std::uint8_t {
-    file,   ///< Those of the file; without them, the triangles'.
+    file,   ///< Those of the file, or of the triangles if it has none.
     smooth, ///< Those of smooth_normals(), even if the file has normals.
-    flat    ///< The triangles'.
+    flat    ///< Those of the triangles.
 };
 
 /// The settings of load_obj().
