@@ -33,9 +33,9 @@ inline constexpr std::uint32_t no_grid = 0xffffffffu;
 
 /// The patches of a scene.
 struct Patches {
-    std::vector<PatchGrid> grids;      ///< One per side of an object.
-    std::vector<Patch> patches;        ///< Grid by grid.
-    bool convex = true;                ///< True if no patch can occlude another.
+    std::vector<PatchGrid> grids; ///< One per side of an object.
+    std::vector<Patch> patches;   ///< Grid by grid.
+    bool convex = true;           ///< True if nothing can stand between two patches.
     std::vector<std::string> left_out; ///< Sentences on what radiosity leaves out.
     /// The grid of each side: by type and index of the object, front and back.
     std::vector<std::vector<std::array<std::uint32_t, 2>>> grid_of;
@@ -48,8 +48,8 @@ struct PatchSettings {
         8192; ///< The largest number of patches; memory has its square.
 };
 
-/// The albedo of a material for radiosity. Only Lambert's material has one, because its
-/// radiance is the same in all directions.
+/// The albedo of a material for radiosity. A material with this function must reflect
+/// the same radiance in all directions.
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<double> diffuse_albedo(const LambertianT<T>& m) noexcept {
     return RgbT<double>(m.albedo);

@@ -120,9 +120,9 @@ template <std::floating_point T>
     return seen;
 }
 
-/// The strength of edges and points at each pixel: the gradients of lightness by first
-/// and by second derivatives of a Gaussian whose width is that of the eye's edge
-/// detector, 0.082 degrees.
+/// The strength of edges and points at each pixel: the lengths of the first and second
+/// derivative of lightness, smoothed by a Gaussian as wide as the eye's edge detector,
+/// 0.082 degrees.
 /// \return Edges in the first channel, points in the second.
 /// \cite andersson2020
 [[nodiscard]] inline ImageT<double> features(const ImageT<double>& image, double ppd) {
