@@ -53,15 +53,9 @@ inline constexpr T eon_mean_loss = fon_constant<T> -
                                    (T(2) / T(3) -
                                     T(28) / T(15) * std::numbers::inv_pi_v<T>);
 
-/// Pi times the BRDF.
-///
-/// \f[ \pi f = \rho f_F + \rho_m
-///     \frac{(1 - E(\mu_i))(1 - E(\mu_o))}{1 - \bar E}, \quad
-///     \rho_m = \frac{\rho^2 \bar E}{1 - \rho (1 - \bar E)} \f]
-///
-/// where f_F is Fujii's ratio, E its albedo at an angle, and \f$ \bar E \f$ the mean of
-/// E. The common factor A r of all losses is cancelled, so that a roughness of 0 needs
-/// no special case.
+/// Pi times the BRDF: \ref multiple_scattering with Fujii's ratio as f_1 and its albedo
+/// as E. The common factor A r of all losses is cancelled, so that a roughness of 0
+/// needs no special case.
 /// \return At least 0; for directions on the same side.
 /// \cost Two arc tangents, four square roots, eight divisions.
 /// \cite eon2025
