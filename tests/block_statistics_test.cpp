@@ -74,8 +74,7 @@ TEST_CASE("block_statistics: pixels that share their noise do not fool it") {
 TEST_CASE("block_statistics: what it refuses") {
     const auto one = ljus::make_image<double>(8, 8);
     CHECK_THROWS_WITH_AS((void)block_statistics(std::vector{one}),
-                         "A standard error was asked of 1 runs; there must be at least "
-                         "2.",
+                         "A standard error needs at least 2 runs, but there are 1.",
                          std::invalid_argument);
     CHECK_THROWS_AS((void)block_statistics(std::vector<ImageD>{}),
                     std::invalid_argument);

@@ -235,13 +235,13 @@ TEST_CASE(
         CHECK(std::is_sorted(loss.below.begin(), loss.below.end()));
         CHECK(loss.below.front() == 0);
         CHECK(loss.below.back() == 1);
-        CHECK(ljus::detail::facet_place(alpha, 0.0f) == 0);
-        CHECK(ljus::detail::facet_place(alpha, 1.0f) == cells);
-        CHECK(ljus::detail::facet_place(alpha, 1.25f) == cells); // by rounding, say
+        CHECK(ljus::detail::facet_position(alpha, 0.0f) == 0);
+        CHECK(ljus::detail::facet_position(alpha, 1.0f) == cells);
+        CHECK(ljus::detail::facet_position(alpha, 1.25f) == cells); // by rounding, say
         CHECK(ljus::detail::lost_at(loss, 1.25f) ==
               ljus_test::within(double(loss.at.back()), 1e-5));
         for (int i = 1; i <= loss.cells; ++i)
-            REQUIRE(ljus::detail::facet_place(
+            REQUIRE(ljus::detail::facet_position(
                         double(alpha),
                         ljus::detail::facet_cosine(double(alpha), double(i))) ==
                     doctest::Approx(i).epsilon(1e-9));
@@ -282,25 +282,26 @@ TEST_CASE(
 }
 
 TEST_CASE("full glossy: the first reflection is taken as often as it carries light") {
-    using ljus::detail::chance_of_first;
+    using ljus::detail::first_probability;
     for (const double roughness : {0.4, 0.7, 1.0})
         for (const double degrees : {0.0, 50.0, 80.0}) {
             const auto wo = at_degrees<double>(degrees);
             // All that white loses comes back.
             const auto all = white<double>(roughness);
             const double lost = ljus::detail::lost_at(all.loss, wo.z);
-            CHECK(chance_of_first(all, wo) == doctest::Approx(1 - lost).epsilon(1e-6));
-            CHECK(chance_of_first(all, -wo) == chance_of_first(all, wo));
+            CHECK(first_probability(all, wo) ==
+                  doctest::Approx(1 - lost).epsilon(1e-6));
+            CHECK(first_probability(all, -wo) == first_probability(all, wo));
             // Of copper by quadrature: red, the brightest. Facets are met at other
             // angles than their mean's, so that this is not exact.
             const auto m = metal(ljus::copper<double>, roughness);
             const double full = albedo_by_quadrature(m, wo, 200).x;
             const double first = albedo_by_quadrature(m.first, wo, 200).x;
-            CHECK(std::abs(chance_of_first(m, wo) - first / full) < 0.02);
+            CHECK(std::abs(first_probability(m, wo) - first / full) < 0.02);
         }
     const auto mirror = compensated_glossy(
         GlossyT<double>{.reflectance = ljus::RgbT<double>{0.5}, .roughness = 0});
-    CHECK(chance_of_first(mirror, at_degrees<double>(30)) == 1);
+    CHECK(first_probability(mirror, at_degrees<double>(30)) == 1);
     // A metal's mean, and a colour's, by another rule.
     const auto mean = ljus::detail::mean_reflectance<double>(ljus::gold<double>);
     ljus::RgbT<double> sum{0};

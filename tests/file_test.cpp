@@ -262,7 +262,7 @@ TEST_CASE("file: a pipe and a device are no files, and are not waited for") {
     for (const std::string& name : {path, std::string("/dev/zero")})
         CHECK_THROWS_WITH(
             (void)ljus::load_file(name, 10),
-            ("cannot read '" + name + "': it is a pipe or a device and no file.")
+            ("cannot read '" + name + "': it is a pipe or a device, not a file.")
                 .c_str());
 }
 #endif
@@ -294,19 +294,16 @@ TEST_CASE("file: a failure to read names the path and the reason") {
     CHECK(ljus::load_file(path, std::numeric_limits<std::size_t>::max()).size() == 10);
     CHECK_THROWS_WITH(
         (void)ljus::load_file(path, 0),
-        ("cannot read '" + path + "': it is longer than the 0 bytes that are allowed.")
-            .c_str());
+        ("cannot read '" + path + "': it is longer than the 0 bytes allowed.").c_str());
     // A path that another file has named cannot disturb a message.
     CHECK_THROWS_WITH((void)ljus::load_file("/missing/\x1b[31m\n", 10),
                       "cannot read '/missing/?[31m?': No such file or directory.");
     CHECK_THROWS_WITH(
         (void)ljus::load_file(path, 9),
-        ("cannot read '" + path + "': it is longer than the 9 bytes that are allowed.")
-            .c_str());
+        ("cannot read '" + path + "': it is longer than the 9 bytes allowed.").c_str());
     CHECK_THROWS_WITH((void)ljus::load_file(path, 10, "PF"),
                       ("cannot read '" + path +
-                       "': it does not begin with 'PF', so that it is another kind of "
-                       "file.")
+                       "': it does not begin with 'PF': it is another kind of file.")
                           .c_str());
 }
 
@@ -318,7 +315,7 @@ TEST_CASE("file: a file of too few bytes does not begin as it must") {
         for (const char* const begin : {"PF", "#?RADIANCE"})
             CHECK_THROWS_WITH((void)ljus::load_file(path, 100, begin),
                               ("cannot read '" + path + "': it does not begin with '" +
-                               begin + "', so that it is another kind of file.")
+                               begin + "': it is another kind of file.")
                                   .c_str());
     }
 }

@@ -243,7 +243,7 @@ TEST_CASE("hdr: the exposure of the header is taken out again") {
         ScratchFolder::write(path, std::string("#?RADIANCE\nEXPOSURE=") + exposure +
                                        "\n\n-Y 1 +X 1\n\x80\x40\x20\x88");
         CHECK(message_of_load(path) ==
-              "divided by its exposure, a pixel is beyond all numbers.");
+              "a pixel divided by its exposure is not finite.");
     }
 }
 
@@ -283,22 +283,21 @@ TEST_CASE("hdr: what is wrong with a header or a row is said, word by word") {
         return message_of_load(path);
     };
     const std::string start = "#?RADIANCE\n", row(12, '\x40');
-    const std::string only = "; only -Y +X is read.";
+    const std::string only = "; only -Y +X is supported.";
     CHECK(message(start + "\n-Y 1 +X 3\n" + row) == "loaded");
     CHECK(message(start + "\n+Y 1 +X 3\n" + row) == "its rows go +Y +X" + only);
     CHECK(message(start + "\n-Y 1 -X 3\n" + row) == "its rows go -Y -X" + only);
     CHECK(message(start + "\n+X 1 -Y 3\n" + row) == "its rows go +X -Y" + only);
     for (const char* const exposure : {"0", "-1", "1e999", "nan"})
         CHECK(message(start + "EXPOSURE=" + exposure + "\n\n-Y 1 +X 3\n" + row)
-                  .find("which is no number above 0") != std::string::npos);
+                  .find("which is not a number above 0") != std::string::npos);
     CHECK(message(start + "\n-Y 30000 +X 20000\n" + row) ==
           "it has 20000 x 30000 pixels; there can be at most 268435456.");
-    CHECK(message(start + "\n-Y 2 +X 3\n" + row) ==
-          "it ends before its last row does.");
+    CHECK(message(start + "\n-Y 2 +X 3\n" + row) == "its last row is incomplete.");
     CHECK(message(start + "\n-Y 1 +X 3\n" + row.substr(1)) ==
-          "it ends before its last row does.");
+          "its last row is incomplete.");
     CHECK(message(start + "\n-Y 1 +X 3\n\1\1\1" + row.substr(3)) ==
-          "it has the run-length coding of before 1991, which is not read.");
+          "it has the run-length coding from before 1991, which is not supported.");
     // A coded row of 8 that says 9, or whose first run is empty or too long, with good
     // ones behind it.
     const std::string coded = start + "\n-Y 1 +X 8\n\2\2";
@@ -311,7 +310,7 @@ TEST_CASE("hdr: what is wrong with a header or a row is said, word by word") {
     for (int part = 0; part < 4; ++part) good += bytes({128 + 8, 100 + part});
     CHECK(message(coded + good) == "loaded");
     CHECK(message(coded + bytes({0, 9}) + good.substr(2)) ==
-          "a row says that its width is another than the header's.");
+          "a row declares another width than the header.");
     for (const int run : {0, 9, 128, 128 + 9})
         CHECK(message(coded + bytes({0, 8, run}) + good.substr(2)) ==
               "a run of its coded pixels is empty or leaves its row.");

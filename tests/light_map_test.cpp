@@ -356,8 +356,7 @@ TEST_CASE("light_map: a file cut short or damaged is refused") {
         REQUIRE(why_not(path).starts_with(cannot));
         if (size >= 40)
             CHECK(why_not(path) ==
-                  cannot +
-                      "its checksum is wrong, so that it is damaged or cut short.");
+                  cannot + "its checksum is wrong: it is damaged or truncated.");
     }
     for (std::size_t i = 0; i < whole.size(); ++i)
         for (const int bit : {0, 3, 7}) {
@@ -375,18 +374,16 @@ TEST_CASE("light_map: a file cut short or damaged is refused") {
         return why_not(path);
     };
     const std::size_t light = whole.size() - 8;
-    CHECK(with(16, {1}) ==
-          cannot + "it is of version 1, and this library reads version 3.");
-    CHECK(with(20, {255, 255, 255, 255})
-              .starts_with(cannot + "it says that it holds 42"));
-    CHECK(with(56, {3}) == cannot + "its grid 0 is none.");
-    CHECK(with(60, {0}) == cannot + "its grid 0 is none.");
-    CHECK(with(60, {255, 255, 1}) == cannot + "its grid 0 is none.");
+    CHECK(with(16, {1}) == cannot + "its version is 1; this library reads version 3.");
+    CHECK(with(20, {255, 255, 255, 255}).starts_with(cannot + "it declares 42"));
+    CHECK(with(56, {3}) == cannot + "its grid 0 is not valid.");
+    CHECK(with(60, {0}) == cannot + "its grid 0 is not valid.");
+    CHECK(with(60, {255, 255, 1}) == cannot + "its grid 0 is not valid.");
     // The kind stands in the two lowest bits: a triangle has as many rows as columns,
     // a ball two columns and three rows at least.
     const auto grid = [&](int how, int columns, int rows) {
         return with(56, {how, 0, 0, 0, columns, 0, 0, 0, rows, 0, 0, 0}) ==
-               cannot + "its grid 0 is none.";
+               cannot + "its grid 0 is not valid.";
     };
     for (const int sides : {0, 4, 8, 12}) {
         CHECK_FALSE(grid(sides, 3, 2));
@@ -400,7 +397,7 @@ TEST_CASE("light_map: a file cut short or damaged is refused") {
         CHECK(grid(sides, 1, 0));
     }
     CHECK(grid(16, 3, 2));
-    CHECK(with(60, {255, 255}).starts_with(cannot + "it says that it holds 655"));
+    CHECK(with(60, {255, 255}).starts_with(cannot + "it declares 655"));
     // One patch more or fewer than it says, and a byte of another one.
     const auto longer = [&](std::ptrdiff_t by) {
         Bytes bytes = whole;
@@ -408,8 +405,8 @@ TEST_CASE("light_map: a file cut short or damaged is refused") {
         if (by < 0) bytes.erase(bytes.end() + by, bytes.end());
         put_checksum(bytes);
         save_file(path, bytes);
-        return why_not(path).starts_with(cannot + "it says that it holds") &&
-               why_not(path).ends_with(", which does not go with its " +
+        return why_not(path).starts_with(cannot + "it declares ") &&
+               why_not(path).ends_with(", which does not match its " +
                                        std::to_string(bytes.size()) + " bytes.");
     };
     CHECK(longer(24));
@@ -421,10 +418,10 @@ TEST_CASE("light_map: a file cut short or damaged is refused") {
     save_file(path, no_key);
     CHECK(why_not(path) == cannot + "it ends in the middle of its key.");
     CHECK(with(light, {0, 0, 0, 0, 0, 0, 240, 127}) ==
-          cannot + "it has light that is not finite, or below 0.");
+          cannot + "it has irradiance that is not finite or is below 0.");
     for (const std::size_t channel : {0u, 8u, 16u}) // -1 each
         CHECK(with(light - channel, {0, 0, 0, 0, 0, 0, 240, 191}) ==
-              cannot + "it has light that is not finite, or below 0.");
+              cannot + "it has irradiance that is not finite or is below 0.");
     save_file(path, whole);
     CHECK_THROWS_AS((void)load_light_map(path, {}, 2), std::runtime_error);
     const std::string text = "P6 a picture";

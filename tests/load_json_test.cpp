@@ -211,7 +211,7 @@ TEST_CASE(
           "a.json: image has more than 268435456 pixels.");
     CHECK(refusal("box, exactly one pixel wide", "gaussian") ==
           "a.json: image.pixel_filter is \"gaussian\"; it must be \"box\", the only "
-          "filter that there is.");
+          "filter that scene files support.");
     CHECK(refusal("\"name\": \"four things\"", "\"name\": 4") ==
           "a.json: name is 4; it must be a text in quotation marks.");
     CHECK(refusal("\"name\": \"ball\"", "\"name\": 4") ==
@@ -529,7 +529,7 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
     CHECK(refusal("\"format\"", "\"formt\"") ==
           "a.json: formt is not known; the fields here are format, name, description, "
           "camera, image, materials, objects and lights.");
-    CHECK(refusal("\"camera\"", "\"name\"").find("name is there twice") !=
+    CHECK(refusal("\"camera\"", "\"name\"").find("name appears twice") !=
           std::string::npos);
     CHECK(refusal("\"type\": \"dielectric\"", "\"type\": \"crystal\"") ==
           "a.json: materials.glass.type is \"crystal\"; it must be lambertian, "
@@ -549,13 +549,11 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
     CHECK(refusal("{\"type\": \"dielectric\", \"ior\": 1.5}", "\"glass\"") ==
           "a.json: materials.glass is \"glass\"; it must be an object.");
     CHECK(refusal(", \"emission\": [5, 4, 2.5]", "") ==
-          "a.json: objects has no light; at least one needs an emission above 0, or "
-          "there "
-          "must be lights.");
+          "a.json: objects has no light; give an object an emission above 0, or add "
+          "a list of lights.");
     CHECK(refusal("[5, 4, 2.5]", "[0, 0, 0]") ==
-          "a.json: objects has no light; at least one needs an emission above 0, or "
-          "there "
-          "must be lights.");
+          "a.json: objects has no light; give an object an emission above 0, or add "
+          "a list of lights.");
     CHECK(refusal("[]") == "a.json: the file is []; it must be an object.");
     CHECK(refusal("{}") == "a.json: camera is missing.");
 }
@@ -622,7 +620,7 @@ TEST_CASE("load_json: a mesh is refused where nobody reads its file") {
         std::string mesh = R"("objects": [{"type": "mesh", "file": "m.obj", )";
         mesh.append(R"("material": "matt")").append(normals).append("}, ");
         CHECK(refusal("\"objects\": [", mesh)
-                  .starts_with("m.obj: meshes are not read here; "));
+                  .starts_with("m.obj: load_json() reads no meshes unless "));
     }
 }
 
@@ -648,7 +646,7 @@ TEST_CASE("load_json: so many values that memory would end are refused") {
         return text;
     };
     const std::string sentence =
-        "a.json: there is more in it than 4194304 numbers, or a quarter as many lists, "
+        "a.json: it has more than 4194304 numbers, or a quarter as many lists, "
         "objects and members; put large meshes into OBJ files.";
     CHECK(refusal(many(1'100'000, "{}")) == sentence);
     CHECK(refusal(many(1'100'000, "[]")) == sentence);
@@ -671,8 +669,8 @@ TEST_CASE("load_json: hundreds of soap films are refused before all are made") {
             .append(std::to_string(i))
             .append(R"(": {"type": "soap-film", "ior": 1.33, "thickness_nm": 400}, )");
     CHECK(refusal("\"materials\": {", "\"materials\": {" + films) ==
-          "a.json: materials has more than 16 soap films, whose colours take long to "
-          "make.");
+          "a.json: materials has more than 16 soap films, whose colours are slow to "
+          "compute.");
 }
 
 TEST_CASE("load_json: tens of thousands of lights are refused") {

@@ -276,7 +276,8 @@ TEST_CASE("load_obj: a plus sign, and a normal that is none") {
     CHECK(data.positions[1] == Vec3{1.5f, 0, 0});
     CHECK(data.normals.empty()); // the face is flat
     CHECK(loaded.report[ObjTrouble::bad_normal].count == 1);
-    CHECK(to_text(loaded.report).find("1 normals are 0 or no finite numbers; faces") !=
+    CHECK(to_text(loaded.report)
+              .find("1 normals are 0 or not finite numbers; their faces") !=
           std::string::npos);
     CHECK(loaded.report[ObjTrouble::bad_number].count == 0);
 }
@@ -349,15 +350,15 @@ TEST_CASE("load_obj: each trouble is counted, with its first line") {
 }
 
 TEST_CASE("load_obj: a file without a face is refused with a sentence") {
-    const std::string hint =
-        "x.obj: there is no face that can be used; a mesh file has "
-        "lines such as 'v 0 0 1' and 'f 1 2 3'.";
+    const std::string hint = "x.obj: no face of the file can be used; a mesh file has "
+                             "lines such as 'v 0 0 1' and 'f 1 2 3'.";
     CHECK(message("") == hint);
     CHECK(message("\n\n# nothing\n") == hint);
     CHECK(message(std::string(1000, '\0')) == hint);
-    CHECK(message("f 1 2 3\n") == "x.obj: there is no face that can be used; the first "
-                                  "trouble: line 1: 1 faces name a vertex that is not "
-                                  "there; they are left out.");
+    CHECK(message("f 1 2 3\n") ==
+          "x.obj: no face of the file can be used; the first "
+          "problem: line 1: 1 faces refer to a vertex that does "
+          "not exist; they are left out.");
     CHECK(message(cube, {.scale = -1})
               .find("the scale of a mesh file is -1; it must be") == 0);
     CHECK(message(cube, {.scale = 1e-40}).find("x.obj: ") == 0);
@@ -561,7 +562,7 @@ TEST_CASE("load_obj: a picture that cannot be read is named with its line") {
     CHECK(report("none.png") == line + "cannot read '" + folder.file("none.png") +
                                     "': No such file or directory.\n");
     CHECK(report("m.mtl").find(line + folder.file("m.mtl") +
-                               " is no picture that can be read: ") == 0);
+                               " is not a picture that can be read: ") == 0);
     CHECK(report("sub\\a\x1b.png") == line + "cannot read '" +
                                           folder.file("sub/a?.png") +
                                           "': No such file or directory.\n");
@@ -848,7 +849,7 @@ TEST_CASE("load_obj: files of other programs") {
           Case{"e_map_o1", 1, white, true, "line 3: map_Kd has options, -o;"},
           Case{"f_continuation", 1, none, false, ""},
           Case{"g_comment_after_face", 1, none, false, ""},
-          Case{"n_missing_vn", 0.5, none, false, "1 faces name a normal that is not"},
+          Case{"n_missing_vn", 0.5, none, false, "1 faces refer to a normal that does"},
           Case{"v_keyhole", 12, none, false, ""}, Case{"names", 3, red, false, ""},
           Case{"values", 6, none, false,
                "values.mtl, line 12: Kd is spectral glass.rfl; it must be one number"},

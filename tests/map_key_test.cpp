@@ -209,9 +209,10 @@ TEST_CASE("map_key: the map of a scene that was changed since is refused") {
     };
     const auto room = box(0), moved = box(0.01f);
     const std::string other_scene =
-        "for another scene, with other shapes, materials or lights; make it anew.";
-    const std::string other_settings = "with other settings; make it anew, or ask for "
-                                       "those that it was made with.";
+        "for another scene, with other shapes, materials or lights; make it again for "
+        "this scene.";
+    const std::string other_settings = "with other settings; make it again, or use "
+                                       "the settings that it was made with.";
     const RadiositySettings large{.patches = {.size = 1}, .factors = {.rays = 4}};
     const auto light = make_radiosity(room, large);
     save_light_map(path, light->map);

@@ -216,15 +216,14 @@ TEST_CASE("metrics: what is refused is named with its value") {
                     std::invalid_argument);
     CHECK_THROWS_AS((void)ljus::block_error(a, a, 10, 0.0), std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)ljus::trimmed_rel_mse(a, a, 1.0),
-                         "The part of the pixels to drop is 1.000000; it must be "
+                         "The fraction of pixels to drop is 1.000000; it must be "
                          "within [0, 1).",
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)ljus::block_means(a, 0),
                          "The side of a block is 0 pixels; it must be at least 1.",
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)ljus::bias_variance(std::vector{a}, a),
-                         "Bias and variance were asked of 1 runs; there must be at "
-                         "least 2.",
+                         "Bias and variance need at least 2 runs, but there are 1.",
                          std::invalid_argument);
     // Each run is compared, not the first alone; and with the same number of pixels.
     CHECK_THROWS_WITH_AS((void)ljus::bias_variance(std::vector{a, turned}, a),

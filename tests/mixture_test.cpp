@@ -167,19 +167,19 @@ TEST_CASE(
 
 TEST_CASE("mixture: inside a transparent body the angle counts from the dense side") {
     const D m{.color = {0, 0, 0}, .transparency = 1, .index = 1.5, .specularity = 1};
-    CHECK(ljus::detail::boundary_share(m, at_degrees<double>(180 - 60)) ==
+    CHECK(ljus::detail::boundary_reflectance(m, at_degrees<double>(180 - 60)) ==
           1); // total reflection
-    CHECK(ljus::detail::boundary_share(m, at_degrees<double>(60)) ==
+    CHECK(ljus::detail::boundary_reflectance(m, at_degrees<double>(60)) ==
           doctest::Approx(ljus::fresnel(0.5, 1.0, 1.5)).epsilon(1e-12));
     // Without specularity there is still no way out beyond the critical angle.
     const D dull{.color = {0, 0, 0}, .transparency = 1, .index = 1.5};
-    CHECK(ljus::detail::boundary_share(dull, at_degrees<double>(180 - 60)) == 1);
-    CHECK(ljus::detail::boundary_share(dull, at_degrees<double>(180 - 30)) == 0);
+    CHECK(ljus::detail::boundary_reflectance(dull, at_degrees<double>(180 - 60)) == 1);
+    CHECK(ljus::detail::boundary_reflectance(dull, at_degrees<double>(180 - 30)) == 0);
     // An opaque sheet has no inside.
     const D coated{.index = 1.5, .specularity = 1};
-    CHECK(
-        ljus::detail::boundary_share(coated, at_degrees<double>(120)) ==
-        doctest::Approx(ljus::detail::boundary_share(coated, at_degrees<double>(60))));
+    CHECK(ljus::detail::boundary_reflectance(coated, at_degrees<double>(120)) ==
+          doctest::Approx(
+              ljus::detail::boundary_reflectance(coated, at_degrees<double>(60))));
 }
 
 TEST_CASE(

@@ -114,7 +114,7 @@ TEST_CASE("patches: what there is, and what is left out") {
     CHECK(area == doctest::Approx(20.5));
     CHECK(flux.x == doctest::Approx(std::numbers::pi * 0.25 * 17));
     REQUIRE(all.left_out.size() == 1);
-    CHECK(all.left_out[0] == "2 objects do not look equally bright from everywhere");
+    CHECK(all.left_out[0] == "2 objects are not Lambertian and reflect no light");
 
     const auto furnace = sphere_furnace<float>(grey(1), grey(0.5f));
     const Patches inside = make_patches(furnace.world, {.size = 1});
@@ -127,21 +127,21 @@ TEST_CASE("patches: what there is, and what is left out") {
     const auto white = odd.add(Lambertian{});
     odd.add(Quad{}, white);
     CHECK(refusal([&] { (void)make_patches(World(odd)); }) ==
-          "the number of patches is 0; it must be at least 1: a diffuse quad, triangle "
-          "or ball that sees another.");
+          "the number of patches is 0; it must be at least 1: add a Lambertian quad, "
+          "triangle or ball that sees another.");
     odd.add(Quad{.corner{0, 0, 1}, .edge_u{1, 0, 0}, .edge_v{1, 0, 0}}, white);
     odd.add(Triangle{{0, 0, 2}, {0, 1, 2}, {1, 0, 2}}, white);
     const Patches two = make_patches(World(odd), {.size = 10});
     CHECK(two.patches.size() == 2); // one without an area has no patch
-    CHECK(two.left_out == std::vector<std::string>{"1 light is no surface"});
+    CHECK(two.left_out ==
+          std::vector<std::string>{"1 light is not a surface and is left out"});
 }
 
 TEST_CASE("patches: too many are refused before they take any memory") {
     const auto room = cornell_box();
-    CHECK(
-        refusal([&] { (void)make_patches(room.world, {.size = 0.01}); }) ==
-        "the number of patches is 40000; it must be at most 8192, for there is a form "
-        "factor for each pair of them: take larger ones.");
+    CHECK(refusal([&] { (void)make_patches(room.world, {.size = 0.01}); }) ==
+          "the number of patches is 40000; it must be at most 8192 (each pair has a "
+          "form factor): choose larger patches.");
     CHECK(refusal([&] {
               (void)make_patches(room.world, {.size = 1e-300});
           }).starts_with("the number of patches is 1e+12; "));
@@ -352,12 +352,13 @@ TEST_CASE("patches: how many cells, at least, and what a ball reaches over") {
     moving.add(Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, grey);
     moving.add(Moving<Quad>{Quad{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}}, {0, 0, 1}}, grey);
     const Patches all = make_patches(World(moving), {.size = 9});
-    CHECK(all.left_out == std::vector<std::string>{
-                              "1 object is of a shape that is not cut into patches"});
+    CHECK(all.left_out ==
+          std::vector<std::string>{
+              "1 object is of a shape that is not divided into patches"});
     moving.add(Moving<Quad>{Quad{{0, 0, 5}, {0, 1, 0}, {1, 0, 0}}, {0, 0, 1}}, grey);
     const World moving_world(std::move(moving));
     CHECK(make_patches(moving_world, {.size = 9}).left_out[0] ==
-          "2 objects are of a shape that is not cut into patches");
+          "2 objects are of a shape that is not divided into patches");
 }
 
 TEST_CASE("form_factors: the visible share has the weights of the form factor") {
@@ -370,7 +371,7 @@ TEST_CASE("form_factors: the visible share has the weights of the form factor") 
         stage.add(QuadT<double>{V(0), {1, 0, 0}, {0, 1, 0}}, white);
         stage.add(QuadT<double>{{0, 0, h}, {0, 1, 0}, {1, 0, 0}}, white);
         const Patches open = make_patches(World(stage), {.size = 1});
-        CHECK(detail::visible_share(World(stage), open, 0, 1, 100, 1) == 1);
+        CHECK(detail::visible_fraction(World(stage), open, 0, 1, 100, 1) == 1);
         stage.add(QuadT<double>{{0.25, -50, h / 2}, {50, 0, 0}, {0, 100, 0}},
                   stage.add(MirrorT<double>{}));
         const Patches all = make_patches(World(stage), {.size = 1});
@@ -389,8 +390,8 @@ TEST_CASE("form_factors: the visible share has the weights of the form factor") 
                                 : middle == 0.25 ? weight / 2
                                                  : 0;
                     }
-        const double share = detail::visible_share(World(stage), all, 0, 1, 10000,
-                                                   ljus_test::test_seed(1));
+        const double share = detail::visible_fraction(World(stage), all, 0, 1, 10000,
+                                                      ljus_test::test_seed(1));
         CAPTURE(h);
         CHECK(share == doctest::Approx(seen / whole).epsilon(0.02));
     }
@@ -416,8 +417,8 @@ TEST_CASE("form_factors: what lies behind a patch has no part in what is visible
             };
             if (side(i).z < 0.5 || side(j).x > -0.5) continue;
             ++faced;
-            CHECK(detail::visible_share(indexed, all, i, j, 1000, 1) == 1);
-            CHECK(detail::visible_share(indexed, all, j, i, 1000, 1) == 1);
+            CHECK(detail::visible_fraction(indexed, all, i, j, 1000, 1) == 1);
+            CHECK(detail::visible_fraction(indexed, all, j, i, 1000, 1) == 1);
         }
     CHECK(faced == 1);
 }
@@ -542,7 +543,7 @@ TEST_CASE("form_factors: each patch, each pair and each seed has numbers of its 
     const World indexed(stage);
     REQUIRE(all.patches.size() == 4);
     const auto share = [&](std::uint32_t i, std::uint32_t k, std::uint64_t seed) {
-        return detail::visible_share(indexed, all, i, k, 500, seed);
+        return detail::visible_fraction(indexed, all, i, k, 500, seed);
     };
     CHECK(share(0, 3, 1) == doctest::Approx(share(1, 2, 1)).epsilon(0.1));
     CHECK(std::abs(share(0, 3, 1) - share(1, 2, 1)) > 1e-9);
@@ -565,7 +566,7 @@ TEST_CASE("form_factors: each patch, each pair and each seed has numbers of its 
             if (side(i).position.z != 0 || side(i).normal.z > 0) continue;
             if (side(k).position.z != 1 || side(k).normal.z < 0) continue;
             ++asked;
-            CHECK(detail::visible_share(around, outer, i, k, 50, 1) == 0);
+            CHECK(detail::visible_fraction(around, outer, i, k, 50, 1) == 0);
         }
     CHECK(asked == 1);
 

@@ -221,7 +221,7 @@ TEST_CASE("radiosity: extremes") {
               (void)make_radiosity(
                   bright.world,
                   {.patches = {.size = 1}, .factors = {.analytic = false, .rays = 30}});
-          }).starts_with("the largest share of its light"));
+          }).starts_with("the largest fraction of its light"));
     CHECK(make_radiosity(bright.world,
                          {.patches = {.size = 1},
                           .factors = {.analytic = false, .rays = 30, .closed = true}}));
@@ -356,15 +356,15 @@ TEST_CASE("radiosity: what is not yet sent, as a share of what is emitted") {
     factors.area = {2, 3};
     const std::vector<Color> unsent{Color(0.1, -0.2, 0.5), Color(-0.3, 0.1, 0)};
     // Sums 1.1, 0.7 and 1; where nothing is emitted there is no share.
-    CHECK(detail::unsent_share(factors, unsent, Color(10, 10, 10)) ==
+    CHECK(detail::unshot_fraction(factors, unsent, Color(10, 10, 10)) ==
           doctest::Approx(0.11));
-    CHECK(detail::unsent_share(factors, unsent, Color(100, 10, 10)) ==
+    CHECK(detail::unshot_fraction(factors, unsent, Color(100, 10, 10)) ==
           doctest::Approx(0.1));
-    CHECK(detail::unsent_share(factors, unsent, Color(100, 7, 100)) ==
+    CHECK(detail::unshot_fraction(factors, unsent, Color(100, 7, 100)) ==
           doctest::Approx(0.1));
-    CHECK(detail::unsent_share(factors, unsent, Color(0, 14, 0)) ==
+    CHECK(detail::unshot_fraction(factors, unsent, Color(0, 14, 0)) ==
           doctest::Approx(0.05));
-    CHECK(detail::unsent_share(factors, unsent, Color(0)) == 0);
+    CHECK(detail::unshot_fraction(factors, unsent, Color(0)) == 0);
 }
 
 TEST_CASE("radiosity: patches of different areas and of colours that share a channel") {
@@ -480,9 +480,9 @@ TEST_CASE("radiosity: how far a solver goes, and what it refuses, channel by cha
         for (int channel = 0; channel < 3; ++channel) {
             Color albedo(0.5);
             albedo[channel] = most;
-            CHECK(refusal([&] {
-                      (void)solve_radiosity(closed, of(albedo));
-                  }).starts_with("the largest share of its light that a patch gets"));
+            CHECK(refusal([&] { (void)solve_radiosity(closed, of(albedo)); })
+                      .starts_with(
+                          "the largest fraction of its light that a patch regains"));
         }
     CHECK_NOTHROW((void)solve_radiosity(closed, of(Color(1 - 1e-11)),
                                         {.solver = RadiositySolver::lu}));

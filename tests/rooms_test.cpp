@@ -339,7 +339,7 @@ TEST_CASE(
     const auto room = all_materials_room();
     const auto& mixtures = std::get<3>(room.world.materials());
     REQUIRE(mixtures.size() == 1);
-    const auto share = detail::mixture_shares(mixtures[0], Vec3{0, 0, 1}, Lobes::all);
+    const auto share = detail::lobe_fractions(mixtures[0], Vec3{0, 0, 1}, Lobes::all);
     CHECK(share.reflect / share.refract == doctest::Approx(0.6));
     CHECK(share.sum() == doctest::Approx(1));
     CHECK(share.diffuse == 0.0f);

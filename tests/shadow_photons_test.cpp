@@ -540,7 +540,7 @@ TEST_CASE("shadow photons: the survey says why") {
     settings.general.photons = 58;
     plan = survey(world, settings);
     CHECK_FALSE(plan.skipped_rays.on);
-    CHECK(plan.skipped_rays.why == "58 photons, and each light takes 59");
+    CHECK(plan.skipped_rays.why == "58 photons, and each light needs 59");
     const PhotonMapper too_few(world, settings, abilities<Skipping>);
     CHECK(too_few.state<Skipping>().verdicts.empty());
     settings.general.photons = 1000;

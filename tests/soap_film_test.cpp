@@ -173,7 +173,7 @@ TEST_CASE("thin sheets: the survey says whether there are any") {
     CHECK(with.caustics_map.on); // its reflection
     const auto without = survey(room_with(nullptr), PhotonMappingSettings{});
     CHECK_FALSE(without.thin_film.on);
-    CHECK(without.thin_film.why == "no material is one");
+    CHECK(without.thin_film.why == "no material is a thin film");
     CHECK_FALSE(detail::lists_thin_surfaces<
                 World<Scene<Shapes<Sphere>, Materials<Lambertian>>>>);
 }

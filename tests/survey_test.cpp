@@ -116,14 +116,14 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     CHECK(plan.caustics_map.on);
     CHECK(plan.caustics_map.why == "1 of 8 objects mirror or refract");
     CHECK_FALSE(plan.general_map.on);
-    CHECK(plan.general_map.why == "no ray asks it");
+    CHECK(plan.general_map.why == "no ray uses it");
     CHECK_FALSE(plan.shadow_photons.on);
     CHECK(plan.skipped_rays.why == "no rule was asked for");
     CHECK(plan.skipped_bounces.why == "not asked for");
     settings.skip = {.rule = SkipRule::enough, .indirect_rays = true};
     settings.general.photons = 0;
     plan = survey(glass, settings);
-    CHECK(plan.skipped_rays.why.starts_with("0 photons, and each light takes "));
+    CHECK(plan.skipped_rays.why.starts_with("0 photons, and each light needs "));
     CHECK(plan.skipped_bounces.why == "0 photons were asked for");
     plan = survey(glass, settings = {});
     CHECK(plan.tree.on);
@@ -133,7 +133,7 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     one.add(Sphere{}, one.add(Lambertian{}));
     plan = survey(World(one), settings); // of two
     CHECK_FALSE(plan.tree.on);
-    CHECK(plan.tree.why == "2 object(s), a loop asks each");
+    CHECK(plan.tree.why == "2 object(s), a loop tests each");
     one.add(Sphere{}, one.add(Lambertian{}));
     CHECK(survey(World(one), settings).tree.on); // of three
 
@@ -220,8 +220,8 @@ TEST_CASE("survey: without a diffuse surface nothing is lit, whatever shines") {
     CHECK(plan.indirect_rays.why == "nothing is lit");
     CHECK(plan.caustics_map.why == "nothing is lit");
     CHECK(plan.shadow_photons.why == "no map keeps them");
-    CHECK(plan.thin_film.why == "no material is one");
-    CHECK(plan.tree.why == "1 object(s), a loop asks each");
+    CHECK(plan.thin_film.why == "no material is a thin film");
+    CHECK(plan.tree.why == "1 object(s), a loop tests each");
 }
 
 TEST_CASE("survey: the lines as they are printed, and one photon is enough") {
@@ -232,11 +232,12 @@ TEST_CASE("survey: the lines as they are printed, and one photon is enough") {
     CHECK(plan.caustics_map.on);
     CHECK(plan.general_map.on);
     CHECK(plan.shadow_photons.why == "the general map keeps them");
-    CHECK(plan.general_map.why == "indirect light is asked of it");
+    CHECK(plan.general_map.why == "it provides indirect light");
     CHECK(plan.indirect_rays.why == "7 of 8 objects light each other");
     CHECK(to_text(plan.tree) ==
           "tree             on   8 objects, a tree finds the first on a ray\n");
-    CHECK(to_text(plan.thin_film) == "thin film        off  no material is one\n");
+    CHECK(to_text(plan.thin_film) ==
+          "thin film        off  no material is a thin film\n");
     std::string all;
     for (const PlanItem* item : plan.items()) all += to_text(*item);
     for (const std::string& type : plan.types) all += type + "\n";
@@ -304,7 +305,7 @@ TEST_CASE("survey: a hook that is misspelt shows") {
     CHECK(plan.types[1].find("shape 2          has bounds, area, ") == 0);
     CHECK(plan.types[2] ==
           "material 1       has emission; without absorption (clear), at_point (the "
-          "same anywhere), uses_uv (uv is 0), both_ways (one way by chance), "
+          "same anywhere), uses_uv (uv is 0), both_ways (one branch at random), "
           "pass_through (opaque), only_specular (write both)");
     CHECK(plan.types[3].find("material 2       has absorption, both_ways, "
                              "only_specular; without emission (black), ") == 0);
@@ -645,11 +646,11 @@ TEST_CASE("survey: every reason, in the order in which they are printed") {
     const Plan on = skip(lit, 2 * needed), off = skip(lit, 2 * needed - 1);
     CHECK(on.skipped_rays.on);
     CHECK(on.skipped_rays.why == "where " + n + " of " + twice + " photons agree");
-    CHECK(on.shadow_photons.why == "they tell which shadow rays are needless");
+    CHECK(on.shadow_photons.why == "they show which shadow rays are needless");
     CHECK(on.skipped_bounces.why == "where none of " + twice + " photons is near");
     CHECK_FALSE(off.skipped_rays.on);
     CHECK(off.skipped_rays.why ==
-          std::to_string(2 * needed - 1) + " photons, and each light takes " + n);
+          std::to_string(2 * needed - 1) + " photons, and each light needs " + n);
     SceneNeeds dark = lit;
     dark.lights = 0;
     CHECK(skip(dark, 1000).skipped_rays.why == "nothing is lit");

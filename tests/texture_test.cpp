@@ -384,7 +384,7 @@ TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named")
           "cut.bmp is damaged: it ends in the middle of its pixels.");
     CHECK(said([&] {
               (void)decode_image({}, "empty.png");
-          }).find("empty.png is no picture that can be read: ") == 0);
+          }).find("empty.png is not a picture that can be read: ") == 0);
 }
 
 TEST_CASE("texture: a PNG file of another kind, and one of another gamma") {
@@ -503,8 +503,8 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
         }
         return "";
     };
-    const std::string other = "a is no picture that can be read: it begins as neither "
-                              "PNG, JPEG nor BMP does.";
+    const std::string other = "a is not a picture that can be read: it is neither "
+                              "PNG, JPEG nor BMP.";
     // Softimage PIC, Photoshop, GIF, PNM; and TGA, which begins as anything.
     for (const std::string_view begin :
          {std::string_view("\x53\x80\xf6\x34"), std::string_view("8BPS"),
@@ -569,12 +569,12 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
     CHECK(refusal_of(with({18, 22}, 0x10)) ==
           "a is damaged: it ends in the middle of its pixels.");
     CHECK(refusal_of(with({24}, 3)) == // bits of a channel
-          "a is no picture that can be read: its header is damaged or rare.");
+          "a is not a picture that can be read: its header is damaged or unknown.");
     // Another chunk where the header must be.
     Bytes late = whole;
     late.erase(late.begin() + 8, late.begin() + 33);
     CHECK(refusal_of(late) ==
-          "a is no picture that can be read: its header is damaged or rare.");
+          "a is not a picture that can be read: its header is damaged or unknown.");
 }
 
 TEST_CASE("texture: the tables of a JPEG file, segment by segment") {

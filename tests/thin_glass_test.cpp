@@ -57,7 +57,7 @@ TEST_CASE_TEMPLATE("thin glass: the sum of all bounces, for any index, angle and
         if (std::abs(1 - double(c) * double(c) - double(n) * double(n)) < 1e-3)
             continue;
         const auto ours =
-            ljus::detail::pane_shares(ThinGlassT<T>{n, ljus::RgbT<T>{tint}}, c);
+            ljus::detail::pane_fractions(ThinGlassT<T>{n, ljus::RgbT<T>{tint}}, c);
         const Shares right = bounce_by_bounce(L(c), L(n), L(tint));
         REQUIRE(std::abs(L(ours.reflected.x) - right.reflected) <= 2000 * u);
         REQUIRE(std::abs(L(ours.transmitted.x) - right.transmitted) <= 2000 * u);
@@ -65,26 +65,28 @@ TEST_CASE_TEMPLATE("thin glass: the sum of all bounces, for any index, angle and
 }
 
 TEST_CASE("thin glass: what textbooks say of a pane") {
-    const auto pass_through = ljus::detail::pane_shares(ThinGlassT<double>{}, 1.0);
+    const auto pass_through = ljus::detail::pane_fractions(ThinGlassT<double>{}, 1.0);
     CHECK(pass_through.transmitted.x == doctest::Approx(2 * 1.5 / (1.5 * 1.5 + 1)));
-    const auto slanted = ljus::detail::pane_shares(ThinGlassT<double>{}, 0.5);
+    const auto slanted = ljus::detail::pane_fractions(ThinGlassT<double>{}, 0.5);
     CHECK(slanted.transmitted.x == doctest::Approx(0.836).epsilon(0.01));
     // No light is lost in clear glass, at any angle.
     for (int i = 0; i <= 1000; ++i) {
-        const auto clear = ljus::detail::pane_shares(ThinGlassT<double>{}, i / 1000.0);
+        const auto clear =
+            ljus::detail::pane_fractions(ThinGlassT<double>{}, i / 1000.0);
         REQUIRE(clear.reflected.x + clear.transmitted.x ==
                 doctest::Approx(1).epsilon(1e-14));
     }
     // One of index 1 is not there.
-    const auto air = ljus::detail::pane_shares(ThinGlassT<double>{.index = 1}, 0.3);
+    const auto air = ljus::detail::pane_fractions(ThinGlassT<double>{.index = 1}, 0.3);
     CHECK(air.reflected.x == 0);
     CHECK(air.transmitted.x == 1);
     // A black one reflects what one boundary does, its colour grows with the angle.
     const ThinGlassT<double> green{.tint{0, 0.9, 0.5}};
-    CHECK(ljus::detail::pane_shares(green, 1.0).reflected.x == doctest::Approx(0.04));
-    CHECK(ljus::detail::pane_shares(green, 1.0).transmitted.x == 0);
-    CHECK(ljus::detail::pane_shares(green, 0.3).transmitted.z <
-          0.9 * ljus::detail::pane_shares(green, 1.0).transmitted.z);
+    CHECK(ljus::detail::pane_fractions(green, 1.0).reflected.x ==
+          doctest::Approx(0.04));
+    CHECK(ljus::detail::pane_fractions(green, 1.0).transmitted.x == 0);
+    CHECK(ljus::detail::pane_fractions(green, 0.3).transmitted.z <
+          0.9 * ljus::detail::pane_fractions(green, 1.0).transmitted.z);
 }
 
 TEST_CASE_TEMPLATE("thin glass: samples are reflected, the rest goes straight on", T,
@@ -92,7 +94,7 @@ TEST_CASE_TEMPLATE("thin glass: samples are reflected, the rest goes straight on
     const ThinGlassT<T> pane{T(1.5), {T(0.9), T(0.7), T(0.3)}};
     for (const double degrees : {0.0, 45.0, 80.0, 89.0, 120.0, 179.0}) {
         const auto wo = at_degrees<T>(degrees);
-        const auto shares = ljus::detail::pane_shares(pane, std::abs(wo.z));
+        const auto shares = ljus::detail::pane_fractions(pane, std::abs(wo.z));
         for (const auto transport : {Transport::radiance, Transport::flux}) {
             const auto s = sample(pane, wo, Vec3T<T>{0, 0, T(0.5)}, transport);
             REQUIRE(s);
@@ -114,7 +116,7 @@ TEST_CASE("thin glass: a lamp is seen through it, and its shadow has its colour"
     const World scene(make_scene(placed(Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, pane),
                                  placed(Sphere{.center{0, 0, 9}}, Lambertian{})));
     const SurfacePoint from{.position{0, 0, -1}}, to{.position{0, 0, 1}};
-    const auto straight_through = detail::pane_shares(pane, 1.0f).transmitted;
+    const auto straight_through = detail::pane_fractions(pane, 1.0f).transmitted;
     CHECK(visibility(scene, from, to) == straight_through);
     const SurfacePoint beside{.position{3, 0, 1}};
     CHECK(visibility(scene, from, beside) == Rgb{1});
@@ -143,7 +145,7 @@ TEST_CASE("thin glass: an index or a tint that there is not is refused by name")
 
 TEST_CASE("thin glass: a cosine that rounding has put above 1 is straight on") {
     const ThinGlassT<double> pane{1.5, {0.9, 0.7, 0.3}};
-    const auto shares = ljus::detail::pane_shares(pane, 1.0);
+    const auto shares = ljus::detail::pane_fractions(pane, 1.0);
     for (const double z : {1.5, -1.5}) {
         const Vec3T<double> wo{0, 0, z};
         CHECK(pass_through(pane, Vec3T<double>{0}, wo) == shares.transmitted);

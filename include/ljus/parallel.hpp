@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/parallel.hpp
-/// \brief Loops over blocks by several threads: the one place that knows OpenMP.
+/// \brief Parallel loops over blocks; the only header that uses OpenMP.
 
 #include <concepts>
 #include <cstddef>
@@ -17,18 +17,18 @@
 namespace ljus {
 
 /// \defgroup parallel Parallel loops
-/// \brief The same answer, byte by byte, whatever the number of threads.
+/// \brief The same result, byte by byte, on any number of threads.
 ///
-/// Work is cut into blocks that do not depend on the number of threads; a block writes
-/// what no other block writes; sums are formed block by block and added in the order of
-/// the blocks. Compiled without OpenMP, the blocks run one after the other.
+/// Work is cut into blocks that do not depend on the number of threads. A block writes
+/// only its own results, and sums are formed per block and added in block order.
+/// Without OpenMP the blocks run one after the other.
 /// \{
 
-/// The largest number of threads that one may ask for.
+/// The largest number of threads that may be requested.
 inline constexpr int max_threads_allowed = 1024;
 
-/// What a long loop reports to, and is stopped by: anything with a name that can be
-/// called as `bool progress(long long done, long long total)`; false stops the loop.
+/// The callback of a long loop: any named object that can be called as
+/// `bool progress(long long done, long long total)`; returning false stops the loop.
 ///
 ///     auto progress = [&](long long done, long long total) { return !stopped; };
 ///     parallel_blocks(count, body, {.progress = progress});
@@ -38,7 +38,7 @@ using Progress = FunctionRef<bool(long long done, long long total)>;
 
 namespace detail {
 
-/// Nothing to report to, and no reason to stop.
+/// Reports nothing and never stops.
 struct NoProgress {
     /// \return True.
     constexpr bool operator()(long long, long long) const noexcept { return true; }
@@ -46,7 +46,7 @@ struct NoProgress {
 
 } // namespace detail
 
-/// The progress of loops that report to nobody.
+/// The progress of loops that do not report.
 inline constexpr detail::NoProgress no_progress;
 
 /// How a parallel loop runs.
@@ -57,8 +57,8 @@ struct ParallelSettings {
 
 namespace detail {
 
-/// The number of threads that `threads = 0` stands for: that of the processors, or what
-/// OMP_NUM_THREADS says, but no more than are allowed; 1 without OpenMP.
+/// The number of threads for `threads = 0`: that of the processors or OMP_NUM_THREADS,
+/// at most max_threads_allowed; 1 without OpenMP.
 [[nodiscard]] inline int max_threads() noexcept {
 #ifdef _OPENMP
     const int most = omp_get_max_threads();
@@ -68,43 +68,38 @@ namespace detail {
 #endif
 }
 
-/// The number of blocks that cover `total` things.
-/// \param total  At least 0.
-/// \param size   Things in a block, at least 1; the last block may have fewer.
+/// The number of blocks of `size` items that cover `total` items; the last block may
+/// have fewer.
 [[nodiscard]] constexpr long long block_count(long long total,
                                               long long size) noexcept {
     return total / size + (total % size != 0 ? 1 : 0);
 }
 
-/// The things of a block: first <= i < last.
+/// The items of a block: first <= i < last.
 struct BlockRange {
     long long first = 0; ///< The first one.
     long long last = 0;  ///< One past the last one.
 };
 
-/// The things of block number `block`.
-/// \param block  In [0, block_count(total, size)).
-/// \param size   Things in a block, at least 1.
-/// \param total  All things.
+/// The items of block number `block`, in [0, block_count(total, size)).
 [[nodiscard]] constexpr BlockRange block_range(long long block, long long size,
                                                long long total) noexcept {
     const long long first = block * size;
     return {first, total - first < size ? total : first + size};
 }
 
-// What is done with a block. The loop below is the same for all bodies, and not
-// compiled again for each.
+// The body of a loop, without its type: the loop below is compiled once for all bodies.
 using BlockBody = FunctionRef<void(long long block)>;
 
-// In blocks, by several threads; see parallel_blocks().
+// Implements parallel_blocks().
 LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
                                  const ParallelSettings& options);
 
-#ifndef LJUS_CORE // else it is there already
+#ifndef LJUS_CORE // otherwise defined in ljus::core
 
-// What several threads change, they change in turn. OpenMP's lock comes without a
-// further header; <atomic> would make each header here an eighth longer to compile.
-// One thread alone asks nothing of OpenMP: LLVM's crashes in a forked process.
+// Protects shared state. OpenMP's lock needs no further header; <atomic> would make
+// each header that includes this one an eighth slower to compile. A single thread does
+// not call OpenMP: LLVM's runtime crashes in a forked process.
 #ifdef _OPENMP
 struct Mutex {
     const bool shared; // by more than one thread
@@ -132,7 +127,7 @@ struct Mutex {
 };
 #endif
 
-// A thread's turn, from here to the end of the block.
+// Holds a Mutex until the end of the scope.
 struct LockGuard {
     Mutex& mutex;
     explicit LockGuard(Mutex& turns) noexcept : mutex(turns) { mutex.take(); }
@@ -141,23 +136,23 @@ struct LockGuard {
     LockGuard& operator=(const LockGuard&) = delete;
 };
 
-// One loop over blocks: what its threads do, and what they change in turn.
+// The state of one loop over blocks.
 struct BlockLoop {
     const long long count;
     const BlockBody body;
     const Progress& progress;
 
     Mutex turns;
-    long long next = 0;             // the block to begin next
-    long long done = 0;             // blocks that have run to their end
-    bool stop = false;              // no further block shall begin
-    bool stopped = false;           // progress said so
+    long long next = 0;             // the next block to begin
+    long long done = 0;             // the number of completed blocks
+    bool stop = false;              // no further block may begin
+    bool stopped = false;           // progress returned false
     bool reporting = false;         // a thread is in progress()
-    long long reported = 0;         // what progress heard last
-    long long failed_block = count; // the first block, in order, that threw
-    std::exception_ptr failure{};   // what it threw
+    long long reported = 0;         // the last `done` that progress received
+    long long failed_block = count; // the lowest block that threw
+    std::exception_ptr failure{};   // the exception of failed_block
 
-    // What each thread does.
+    // Runs on each thread.
     void work() {
         // [next block]
         for (;;) {
@@ -181,7 +176,7 @@ struct BlockLoop {
         }
     }
 
-    // Tells of what is done, unless another thread is telling; the others work on.
+    // Reports the progress unless another thread is reporting; the others work on.
     void report() {
         long long now = 0;
         {
@@ -197,9 +192,9 @@ struct BlockLoop {
         stop = stop || stopped;
     }
 
-    // Keeps the exception that is being handled, if it is the first in order. Every
-    // block before this one has begun and runs to its end, so that the first one that
-    // throws is the same for any number of threads.
+    // Keeps the current exception if its block is the lowest that threw. Every lower
+    // block has begun and runs to its end, so that the lowest failing block is the same
+    // for any number of threads.
     void fail(long long block) {
         const LockGuard turn(turns);
         stop = true;
@@ -222,11 +217,10 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
     BlockLoop loop{count, body, options.progress, Mutex(threads > 1)};
 #ifdef _OPENMP
     if (threads > 1) {
-        // At the end of the region all wait for the last. libgomp's threads do so by
-        // spinning for milliseconds, and if another program has the processor of the
-        // last one they keep it from theirs: a loop of one millisecond took twenty.
-        // More threads than processors go to sleep at once, which is what we want; so
-        // there is one more, which does nothing.
+        // At the end of the region libgomp's threads wait by spinning for milliseconds.
+        // A program that has taken the processor of the last thread cannot move to
+        // theirs meanwhile: a loop of one millisecond took twenty. The threads sleep at
+        // once if there are more of them than processors, so one idle thread is added.
         const int idle = threads == omp_get_num_procs() ? 1 : 0;
 #pragma omp parallel num_threads(threads + idle)
         if (omp_get_thread_num() < threads) loop.work();
@@ -246,23 +240,22 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
 
 } // namespace detail
 
-/// Calls `body(block)` once for each block in [0, count), by several threads.
+/// Calls `body(block)` once for each block in [0, count), on several threads.
 ///
-/// Blocks are handed out in order, one at a time, to whichever thread is free: small
-/// enough, they keep all threads busy to the end; a loop can be stopped between blocks
-/// only, so they should take well below a second. A loop inside a body runs on the
-/// thread that it is called from.
+/// Each free thread takes the next block. Small blocks keep all threads busy to the
+/// end. A loop stops between blocks only, so a block should take well below a second. A
+/// loop inside a body runs on the thread that calls it.
 /// \param count    The number of blocks; none if it is 0 or less.
-/// \param body     Called as body(long long); calls run at the same time, in any order.
-/// \param options  Threads and progress. `progress(done, total)` comes after a block
+/// \param body     Called as body(long long), concurrently and in any order.
+/// \param options  Threads and progress. `progress(done, total)` follows a block
 ///                 unless another thread is reporting, with ascending `done`; when all
 ///                 blocks are done, (count, count) has been reported once.
-/// \return Whether all blocks ran: false when `progress` stopped the loop.
-/// \throws std::invalid_argument  for a number of threads that is not allowed; and what
-///         a body or `progress` threw: no further block is then begun, and of several
-///         exceptions that of the first block in order is thrown, always the same one.
-/// \cost Some 30 microseconds to wake the threads (more the first time), below 0.1 a
-///       block.
+/// \return True if all blocks ran; false if `progress` stopped the loop.
+/// \throws std::invalid_argument  if `options.threads` is not allowed; otherwise what a
+///         body or `progress` threw: no further block begins then, and of several
+///         exceptions that of the lowest block is thrown.
+/// \cost About 30 microseconds to wake the threads (more the first time), and below 0.1
+///       per block.
 template <std::invocable<long long> Body>
 bool parallel_blocks(long long count, Body&& body,
                      const ParallelSettings& options = {}) {
@@ -271,12 +264,8 @@ bool parallel_blocks(long long count, Body&& body,
 
 namespace detail {
 
-/// Calls `body(i)` once for each i in [0, total), in blocks, by several threads.
-/// \param total    How many calls.
-/// \param block    Calls in a block, at least 1.
-/// \param body     Called as body(std::size_t); what it writes, no other call writes.
-/// \param options  As for parallel_blocks().
-/// \return As parallel_blocks().
+/// Calls `body(i)` once for each i in [0, total), in blocks of `block` calls, on
+/// several threads; see parallel_blocks(). No two calls may write the same data.
 template <std::invocable<std::size_t> Body>
 bool parallel_each(std::size_t total, long long block, Body&& body,
                    const ParallelSettings& options = {}) {

@@ -6,7 +6,7 @@ ljus_break_it(NAME mixture-energy HEADER materials/mixture.hpp TEST mixture
 
 # The matt part below the boundary lets all light out: no reciprocity, too bright.
 ljus_break_it(NAME mixture-way-out HEADER materials/mixture.hpp TEST mixture
-    FROM "const T in = T(1) - detail::boundary_share(mixture, wi);"
+    FROM "const T in = T(1) - detail::boundary_reflectance(mixture, wi);"
     TO   "const T in = T(1);"
     CASES "mixture: samples*,mixture: coated*")
 

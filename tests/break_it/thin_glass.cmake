@@ -18,8 +18,8 @@ ljus_break_it(NAME thin-glass-tint HEADER materials/glass.hpp TEST thin_glass
 
 # What comes back in place of what goes on.
 ljus_break_it(NAME thin-glass-pass_through HEADER materials/glass.hpp TEST thin_glass
-    FROM "return detail::pane_shares(pane, std::min(std::abs(wo.z), T(1))).transmitted;"
-    TO   "return detail::pane_shares(pane, std::min(std::abs(wo.z), T(1))).reflected;"
+    FROM "return detail::pane_fractions(pane, std::min(std::abs(wo.z), T(1))).transmitted;"
+    TO   "return detail::pane_fractions(pane, std::min(std::abs(wo.z), T(1))).reflected;"
     CASES "thin glass: samples*,thin glass: a lamp*")
 
 # The texture of a pane asked at no place.

@@ -93,7 +93,7 @@ refused "cannot write" half.pfm one.pfm --map flip --out /proc/none/a.png
 head -c 100 one.pfm >short.pfm
 refused "short.pfm" short.pfm one.pfm
 printf 'no picture' >text.png
-refused "text.png is no picture that can be read" text.png one.pfm
+refused "text.png is not a picture that can be read" text.png one.pfm
 
 [ $wrong -eq 0 ] && echo "ljus-compare does what it says"
 exit $wrong

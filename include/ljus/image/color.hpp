@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/image/color.hpp
-/// \brief From radiance to the 256 steps of a screen: the sRGB curve.
+/// \brief Converts radiance to the 256 levels of a screen: the sRGB curve.
 
 #include <cmath>
 #include <concepts>
@@ -11,11 +11,10 @@
 namespace ljus {
 
 /// \defgroup color Colour
-/// \brief Radiance is linear and has no upper end; a screen's bytes are neither.
+/// \brief Radiance is linear and unbounded; the bytes of a screen are neither.
 /// \{
 
 /// The luminance Y of a linear sRGB colour (Rec. 709 primaries, white D65).
-/// \param c  Linear colour.
 /// \return 0.2126 R + 0.7152 G + 0.0722 B; 1 for white.
 template <std::floating_point T>
 [[nodiscard]] constexpr T luminance(const RgbT<T>& c) noexcept {
@@ -23,8 +22,7 @@ template <std::floating_point T>
 }
 
 /// The sRGB curve (IEC 61966-2-1): from linear light to the encoded value.
-/// \param linear  Any number.
-/// \return 0 for NaN and for linear <= 0, 1 for linear >= 1, between them the curve.
+/// \return The curve; 0 for NaN and for linear <= 0, 1 for linear >= 1.
 // [srgb_encode]
 [[nodiscard]] inline double srgb_encode(double linear) noexcept {
     if (!(linear > 0.0)) return 0.0; // written so that NaN is black
@@ -34,9 +32,7 @@ template <std::floating_point T>
 // [srgb_encode]
 
 /// The inverse of srgb_encode().
-/// \param encoded  Any number.
-/// \return 0 for NaN and for encoded <= 0, 1 for encoded >= 1, between them linear
-/// light.
+/// \return Linear light; 0 for NaN and for encoded <= 0, 1 for encoded >= 1.
 [[nodiscard]] inline double srgb_decode(double encoded) noexcept {
     if (!(encoded > 0.0)) return 0.0;
     const double y = 1.0 < encoded ? 1.0 : encoded;
@@ -44,11 +40,10 @@ template <std::floating_point T>
 }
 
 /// The byte of a picture file for one channel.
-///
-/// In float, 200 of the 765 numbers at and beside the 255 thresholds come out off by
-/// one; in double, none.
-/// \param linear  Any number: NaN and negatives are 0, 1 and above are 255.
-/// \return floor(255 y + 1/2), y the encoded value.
+/// It is computed in double: in float, 200 of the 765 numbers at and next to the 255
+/// thresholds are off by one.
+/// \param linear  Any number: NaN and negatives give 0, 1 and above give 255.
+/// \return floor(255 y + 1/2), where y is the encoded value.
 [[nodiscard]] inline unsigned char srgb_byte(double linear) noexcept {
     return static_cast<unsigned char>(255.0 * srgb_encode(linear) + 0.5);
 }

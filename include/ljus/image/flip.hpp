@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/image/flip.hpp
-/// \brief FLIP: how different two pictures look, to somebody who flips between them.
+/// \brief FLIP: how different two pictures look to a viewer who flips between them.
 
 #include <cmath>
 #include <numbers>
@@ -21,24 +21,21 @@ namespace ljus {
 
 namespace detail {
 
-/// How large a pixel is to the viewer.
+/// The number of pixels per degree of the visual field.
 /// \param distance  From the eye to the screen, in metres.
-/// \param width     Of the screen, in metres.
-/// \param pixels    Across the screen.
-/// \return Pixels in a degree of the visual field; 67.0 for the values given.
+/// \param width     Width of the screen, in metres.
+/// \param pixels    Pixels across the screen.
+/// \return Pixels per degree; 67.0 for the defaults.
 [[nodiscard]] constexpr double pixels_per_degree(double distance = 0.7,
                                                  double width = 0.7,
                                                  double pixels = 3840) noexcept {
     return distance * pixels / width * std::numbers::pi / 180;
 }
 
-/// What two colours differ by, if nothing else is near them.
-///
-/// The distance of large colour differences, HyAB, to the power 0.7, and then by two
-/// straight lines into [0, 1]: differences above 0.4 of the largest, the one of pure
-/// green and pure blue, share the last 0.05.
-/// \param a  Linear sRGB within [0, 1].
-/// \param b  The other one.
+/// The perceived difference of two colours without their surroundings.
+/// The HyAB distance is raised to the power 0.7 and mapped to [0, 1] by two linear
+/// pieces: differences above 0.4 of the largest one, between pure green and pure blue,
+/// are compressed into the last 0.05.
 /// \return 0 for equal colours, 1 for green and blue.
 /// \cite andersson2020
 [[nodiscard]] inline double color_error(const RgbT<double>& a, const RgbT<double>& b) {
@@ -54,17 +51,16 @@ namespace detail {
 
 } // namespace detail
 
-/// FLIP of each pixel: how much a viewer who flips between two pictures sees there.
-///
-/// What is too fine for the eye is blurred away, channel by channel, before colours are
-/// compared; and where an edge or a point stands in one picture and not in the other,
-/// the colours' difference is raised by a power below 1.
-/// \param image      Linear sRGB; what is not within [0, 1] is taken to its border, as
-///                   a screen does.
+/// FLIP of each pixel: how strongly a viewer who flips between two pictures sees it
+/// change.
+/// Detail too fine for the eye is blurred, channel by channel, before colours are
+/// compared. Where only one picture has an edge or a point, the colour difference is
+/// raised to a power below 1.
+/// \param image      Linear sRGB; clamped to [0, 1], as on a screen.
 /// \param reference  The other picture, of the same size.
 /// \param ppd        From pixels_per_degree().
-/// \return A grey image in [0, 1]: 0 where nobody sees a difference.
-/// \throws std::invalid_argument  as require_same_size(), or for a ppd outside of
+/// \return A grey image in [0, 1]; 0 where no difference is visible.
+/// \throws std::invalid_argument  as require_same_size(), or for a ppd outside
 ///         [1, 1000].
 /// \cost Proportional to pixels times ppd.
 /// \cite andersson2020
@@ -77,8 +73,8 @@ template <std::floating_point T, std::floating_point U>
     require(ppd >= 1 && ppd <= 1000, "pixels per degree", ppd, "from 1 to 1000");
     const ImageT<double> a = detail::opponent_image(image),
                          b = detail::opponent_image(reference);
-    const ImageT<double> seen_a = detail::as_seen(a, ppd),
-                         seen_b = detail::as_seen(b, ppd);
+    const ImageT<double> seen_a = detail::eye_filtered(a, ppd),
+                         seen_b = detail::eye_filtered(b, ppd);
     const ImageT<double> features_a = detail::features(a, ppd),
                          features_b = detail::features(b, ppd);
 
@@ -96,9 +92,7 @@ template <std::floating_point T, std::floating_point U>
 
 namespace detail {
 
-/// The mean of a grey image.
-/// \param map  From flip_map() or hdr_flip_map().
-/// \return The mean of its first channel.
+/// The mean of the first channel of an image.
 [[nodiscard]] inline double mean_of(const ImageT<double>& map) {
     std::vector<double> values;
     values.reserve(map.pixels.size());
@@ -109,13 +103,10 @@ namespace detail {
 } // namespace detail
 
 /// The mean of flip_map().
-/// *Trap*: it is made for pictures that are looked at one after the other on the same
-/// place of a screen, from a stated distance, at a stated exposure. It has no theory of
-/// slopes, and does not add up.
-/// \param image      Linear sRGB.
-/// \param reference  The other picture, of the same size.
-/// \param ppd        From pixels_per_degree().
-/// \return In [0, 1]; the same if the pictures are exchanged.
+/// *Trap*: FLIP is made for pictures shown alternately at the same spot of a screen, at
+/// a given distance and exposure. Its values do not add up, and no theory
+/// predicts how fast it falls.
+/// \return In [0, 1]; symmetric in the two pictures.
 /// \throws std::invalid_argument  as flip_map().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double flip(const ImageT<T>& image, const ImageT<U>& reference,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/image/hdr_flip.hpp
-/// \brief FLIP for radiance: the largest difference at any sensible exposure.
+/// \brief FLIP for radiance: the largest difference over a range of exposures.
 
 #include <algorithm>
 #include <limits>
@@ -16,30 +16,28 @@ namespace ljus {
 
 namespace detail {
 
-/// The first and the last exposure of HDR-FLIP, and how many there are.
+/// The range of exposures of HDR-FLIP.
 struct Exposures {
     double first = 0; ///< In stops: the brightest pixel is nearly white.
-    double last = 0;  ///< In stops: half of the picture is.
-    int count = 2;    ///< About one a stop, at least 2.
+    double last = 0;  ///< In stops: half of the picture is nearly white.
+    int count = 2;    ///< Number of exposures, about one per stop, at least 2.
 };
 
-/// A film's curve: from any light to [0, 1], after ACES (its fit by Narkowicz, without
-/// the exposure that it brings along).
-/// \param x  Light; NaN and negatives are black.
-/// \return In [0, 1]; 0.85 at 2.119.
+/// A film's response, which maps any light to [0, 1]: Narkowicz's fit of ACES, without
+/// its built-in exposure.
+/// \return In [0, 1]; 0 for NaN and negatives, 0.85 at 2.119.
 /// \cite andersson2021
 [[nodiscard]] inline double film_curve(double x) noexcept {
     if (!(x > 0)) return 0;
-    const double y = std::min(x, 1e100); // its square is still a number
+    const double y = std::min(x, 1e100); // its square must not overflow
     return std::min((0.9036 * y * y + 0.018 * y) / (0.8748 * y * y + 0.354 * y + 0.14),
                     1.0);
 }
 
-/// The exposures at which a picture is worth looking at.
-/// \param reference  Linear sRGB.
-/// \return From the one that takes the brightest luminance to 0.85 of film_curve(), to
-///         the one that takes the median there.
-/// \throws std::invalid_argument  for an image as check().
+/// The range of exposures at which a picture shows details.
+/// \return The range from the exposure that maps the brightest luminance to 0.85 of
+///         film_curve(), to the one that maps the median luminance to it.
+/// \throws std::invalid_argument  as check(reference).
 /// \cite andersson2021
 template <std::floating_point T>
 [[nodiscard]] Exposures exposures_of(const ImageT<T>& reference) {
@@ -56,7 +54,7 @@ template <std::floating_point T>
     std::nth_element(light.begin(), middle, light.end());
     const double brightest = *std::max_element(middle, light.end());
 
-    // Where the curve is 0.85: the positive root of a quadratic.
+    // The light at which the curve is 0.85: the positive root of a quadratic.
     constexpr double a = 0.9036 - 0.85 * 0.8748, b = 0.018 - 0.85 * 0.354,
                      c = -0.85 * 0.14;
     const double bright = (std::sqrt(b * b - 4 * a * c) - b) / (2 * a);
@@ -67,10 +65,9 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// HDR-FLIP of each pixel: the largest flip_map() over the exposures_of() the
-/// reference.
+/// HDR-FLIP of each pixel: the largest flip_map() over exposures_of(reference).
 /// \param image      Linear sRGB of any brightness.
-/// \param reference  The truth, of the same size; it alone decides the exposures.
+/// \param reference  The reference, of the same size; it alone sets the exposures.
 /// \param ppd        From pixels_per_degree().
 /// \return A grey image in [0, 1].
 /// \throws std::invalid_argument  as flip_map().
@@ -103,10 +100,7 @@ template <std::floating_point T, std::floating_point U>
 }
 
 /// The mean of hdr_flip_map().
-/// \param image      Linear sRGB of any brightness.
-/// \param reference  The truth, of the same size.
-/// \param ppd        From pixels_per_degree().
-/// \return In [0, 1]. Scaling both pictures by one number changes nothing.
+/// \return In [0, 1]; scaling both pictures by one number does not change it.
 /// \throws std::invalid_argument  as flip_map().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double hdr_flip(const ImageT<T>& image, const ImageT<U>& reference,

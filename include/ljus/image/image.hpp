@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/image/image.hpp
-/// \brief A picture: width times height linear colours.
+/// \brief An image: width times height linear colours.
 
 #include <cassert>
 #include <concepts>
@@ -15,28 +15,26 @@
 namespace ljus {
 
 /// \defgroup image Images
-/// \brief What a renderer makes: linear radiance, before any exposure or encoding.
+/// \brief The result of a renderer: linear radiance, without exposure or encoding.
 /// \{
 
 /// The largest number of pixels of an image: 2^28, three gigabytes in float.
 inline constexpr long long max_pixels = 1LL << 28;
 
-/// A rectangle of linear colours. make_image() makes one of a given size.
+/// A rectangle of linear colours; see make_image().
 template <std::floating_point T>
 struct ImageT {
-    int width = 0;               ///< Pixels in a row.
-    int height = 0;              ///< Rows.
+    int width = 0;               ///< Pixels per row.
+    int height = 0;              ///< Number of rows.
     std::vector<RgbT<T>> pixels; ///< Row by row, from the top left: y * width + x.
 };
 using Image = ImageT<float>; ///< ImageT in float.
 
-/// Refuses the size of an image.
-/// \param width   Pixels in a row.
-/// \param height  Rows.
+/// Requires a valid image size.
 /// \throws std::invalid_argument  unless both are at least 1 and the image has at most
 ///         max_pixels.
 inline void require_image_size(long long width, long long height) {
-    // The division keeps the test itself from overflowing.
+    // The division avoids an overflow of the product.
     if (width >= 1 && height >= 1 && width <= max_pixels / height) return;
     char text[160];
     std::snprintf(text, sizeof text,
@@ -47,11 +45,7 @@ inline void require_image_size(long long width, long long height) {
 }
 
 /// An image of one colour.
-/// \param width   Pixels in a row, at least 1.
-/// \param height  Rows, at least 1.
-/// \param fill    The colour of every pixel.
-/// \return The image, with all its pixels in place.
-/// \throws std::invalid_argument  as require_image_size(), before any memory is taken.
+/// \throws std::invalid_argument  as require_image_size(), before memory is allocated.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> make_image(int width, int height,
                                    RgbT<T> fill = RgbT<T>(T(0))) {
@@ -61,8 +55,7 @@ template <std::floating_point T = float>
     return {.width = width, .height = height, .pixels = {count, fill}};
 }
 
-/// Refuses an image whose number of pixels does not fit its size.
-/// \param image  Any image.
+/// Requires that an image has the number of pixels of its size.
 /// \throws std::invalid_argument  unless pixels.size() = width * height, at least 1.
 template <std::floating_point T>
 void check(const ImageT<T>& image) {
@@ -78,8 +71,8 @@ void check(const ImageT<T>& image) {
 
 namespace detail {
 
-/// Refuses to compare two images.
-/// \throws std::invalid_argument  if their sizes differ, or as check() for either.
+/// Requires that two images have the same size.
+/// \throws std::invalid_argument  if the sizes differ, or as check() for either.
 template <std::floating_point T, std::floating_point U>
 void require_same_size(const ImageT<T>& image, const ImageT<U>& reference) {
     check(image);
@@ -92,10 +85,7 @@ void require_same_size(const ImageT<T>& image, const ImageT<U>& reference) {
     throw std::invalid_argument(text);
 }
 
-/// Where pixel (x, y) stands in `pixels`.
-/// \param image  The image.
-/// \param x      Column from the left, in [0, width).
-/// \param y      Row from the top, in [0, height).
+/// The index of pixel (x, y) in `pixels`.
 template <std::floating_point T>
 [[nodiscard]] std::size_t pixel_index(const ImageT<T>& image, int x, int y) noexcept {
     assert(x >= 0 && x < image.width && "x is a column of the image");
@@ -106,7 +96,7 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The colour of pixel (x, y), to be changed.
+/// The colour of pixel (x, y), for writing.
 /// \param image  The image.
 /// \param x      Column from the left, in [0, width).
 /// \param y      Row from the top, in [0, height).
@@ -115,10 +105,7 @@ template <std::floating_point T>
     return image.pixels[detail::pixel_index(image, x, y)];
 }
 
-/// The colour of pixel (x, y), to be read.
-/// \param image  The image.
-/// \param x      Column from the left, in [0, width).
-/// \param y      Row from the top, in [0, height).
+/// The colour of pixel (x, y), for reading.
 template <std::floating_point T>
 [[nodiscard]] const RgbT<T>& pixel(const ImageT<T>& image, int x, int y) noexcept {
     return image.pixels[detail::pixel_index(image, x, y)];

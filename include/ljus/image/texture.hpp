@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/image/texture.hpp
-/// \brief Colours that change from place to place: checkers and images.
+/// \brief Colours that vary over a surface: checkers and images.
 
 #include <algorithm>
 #include <cmath>
@@ -15,50 +15,46 @@
 namespace ljus {
 
 /// \defgroup texture Textures
-/// \brief A map from the place to (u, v), and a colour for (u, v).
+/// \brief A map from a point to (u, v), and a colour for each (u, v).
 ///
-/// A texture is anything with a `color_at(texture, place, uv)` and a `check(texture)`;
-/// a map is anything with a `map_coordinates(map, place, uv)` and a `check(map)`. `uv`
-/// are the coordinates of the place on its own shape, see texture_coordinates(); a
-/// texture gets them only if it says `static constexpr bool uses_uv = true`, and else
-/// (0, 0).
-/// Both kinds here repeat: (u, v) and (u + 1, v) look the same.
+/// A texture is a type with `color_at(texture, place, uv)` and `check(texture)`. A map
+/// is a type with `map_coordinates(map, place, uv)` and `check(map)`. `place` is a
+/// point in scene units, and `uv` are its coordinates on its own shape, see
+/// texture_coordinates(). A texture receives uv only if it declares
+/// `static constexpr bool uses_uv = true`, otherwise (0, 0). Both textures here repeat
+/// with period 1 in u and in v.
 /// \{
 
-/// Coordinates of a plane, projected straight onto everything: `origin` is (0, 0),
-/// `origin + edge_u` is (1, 0).
+/// Coordinates on a plane, projected orthogonally onto all surfaces: `origin` is
+/// (0, 0), `origin + edge_u` is (1, 0).
 template <std::floating_point T>
 struct PlaneMapT {
-    Vec3T<T> origin{T(0)};             ///< Where (u, v) = (0, 0).
-    Vec3T<T> edge_u{T(1), T(0), T(0)}; ///< As long as one repetition, in scene units.
-    Vec3T<T> edge_v{T(0), T(0), T(1)}; ///< At right angles to edge_u.
+    Vec3T<T> origin{T(0)};             ///< The point with (u, v) = (0, 0).
+    Vec3T<T> edge_u{T(1), T(0), T(0)}; ///< One repetition in u, in scene units.
+    Vec3T<T> edge_v{T(0), T(0), T(1)}; ///< One in v, at right angles to edge_u.
 };
 using PlaneMap = PlaneMapT<float>; ///< PlaneMapT in float.
 
-/// Longitude and latitude around a centre, north along y: u in [0, 1) once around from
-/// +x towards -z, v from 0 at the south pole to 1 at the north pole.
+/// Longitude and latitude around a centre, see globe_coordinates().
 template <std::floating_point T>
 struct GlobeMapT {
-    Vec3T<T> center{T(0)}; ///< Of the globe.
+    Vec3T<T> center{T(0)}; ///< Centre of the globe.
 };
 using GlobeMap = GlobeMapT<float>; ///< GlobeMapT in float.
 
-/// The coordinates that the shape itself has, as a mesh has them from its file.
+/// The coordinates of the shape itself; a mesh has them from its file.
 template <std::floating_point T>
 struct UvMapT {
     static constexpr bool uses_uv = true; ///< See texture_coordinates().
-    Vec2T<T> scale{T(1)};                 ///< Repetitions from u, v = 0 to 1.
+    Vec2T<T> scale{T(1)};                 ///< Repetitions per unit of u and v.
 };
 using UvMap = UvMapT<float>; ///< UvMapT in float.
 
-/// Whether a map, a texture or a material looks up by the coordinates of the shape.
+/// True if a map, a texture or a material uses the coordinates of the shape.
 template <typename M>
 concept UsesUv = M::uses_uv;
 
-/// The coordinates of a place.
-/// \param map    The plane.
-/// \param place  In scene units.
-/// \return (u, v), in repetitions.
+/// The coordinates (u, v) of a point on a plane, in repetitions.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> map_coordinates(const PlaneMapT<T>& map, const Vec3T<T>& place,
                                        const Vec2T<T>& = Vec2T<T>{T(0)}) noexcept {
@@ -67,10 +63,7 @@ template <std::floating_point T>
             glm::dot(from, map.edge_v) / glm::dot(map.edge_v, map.edge_v)};
 }
 
-/// The coordinates of a place on a globe; (0, 0.5) at its centre.
-/// \param map    The globe.
-/// \param place  In scene units.
-/// \return (u, v) in [0, 1].
+/// The coordinates (u, v) of a point on a globe, in [0, 1]; (0, 0.5) at its centre.
 /// \cost Two arc tangents.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> map_coordinates(const GlobeMapT<T>& map, const Vec3T<T>& place,
@@ -78,18 +71,14 @@ template <std::floating_point T>
     return globe_coordinates(place - map.center);
 }
 
-/// The coordinates of a place on its own shape.
-/// \param map  How often they repeat.
-/// \param uv   Of texture_coordinates().
-/// \return (u, v), in repetitions.
+/// The coordinates (u, v) of a point on its own shape, in repetitions.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> map_coordinates(const UvMapT<T>& map, const Vec3T<T>& /*place*/,
                                        const Vec2T<T>& uv) noexcept {
     return map.scale * uv;
 }
 
-/// Refuses a plane whose edges span none.
-/// \param map  The plane.
+/// Requires finite edges that are not zero.
 /// \throws std::invalid_argument naming the edge.
 template <std::floating_point T>
 void check(const PlaneMapT<T>& map) {
@@ -100,16 +89,14 @@ void check(const PlaneMapT<T>& map) {
     require(std::isnormal(v2), "plane_map.edge_v", map.edge_v, "finite and not 0");
 }
 
-/// Refuses a globe without a place.
-/// \param map  The globe.
+/// Requires a finite centre.
 /// \throws std::invalid_argument naming the centre.
 template <std::floating_point T>
 void check(const GlobeMapT<T>& map) {
     require_finite("globe_map.center", map.center);
 }
 
-/// Refuses coordinates that do not change.
-/// \param map  The map.
+/// Requires a finite scale that is not zero.
 /// \throws std::invalid_argument naming the scale.
 template <std::floating_point T>
 void check(const UvMapT<T>& map) {
@@ -117,27 +104,22 @@ void check(const UvMapT<T>& map) {
         require(std::isnormal(scale), "uv_map.scale", scale, "finite and not 0");
 }
 
-/// Two colours in turn, as on a chessboard of `columns` by `rows` fields.
-///
-/// On a plane, not in space: a solid checker with a border in y = 0 decides by rounding
-/// which colour a floor at y = 0 has, pixel by pixel.
+/// A chessboard of `columns` by `rows` squares per repetition.
+/// It is a plane pattern. With a solid checker that changes at y = 0, rounding would
+/// decide the colour of each pixel of a floor at y = 0.
 template <std::floating_point T, typename Map = PlaneMapT<T>>
 struct CheckerT {
-    static constexpr bool uses_uv = UsesUv<Map>; ///< As its map says.
-    Map map{};                                   ///< From the place to (u, v).
-    RgbT<T> even{T(0.9)};                        ///< The colour of the field at (0, 0).
-    RgbT<T> odd{T(0.1)};                         ///< The colour of its neighbours.
-    int columns = 2; ///< Fields on the way from u = 0 to 1; even.
-    int rows = 2;    ///< Fields on the way from v = 0 to 1; even.
+    static constexpr bool uses_uv = UsesUv<Map>; ///< As the map declares it.
+    Map map{};                                   ///< Maps a point to (u, v).
+    RgbT<T> even{T(0.9)}; ///< The colour of the square at (0, 0).
+    RgbT<T> odd{T(0.1)};  ///< The colour of its neighbours.
+    int columns = 2;      ///< Squares from u = 0 to 1; even.
+    int rows = 2;         ///< Squares from v = 0 to 1; even.
 };
 using Checker = CheckerT<float>;                        ///< On a plane, in float.
 using GlobeChecker = CheckerT<float, GlobeMapT<float>>; ///< On a globe, in float.
 
-/// The colour of a place.
-/// \param checker  The texture.
-/// \param place    In scene units.
-/// \param uv       Of texture_coordinates(); for a UvMap.
-/// \return One of the two colours.
+/// The colour of a checker at a point: one of the two.
 template <std::floating_point T, typename Map>
 [[nodiscard]] RgbT<T> color_at(const CheckerT<T, Map>& checker, const Vec3T<T>& place,
                                const Vec2T<T>& uv = Vec2T<T>{T(0)}) noexcept {
@@ -147,8 +129,7 @@ template <std::floating_point T, typename Map>
     return std::abs(std::fmod(field, T(2))) < T(0.5) ? checker.even : checker.odd;
 }
 
-/// Refuses colours outside [0, 1], and numbers of fields that do not repeat.
-/// \param checker  The texture.
+/// Requires colours within [0, 1] and even numbers of squares.
 /// \throws std::invalid_argument naming the member.
 template <std::floating_point T, typename Map>
 void check(const CheckerT<T, Map>& checker) {
@@ -163,30 +144,25 @@ void check(const CheckerT<T, Map>& checker) {
     fields("checker.rows", checker.rows);
 }
 
-/// An image, its lower left corner at (0, 0), its upper right one at (1, 1).
+/// An image with its lower left corner at (0, 0) and its upper right corner at (1, 1).
 template <std::floating_point T, typename Map = PlaneMapT<T>>
 struct PictureTextureT {
-    static constexpr bool uses_uv = UsesUv<Map>; ///< As its map says.
+    static constexpr bool uses_uv = UsesUv<Map>; ///< As the map declares it.
     ImageT<T> image{}; ///< Linear colours in [0, 1], see load_image().
-    Map map{};         ///< From the place to (u, v).
+    Map map{};         ///< Maps a point to (u, v).
 };
 using PictureTexture = PictureTextureT<float>; ///< On a plane, in float.
-/// By the coordinates of the shape, in float.
+/// A picture in the coordinates of the shape, in float.
 using UvPicture = PictureTextureT<float, UvMapT<float>>;
 
-/// The colour of a place: of the four pixels whose middles are around it, in proportion
-/// to how near they are.
-/// \param texture  The texture.
-/// \param place    In scene units.
-/// \param uv       Of texture_coordinates(); for a UvMap.
-/// \return A colour between those of the four pixels.
+/// The colour of a picture at a point, interpolated bilinearly between pixel centres.
 template <std::floating_point T, typename Map>
 [[nodiscard]] RgbT<T> color_at(const PictureTextureT<T, Map>& texture,
                                const Vec3T<T>& place,
                                const Vec2T<T>& uv = Vec2T<T>{T(0)}) noexcept {
     const ImageT<T>& image = texture.image;
     const Vec2T<T> at = map_coordinates(texture.map, place, uv);
-    // Below 1 even after rounding, and 0 for what is no number.
+    // Below 1 even after rounding; 0 for NaN.
     const auto repeat = [](T x) {
         const T rest = x - std::floor(x);
         return rest < T(1) ? rest : T(0);
@@ -204,8 +180,7 @@ template <std::floating_point T, typename Map>
            dy * ((T(1) - dx) * color(left, top + 1) + dx * color(left + 1, top + 1));
 }
 
-/// Refuses an image without pixels, or with a channel outside [0, 1].
-/// \param texture  The texture.
+/// Requires an image with at least one pixel and all channels within [0, 1].
 /// \throws std::invalid_argument naming the image or the pixel.
 template <std::floating_point T, typename Map>
 void check(const PictureTextureT<T, Map>& texture) {

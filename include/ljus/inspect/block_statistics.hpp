@@ -12,21 +12,20 @@ namespace ljus {
 /// \addtogroup metrics
 /// \{
 
-/// What several runs of one method say of each block of the picture.
+/// The block means of several runs of one method.
 struct BlockStatistics {
-    ImageT<double> mean;           ///< Of all runs, block by block.
-    ImageT<double> standard_error; ///< Of that mean, channel by channel.
-    std::size_t runs = 0;          ///< How many there were.
+    ImageT<double> mean;           ///< Mean over all runs, block by block.
+    ImageT<double> standard_error; ///< Its standard error, channel by channel.
+    std::size_t runs = 0;          ///< The number of runs.
 };
 
-/// The block means of several runs, and how sure they are.
-///
+/// Computes the block means of several runs, with standard errors.
 /// With b the mean of a block in one of M runs and m the mean of the b:
 /// standard error = sqrt(sum (b - m)^2 / (M - 1) / M). It holds for photon maps too,
-/// whose pixels share their photons, because whole runs are compared and not pixels.
-/// *Trap*: from M runs the standard error itself is known within a part of
-/// 1/sqrt(2(M - 1)): 71 % from two, 18 % from 16.
-/// \param runs  At least 2 pictures of the same size, of independent seeds.
+/// whose pixels are correlated, because whole runs are compared.
+/// *Trap*: the standard error from M runs has a relative error of 1/sqrt(2(M - 1))
+/// itself: 71 % with two runs, 18 % with 16.
+/// \param runs  At least 2 pictures of the same size, with independent seeds.
 /// \param size  Side of a block in pixels, at least 1.
 /// \return Means and standard errors, in units of radiance.
 /// \throws std::invalid_argument  for fewer than 2 runs, or as require_same_size() and
@@ -35,9 +34,9 @@ template <std::floating_point T>
 [[nodiscard]] BlockStatistics block_statistics(const std::vector<ImageT<T>>& runs,
                                                int size = 10) {
     if (runs.size() < 2)
-        throw std::invalid_argument("A standard error was asked of " +
-                                    std::to_string(runs.size()) +
-                                    " runs; there must be at least 2.");
+        throw std::invalid_argument("A standard error needs at least 2 runs, but there "
+                                    "are " +
+                                    std::to_string(runs.size()) + ".");
     const double count = static_cast<double>(runs.size());
     std::vector<ImageT<double>> blocks;
     for (const ImageT<T>& run : runs) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/inspect/census.hpp
-/// \brief How many photons of each kind a map holds, and how much power.
+/// \brief The number and the flux of the photons of each kind in a map.
 
 #include <array>
 #include <cstddef>
@@ -17,20 +17,20 @@ namespace ljus {
 
 /// The photons of one kind.
 struct PhotonCount {
-    std::uint64_t photons = 0; ///< How many.
-    RgbT<double> flux{0}; ///< W, added in double; of shadow photons, what is missing.
+    std::uint64_t photons = 0; ///< Their number.
+    RgbT<double> flux{0}; ///< W, added in double; shadow photons: the missing flux.
 };
 
-/// The photons of a map, kind by kind.
+/// The photons of a map, by kind.
 struct PhotonCensus {
-    std::array<PhotonCount, 4> kinds; ///< In the order of PhotonKind.
+    std::array<PhotonCount, 4> kinds; ///< Indexed by PhotonKind.
 
     /// The photons of one kind.
     [[nodiscard]] const PhotonCount& operator[](PhotonKind kind) const noexcept {
         return kinds[static_cast<std::size_t>(kind)];
     }
 
-    /// All photons that are light: without the shadow photons.
+    /// All photons that carry light, without shadow photons.
     [[nodiscard]] PhotonCount light() const noexcept {
         PhotonCount sum;
         for (const PhotonKind kind :
@@ -42,19 +42,16 @@ struct PhotonCensus {
     }
 };
 
-/// The name of a kind, as tables show it.
-/// \param kind  The kind.
-/// \return One word.
+/// The name of a kind for tables, one word.
 [[nodiscard]] constexpr const char* name_of(PhotonKind kind) noexcept {
     constexpr std::array<const char*, 4> names{"direct", "caustic", "indirect",
                                                "shadow"};
     return names[static_cast<std::size_t>(kind)];
 }
 
-/// Counts photons, whatever holds them.
-/// \param photons  Photons or the records of a map: a list by index and size() of
-///                 anything with a kind and a flux.
-/// \return The census.
+/// Counts photons of any list.
+/// \param photons  Photons or the records of a map: a list with index and size() of
+///                 elements with a kind and a flux.
 /// \cost One pass.
 template <typename Photons>
 requires requires(const Photons& p) {
@@ -72,8 +69,6 @@ requires requires(const Photons& p) {
 }
 
 /// Counts the photons of a map.
-/// \param map  The map.
-/// \return The census.
 template <std::floating_point T>
 [[nodiscard]] PhotonCensus census(const PhotonMapT<T>& map) {
     return census(map.records);

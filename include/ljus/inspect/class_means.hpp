@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/inspect/class_means.hpp
-/// \brief How much light of a picture each class of paths brings, in one pass.
+/// \brief The mean radiance of a picture by classes of paths, in one pass.
 
 #include <span>
 #include <vector>
@@ -16,12 +16,12 @@ namespace ljus {
 
 namespace detail {
 
-/// Several ExpressionLogs that listen to the same path.
+/// Several ExpressionLogs that record the same path.
 template <std::floating_point T>
 struct ClassesLog {
-    std::vector<detail::ExpressionLog<T>> logs{}; ///< One a class.
+    std::vector<detail::ExpressionLog<T>> logs{}; ///< One per class.
 
-    /// A path begins, at the eye.
+    /// A path begins at the eye.
     void begin() noexcept {
         for (auto& log : logs) log.begin();
     }
@@ -38,17 +38,18 @@ struct ClassesLog {
 
 } // namespace detail
 
-/// What a renderer really carries: the mean radiance of a picture, class by class.
+/// The mean radiance of a picture that a renderer really computes, class by class.
 ///
-/// It is measured, by the letters that the renderer itself reports, so that a table of
-/// renderers cannot promise what the code does not keep. All classes see the same
-/// random paths; those that share no path and together hold all add up to the picture.
+/// It is measured from the letters that the renderer reports. All classes see the same
+/// random paths; the means of disjoint classes that cover all paths add up to the mean
+/// of the picture.
 /// \param renderer  Any Renderer.
 /// \param camera    As for render().
-/// \param picture   As for render(); it is not stopped, and progress is not called.
-/// \param classes   From light_path_expression(). Of a photon map's answer for a whole
-///                  class, as "DS+L", the shortest path decides; see ExpressionLog.
-/// \return W/(m^2 sr), one a class, the same for any number of threads.
+/// \param picture   As for render(), but progress is not called.
+/// \param classes   From light_path_expression(). A photon map's answer for a class of
+///                  paths, such as "DS+L", counts as its shortest path; see
+///                  ExpressionLog.
+/// \return W/(m^2 sr), one per class, the same for any number of threads.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1.
 /// \cost One picture, and a few bit operations per letter and class.
 /// \report{Section 2}
@@ -70,7 +71,7 @@ class_means(const R& renderer, const C& camera, const RenderSettings& picture,
         Counts counts;
         for (int x = 0; x < picture.width; ++x)
             for (int i = 0; i < picture.samples; ++i) {
-                detail::ClassesLog<T> log; // knows nothing of the pixel's filter
+                detail::ClassesLog<T> log; // without the pixel filter
                 for (const LightPathExpression& wanted : classes)
                     log.logs.push_back({wanted});
                 const auto found =

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/inspect/estimate.hpp
-/// \brief A mean of random numbers, and how far it may be from the truth.
+/// \brief A mean of random numbers, with its standard error.
 
 #include <cmath>
 #include <limits>
@@ -15,20 +15,19 @@ namespace ljus {
 /// \ref ch_monte_carlo.
 /// \{
 
-/// What is known after some samples, in one pass and three numbers.
+/// A running mean and variance, by Welford's sums \cite welford1962.
 ///
-/// The sums of x^2 and of x would do on paper: (sum x^2 - (sum x)^2 / n) / (n - 1). In
-/// the machine the two cancel where the mean is large beside the deviation. Welford's
-/// sums \cite welford1962 hold the distances from the mean, and nothing cancels.
+/// The sums of x^2 and x would suffice in exact arithmetic, but they cancel where the
+/// mean is large against the deviation. Welford's sums hold distances from the mean.
 struct Estimate {
-    double count = 0;   ///< n, how many samples.
-    double mean = 0;    ///< Of them: the estimate.
+    double count = 0;   ///< n, the number of samples.
+    double mean = 0;    ///< Their mean: the estimate.
     double squares = 0; ///< Sum of (x - mean)^2.
 };
 
-/// Takes one more sample.
-/// \param estimate  Of the samples so far.
-/// \param x         The sample; NaN makes everything NaN, it is not hidden.
+/// Adds one sample.
+/// \param estimate  The estimate of the samples so far.
+/// \param x         The sample; a NaN makes the result NaN.
 // [add]
 constexpr void add(Estimate& estimate, double x) noexcept {
     estimate.count += 1;
@@ -38,10 +37,10 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 }
 // [add]
 
-/// The estimate of the samples of both, as if one had taken them all.
-/// \param a  Some samples.
-/// \param b  Others, independent of them.
-/// \return Of both, up to rounding.
+/// Merges the estimates of two independent sets of samples.
+/// \param a  Estimate of one set.
+/// \param b  Estimate of the other set.
+/// \return The estimate of all samples, up to rounding.
 // [joined]
 [[nodiscard]] constexpr Estimate joined(const Estimate& a, const Estimate& b) noexcept {
     if (a.count == 0) return b;
@@ -53,22 +52,20 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 }
 // [joined]
 
-/// The variance of one sample, as the samples themselves tell it.
-/// \param estimate  Of the samples.
-/// \return Their squared distances over n - 1, which has the right mean because one of
-///         the n distances is used up by the mean; infinity for fewer than 2 samples,
-///         from which nothing can be told.
+/// The unbiased estimate of the variance of one sample.
+/// \param estimate  The estimate of n samples.
+/// \return Sum of (x - mean)^2 over n - 1; infinity for fewer than 2 samples.
 // [variance]
 [[nodiscard]] constexpr double variance(const Estimate& estimate) noexcept {
     if (estimate.count < 2) return std::numeric_limits<double>::infinity();
     return estimate.squares / (estimate.count - 1);
 }
 
-/// The standard error: the deviation of the mean, if one took n other samples.
+/// The standard error: the standard deviation of the mean of n samples.
 ///
-/// *Trap*: it is an estimate itself, and knows only what the samples have found. Where
-/// the variance is infinite, or the light is rare, it is too small.
-/// \param estimate  Of the samples.
+/// *Trap*: it is an estimate itself, from the same samples. Where the variance is
+/// infinite, or the light is rare, it is too small.
+/// \param estimate  The estimate of n samples.
 /// \return sqrt(variance / n), in the unit of the samples; infinity for fewer than 2.
 [[nodiscard]] inline double standard_error(const Estimate& estimate) noexcept {
     return std::sqrt(variance(estimate) / estimate.count);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/inspect/explain.hpp
-/// \brief Why a pixel has its colour: its paths in Heckbert's letters.
+/// \brief Explains the colour of a pixel by its paths, in Heckbert's letters.
 
 #include <algorithm>
 #include <cstdio>
@@ -14,8 +14,8 @@
 namespace ljus {
 
 /// \defgroup explain One pixel explained
-/// \brief What each path of a pixel met, who carried its light, and what that adds up
-/// to.
+/// \brief The vertices of a pixel's paths, the owner of each contribution, and the
+/// sums.
 ///
 /// E is the eye, D a surface that scatters, S a mirror or glass, L a light
 /// \cite heckbert1990.
@@ -23,37 +23,30 @@ namespace ljus {
 
 namespace detail {
 
-/// The light of one kind of path within a pixel.
+/// The contribution of one kind of path to a pixel.
 struct PathSum {
     std::string path;    ///< Heckbert's letters, as "EDSL".
-    std::string owner;   ///< Who carried it: "emission", "shadow ray", ...
-    glm::dvec3 value{0}; ///< Its part of the pixel's radiance.
-    long long terms = 0; ///< How many terms it is the sum of.
+    std::string owner;   ///< The technique: "emission", "shadow ray", ...
+    glm::dvec3 value{0}; ///< Contribution to the pixel's radiance.
+    long long terms = 0; ///< The number of terms in the sum.
 };
 
 } // namespace detail
 
-/// A pixel, taken apart.
+/// The contributions to a pixel.
 template <std::floating_point T>
 struct ExplainedPixelT {
-    RgbT<T> radiance{T(0)};              ///< As render() has it, to the last bit.
-    std::vector<detail::PathSum> sums{}; ///< The brightest first; they add up to it.
-    std::vector<PathLog> first_rays{};   ///< The first few, vertex by vertex.
-    int samples = 0;                     ///< How many rays there were.
-    int rejected = 0; ///< Those left out because they were not finite.
+    RgbT<T> radiance{T(0)};              ///< As in render(), to the last bit.
+    std::vector<detail::PathSum> sums{}; ///< Brightest first; they sum to radiance.
+    std::vector<PathLog> first_rays{};   ///< The first few rays, vertex by vertex.
+    int samples = 0;                     ///< The number of rays.
+    int rejected = 0; ///< Rays that are left out because they were not finite.
 };
 
 namespace detail {
 
-/// Takes a pixel apart: renders it again, with a log.
-/// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
-/// \param camera    The camera.
-/// \param picture   Size, rays, seed: the same as in render().
-/// \param x         Column of the pixel, from the left.
-/// \param y         Row of the pixel, from the top.
-/// \param keep      How many rays to keep in full.
-/// \return The pixel's parts.
-/// \throws std::invalid_argument  if the pixel lies outside of the picture.
+/// Renders one pixel again, with a log, and keeps the first `keep` rays in full; as
+/// explain().
 template <typename R, CameraLike C>
 [[nodiscard]] ExplainedPixelT<typename C::Scalar>
 take_apart(const R& renderer, const C& camera, const RenderSettings& picture, int x,
@@ -72,7 +65,7 @@ take_apart(const R& renderer, const C& camera, const RenderSettings& picture, in
     Counts counts;
     RgbT<double> radiance{0};
     for (int i = 0; i < picture.samples; ++i) {
-        PathLog log; // knows nothing of the pixel's filter
+        PathLog log; // without the pixel filter
         const auto found = trace_pixel(renderer, camera, rays, {x, y, i}, counts, log);
         const RgbT<T> sample = found.weight * found.radiance;
         if (i < keep) pixel.first_rays.push_back(log);
@@ -123,14 +116,14 @@ inline std::string padded(std::string text, std::size_t width) {
     return text;
 }
 
-// "  E D L    shadow ray    0.31 0.30 0.28", without its end.
+// "  E D L    shadow ray    0.31 0.30 0.28", without a line feed.
 inline std::string line_of(const std::string& letters, const std::string& what,
                            const glm::dvec3& value) {
     return "  " + padded(spaced(letters), 26) + " " + padded(what, 14) +
            three_numbers(value);
 }
 
-// What happened at one place of a path.
+// The line of one vertex or one term of a path.
 inline std::string line_of(const PathLogLine& step) {
     if (step.what != "vertex") return line_of(step.path, step.what, step.value);
     char place[96];
@@ -142,10 +135,8 @@ inline std::string line_of(const PathLogLine& step) {
            (step.pdf > 0 ? density : ", delta");
 }
 
-/// A pixel, taken apart, as a text.
-/// \param pixel  Of take_apart().
-/// \param most   The most sums to print; the rest is put together.
-/// \return Lines of text.
+/// The contributions to a pixel as text; only the `most` brightest sums are printed,
+/// and the rest is added up.
 template <std::floating_point T>
 [[nodiscard]] std::string describe(const ExplainedPixelT<T>& pixel,
                                    std::size_t most = 16) {
@@ -184,21 +175,16 @@ template <std::floating_point T>
 /// \param x         Column of the pixel, from the left.
 /// \param y         Row of the pixel, from the top.
 /// \return A text: the first rays with each vertex and each term, then the sums by
-///         path, as "E D L   shadow ray   0.31 0.30 0.28".
-/// \throws std::invalid_argument  if the pixel lies outside of the picture.
+///         path, such as "E D L   shadow ray   0.31 0.30 0.28".
+/// \throws std::invalid_argument  if the pixel lies outside the picture.
 template <typename R, CameraLike C>
 [[nodiscard]] std::string explain(const R& renderer, const C& camera,
                                   const RenderSettings& picture, int x, int y) {
     return detail::describe(detail::take_apart(renderer, camera, picture, x, y));
 }
 
-/// Explains one pixel of a scene, as the path tracer finds it by default.
-/// \param world   The closed scene.
-/// \param camera  The camera.
-/// \param x       Column of the pixel, from the left, in a picture of the default size.
-/// \param y       Row of the pixel, from the top.
-/// \return As above.
-/// \throws std::invalid_argument  if the pixel lies outside of the picture.
+/// Explains one pixel of a scene, rendered by path tracing with default settings.
+/// \throws std::invalid_argument  if the pixel lies outside the picture.
 template <AnyWorld W, CameraLike C>
 [[nodiscard]] std::string explain(const W& world, const C& camera, int x, int y) {
     return explain(PathTracer(world), camera, RenderSettings{}, x, y);

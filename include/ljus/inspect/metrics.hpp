@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/inspect/metrics.hpp
-/// \brief How wrong a picture is: error metrics against a reference.
+/// \brief Error metrics of a picture against a reference.
 
 #include <algorithm>
 #include <cmath>
@@ -17,17 +17,17 @@
 namespace ljus {
 
 /// \defgroup metrics Error metrics
-/// \brief Means over pixels and channels, in double, on linear radiance, not on bytes.
+/// \brief Means over pixels and channels of linear radiance, computed in double.
 ///
-/// x is the picture and r the reference. Every metric is 0 for equal pictures and at
-/// least 0; NaN in a picture makes it NaN, it is not hidden. The reference should come
-/// from another algorithm and seed, with an error of its own of at most a tenth of what
-/// is measured. No metric is enough alone: give relMSE with the block error (bias) and
-/// the trimmed error (fireflies).
+/// x is the picture and r the reference. Every metric is at least 0, and 0 for equal
+/// pictures; NaN in a picture makes it NaN. The reference should come from another
+/// algorithm and seed, with an error of at most a tenth of the measured one. No metric
+/// is enough alone: state relMSE with the block error (bias) and the trimmed error
+/// (fireflies).
 /// \{
 
-/// The epsilon of the relative metrics: made for scenes whose mean radiance is near 1;
-/// elsewhere (0.1 times the mean radiance)^2.
+/// The epsilon of the relative metrics, for scenes of mean radiance near 1; for others
+/// use (0.1 times the mean radiance)^2.
 inline constexpr double default_epsilon = 0.01;
 
 namespace detail {
@@ -39,7 +39,7 @@ inline void require_epsilon(double epsilon) {
                                 "; it must be finite and above 0.");
 }
 
-// The errors of all pixels in order, each the mean of error(x, r) over three channels.
+// The errors of all pixels in order, each the mean of error(x, r) over the channels.
 template <std::floating_point T, std::floating_point U, typename Error>
 std::vector<double> pixel_errors(const ImageT<T>& image, const ImageT<U>& reference,
                                  Error error) {
@@ -68,11 +68,10 @@ struct RelativeSquare {
 } // namespace detail
 
 /// The root mean square error, sqrt(mean (x - r)^2).
-///
-/// The metric of theory: for an unbiased method it falls as 1/sqrt(n).
-/// *Trap*: a few highlights decide it; it says nothing of the dark parts.
+/// It is the metric of theory: for an unbiased method it falls as 1/sqrt(n).
+/// *Trap*: a few highlights dominate it; it says nothing of the dark regions.
 /// \param image      The picture.
-/// \param reference  The truth, of the same size.
+/// \param reference  The reference, of the same size.
 /// \return In units of radiance.
 /// \throws std::invalid_argument  as require_same_size().
 template <std::floating_point T, std::floating_point U>
@@ -83,14 +82,12 @@ template <std::floating_point T, std::floating_point U>
 
 /// The relative mean square error, mean (x - r)^2 / (r^2 + epsilon)
 /// \cite rousselle2011.
-///
-/// Relative, as the eye is, and the default here.
-/// *Trap*: figures with different epsilons, or divided by (r + epsilon)^2 as some tools
-/// do, do not compare; state it.
-/// \param image      The picture.
-/// \param reference  The truth, of the same size.
-/// \param epsilon    Radiance squared, above 0: what counts as dark.
-/// \return Without unit; 1 for a black picture of a scene that is bright throughout.
+/// It is relative, like the eye, and the default here.
+/// *Trap*: values with different epsilons, or with the divisor (r + epsilon)^2 of some
+/// tools, are not comparable; state the epsilon.
+/// \param image, reference  The picture and the reference, of the same size.
+/// \param epsilon    Radiance squared, above 0: the scale of darkness.
+/// \return Dimensionless; 1 for a black picture of a scene that is bright throughout.
 /// \throws std::invalid_argument  as require_same_size(), or for the epsilon.
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double rel_mse(const ImageT<T>& image, const ImageT<U>& reference,
@@ -100,18 +97,17 @@ template <std::floating_point T, std::floating_point U>
         detail::pixel_errors(image, reference, detail::RelativeSquare{epsilon}));
 }
 
-/// The relative mean square error of the best pixels.
-///
-/// Dropping the worst 1 % takes the fireflies out, and shows what the rest is like.
-/// *Trap*: it is kind to a method that puts its energy into fireflies; beside
+/// The relative mean square error without the worst pixels.
+/// Dropping the worst 1 % removes fireflies, and measures the rest of the picture.
+/// *Trap*: it favours a method that puts its energy into fireflies; state it beside
 /// rel_mse(), never instead of it.
 /// \param image  The picture.
-/// \param reference  The truth, of the same size.
-/// \param dropped  The part of all pixels that is dropped, in [0, 1): the worst
-///          floor(dropped * pixels) of them, by their mean over the channels; none of
-///          less than 100 pixels at 1 %.
+/// \param reference  The reference, of the same size.
+/// \param dropped  The fraction of pixels to drop, in [0, 1): the worst
+///          floor(dropped * pixels), by their mean over the channels; at 1 %, none of
+///          fewer than 100 pixels.
 /// \param epsilon  As for rel_mse().
-/// \return Without unit, at most rel_mse().
+/// \return Dimensionless, at most rel_mse().
 /// \throws std::invalid_argument  as rel_mse(), or for `dropped`.
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double trimmed_rel_mse(const ImageT<T>& image, const ImageT<U>& reference,
@@ -119,15 +115,15 @@ template <std::floating_point T, std::floating_point U>
                                      double epsilon = default_epsilon) {
     detail::require_epsilon(epsilon);
     if (!(dropped >= 0.0 && dropped < 1.0))
-        throw std::invalid_argument("The part of the pixels to drop is " +
+        throw std::invalid_argument("The fraction of pixels to drop is " +
                                     std::to_string(dropped) +
                                     "; it must be within [0, 1).");
     std::vector<double> errors =
         detail::pixel_errors(image, reference, detail::RelativeSquare{epsilon});
-    // NaN has no place in an order: let the mean show it.
+    // NaN cannot be ordered: return it.
     for (const double error : errors)
         if (std::isnan(error)) return error;
-    // A little more than the product, which may have been rounded down below a whole.
+    // The factor covers a product that was rounded down below an integer.
     const double count = static_cast<double>(errors.size());
     const auto worst = static_cast<std::ptrdiff_t>(dropped * count * (1.0 + 1e-12));
     const auto end = errors.end() - worst;
@@ -137,13 +133,12 @@ template <std::floating_point T, std::floating_point U>
 }
 
 /// The image of block means: each pixel is the mean of size x size pixels.
-///
-/// Where the width or height is no multiple of the block's, the last column or row of
-/// blocks is narrower and takes the mean of the pixels it has.
+/// If the width or height is no multiple of the block's side, the last column or row of
+/// blocks is narrower and takes the mean of its pixels.
 /// \param image  The picture.
 /// \param size   Side of a block in pixels, at least 1.
 /// \return An image of ceil(width/size) x ceil(height/size), in double.
-/// \throws std::invalid_argument  for an image as check(), or a size below 1.
+/// \throws std::invalid_argument  as check(image), or for a size below 1.
 template <std::floating_point T>
 [[nodiscard]] ImageT<double> block_means(const ImageT<T>& image, int size = 10) {
     check(image);
@@ -164,18 +159,17 @@ template <std::floating_point T>
     return means;
 }
 
-/// The relMSE of the means of 10 x 10 blocks: what noise leaves, that is bias.
-///
-/// Noise that is independent from pixel to pixel is 100 times weaker in a block's mean
-/// squared; an error that neighbours share stays. A blur within a block does not show.
-/// *Trap*: photons are shared by neighbouring pixels, so that their noise survives too;
-/// with it, use several seeds and bias_variance(). Narrow blocks at the right and lower
-/// edge (see block_means()) weigh as much as whole ones.
+/// The relMSE of the means of 10 x 10 blocks, which measures bias.
+/// Noise that is independent between pixels is 100 times weaker in a squared block
+/// mean; an error that neighbours share stays. A blur within a block does not show.
+/// *Trap*: neighbouring pixels share photons, so that the noise of photon maps survives
+/// too; use several seeds and bias_variance() for them. Narrow blocks at the right and
+/// lower edge (see block_means()) have the weight of whole ones.
 /// \param image      The picture.
-/// \param reference  The truth, of the same size.
+/// \param reference  The reference, of the same size.
 /// \param size       Side of a block in pixels, at least 1.
 /// \param epsilon    As for rel_mse().
-/// \return Without unit.
+/// \return Dimensionless.
 /// \throws std::invalid_argument  as rel_mse() and block_means().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double block_error(const ImageT<T>& image, const ImageT<U>& reference,

@@ -20,22 +20,16 @@ namespace ljus {
 /// \brief Section 3.2.2: the visualisations of figures 5 to 8.
 /// \{
 
-/// How a dot looks: a cone of light, the same size wherever its photon lies.
+/// The look of a dot: a cone of light, of the same size at any distance.
 struct PhotonDotSettings {
-    float radius = 1.0f;     ///< Of the cone's foot, in pixels, above 0.
-    float brightness = 0.8f; ///< Of its tip; dots that overlap add up.
+    float radius = 1.0f;     ///< Radius of the cone in pixels, above 0.
+    float brightness = 0.8f; ///< Brightness at its tip; overlapping dots add up.
 };
 
-/// A drawing to put photons on: the own colour of what each pixel sees, without any
-/// light, darker where it is seen at a low angle. Mirrors and glass are grey, lamps
-/// bright.
-/// \param world   The closed scene.
-/// \param camera  The camera.
-/// \param width   Of the picture, in pixels.
-/// \param height  Of the picture, in pixels.
-/// \return The drawing, dark enough for dots to be seen on it.
+/// A background for photons: the colours of the surfaces without lighting, darkened at
+/// low angles. Mirrors and glass are grey, lamps bright.
 /// \throws std::invalid_argument  if the width or the height is below 1.
-/// \cost One ray a pixel.
+/// \cost One ray per pixel.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] ImageT<T> scene_drawing(const W& world, const CameraT<T>& camera,
                                       int width, int height) {
@@ -60,9 +54,8 @@ template <AnyWorld W, std::floating_point T>
     return image;
 }
 
-/// The colour of a photon's dot: that of its flux, as bright as a colour can be; of a
-/// shadow photon, which is no light, the yellow that the report's program drew it in.
-/// \param photon  Any photon.
+/// The colour of a photon's dot: that of its flux, at full brightness. A shadow photon
+/// has the yellow of the report's program.
 /// \return Linear RGB, its largest channel 1; black if there is no flux.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> dot_color(const PhotonT<T>& photon) noexcept {
@@ -71,15 +64,10 @@ template <std::floating_point T>
     return largest > T(0) ? photon.flux / largest : RgbT<T>{T(0)};
 }
 
-/// Where a camera sees a photon: nothing may stand in front of it, glass neither, and
-/// it has to lie on the side of its surface that faces the camera. What hides a photon
-/// is nearer by more than a thousandth of the way.
-/// \param world   The scene of the photon.
-/// \param camera  The camera.
-/// \param photon  The photon.
-/// \param width   Of the picture, in pixels.
-/// \param height  Of the picture, in pixels.
-/// \return The place in pixels, from the upper left corner; nothing if it is not seen.
+/// The position of a photon in the picture. The photon is visible if nothing, glass
+/// included, lies between it and the camera, and if it is on the side of its surface
+/// that faces the camera. An occluder must be nearer by a thousandth of the distance.
+/// \return The position in pixels, from the upper left corner; nothing if it is hidden.
 /// \cost One ray.
 // [photon_in_sight]
 template <AnyWorld W, std::floating_point T>
@@ -104,10 +92,6 @@ photon_in_sight(const W& world, const CameraT<T>& camera, const PhotonT<T>& phot
 namespace detail {
 
 /// Adds a dot to a picture.
-/// \param image  The picture.
-/// \param place  The dot's middle, in pixels from the upper left corner.
-/// \param color  Of its tip.
-/// \param look   Its size and brightness.
 template <std::floating_point T>
 void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
              const PhotonDotSettings& look) {
@@ -128,15 +112,15 @@ void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
 } // namespace detail
 
 /// Draws photons over a picture of their scene.
-/// \param image    The picture, as scene_drawing() makes it.
+/// \param image    The picture, from scene_drawing().
 /// \param world    The scene of the photons.
 /// \param camera   The camera of the picture.
 /// \param photons  The photons, of any kind.
-/// \param look     How a dot looks.
+/// \param look     The look of a dot.
 /// \param color    Called with each photon; black draws nothing, and saves the ray.
-/// \return How many photons the camera sees, of those that are drawn.
+/// \return The number of photons that were drawn.
 /// \throws std::invalid_argument  if the radius of a dot is not in (0, 1000].
-/// \cost One ray a photon that is drawn and lies within the picture.
+/// \cost One ray per drawn photon that lies within the picture.
 /// \report{Section 3.2.2, Figs. 5 to 8}
 template <AnyWorld W, std::floating_point T, typename Color>
 long long add_photon_dots(ImageT<T>& image, const W& world, const CameraT<T>& camera,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/inspect/survey.hpp
-/// \brief What a scene requires: which passes run, and why.
+/// \brief The survey of a scene: which passes run for it, and why.
 
 #include <array>
 #include <string>
@@ -13,37 +13,38 @@
 namespace ljus {
 
 /// \defgroup survey The survey
-/// \brief "Model only what a scene requires": each pass says what it needs of a scene.
+/// \brief "Model only what a scene requires": each pass states what it needs of a
+/// scene.
 /// \{
 
-/// Whether a pass runs, and why or why not.
+/// Whether a pass runs, and the reason.
 struct PlanItem {
     const char* pass = ""; ///< Its name.
-    bool on = false;       ///< Whether it runs.
-    std::string why;       ///< One clause.
+    bool on = false;       ///< True if it runs.
+    std::string why;       ///< The reason, as one clause.
 };
 
-/// What will run for a scene.
+/// The passes that run for a scene.
 struct Plan {
     PlanItem shadow_rays;     ///< Rays to lights.
     PlanItem indirect_rays;   ///< Rays between diffuse surfaces.
     PlanItem caustics_map;    ///< Photons through mirrors and glass.
     PlanItem general_map;     ///< Direct, indirect and shadow photons.
-    PlanItem shadow_photons;  ///< Part of the general map.
-    PlanItem skipped_rays;    ///< Shadow rays that photons make needless.
-    PlanItem skipped_bounces; ///< Indirect rays where no indirect photon is near.
+    PlanItem shadow_photons;  ///< Stored in the general map.
+    PlanItem skipped_rays;    ///< Shadow rays that photons replace.
+    PlanItem skipped_bounces; ///< Indirect rays with no indirect photon near.
     PlanItem irradiance;      ///< Precomputed at photons, for gather rays.
-    PlanItem cache;           ///< Irradiance gathered at few points of the picture.
+    PlanItem cache;           ///< Irradiance gathered at a few points of the picture.
     PlanItem thin_film;       ///< Paths pass through soap films.
-    PlanItem tree;            ///< Over the shapes, or a loop over all of them.
-    /// A line for each type of shape, material and light that the scene lists, in their
-    /// order: which hooks it has, and what happens without the others. A hook that is
-    /// misspelt is among the others.
+    PlanItem tree;            ///< A tree over the shapes, or a loop over them.
+    /// One line per type of shape, material and light that the scene lists, in their
+    /// order: the hooks that it has, and what happens without the others. A misspelt
+    /// hook is among the others.
     std::vector<std::string> types;
-    /// What the passes will do badly, and what helps; most scenes have none.
+    /// Warnings about passes that work badly, with a remedy; most scenes have none.
     std::vector<std::string> remarks;
 
-    /// All items, in the order in which they are printed.
+    /// All items, in the order of printing.
     [[nodiscard]] std::array<const PlanItem*, 11> items() const& {
         return {&shadow_rays,
                 &indirect_rays,
@@ -57,12 +58,11 @@ struct Plan {
                 &thin_film,
                 &tree};
     }
-    /// Not of a temporary: the items would be gone before they are read.
+    /// Deleted for temporaries, whose items would be gone before they are read.
     std::array<const PlanItem*, 11> items() const&& = delete;
 };
 
-/// One pass of a plan: its name, on or off, and why.
-/// \param item  The pass.
+/// One pass of a plan as text: its name, on or off, and the reason.
 /// \return A line that ends with a line feed.
 [[nodiscard]] inline std::string to_text(const PlanItem& item) {
     std::string name = item.pass;
@@ -70,8 +70,7 @@ struct Plan {
     return name + (item.on ? "on   " : "off  ") + item.why + "\n";
 }
 
-/// A plan: one line per pass, then one per type of shape and of material, then remarks.
-/// \param plan  The plan.
+/// A plan as text: one line per pass, one per type, then the remarks.
 /// \return Lines that end with a line feed.
 [[nodiscard]] inline std::string to_text(const Plan& plan) {
     std::string text;
@@ -84,23 +83,20 @@ struct Plan {
 
 namespace detail {
 
-/// The plan: choose_passes() with its reasons. Thin films and the tree are decided by
-/// the same questions where a ray is traced.
-/// \param found     What the scene is made of.
-/// \param settings  What the user asks for.
-/// \return The plan.
+/// Makes the plan: choose_passes() with reasons. Thin films and the tree are decided by
+/// the same tests as during rendering.
 [[nodiscard]] LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
                                               const PhotonMappingSettings& settings);
 
-#ifndef LJUS_CORE // else it is there already
-// "3 of 7 objects mirror or refract".
+#ifndef LJUS_CORE // otherwise defined in ljus::core
+// Such as "3 of 7 objects mirror or refract".
 inline std::string of_all(const SceneNeeds& found, std::size_t count,
                           const char* what) {
     return std::to_string(count) + " of " + std::to_string(found.objects) +
            " objects " + what;
 }
 
-// Why rays are sent from diffuse surfaces, or not.
+// The reasons for shadow rays and indirect rays.
 inline void plan_rays(Plan& plan, const Passes& run, const SceneNeeds& found,
                       const PhotonMappingSettings& settings) {
     plan.shadow_rays = {
@@ -116,7 +112,7 @@ inline void plan_rays(Plan& plan, const Passes& run, const SceneNeeds& found,
                                   : "nothing is lit"};
 }
 
-// Why photons are traced, or not.
+// The reasons for the photon passes.
 inline void plan_photons(Plan& plan, const Passes& run, const SceneNeeds& found,
                          const PhotonMappingSettings& settings) {
     plan.caustics_map = {"caustics map", run.caustics_map,
@@ -127,15 +123,15 @@ inline void plan_photons(Plan& plan, const Passes& run, const SceneNeeds& found,
                                    caustics_clause(settings)
                              : "nothing is lit"};
     plan.general_map = {"general map", run.general_map,
-                        run.general_map ? "indirect light is asked of it"
-                                        : "no ray asks it"};
+                        run.general_map ? "it provides indirect light"
+                                        : "no ray uses it"};
     plan.shadow_photons = {"shadow photons", run.shadow_photons,
-                           run.skipped_rays ? "they tell which shadow rays are needless"
+                           run.skipped_rays ? "they show which shadow rays are needless"
                            : run.shadow_photons ? "the general map keeps them"
                                                 : "no map keeps them"};
 }
 
-// Why rays are left out, or not.
+// The reasons for leaving out rays.
 inline void plan_skipping(Plan& plan, const Passes& run,
                           const PhotonMappingSettings& settings) {
     const std::string photons = std::to_string(settings.general.photons) + " photons";
@@ -145,7 +141,7 @@ inline void plan_skipping(Plan& plan, const Passes& run,
         settings.skip.rule == SkipRule::none ? "no rule was asked for"
         : run.skipped_rays ? "where " + needed + " of " + photons + " agree"
         : !run.shadow_rays ? "nothing is lit"
-                           : photons + ", and each light takes " + needed};
+                           : photons + ", and each light needs " + needed};
     plan.skipped_bounces = {
         "skipped bounces", run.skipped_bounces,
         run.skipped_bounces             ? "where none of " + photons + " is near"
@@ -169,22 +165,22 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
                             : "not asked for"};
     plan.thin_film = {"thin film", found.films,
                       found.films ? "paths pass through the listed films"
-                                  : "no material is one"};
+                                  : "no material is a thin film"};
     const bool tree = detail::needs_tree(found.objects);
     plan.tree = {"tree", tree,
                  std::to_string(found.objects) +
                      (tree ? " objects, a tree finds the first on a ray"
-                           : " object(s), a loop asks each")};
+                           : " object(s), a loop tests each")};
     return plan;
 }
 #endif
 
 } // namespace detail
 
-/// Says which passes a scene requires, and which hooks its types have.
+/// Reports which passes a scene requires, and which hooks its types have.
 /// \param world     The closed scene.
-/// \param settings  What the user asks for.
-/// \return The plan, as a PhotonMapper obeys it.
+/// \param settings  The user's settings.
+/// \return The plan that a PhotonMapper follows.
 template <AnyWorld W>
 [[nodiscard]] Plan survey(const W& world, const PhotonMappingSettings& settings) {
     Plan plan = detail::make_plan(needs(world), settings);
@@ -194,7 +190,7 @@ template <AnyWorld W>
         name.resize(17, ' ');
         plan.types.push_back(name.append(detail::to_line(hooks)));
     };
-    // Each type is asked, because none says that it is the one that is looked for.
+    // Returning false continues with the next type.
     int shapes = 0, materials = 0, lights = 0;
     (void)W::any_shape([&]<typename G>() {
         add("shape ", ++shapes, detail::shape_hooks<G>());

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/binary_file.hpp
-/// \brief Files of numbers, the same on every machine, behind one header.
+/// \brief Files of numbers with a checked header, the same on every machine.
 
 #include <algorithm>
 #include <array>
@@ -17,36 +17,36 @@
 namespace ljus {
 
 /// \defgroup binary_file Files of numbers
-/// \brief How light maps, checkpoints and slices of pictures are written and read.
+/// \brief The format of light maps, checkpoints and slices of pictures.
 ///
-/// A file is 16 letters that say what it is; the version, 4 bytes; 12 bytes of the
-/// format's own; the checksum of all but the letters and itself, 8 bytes; then numbers,
-/// with all their bits, the lowest byte first. Make it with file_front(), put_number()
-/// and put_checksum(), and write it with save_file(); read it with open_file().
+/// A file has 16 letters that name its format; the version, 4 bytes; 12 bytes that the
+/// format defines; a checksum of everything else behind the letters, 8 bytes; then
+/// numbers, exact to the last bit, lowest byte first. file_front(), put_number() and
+/// put_checksum() make it, and save_file() writes it; open_file() reads it.
 /// \{
 
-/// A kind of file.
+/// A file format.
 struct FileFormat {
-    std::string_view magic;    ///< The 16 letters that it begins with.
-    std::uint32_t version = 1; ///< The one that is written and read.
+    std::string_view magic;    ///< The 16 letters that a file begins with.
+    std::uint32_t version = 1; ///< The version that is written and read.
 };
 
-/// The bytes from the first letter to the checksum.
+/// The size of the header, from the letters to the checksum.
 inline constexpr std::size_t file_front_bytes = 40;
 
 namespace detail {
 
 inline constexpr std::size_t checksum_place = 32;
-inline constexpr std::size_t key_bytes = 8; // behind the front, if there is one
+inline constexpr std::size_t key_bytes = 8; // behind the header, if there is a key
 
-// The most bytes of a file with so many entries; whoever sets no limit has none.
+// The largest size of a file with `most` entries; without limit if that overflows.
 inline std::size_t file_limit(std::size_t most, std::size_t bytes_of_one) noexcept {
     const std::size_t all = static_cast<std::size_t>(-1);
     const std::size_t front = file_front_bytes + key_bytes;
     return most < (all - front) / bytes_of_one ? front + most * bytes_of_one : all;
 }
 
-// The number whose bytes begin at a place, where there are enough.
+// The number whose bytes begin at `place`, which must be in the file.
 template <typename Number>
 [[nodiscard]] Number number_at(const Bytes& bytes, std::size_t place) noexcept {
     std::uint64_t bits = 0;
@@ -58,7 +58,7 @@ template <typename Number>
         return static_cast<Number>(bits);
 }
 
-// Of all bytes but the checksum's own, from the version on.
+// The checksum of the version and all that follows, without the checksum itself.
 inline std::uint64_t checksum(const Bytes& bytes) noexcept {
     std::uint64_t hash = fnv_start;
     for (std::size_t i = 16; i < bytes.size(); ++i)
@@ -69,25 +69,21 @@ inline std::uint64_t checksum(const Bytes& bytes) noexcept {
 
 } // namespace detail
 
-/// Adds a number to a file.
-/// \param bytes  The file so far.
-/// \param value  An integer or a floating-point number.
+/// Appends a number to a file.
 template <typename Number>
 void put_number(Bytes& bytes, Number value) {
     for (const unsigned char byte : detail::bytes_of(value)) bytes.push_back(byte);
 }
 
-/// Adds the three numbers of a vector or a colour to a file.
-/// \param bytes  The file so far.
-/// \param v      The vector.
+/// Appends the three components of a vector or a colour to a file.
 template <typename Vector>
 void put_vector(Bytes& bytes, const Vector& v) {
     for (int axis = 0; axis < 3; ++axis) put_number(bytes, v[axis]);
 }
 
-/// The front of a file, whose checksum put_checksum() writes when all is there.
-/// \param format  What kind of file it is.
-/// \param own     Integers of the format's own, 12 bytes together.
+/// Makes the header of a file; put_checksum() completes it.
+/// \param format  The format.
+/// \param own     Integers that the format defines, 12 bytes in total.
 /// \return 40 bytes.
 template <typename... Own>
 [[nodiscard]] Bytes file_front(const FileFormat& format, Own... own) {
@@ -99,43 +95,36 @@ template <typename... Own>
     return bytes;
 }
 
-/// Writes the checksum of a file into its place.
-/// \param bytes  The whole file.
+/// Writes the checksum of a file into its header.
 inline void put_checksum(Bytes& bytes) {
     const auto sum = detail::bytes_of(detail::checksum(bytes));
     std::copy(sum.begin(), sum.end(), bytes.begin() + detail::checksum_place);
 }
 
-/// A file that is read from the front.
+/// A file that is read from front to back.
 struct FileReader {
     std::string path;         ///< For messages.
     Bytes bytes;              ///< The whole file.
-    std::size_t position = 0; ///< Of the next byte.
+    std::size_t position = 0; ///< Index of the next byte.
 
-    /// Refuses the file.
-    /// \param why  "its size is 0": the end of the sentence "cannot read 'a.map': ...".
-    /// \throws std::runtime_error  always.
+    /// Throws std::runtime_error: "cannot read 'a.map': " and `why`.
     [[noreturn]] void refuse(const std::string& why) const {
         detail::fail_to_read(path, why);
     }
 
-    /// How many bytes are left.
+    /// The number of unread bytes.
     [[nodiscard]] std::size_t left() const noexcept { return bytes.size() - position; }
 
-    /// Refuses the file unless so many entries are all that is left of it.
-    /// \param count         How many.
-    /// \param bytes_of_one  Bytes of an entry.
-    /// \param entries       Their name: "patches".
-    /// \throws std::runtime_error  if there are more or fewer.
+    /// Requires that exactly `count` entries of `bytes_of_one` bytes are left; throws
+    /// as refuse(). `entries` is their name: "patches".
     void require_left(std::uint64_t count, std::size_t bytes_of_one,
                       const char* entries) const {
         if (left() / bytes_of_one == count && left() % bytes_of_one == 0) return;
-        refuse("it says that it holds " + std::to_string(count) + " " + entries +
-               ", which does not go with its " + std::to_string(bytes.size()) +
-               " bytes");
+        refuse("it declares " + std::to_string(count) + " " + entries +
+               ", which does not match its " + std::to_string(bytes.size()) + " bytes");
     }
 
-    /// The next number. It must be there: ask left(). The checksum is passed over.
+    /// The next number; left() must be large enough. The checksum is skipped.
     template <typename Number>
     [[nodiscard]] Number take() {
         if (position == detail::checksum_place) position = file_front_bytes;
@@ -143,7 +132,7 @@ struct FileReader {
         return detail::number_at<Number>(bytes, position - sizeof(Number));
     }
 
-    /// The next three numbers, as take().
+    /// The next three numbers; see take().
     template <typename Vector>
     [[nodiscard]] Vector take_vector() {
         Vector v;
@@ -154,12 +143,9 @@ struct FileReader {
 };
 
 /// Opens a file.
-/// \param path    The file.
-/// \param most    The most bytes that it may have.
-/// \param format  What it must be.
-/// \return The file, behind its version.
-/// \throws std::runtime_error  "cannot read 'a.map': its checksum is wrong, ...": what
-///         is cut short, damaged, of another version or of another kind is refused.
+/// \return The file, positioned behind its version.
+/// \throws std::runtime_error  "cannot read 'a.map': its checksum is wrong ...": if the
+///         file is truncated, damaged, or of another version or format.
 [[nodiscard]] inline FileReader open_file(const std::string& path, std::size_t most,
                                           const FileFormat& format) {
     FileReader file{path, load_file(path, most, format.magic), format.magic.size()};
@@ -167,13 +153,12 @@ struct FileReader {
         file.refuse("it ends in the middle of its header");
     const auto found = file.take<std::uint32_t>();
     if (found != format.version)
-        file.refuse("it is of version " + std::to_string(found) +
-                    ", and this library reads version " +
-                    std::to_string(format.version));
+        file.refuse("its version is " + std::to_string(found) +
+                    "; this library reads version " + std::to_string(format.version));
     const auto checksum =
         detail::number_at<std::uint64_t>(file.bytes, detail::checksum_place);
     if (checksum != detail::checksum(file.bytes))
-        file.refuse("its checksum is wrong, so that it is damaged or cut short");
+        file.refuse("its checksum is wrong: it is damaged or truncated");
     return file;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/file.hpp
-/// \brief Files as a whole: written beside and renamed, or read up to a limit.
+/// \brief Writes files whole or not at all, and reads them up to a limit.
 
 #include <algorithm>
 #include <cerrno>
@@ -27,7 +27,7 @@
 namespace ljus {
 
 /// \defgroup file Files
-/// \brief No half-written file, and no older file lost.
+/// \brief A save that fails leaves no half-written file, and keeps the older one.
 /// \{
 
 namespace detail {
@@ -37,25 +37,22 @@ namespace detail {
         join({"cannot read '", shown_path(path), "': ", why, "."}));
 }
 
-// The folder of a file, with the slash; empty for a file of the folder that we are in.
+// The folder of a file, with the slash; empty for the current folder.
 inline std::string folder_of(const std::string& path) {
     return path.substr(0, path.find_last_of("/\\") + 1); // 0 if there is no slash
 }
 
-// The path of a file that another one names: beside that one, unless it begins at the
-// root.
+// The path of a file that another file names: relative to that file, unless absolute.
 inline std::string path_beside(const std::string& file, const std::string& name) {
     return name.starts_with('/') ? name : folder_of(file) + name;
 }
 
 } // namespace detail
 
-/// Writes a file: beside `path` first, and renamed once every write, the flush and the
-/// close have succeeded. Whatever fails, an older file stays as it was and nothing else
-/// is left; who may read it, may read the new one. (A program that wants to hear of the
-/// file-size limit must ignore SIGXFSZ.)
-/// \param path   The file; its folder must exist.
-/// \param bytes  What the file shall hold.
+/// Writes a file beside `path`, and renames it once every write, the flush and the
+/// close have succeeded. If anything fails, an older file is unchanged and nothing else
+/// is left. The new file has the older one's permissions. (A program that wants to
+/// receive the error of a file-size limit must ignore SIGXFSZ.)
 /// \throws std::runtime_error  "cannot write 'out/a.png': No space left on device.".
 inline void save_file(const std::string& path, const Bytes& bytes) {
     detail::FileBeside file(detail::file_to_replace(path));
@@ -64,9 +61,8 @@ inline void save_file(const std::string& path, const Bytes& bytes) {
     file.rename_to_path();
 }
 
-/// Refuses a file that save_file() could not write, before there is work to save: it
-/// writes one byte beside it, and removes that again.
-/// \param path  The file; its folder must exist.
+/// Tests whether save_file() could write a file, before work is done: writes one byte
+/// beside it, and removes that again.
 /// \throws std::runtime_error  as save_file().
 inline void require_writable(const std::string& path) {
     detail::FileBeside probe(detail::file_to_replace(path));
@@ -75,10 +71,9 @@ inline void require_writable(const std::string& path) {
 }
 
 /// Reads a file.
-/// \param path  The file; a pipe or a device, which may never end, is refused.
-/// \param most  The most bytes it may have: what is longer, or endless, is refused.
-/// \param begin What it must begin with, looked at before it is read to the end.
-/// \return All its bytes.
+/// \param path  The file; not a pipe or a device, which may never end.
+/// \param most  The largest size in bytes.
+/// \param begin The first bytes that it must have; they are tested first.
 /// \throws std::runtime_error  with path and reason.
 [[nodiscard]] inline Bytes load_file(const std::string& path, std::size_t most,
                                      std::string_view begin = {}) {
@@ -89,20 +84,20 @@ inline void require_writable(const std::string& path) {
         }
     };
 #if __has_include(<unistd.h>)
-    struct ::stat status = {}; // asked first: to open a pipe is to wait for its writer
+    struct ::stat status = {}; // tested first: opening a pipe waits for its writer
     if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) &&
         !S_ISDIR(status.st_mode))
-        detail::fail_to_read(path, "it is a pipe or a device and no file");
+        detail::fail_to_read(path, "it is a pipe or a device, not a file");
 #endif
     const Closed closed{std::fopen(path.c_str(), "rb")};
     if (closed.file == nullptr) detail::fail_to_read(path, std::strerror(errno));
 
-    // In pieces, since what a file says about its length cannot be relied on.
+    // In pieces, because the length in a file's header cannot be trusted.
     Bytes bytes;
     for (std::size_t piece = std::size_t(1) << 16;;
          piece = std::max(piece, bytes.size())) {
         const std::size_t old_size = bytes.size();
-        // One byte more than is allowed tells that the file is longer.
+        // One byte more than the limit shows that the file is longer.
         const std::size_t room = most - old_size;
         const std::size_t wanted = room < piece ? room + 1 : piece;
         bytes.resize(old_size + wanted);
@@ -114,14 +109,13 @@ inline void require_writable(const std::string& path) {
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                                     bytes.size());
         if (!text.starts_with(begin))
-            detail::fail_to_read(
-                path,
-                detail::join({"it does not begin with '", shown(std::string(begin)),
-                              "', so that it is another kind of file"}));
+            detail::fail_to_read(path, detail::join({"it does not begin with '",
+                                                     shown(std::string(begin)),
+                                                     "': it is another kind of file"}));
         if (bytes.size() > most)
             detail::fail_to_read(
                 path, detail::join({"it is longer than the ", std::to_string(most),
-                                    " bytes that are allowed"}));
+                                    " bytes allowed"}));
         if (got < wanted) return bytes;
     }
 }

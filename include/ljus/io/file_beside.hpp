@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/file_beside.hpp
-/// \brief The new file beside an older one, which takes its place when it is whole.
+/// \brief The new file beside an older one, which it replaces when it is complete.
 
 #include <cerrno>
 #include <cstddef>
@@ -31,14 +31,12 @@ namespace ljus {
 /// \addtogroup file
 /// \{
 
-/// The bytes of a file.
+/// The content of a file.
 using Bytes = std::vector<unsigned char>;
 
-/// A text of a file or a user as a message shows it: on one line, and not too long;
-/// `?` for each control character and each byte that is no UTF-8.
-/// \param text   Any bytes.
-/// \param limit  The most bytes that are shown; "..." follows if there are more.
-/// \return UTF-8.
+/// A text from a file or a user, made fit for a message: one line of limited length,
+/// with `?` for each control character and each byte that is not UTF-8.
+/// At most `limit` bytes are shown, then "...".
 [[nodiscard]] inline std::string shown(std::string text, std::size_t limit = 48) {
     const auto byte = [&](std::size_t i) {
         return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
@@ -49,21 +47,19 @@ using Bytes = std::vector<unsigned char>;
         bool good = first < 0x80 ? first >= 0x20 && first != 0x7f
                                  : first >= 0xc2 && first < 0xf5;
         for (std::size_t k = 1; k < size; ++k) good = good && byte(i + k) >> 6 == 2;
-        if (first == 0xc2 && byte(i + 1) < 0xa0) good = false; // more of control
+        if (first == 0xc2 && byte(i + 1) < 0xa0) good = false; // C1 control characters
         if (good) continue;
         text[i] = '?';
         size = 1;
     }
     if (text.size() <= limit) return text;
-    // Not in the middle of a UTF-8 character.
+    // Does not cut a UTF-8 character.
     while (limit > 0 && (static_cast<unsigned char>(text[limit]) & 0xc0u) == 0x80u)
         --limit;
     return detail::join({std::string_view(text).substr(0, limit), "..."});
 }
 
-/// A path as a message shows it: another file may have named it.
-/// \param path  Any bytes.
-/// \return Its first 1000 bytes at most, as shown() has them.
+/// A path for a message; it may come from a file. At most 1000 bytes are shown.
 [[nodiscard]] inline std::string shown_path(const std::string& path) {
     return shown(path, 1000);
 }
@@ -75,9 +71,9 @@ namespace detail {
         join({"cannot write '", shown_path(path), "': ", std::strerror(error), "."}));
 }
 
-// The file that a save replaces: behind a symbolic link its target, so that the link
-// stays. What is there and no plain file (a folder, /dev/null), or may not be written
-// by anyone, is not replaced.
+// The file that a save replaces. For a symbolic link that is its target, so that the
+// link stays. Folders and devices (/dev/null), and files without write permission, are
+// not replaced.
 inline std::string file_to_replace(const std::string& path) {
 #if __has_include(<unistd.h>)
     struct ::stat status = {};
@@ -95,14 +91,14 @@ inline std::string file_to_replace(const std::string& path) {
     return path;
 }
 
-// A new file beside `path`, which goes again unless it is renamed to `path`. Where the
-// system has files without a name (`nameless`: look for them) it gets one when it is
-// whole: killed before, a program leaves nothing.
+// A new file beside `path`, removed unless it is renamed to `path`. If the system has
+// files without names (`nameless`), it is named only when it is complete: a program
+// that is killed before leaves nothing.
 class FileBeside {
 public:
     explicit FileBeside(const std::string& path, bool nameless = true) : path_(path) {
         if (nameless) open_nameless();
-        // "x": never a file that is there already, e.g. of another process.
+        // "x" never opens an existing file, which may belong to another process.
         for (long long number = 0; file_ == nullptr && number < most_names; ++number) {
             name_ = name_of(number);
             file_ = std::fopen(name_.c_str(), "wbx");
@@ -110,7 +106,7 @@ public:
         }
         if (file_ == nullptr) fail_to_write(path_, errno);
 #if __has_include(<unistd.h>)
-        struct ::stat older = {}; // what may be read by some is not read by others now
+        struct ::stat older = {}; // the new file must not be readable by more users
         if (::stat(path.c_str(), &older) == 0)
             (void)::fchmod(::fileno(file_), older.st_mode & 07777);
 #endif
@@ -131,13 +127,13 @@ public:
     void close() {
         if (std::fflush(file_) != 0) fail_to_write(path_, errno);
 #if __has_include(<unistd.h>)
-        // On the disk before it has the name: else a loss of power could leave the name
-        // and not the bytes. Not every file system knows how.
+        // Flushed to the disk before the renaming: otherwise a loss of power could
+        // leave the name without the bytes. Some file systems do not support it.
         if (::fsync(::fileno(file_)) != 0 && errno != EINVAL && errno != ENOTSUP)
             fail_to_write(path_, errno);
 #endif
         if (name_.empty()) give_name();
-        // The file counts as closed even if fclose reports that the last write failed.
+        // fclose closes the file even if it reports that the last write failed.
         std::FILE* const file = file_;
         file_ = nullptr;
         if (std::fclose(file) != 0) fail_to_write(path_, errno);
@@ -145,8 +141,8 @@ public:
 
     void rename_to_path() {
 #ifdef _WIN32
-        // Here std::rename does not replace: the older file steps aside, and comes back
-        // if the new one cannot take its place.
+        // Here std::rename does not replace: the older file is renamed first, and
+        // renamed back if the new one cannot be.
         const std::string aside = name_ + ".old";
         const bool older = std::rename(path_.c_str(), aside.c_str()) == 0;
         renamed_ = std::rename(name_.c_str(), path_.c_str()) == 0;
@@ -166,7 +162,7 @@ private:
         return join({path_, ".part", to_text(number)});
     }
 
-    // If it fails, what is done with a name will fail as well, and say why.
+    // If this fails, the named file will fail as well, and report the reason.
     void open_nameless() {
 #if defined(O_TMPFILE) && defined(AT_SYMLINK_FOLLOW)
         struct ::stat status = {};
@@ -197,7 +193,7 @@ private:
     }
 
     std::string path_;
-    std::string name_; // empty as long as it has none
+    std::string name_; // empty while the file has none
     std::FILE* file_ = nullptr;
     bool renamed_ = false;
 };

@@ -19,23 +19,23 @@
 namespace ljus {
 
 /// \defgroup hdr HDR
-/// \brief Three mantissas share an exponent: 76 decades, at 0.4 % of the largest
-/// channel.
+/// \brief Three mantissas share an exponent: 76 decades, with an error of 0.4 % of the
+/// largest channel.
 /// \{
 
 namespace detail {
 
-/// The four bytes of a colour: round(256 c / 2^e) and e + 128, where 2^e is the least
-/// power of two above the largest channel \cite ward1991.
+/// Encodes a colour in four bytes: round(256 c / 2^e) and e + 128, where 2^e is the
+/// smallest power of two above the largest channel \cite ward1991.
 /// \param c  Every channel at least 0 and below 1.69e38.
-/// \return R, G, B, E; zeros below 2.9e-39. Decoded, a channel is off by at most 1/256
-///         of the largest one, without a preferred direction.
+/// \return R, G, B, E; zeros below 2.9e-39. The error of a channel is at most 1/256 of
+///         the largest one, and has no bias.
 [[nodiscard]] inline std::array<unsigned char, 4>
 to_rgbe(const RgbT<double>& c) noexcept {
     const double largest = max_component(c);
     int exponent = 0;
     std::frexp(largest, &exponent);
-    // Rounded up to 256, the largest mantissa would not fit its byte.
+    // A mantissa that rounds to 256 would not fit a byte.
     if (std::ldexp(largest, 8 - exponent) >= 255.5) ++exponent;
     if (!(largest > 0.0) || exponent < -127) return {0, 0, 0, 0};
     const auto mantissa = [exponent](double channel) {
@@ -45,9 +45,8 @@ to_rgbe(const RgbT<double>& c) noexcept {
             static_cast<unsigned char>(exponent + 128)};
 }
 
-/// The colour of four bytes, without the half step that Ward's own programs add to
-/// their mantissas, which they round down.
-/// \param rgbe  R, G, B, E.
+/// Decodes four bytes. Ward's own programs round mantissas down and add half a step
+/// here; this library rounds to the nearest.
 /// \return (R, G, B) 2^(E - 136), or black if E is 0.
 [[nodiscard]] inline RgbT<double>
 from_rgbe(const std::array<unsigned char, 4>& rgbe) noexcept {
@@ -58,11 +57,9 @@ from_rgbe(const std::array<unsigned char, 4>& rgbe) noexcept {
 
 } // namespace detail
 
-/// Saves an image as a Radiance file, without run-length coding.
-/// \param image  Linear colours, every channel finite, at least 0 and below 1.69e38.
-/// \param path   The file; an older one is replaced at the very end (save_file()).
-/// \throws std::invalid_argument  as check(), or for a channel that four bytes cannot
-///         hold (PFM can); std::runtime_error as save_file().
+/// Saves an image as a Radiance file, without run-length coding; see save_file().
+/// \throws std::invalid_argument  as check(), or for a channel out of range (PFM stores
+///         it); std::runtime_error as save_file().
 template <std::floating_point T>
 void save_hdr(const ImageT<T>& image, const std::string& path) {
     check(image);
@@ -80,8 +77,8 @@ void save_hdr(const ImageT<T>& image, const std::string& path) {
                         "Pixel (" + std::to_string(x) + ", " + std::to_string(y) +
                         ") has a channel of " + std::to_string(channel) + "; for '" +
                         path +
-                        "' it must be at least 0 and below 1.69e38 (a .pfm file holds "
-                        "anything).");
+                        "' it must be at least 0 and below 1.69e38 (a .pfm file stores "
+                        "any float).");
             for (const unsigned char byte : detail::to_rgbe(c)) bytes.push_back(byte);
         }
     save_file(path, bytes);
@@ -89,7 +86,7 @@ void save_hdr(const ImageT<T>& image, const std::string& path) {
 
 namespace detail {
 
-// A coded row: each of the four parts on its own, in runs of one byte or of different
+// A coded row: each of the four channels in turn, as runs of one byte or of different
 // bytes.
 inline void read_rgbe_runs(ByteReader& reader,
                            std::vector<std::array<unsigned char, 4>>& row) {
@@ -111,35 +108,33 @@ inline void read_rgbe_runs(ByteReader& reader,
 inline void read_rgbe_row(ByteReader& reader,
                           std::vector<std::array<unsigned char, 4>>& row,
                           std::size_t width) {
-    // A coded row begins with 2, 2 and its width, which is no colour that anyone
-    // writes.
+    // A coded row begins with 2, 2 and its width, which no encoder writes as a colour.
     const unsigned char* const first = reader.bytes.data() + reader.position;
     if (width >= 8 && width <= 0x7fff && reader.left() >= 4 && first[0] == 2 &&
         first[1] == 2 && first[2] < 128) {
         if (std::size_t{first[2]} * 256 + first[3] != width)
-            reader.fail("a row says that its width is another than the header's");
+            reader.fail("a row declares another width than the header");
         reader.position += 4;
         row.resize(width);
         return read_rgbe_runs(reader, row);
     }
-    if (reader.left() / 4 < width) reader.fail("it ends before its last row does");
+    if (reader.left() / 4 < width) reader.fail("its last row is incomplete");
     row.resize(width);
     for (auto& rgbe : row) {
         for (unsigned char& byte : rgbe) byte = reader.next();
         if (rgbe[0] == 1 && rgbe[1] == 1 && rgbe[2] == 1)
-            reader.fail(
-                "it has the run-length coding of before 1991, which is not read");
+            reader.fail("it has the run-length coding from before 1991, which is not "
+                        "supported");
     }
 }
 
 } // namespace detail
 
 /// Loads a Radiance file: RGBE, rows from the top, plain or run-length coded.
-/// \param path  The file.
 /// \return Its image, divided by the EXPOSURE lines of the header, which gives
 ///     radiance.
-/// \throws std::runtime_error  with path and reason, if it cannot be read, is of
-///     another kind (XYZE, other orders of the pixels, the run-length coding of before
+/// \throws std::runtime_error  with path and reason, if it cannot be read, is of an
+///     unsupported kind (XYZE, another pixel order, the run-length coding from before
 ///     1991), or is shorter or longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_hdr(const std::string& path) {
@@ -148,14 +143,14 @@ template <std::floating_point T = float>
     for (std::string line = reader.line(); !line.empty(); line = reader.line()) {
         if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
             reader.fail("its header says " + shown(line) +
-                        "; only 32-bit_rle_rgbe is read");
+                        "; only 32-bit_rle_rgbe is supported");
         if (!line.starts_with("EXPOSURE=")) continue;
         std::string text = line.substr(9);
         text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
         const double number = detail::to_number(text);
         if (!(number > 0.0) || !std::isfinite(number))
             reader.fail("its header says " + shown(line) +
-                        ", which is no number above 0");
+                        ", which is not a number above 0");
         exposure *= number;
     }
     const std::string y_word = reader.word();
@@ -165,10 +160,10 @@ template <std::floating_point T = float>
     const int width = reader.size(reader.last_word());
     if (y_word != "-Y" || x_word != "+X")
         reader.fail("its rows go " + shown(y_word) + " " + shown(x_word) +
-                    "; only -Y +X is read");
+                    "; only -Y +X is supported");
     reader.require_pixels(width, height);
 
-    // The image grows by rows, so that a short file with a large size takes no memory.
+    // The image grows by rows: a short file that declares a large size takes no memory.
     ImageT<T> image{.width = width, .height = height, .pixels = {}};
     std::vector<std::array<unsigned char, 4>> row;
     for (int y = 0; y < height; ++y) {
@@ -176,7 +171,7 @@ template <std::floating_point T = float>
         for (const auto& rgbe : row) {
             const RgbT<T> color(detail::from_rgbe(rgbe) / exposure);
             if (!is_finite(color))
-                reader.fail("divided by its exposure, a pixel is beyond all numbers");
+                reader.fail("a pixel divided by its exposure is not finite");
             image.pixels.push_back(color);
         }
     }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/light_map_file.hpp
-/// \brief A light map in a file, and back.
+/// \brief Light maps in files.
 
 #include <algorithm>
 #include <optional>
@@ -16,9 +16,9 @@ namespace ljus {
 /// \brief Section 2.2: "radiosity can easily be precomputed since it is view
 /// independent".
 ///
-/// One flat file, the same on every machine: 16 letters that say what it is; version,
-/// number of grids, the scene's part of the key and checksum; the settings' part of the
-/// key; the grids; then the irradiance of each patch, three doubles.
+/// One flat file, the same on every machine: 16 letters that name the format; version,
+/// number of grids, the scene's hash and a checksum; the settings' hash; the grids;
+/// then the irradiance of each patch, three doubles.
 /// \{
 
 namespace detail {
@@ -35,7 +35,7 @@ inline void put_grid(Bytes& bytes, const PatchGrid& grid) {
         put_number(bytes, number);
 }
 
-// The next grid of a file, without its first patch; nothing if its numbers are wrong.
+// The next grid of a file, without `first`; nothing if its numbers are wrong.
 [[nodiscard]] inline std::optional<PatchGrid> take_grid(FileReader& file) {
     PatchGrid grid;
     grid.object.type = file.take<std::uint32_t>();
@@ -54,25 +54,23 @@ inline void put_grid(Bytes& bytes, const PatchGrid& grid) {
     return grid;
 }
 
-// Takes the key of a file, and refuses another.
+// Reads the key of a file, and throws if it differs from `key`.
 inline void require_key(FileReader& file, const LightMapKey& key) {
     if (file.bytes.size() < file_front_bytes + key_bytes)
         file.refuse("it ends in the middle of its key");
     if (file.take<std::uint64_t>() != key.scene)
         file.refuse("it was made for another scene, with other shapes, materials or "
-                    "lights; make it anew");
+                    "lights; make it again for this scene");
     if (file.take<std::uint64_t>() != key.settings)
-        file.refuse("it was made with other settings; make it anew, or ask for those "
-                    "that it was made with");
+        file.refuse("it was made with other settings; make it again, or use the "
+                    "settings that it was made with");
 }
 
 } // namespace detail
 
-/// Saves a light map.
-/// \param path  The file; an older one is replaced at the very end (save_file()).
-/// \param map   The map.
+/// Saves a light map; see save_file().
 /// \throws std::runtime_error  as save_file().
-/// \cost 24 bytes a patch.
+/// \cost 24 bytes per patch.
 inline void save_light_map(const std::string& path, const LightMap& map) {
     Bytes bytes =
         file_front(detail::light_map_format,
@@ -86,12 +84,11 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
 
 /// Loads a light map.
 /// \param path  The file.
-/// \param key   What it must have been made from: light_map_key().
-/// \param most  The most patches it may hold.
-/// \return The map, the same bit by bit as the one that was saved.
+/// \param key   The key that it must have, from light_map_key().
+/// \param most  The largest number of patches.
+/// \return The map, equal to the saved one in every bit.
 /// \throws std::runtime_error  "cannot read 'a.light': it was made for another scene,
-///         ...": what is of another scene or of other settings, cut short, damaged, of
-///         another version or no light map is refused.
+///         ...": if the scene or the settings differ, or as open_file().
 [[nodiscard]] inline LightMap load_light_map(const std::string& path,
                                              const LightMapKey& key,
                                              std::size_t most = 10'000'000) {
@@ -102,13 +99,13 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
     detail::require_key(file, key);
     LightMap map{.key = key};
     if (grids > file.left() / detail::grid_bytes)
-        file.refuse("it says that it holds " + std::to_string(grids) +
-                    " grids, and is too short for them");
+        file.refuse("it declares " + std::to_string(grids) +
+                    " grids, but is too short for them");
 
     std::size_t patches = 0;
     for (std::uint32_t i = 0; i < grids; ++i) {
         auto grid = detail::take_grid(file);
-        if (!grid) file.refuse("its grid " + std::to_string(i) + " is none");
+        if (!grid) file.refuse("its grid " + std::to_string(i) + " is not valid");
         grid->first = static_cast<std::uint32_t>(patches);
         patches += grid->size();
         if (patches > most) file.refuse("it holds more patches than are allowed");
@@ -119,7 +116,7 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
         const auto light = file.take_vector<RgbT<double>>();
         const double least = std::min(light.x, std::min(light.y, light.z));
         if (!is_finite(light) || !(least >= 0))
-            file.refuse("it has light that is not finite, or below 0");
+            file.refuse("it has irradiance that is not finite or is below 0");
         map.irradiance.push_back(light);
     }
     return map;

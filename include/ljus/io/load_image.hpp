@@ -1,12 +1,12 @@
 #pragma once
 
 /// \file ljus/io/load_image.hpp
-/// \brief Pictures from PNG, JPEG and BMP files of 8 bits, made linear.
+/// \brief Loads 8-bit PNG, JPEG and BMP pictures, and makes them linear.
 ///
-/// The decoding is done by stb_image, whose implementation this header makes for
-/// itself, invisible to other files, as png.hpp does for the writer. A program with its
-/// own implementation in the *same* file includes that one first. Without stb_image no
-/// picture can be read, which is said when one is asked for.
+/// stb_image decodes them. This header compiles its implementation for itself, hidden
+/// from other files; a program with its own implementation in the *same* file must
+/// include that first. Without stb_image no picture can be read, and loading one throws
+/// an error that says so.
 
 #if defined(STBI_INCLUDE_STB_IMAGE_H)
 #define LJUS_HAS_STB_IMAGE 1 // the program's own
@@ -26,9 +26,9 @@
 #pragma warning(push, 0)
 #pragma warning(disable : 4505 4996)
 #endif
-// A damaged JPEG file can overflow the sums of int that its colours are made from, and
-// where its bits run out, a byte that is 0 is shifted by 32 bits or more. Releases of
-// stb_image before 2.28 look for neither: here the sums wrap, and any shift of 0 is 0.
+// A damaged JPEG file can overflow signed sums in stb_image before 2.28, and make it
+// shift a byte that is 0 by 32 bits or more. With this option sums wrap, and any shift
+// of 0 is 0.
 #if defined(__clang__)
 #pragma clang attribute push(                                                          \
     [[clang::no_sanitize("signed-integer-overflow", "shift")]], apply_to = function)
@@ -55,7 +55,7 @@
 #undef STBI_ONLY_BMP
 #undef STBI_NO_LINEAR
 #undef STBI_NO_STDIO
-#undef STBI_NO_GIF // the others it has made itself
+#undef STBI_NO_GIF // stb_image has defined the others itself
 #undef STBI_NO_HDR
 #undef STBI_NO_PIC
 #undef STBI_NO_PNM
@@ -90,20 +90,20 @@
 namespace ljus {
 
 /// \defgroup load_image Loading pictures
-/// \brief Optional (stb_image): PNG, JPEG, BMP, and no others, since a reader of a rare
-/// format is where a damaged file does harm.
+/// \brief Optional (stb_image): PNG, JPEG and BMP only, because damaged files are most
+/// dangerous to the readers of rare formats.
 /// \{
 
 namespace detail {
 
-/// The largest file that load_image() takes, in bytes.
+/// The largest file that load_image() accepts, in bytes.
 inline constexpr std::size_t max_image_file = std::size_t(1) << 27;
 
-/// The most pixels that it takes: 8192 x 4096; of a PNG file of 16 bits half of them.
+/// The largest number of pixels: 8192 x 4096; half of them for a 16-bit PNG file.
 inline constexpr int max_image_pixels = 1 << 25;
 
 #ifdef LJUS_HAS_STB_IMAGE
-// A picture as a file has it: three bytes per pixel.
+// A decoded picture: three bytes per pixel.
 struct DecodedBytes {
     int width = 0, height = 0;
     double gamma = 0;    // light to this power is what the bytes are; 0: sRGB
@@ -111,7 +111,7 @@ struct DecodedBytes {
     std::unique_ptr<stbi_uc, void (*)(void*)> pixels{nullptr, stbi_image_free};
 };
 
-// The bytes of a picture; why there is none is said by calling refuse(why).
+// Decodes the bytes of a picture; errors go to refuse(why).
 template <typename Refuse>
 DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
@@ -119,8 +119,7 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
     const bool png = text.starts_with("\x89PNG\r\n\x1a\n");
     const bool jpeg = text.starts_with("\xff\xd8\xff");
     if (!png && !jpeg && !text.starts_with("BM"))
-        refuse("is no picture that can be read: it begins as neither PNG, JPEG nor "
-               "BMP does");
+        refuse("is not a picture that can be read: it is neither PNG, JPEG nor BMP");
     if (const char* const why = png    ? png_trouble(bytes)
                                 : jpeg ? jpeg_trouble(bytes)
                                        : nullptr)
@@ -128,7 +127,7 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
     if (png && png_number(bytes, 12) == 0x43674249u) // CgBI
         refuse("is a PNG file of Apple's own kind (CgBI), which has red and blue "
                "exchanged; save it as plain PNG");
-    // A channel of 16 bits takes twice the room before it is made one of 8.
+    // A 16-bit channel takes twice the memory before it is reduced to 8 bits.
     const bool is_deep = png && byte_at(bytes, 24) == 16;
     const int most_pixels = is_deep ? max_image_pixels / 2 : max_image_pixels;
     const auto require_size = [&](long long wide, long long high) {
@@ -137,7 +136,7 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
                          is_deep ? " of 16 bits per channel" : "",
                          "; there must be 1 to ", to_text(most_pixels)}));
     };
-    // Of a PNG file that is too large for it stb_image says that it is none.
+    // stb_image would report a PNG file that is too large as damaged.
     if (png && png_number(bytes, 12) == 0x49484452u)
         require_size(png_number(bytes, 16), png_number(bytes, 20));
     DecodedBytes picture;
@@ -147,10 +146,10 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
     const auto size = static_cast<int>(bytes.size());
     int &width = picture.width, &height = picture.height, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-        refuse("is no picture that can be read: its header is damaged or rare");
+        refuse("is not a picture that can be read: its header is damaged or unknown");
     require_size(width, height);
-    // Pixels in a byte at best: PNG packs a thousand bytes of eight into one, JPEG
-    // takes a bit for 64, BMP packs nothing. stb_image takes what lacks for zeros.
+    // The largest number of pixels per byte: PNG packs a thousand bytes of eight pixels
+    // into one, JPEG 64 pixels into a bit. stb_image fills missing data with zeros.
     const std::size_t most = png ? 8256 : jpeg ? 1024 : 8;
     if (std::size_t(width) * std::size_t(height) / most > bytes.size())
         refuse("is damaged: it ends in the middle of its pixels");
@@ -164,13 +163,11 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
 
 } // namespace detail
 
-/// A picture from the bytes of a file.
-/// \param bytes  The file.
-/// \param path   What messages call it.
-/// \return Linear colours in [0, 1]; a transparent file's own, without its alpha. A
-///         PNG file is decoded by its gamma, if it has a gAMA chunk and neither sRGB nor
-///         a profile (which is not read); a photograph stands upright as EXIF says.
-/// \throws std::runtime_error  with path and reason, if it is no picture.
+/// Decodes a picture; `path` is its name for messages.
+/// \return Linear colours in [0, 1]; alpha is ignored. A PNG file with a gAMA chunk and
+///         neither an sRGB chunk nor a profile is decoded by its gamma; a photograph is
+///         turned upright by its EXIF orientation.
+/// \throws std::runtime_error  with path and reason, if it is not a picture.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path) {
     const auto refuse = [&](std::string_view why) {
@@ -205,15 +202,12 @@ template <std::floating_point T = float>
     return image;
 #else
     (void)bytes;
-    refuse("cannot be read: this program was made without stb_image.h");
+    refuse("cannot be read: this program was compiled without stb_image.h");
     return {};
 #endif
 }
 
-/// Loads a picture, for a texture.
-/// \param path  The file.
-/// \return Linear colours in [0, 1].
-/// \throws std::runtime_error  with path and reason.
+/// Loads a picture, for a texture; as decode_image().
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_image(const std::string& path) {
     return decode_image<T>(load_file(path, detail::max_image_file), path);

@@ -31,23 +31,23 @@ namespace ljus {
 /// \ref json_lights. Lengths are within 1e9, radiance within 1e12.
 /// \{
 
-/// What a scene file says.
+/// The content of a scene file.
 template <std::floating_point T>
 struct LoadedSceneT {
     detail::FileSceneT<T> scene; ///< Shapes, materials and lights.
-    CameraT<T> camera;           ///< Where it is seen from.
-    std::string name;            ///< Of the scene, on one line; empty if it has none.
-    int width = 0;               ///< Of its picture, in pixels.
-    int height = 0;              ///< Of its picture, in pixels.
+    CameraT<T> camera;           ///< The camera.
+    std::string name;            ///< Name of the scene on one line, or empty.
+    int width = 0;               ///< Width of the picture, in pixels.
+    int height = 0;              ///< Height of the picture, in pixels.
 };
 using LoadedScene = LoadedSceneT<float>; ///< LoadedSceneT in float.
 
 namespace detail {
 
-/// The largest file that load_json() takes, in bytes.
+/// The largest file that load_json() accepts, in bytes.
 inline constexpr std::size_t max_scene_file = std::size_t(1) << 26;
 
-/// The most soap films in a file: the colours of each take a tenth of a second.
+/// The largest number of soap films; the colours of each take a tenth of a second.
 inline constexpr std::size_t max_soap_films = 16;
 
 template <std::floating_point T>
@@ -82,10 +82,10 @@ void read_image_size(const JsonField& image, LoadedSceneT<T>& loaded) {
                           " pixels");
     if (const auto filter = find(image, "pixel_filter");
         filter && text(*filter).substr(0, 3) != "box")
-        refuse_value(*filter, "\"box\", the only filter that there is");
+        refuse_value(*filter, "\"box\", the only filter that scene files support");
 }
 
-// The materials of a scene, by their names.
+// The materials of a scene, by name.
 template <typename Scene>
 std::map<std::string, MaterialId> read_materials(const JsonField& list, Scene& scene) {
     if (!list.value.is_object()) refuse_value(list, "an object");
@@ -94,7 +94,7 @@ std::map<std::string, MaterialId> read_materials(const JsonField& list, Scene& s
         if (const auto type = value.find("type"); type != value.end())
             films += *type == "soap-film" ? 1u : 0u;
     if (films > max_soap_films)
-        refuse(list, "has more than 16 soap films, whose colours take long to make");
+        refuse(list, "has more than 16 soap films, whose colours are slow to compute");
 
     std::map<std::string, MaterialId> materials;
     for (const auto& [name, value] : list.value.items())
@@ -103,11 +103,11 @@ std::map<std::string, MaterialId> read_materials(const JsonField& list, Scene& s
     return materials;
 }
 
-// Refuses a scene of too few or too many lights; `objects` are among them.
+// Requires a valid number of lights; emissive `objects` count.
 inline void require_lights(const JsonField& objects, std::size_t lights) {
     if (lights == 0)
-        refuse(objects, "has no light; at least one needs an emission above 0, or "
-                        "there must be lights");
+        refuse(objects, "has no light; give an object an emission above 0, or add a "
+                        "list of lights");
     if (lights > 65535)
         refuse(objects, std::string("has ")
                             .append(std::to_string(lights))
@@ -139,10 +139,10 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
 
 /// Reads a scene from the text of a scene file.
 /// \param source  The text.
-/// \param file    What messages call it: the name of the file.
+/// \param file    The name of the file for messages.
 /// \param load_meshes  Called as load_meshes(path, scale, normals) for each mesh;
 ///         returns a vector of meshes.
-/// \return The scene. Two triangles that are one parallelogram have become one quad.
+/// \return The scene. Two triangles that form a parallelogram become one quad.
 /// \throws std::runtime_error  with one sentence that names the file, the path of the
 ///         field, its value and what would be right: "scene.json: objects[3].radius is
 ///         -1; it must be above 0."
@@ -157,9 +157,8 @@ template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT
 /// Loads a scene file.
 /// \param path  The file.
 /// \param load_meshes  As for read_json_scene(): ObjMeshes, or nothing.
-/// \return The scene.
-/// \throws std::runtime_error  as read_json_scene(); or, if the file cannot be read,
-///         with its name and the reason.
+/// \throws std::runtime_error  as read_json_scene(), or with path and reason if the
+///         file cannot be read.
 template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT<T>>
 [[nodiscard]] LoadedSceneT<T> load_json(const std::string& path,
                                         LoadMeshes load_meshes = {}) {

@@ -27,20 +27,20 @@ namespace ljus {
 template <std::floating_point T>
 struct ObjPartT {
     MeshT<T> mesh;        ///< Its triangles.
-    ObjMaterial material; ///< What the file says that it is made of.
+    ObjMaterial material; ///< Its material in the file.
 };
 
-/// What a mesh file holds.
+/// The content of a mesh file.
 template <std::floating_point T>
 struct LoadedObjT {
     std::vector<ObjPartT<T>> parts{}; ///< One per material, in order of first use.
-    ObjReport report{};               ///< What is wrong with it.
-    /// Those that could be read of the parts' materials, by their paths.
+    ObjReport report{};               ///< The problems of the file.
+    /// The pictures of the materials that could be read, by path.
     std::map<std::string, ImageT<T>> pictures{};
 };
 using LoadedObj = LoadedObjT<float>; ///< LoadedObjT in float.
 
-/// A wall with the picture of a material file: what add_obj() makes of map_Kd.
+/// A matt surface with the picture of map_Kd; see add_obj().
 template <std::floating_point T>
 using ObjPictureT = Textured<LambertianT<T>, PictureTextureT<T, UvMapT<T>>>;
 using ObjPicture = ObjPictureT<float>; ///< ObjPictureT in float.
@@ -53,12 +53,12 @@ namespace detail {
     const std::string why =
         troubles.empty()
             ? "; a mesh file has lines such as 'v 0 0 1' and 'f 1 2 3'."
-            : "; the first trouble: " + troubles.substr(0, troubles.find('\n'));
-    throw std::runtime_error(shown_path(file) + ": there is no face that can be used" +
+            : "; the first problem: " + troubles.substr(0, troubles.find('\n'));
+    throw std::runtime_error(shown_path(file) + ": no face of the file can be used" +
                              why);
 }
 
-// Loads the picture of a material, if it has one that is not there yet.
+// Loads the picture of a material, unless it has none or it is loaded already.
 template <std::floating_point T>
 void load_picture(const ObjMaterial& material, LoadedObjT<T>& loaded) {
     const std::string& path = material.picture;
@@ -82,8 +82,8 @@ void load_picture(const ObjMaterial& material, LoadedObjT<T>& loaded) {
 /// \return The meshes, and what is wrong with the file: what cannot be used is left
 ///         out, and counted.
 /// \throws std::runtime_error  with one sentence, if no face can be used, or if a mesh
-///         cannot be made: "box.obj: there is no face that can be used; the first
-///         trouble: line 7: 12 faces name a vertex or a normal that is not there; ..."
+///         cannot be made: "box.obj: no face of the file can be used; the first
+///         problem: line 7: 12 faces refer to a vertex that does not exist; ..."
 /// \throws std::invalid_argument  for a scale that is not finite and above 0.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedObjT<T> read_obj(std::string_view text, const std::string& file,

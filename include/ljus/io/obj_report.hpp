@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/obj_report.hpp
-/// \brief What is wrong with a mesh file, though not wrong enough to refuse it.
+/// \brief Problems of a mesh file that do not prevent its use.
 
 #include <algorithm>
 #include <array>
@@ -17,91 +17,92 @@
 
 namespace ljus {
 
-/// \defgroup obj_report What a mesh file lacks
-/// \brief Counts, each with the first line where it was seen.
+/// \defgroup obj_report Problems of mesh files
+/// \brief Counts of problems, each with the first line where it occurs.
 /// \{
 
-/// What may be wrong with a mesh file.
+/// A problem of a mesh file.
 enum class ObjTrouble : std::uint8_t {
-    bad_number, ///< A coordinate that is none, or not finite; its faces are left out.
-    bad_normal, ///< A normal that is none; its faces are flat.
-    bad_uv,     ///< A texture coordinate that is none; its faces have (0, 0).
-    no_uv,      ///< A face without texture coordinates in a mesh that has some.
-    bad_index,  ///< A face with a vertex that is not there, left out.
-    no_such_uv, ///< A face with a uv that is not there: it has (0, 0).
-    no_such_normal, ///< A face with a normal that is not there: it is flat.
+    bad_number,     ///< A coordinate that is not finite; its faces are left out.
+    bad_normal,     ///< A normal that is 0 or not finite; its faces are flat.
+    bad_uv,         ///< A texture coordinate that is not finite; its faces get (0, 0).
+    no_uv,          ///< A face without texture coordinates in a mesh that has some.
+    bad_index,      ///< A face with a vertex that does not exist, left out.
+    no_such_uv,     ///< A face with a uv that does not exist: it gets (0, 0).
+    no_such_normal, ///< A face with a normal that does not exist: it is flat.
     few_corners,    ///< A face with fewer than three corners, left out.
     many_corners,   ///< A face with more than 1000 corners, left out.
     no_area,        ///< A face without an area, left out.
     crossed,        ///< A face that crosses itself: its triangles overlap.
-    turned,       ///< A face whose normals point to its inner side; they are not used.
-    edge_of_many, ///< An edge of three faces or more: no side is inside.
-    edge_turned,  ///< An edge whose two faces are wound in different ways.
-    edge_open,    ///< An edge of one face: the mesh is not closed, no good for glass.
-    inside_out,   ///< All meshes are closed, and their volume is below 0.
-    vertex_color, ///< A vertex with a colour of its own, which is not used.
-    no_face,      ///< A line, point, curve or surface, left out.
-    no_material,  ///< A material that is not there.
-    no_library,   ///< A material file that cannot be read.
+    turned,         ///< A face whose normals point to its back; they are not used.
+    edge_of_many,   ///< An edge of three faces or more: it has no inside.
+    edge_turned,    ///< An edge whose two faces are wound in opposite directions.
+    edge_open,      ///< An edge of one face: the mesh is not closed, no good for glass.
+    inside_out,     ///< All meshes are closed, and their volume is below 0.
+    vertex_color,   ///< A vertex with a colour of its own, which is not used.
+    no_face,        ///< A line, point, curve or surface, left out.
+    no_material,    ///< A material that does not exist.
+    no_library,     ///< A material file that cannot be read.
 };
 
 namespace detail {
 
-/// How many there are.
+/// The number of values of ObjTrouble.
 inline constexpr std::size_t obj_troubles = 20;
 
 } // namespace detail
 
-/// How often a trouble was seen, and where first.
+/// The number of occurrences of a problem.
 struct ObjCount {
-    long long count = 0; ///< How often.
-    long long line = 0;  ///< The first line, from 1.
+    long long count = 0; ///< Occurrences.
+    long long line = 0;  ///< The first line, counted from 1.
 };
 
-/// All of it.
+/// The problems of a mesh file.
 struct ObjReport {
     std::array<ObjCount, detail::obj_troubles> counts{}; ///< By ObjTrouble.
-    /// What is wrong with material files and their pictures, a sentence each, with its
-    /// file and line.
+    /// One sentence per problem of a material file or a picture, with file and line.
     std::vector<std::string> notes{};
 
-    /// Counts one more.
+    /// Counts an occurrence.
     void add(ObjTrouble trouble, long long line) {
         ObjCount& at = counts[static_cast<std::size_t>(trouble)];
         if (at.count++ == 0 || line < at.line) at.line = line;
     }
-    /// How often, and where first.
+    /// The occurrences of a problem.
     [[nodiscard]] const ObjCount& operator[](ObjTrouble trouble) const {
         return counts[static_cast<std::size_t>(trouble)];
     }
 };
 
-/// A report, one line a trouble: "line 12: 3 faces without an area are left out."
-/// \param report  The report.
-/// \return Lines that end with a line feed; empty if nothing is wrong.
+/// A report as text, one line per problem: "line 12: 3 faces have no area; ...".
+/// \return Lines that end with a line feed; empty without problems.
 [[nodiscard]] inline std::string to_text(const ObjReport& report) {
     constexpr std::array<const char*, detail::obj_troubles> words{
-        "vertices have coordinates that are no finite numbers; faces there are left "
+        "vertices have coordinates that are not finite numbers; their faces are left "
         "out",
-        "normals are 0 or no finite numbers; faces there are flat",
-        "texture coordinates are no finite numbers; (0, 0) is taken",
-        "faces have no texture coordinates, others of their mesh do; (0, 0) is taken",
-        "faces name a vertex that is not there; they are left out",
-        "faces name a texture coordinate that is not there; (0, 0) is taken",
-        "faces name a normal that is not there; they are flat",
+        "normals are 0 or not finite numbers; their faces are shaded flat",
+        "texture coordinates are not finite numbers; (0, 0) is used",
+        "faces lack texture coordinates, which others of their mesh have; (0, 0) is "
+        "used",
+        "faces refer to a vertex that does not exist; they are left out",
+        "faces refer to a texture coordinate that does not exist; (0, 0) is used",
+        "faces refer to a normal that does not exist; they are shaded flat",
         "faces have fewer than three corners; they are left out",
         "faces have more than 1000 corners; they are left out",
         "faces have no area; they are left out",
         "faces cross themselves; their triangles overlap",
-        "faces have normals that point to their inner side; they are shaded flat",
-        "edges belong to three faces or more; no side there is the inside",
-        "edges have faces that are wound in opposite ways; one of them is inside out",
-        "edges belong to one face only; such a mesh is not closed, no good for glass",
+        "faces have normals that point to their back; they are shaded flat",
+        "edges belong to three faces or more; they have no inside",
+        "edges have faces that are wound in opposite directions; one of them is inside "
+        "out",
+        "edges belong to one face only; the mesh is not closed, and unsuitable for "
+        "glass",
         "closed meshes are inside out; as glass they are bubbles of air",
         "vertices have colours of their own; they are not used",
         "lines, points, curves or surfaces are no faces; they are left out",
-        "uses of a material that no material file has; the default is taken",
-        "material files cannot be read; the default material is taken"};
+        "uses of a material that no material file has; the default is used",
+        "material files cannot be read; the default material is used"};
     std::string text;
     for (std::size_t i = 0; i < detail::obj_troubles; ++i)
         if (report.counts[i].count > 0)

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/pfm.hpp
-/// \brief PFM files: linear radiance in float, as it is.
+/// \brief PFM files: linear radiance in float, exactly.
 
 #include <bit>
 #include <cmath>
@@ -20,10 +20,8 @@ namespace ljus {
 /// \brief Three lines of text, then the floats, the bottom row first.
 /// \{
 
-/// Saves an image as PFM: every float comes back with the same bits, NaN and infinity
-/// too; double is rounded to float once. Little-endian on every machine.
-/// \param image  Linear colours.
-/// \param path   The file; an older one is replaced at the very end (save_file()).
+/// Saves an image as PFM. Every float keeps its bits, even NaN and infinity; a double
+/// is rounded to float once. The file is little-endian on every machine.
 /// \throws std::invalid_argument  as check(); std::runtime_error as save_file().
 template <std::floating_point T>
 void save_pfm(const ImageT<T>& image, const std::string& path) {
@@ -45,11 +43,10 @@ void save_pfm(const ImageT<T>& image, const std::string& path) {
     save_file(path, bytes);
 }
 
-/// Loads a PFM file, of colours or of grey, of either byte order.
-/// \param path  The file.
-/// \return Its image; values are multiplied by the size of the header's scale, which is
-///         1 in files of save_pfm().
-/// \throws std::runtime_error  with path and reason, if it cannot be read, is no PFM
+/// Loads a PFM file in colour or grey, of either byte order.
+/// \return Its image; values are multiplied by the absolute value of the header's
+///         scale, which save_pfm() sets to 1.
+/// \throws std::runtime_error  with path and reason, if it cannot be read, is not a PFM
 ///         file, or is shorter or longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_pfm(const std::string& path) {
@@ -64,7 +61,7 @@ template <std::floating_point T = float>
         reader.fail("the third line of its header is not a finite number other than 0");
     reader.require_pixels(width, height);
 
-    // Compared before any memory is taken for the pixels.
+    // Compared before memory is allocated for the pixels.
     const std::size_t channels = kind == "PF" ? 3 : 1;
     const std::size_t expected = 4 * channels * static_cast<std::size_t>(width) *
                                  static_cast<std::size_t>(height);
@@ -84,7 +81,7 @@ template <std::floating_point T = float>
         if (std::abs(scale) == 1.0) return static_cast<T>(value);
         const T scaled = static_cast<T>(std::abs(scale) * static_cast<double>(value));
         if (std::isfinite(value) && !std::isfinite(scaled))
-            reader.fail("multiplied by its scale, a pixel is beyond all numbers");
+            reader.fail("a pixel multiplied by its scale is not finite");
         return scaled;
     };
     auto image = make_image<T>(width, height);

@@ -1,12 +1,11 @@
 #pragma once
 
 /// \file ljus/io/png.hpp
-/// \brief Pictures for a screen: PNG files of 8 bits a channel, sRGB.
+/// \brief Pictures for a screen: 8-bit PNG files, sRGB.
 ///
-/// The work is done by stb_image_write, whose implementation this header makes for
-/// itself, invisible to other files. A program with its own implementation in the
-/// *same* file includes that one before this header (ours then steps back), or defines
-/// `LJUS_NO_STB` to have none of it; in another file there is nothing to do.
+/// stb_image_write encodes them. This header compiles its implementation for itself,
+/// hidden from other files. A program with its own implementation in the *same* file
+/// must include that before this header, or define `LJUS_NO_STB` to switch PNG off.
 
 #include <cmath>
 #include <concepts>
@@ -57,19 +56,16 @@
 namespace ljus {
 
 /// \defgroup png PNG
-/// \brief The picture as one sees it; hdr and pfm keep what one can compute with.
+/// \brief A picture for the eye; HDR and PFM files keep the radiance.
 /// \{
 
-/// How save_png() develops a picture.
+/// The settings of save_png().
 struct PngSettings {
     double exposure = 0.0; ///< In stops: +1 doubles the light. Finite.
 };
 
-/// The bytes of a PNG file.
-/// \param image    Linear colours; NaN and negative channels turn black, what exceeds 1
-///                 after exposure turns 255.
-/// \param options  Exposure.
-/// \return The file, 8 bits a channel, sRGB.
+/// Encodes an image as PNG: 8 bits per channel, sRGB. NaN and negative channels become
+/// 0, and channels that exceed 1 after exposure become 255.
 /// \throws std::invalid_argument  for an image without pixels or an exposure that is
 ///         not finite.
 template <std::floating_point T>
@@ -100,7 +96,7 @@ template <std::floating_point T>
     return file;
 #elif defined(LJUS_NO_STB)
     static_assert(sizeof(T) == 0, "LJUS_NO_STB switches PNG off: save a .pfm or .hdr "
-                                  "file, or do not define it.");
+                                  "file, or remove the definition.");
     return (void(image), void(options), Bytes{});
 #else
     static_assert(
@@ -112,9 +108,6 @@ template <std::floating_point T>
 }
 
 /// Saves an image as PNG.
-/// \param image    As for encode_png().
-/// \param path     The file; an older one is replaced at the very end (save_file()).
-/// \param options  Exposure.
 /// \throws std::invalid_argument  as encode_png(); std::runtime_error as save_file().
 template <std::floating_point T>
 void save_png(const ImageT<T>& image, const std::string& path,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/progressive_file.hpp
-/// \brief A checkpoint of a progressive picture, and back.
+/// \brief Checkpoints of progressive pictures in files.
 
 #include "ljus/io/binary_file.hpp"
 #include "ljus/render/progressive.hpp"
@@ -9,20 +9,19 @@
 namespace ljus {
 
 /// \defgroup progressive_file Checkpoints
-/// \brief All that a progressive picture is so far, in a file that no kill can spoil.
+/// \brief The whole state of a progressive picture in a file that survives a kill.
 ///
-/// 16 letters that say what it is; version, side of the blocks, width, height and a
-/// checksum; then the state, every number with all its bits, lowest byte first. The
-/// file is written beside the older one and takes its place when it is whole: at any
-/// moment the one or the other is there. That holds for a program that is killed;
-/// against a loss of power it is as good as the file system.
+/// 16 letters that name the format; version, side of the blocks, width, height and a
+/// checksum; then the state, exact to the last bit, lowest byte first. save_file()
+/// replaces the older file at once, so that one of the two always exists if the program
+/// is killed. After a loss of power that depends on the file system.
 /// \{
 
 namespace detail {
 
 inline constexpr FileFormat checkpoint_format{"ljus progressive", 1};
 
-// Calls `each` with every number behind the header, in the order of the file.
+// Calls `each` with every number behind the header, in the file's order.
 template <typename State, typename Each>
 void each_checkpoint_number(State& state, Each each) {
     each(state.alpha);
@@ -34,7 +33,7 @@ void each_checkpoint_number(State& state, Each each) {
             for (int channel = 0; channel < 3; ++channel) each(color[channel]);
 }
 
-// A state with room for the numbers of a file, of the size that its header says.
+// A state with memory for the numbers of a file, by the size in its header.
 [[nodiscard]] inline ProgressiveState empty_state_of(FileReader& file) {
     const auto side = file.take<std::uint32_t>();
     const auto width = file.take<std::uint32_t>();
@@ -42,37 +41,35 @@ void each_checkpoint_number(State& state, Each each) {
     constexpr auto most = static_cast<std::uint32_t>(max_pixels);
     const bool sized = side >= 1 && side <= most && width >= 1 && height >= 1 &&
                        width <= most / height;
-    if (!sized) file.refuse("its picture has no size that a picture can have");
+    if (!sized) file.refuse("its width, height or block side is out of range");
     const std::uint32_t columns = (width - 1) / side + 1;
     const std::uint32_t rows = (height - 1) / side + 1;
     const std::size_t numbers =
         4 + 6 * std::size_t(width) * height + 3 * std::size_t(columns) * rows;
     if (file.bytes.size() != file_front_bytes + 8 * numbers)
         file.refuse("its " + std::to_string(file.bytes.size()) +
-                    " bytes do not go with its picture's size");
+                    " bytes do not match its picture's size");
     ProgressiveState state{.block_side = int(side)};
     state.sum = state.squares = make_image<double>(int(width), int(height));
     state.block_squares = make_image<double>(int(columns), int(rows));
     return state;
 }
 
-// Refuses numbers that no pass can have made, though the checksum is right.
+// Rejects numbers that no pass can have made, though the checksum is right.
 inline void require_sense(const FileReader& file, const ProgressiveState& state) {
     if (state.passes < 1 || !(state.alpha > 0 && state.alpha <= 1) ||
         !(state.shrink > 0 && state.shrink <= 1))
         file.refuse("its number of passes, alpha or radius is out of range");
-    // Beyond the range of a picture's numbers its mean would be infinite.
+    // A sum beyond this range would have an infinite mean in float.
     const double largest = double(state.passes) * std::numeric_limits<float>::max();
     for (const auto& color : state.sum.pixels)
         if (max_component(glm::abs(color)) > largest)
-            file.refuse("it has light that no picture can hold");
+            file.refuse("it has light beyond the range of a picture");
 }
 
 } // namespace detail
 
 /// Saves a checkpoint.
-/// \param path   The file; an older one is replaced at the very end (save_file()).
-/// \param state  After at least one pass.
 /// \throws std::runtime_error  as save_file(); std::invalid_argument without a pass.
 /// \cost 48 bytes per pixel.
 inline void save_checkpoint(const std::string& path, const ProgressiveState& state) {
@@ -86,11 +83,11 @@ inline void save_checkpoint(const std::string& path, const ProgressiveState& sta
     save_file(path, bytes);
 }
 
-/// Loads a checkpoint. Whether it is of the same picture, require_first_pass() tells.
+/// Loads a checkpoint. require_first_pass() tests whether it belongs to a picture.
 /// \param path  The file.
-/// \return The state, bit by bit as it was saved.
-/// \throws std::runtime_error  "cannot read 'a.check': its checksum is wrong, ...":
-///         what is cut short, damaged, of another version or no checkpoint is refused.
+/// \return The state, equal to the saved one in every bit.
+/// \throws std::runtime_error  "cannot read 'a.check': its checksum is wrong ...": as
+///         open_file().
 [[nodiscard]] inline ProgressiveState load_checkpoint(const std::string& path) {
     FileReader file = open_file(path, detail::file_limit(std::size_t(max_pixels), 96),
                                 detail::checkpoint_format);

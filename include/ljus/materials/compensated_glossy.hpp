@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/compensated_glossy.hpp
-/// \brief Gloss with the light that goes from facet to facet.
+/// \brief Rough mirrors with multiple scattering between facets.
 
 #include <algorithm>
 
@@ -10,34 +10,34 @@
 
 namespace ljus {
 
-/// \defgroup compensated_glossy Gloss that keeps its light
-/// \brief Section 3.2.4, rough mirrors: what a facet sends to its neighbours comes out.
+/// \defgroup compensated_glossy Energy-preserving gloss
+/// \brief Section 3.2.4, rough mirrors: light that a facet sends to others comes out.
 /// \{
 
-/// Gloss, and beside it the light that it loses, given back as \ref multiple_scattering
-/// says. Made by compensated_glossy(). White facets return 0.9996 to 1.00001 of a
-/// constant sky, at any roughness and angle; coloured ones grow richer, as after
-/// several reflections.
-/// \tparam Facet  As GlossyT has it.
+/// A rough mirror with a second lobe that returns the lost light, see
+/// \ref multiple_scattering. It is made by compensated_glossy(). White facets return
+/// 0.9996 to 1.00001 of a constant sky, at any roughness and angle; coloured ones
+/// become more saturated, as after several reflections.
+/// \tparam Facet  As for GlossyT.
 template <std::floating_point T, typename Facet = RgbT<T>>
 struct CompensatedGlossyT {
     using Scalar = T;              ///< The precision of its numbers.
-    GlossyT<T, Facet> first{};     ///< One reflection.
-    detail::EnergyLossT<T> loss{}; ///< What it loses; of bake_energy_loss().
-    RgbT<T> mean{T(0)}; ///< A facet's mean reflectance; of mean_reflectance().
+    GlossyT<T, Facet> first{};     ///< The lobe of one reflection.
+    detail::EnergyLossT<T> loss{}; ///< Its loss, from bake_energy_loss().
+    RgbT<T> mean{T(0)}; ///< Mean reflectance of a facet, from mean_reflectance().
 };
-using CompensatedGlossy = CompensatedGlossyT<float>; ///< Of a colour, in float.
+using CompensatedGlossy = CompensatedGlossyT<float>; ///< With a colour, in float.
 using FullRoughMetal =
-    CompensatedGlossyT<float, ConductorIndexT<float>>; ///< Of metal, in float.
+    CompensatedGlossyT<float, ConductorIndexT<float>>; ///< With a metal, in float.
 
 namespace detail {
 
 /// The mean of facet_reflectance() over the angles, \f$ 2 \int F(\mu)\,\mu\,d\mu \f$.
-/// \param facet  A colour straight on, or a metal's index.
+/// \param facet  A colour at normal incidence, or a metal's index.
 /// \return In [0, 1] for each channel.
 template <std::floating_point T, typename Facet>
 [[nodiscard]] RgbT<T> mean_reflectance(const Facet& facet) noexcept {
-    constexpr int steps = 256; // even in mu^2, so that each counts the same
+    constexpr int steps = 256; // uniform in mu^2, so that all have the same weight
     RgbT<T> sum{T(0)};
     for (int i = 0; i < steps; ++i)
         sum += facet_reflectance(facet, std::sqrt((T(i) + T(0.5)) / T(steps)));
@@ -46,10 +46,10 @@ template <std::floating_point T, typename Facet>
 
 } // namespace detail
 
-/// Makes gloss keep its light.
-/// \param first  The gloss.
+/// Adds multiple scattering to a rough mirror.
+/// \param first  The rough mirror.
 /// \return The material; with roughness 0 the same mirror.
-/// \throws std::invalid_argument as check() of the gloss.
+/// \throws std::invalid_argument as check(first).
 /// \cost bake_energy_loss(), once.
 template <std::floating_point T, typename F>
 [[nodiscard]] CompensatedGlossyT<T, F> compensated_glossy(const GlossyT<T, F>& first) {
@@ -59,18 +59,15 @@ template <std::floating_point T, typename F>
             .mean = detail::mean_reflectance<T>(first.reflectance)};
 }
 
-/// The lobes of this material: those of the gloss.
+/// The lobes of this material: those of `first`.
 template <std::floating_point T, typename F>
 [[nodiscard]] constexpr Lobes lobes(const CompensatedGlossyT<T, F>& gloss) noexcept {
     return lobes(gloss.first);
 }
 
-/// The BRDF: what one reflection returns, and what all others do.
-/// \param gloss  The surface.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param wi     Unit vector in the surface's frame, to where it comes from.
+/// The BRDF: one reflection plus multiple scattering.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
-/// \cost evaluate() of the gloss, and lost_at() twice.
+/// \cost evaluate() of GlossyT, and lost_at() twice.
 /// \cite kulla2017
 // [full evaluate]
 template <std::floating_point T, typename F>
@@ -88,13 +85,11 @@ template <std::floating_point T, typename F>
 
 namespace detail {
 
-/// How often sample() takes the first reflection: as much as it carries of the light.
-/// \param gloss  The surface.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
+/// The probability of sampling the first reflection: its fraction of the light.
 /// \return In [0, 1]; 1 where nothing is lost.
 template <std::floating_point T, typename F>
-[[nodiscard]] T chance_of_first(const CompensatedGlossyT<T, F>& gloss,
-                                const Vec3T<T>& wo) noexcept {
+[[nodiscard]] T first_probability(const CompensatedGlossyT<T, F>& gloss,
+                                  const Vec3T<T>& wo) noexcept {
     const T lost = detail::lost_at(gloss.loss, std::abs(wo.z));
     const T first = (T(1) - lost) * max_component(gloss.mean);
     const T again =
@@ -105,16 +100,12 @@ template <std::floating_point T, typename F>
 } // namespace detail
 
 /// The density of sample().
-/// \param gloss  The surface.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param wi     Unit vector in the surface's frame, to where it comes from.
-/// \param which  The parts to sample from.
 /// \return Per steradian on the side of `wo`; 0 elsewhere.
 template <std::floating_point T, typename F>
 [[nodiscard]] T pdf(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo,
                     const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
     const T first = pdf(gloss.first, wo, wi, which);
-    const T chance = detail::chance_of_first(gloss, wo);
+    const T chance = detail::first_probability(gloss, wo);
     if (!has(which & lobes(gloss), Lobes::glossy) || !same_side(wo, wi) ||
         chance >= T(1))
         return first;
@@ -122,20 +113,14 @@ template <std::floating_point T, typename F>
            (T(1) - chance) * detail::pdf_lost(gloss.loss, std::abs(wi.z));
 }
 
-/// The mirror direction of a facet that is seen, or a direction as light is lost.
-/// \param gloss  The surface.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param u      Point of [0,1)^3; z chooses between the two.
-/// \param transport  Radiance or flux: the same.
-/// \param which  The parts to sample from.
-/// \return The sample; nothing if `wo` lies on the surface, if the direction would lead
-///         into it, or without the part.
-/// \cost Up to twice sample() of the gloss.
+/// The mirror direction of a visible facet, or a direction of the second lobe.
+/// \return Nothing, too, if the direction would lead into the surface.
+/// \cost Up to twice sample() of GlossyT.
 template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport transport, Lobes which = Lobes::all) noexcept {
-    const T chance = detail::chance_of_first(gloss, wo);
+    const T chance = detail::first_probability(gloss, wo);
     if (chance >= T(1) || !has(which & lobes(gloss), Lobes::glossy))
         return sample(gloss.first, wo, u, transport, which);
     if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
@@ -156,9 +141,7 @@ sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>
     return diffuse_sample(wi, f * (std::abs(wi.z) / density), density);
 }
 
-/// Refuses gloss that cannot be, and a table that is not its own.
-/// \param gloss  The surface.
-/// \throws std::invalid_argument naming the member.
+/// Requires a valid `first` and the table of its roughness.
 template <std::floating_point T, typename F>
 void check(const CompensatedGlossyT<T, F>& gloss) {
     check(gloss.first);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/eon.hpp
-/// \brief A rough matt surface that keeps its energy: EON.
+/// \brief A rough matt surface that conserves energy: EON.
 
 #include <algorithm>
 #include <cmath>
@@ -15,34 +15,32 @@ namespace ljus {
 /// \defgroup eon Energy-preserving Oren-Nayar
 /// \brief Section 3.2.1, 31 years later: \cite eon2025.
 ///
-/// Fujii's second model loses what goes from facet to facet. How much that is at each
-/// angle has a closed form; EON gives it back, in proportion to what is lost on the way
-/// in and on the way out. A white surface returns exactly all light, at any roughness.
+/// Fujii's second model loses the light that facets send to each other. The loss has a
+/// closed form, and EON returns it by \ref multiple_scattering. A white surface returns
+/// exactly all light, at any roughness.
 /// \{
 
-/// A matt surface that conserves energy, two-sided.
+/// A two-sided matt surface that conserves energy.
 /// \report{Section 3.2.1}
 template <std::floating_point T>
 struct EonT {
     using Scalar = T;       ///< The precision of its numbers.
-    RgbT<T> albedo{T(0.5)}; ///< Of a facet, in [0, 1].
+    RgbT<T> albedo{T(0.5)}; ///< Albedo of a facet, in [0, 1].
     T roughness = T(0.5);   ///< In [0, 1]; 0 is Lambert.
 };
 using Eon = EonT<float>; ///< EonT in float.
 
 namespace detail {
 
-/// What Fujii's second model loses of light at an angle, over A r:
+/// The loss of Fujii's second model at an angle, over A r:
 /// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$.
-/// \param sine    Of the angle to the normal, in [0, 1].
-/// \param cosine  In [0, 1].
 /// \return At least 0, at most 1/2 - 2/(3 pi).
 /// \cite eon2025
 // [eon loss]
 template <std::floating_point T>
 [[nodiscard]] T eon_loss(T sine, T cosine) noexcept {
     const T s = sine, mu = cosine;
-    // (1 - s^3)/mu as mu (1 + s + s^2)/(1 + s): grazing angles do not divide by 0.
+    // (1 - s^3)/mu as mu (1 + s + s^2)/(1 + s), which avoids 0/0 at grazing angles.
     const T steep = mu * (T(1) + s + s * s) / (T(1) + s) - T(1);
     const T g = s * (std::atan2(s, mu) - s * mu) + T(2) / T(3) * s * steep;
     return std::max(T(0), fon_constant<T> - g * std::numbers::inv_pi_v<T>);
@@ -55,20 +53,10 @@ inline constexpr T eon_mean_loss = fon_constant<T> -
                                    (T(2) / T(3) -
                                     T(28) / T(15) * std::numbers::inv_pi_v<T>);
 
-/// Pi times the BRDF.
-///
-/// \f[ \pi f = \rho f_F + \rho_m
-///     \frac{(1 - E(\mu_i))(1 - E(\mu_o))}{1 - \bar E}, \quad
-///     \rho_m = \frac{\rho^2 \bar E}{1 - \rho (1 - \bar E)} \f]
-///
-/// with f_F Fujii's ratio, E its albedo at an angle, and the mean of E over all. The
-/// losses all have the factor A r, which is taken out: nothing is divided by a
-/// roughness of 0.
-/// \param surface  The surface.
-/// \param wo       Unit vector in the surface's frame, to where the light goes.
-/// \param wi       Unit vector in the surface's frame, to where it comes from, on the
-///                 same side.
-/// \return At least 0.
+/// Pi times the BRDF: \ref multiple_scattering with Fujii's ratio as f_1 and its albedo
+/// as E. The common factor A r of all losses is cancelled, so that a roughness of 0
+/// needs no special case.
+/// \return At least 0; for directions on the same side.
 /// \cost Two arc tangents, four square roots, eight divisions.
 /// \cite eon2025
 // [eon]
@@ -86,26 +74,22 @@ template <std::floating_point T>
 }
 // [eon]
 
-/// A cosine lobe, sheared towards where the light goes, and cut at the horizon: M takes
-/// directions of a clamped cosine to directions of about the density of f cos.
-///
-/// M has the rows (a, 0, b), (0, c, 0), (d, 0, 1) in a frame whose x axis is the
-/// azimuth of wo. The four numbers are the fit of \cite eon2025, listing 2.
+/// A cosine lobe that is sheared towards the outgoing direction and cut at the horizon.
+/// The matrix M with rows (a, 0, b), (0, c, 0), (d, 0, 1) maps cosine-weighted
+/// directions to a density close to f cos, in a frame whose x axis is the azimuth of
+/// wo. The four numbers are the fit of \cite eon2025, listing 2.
 template <std::floating_point T>
 struct EonLobeT {
-    T a;            ///< Of the matrix, first row.
-    T b;            ///< The same.
-    T c;            ///< Second row.
-    T d;            ///< Third row, at most 0.
-    T kept;         ///< The share of the lobe that lies above the horizon.
-    T uniform;      ///< The probability of a uniform direction in place of the lobe's.
-    Vec2T<T> along; ///< Unit: the azimuth of wo.
+    T a;            ///< First row of M.
+    T b;            ///< First row of M.
+    T c;            ///< Second row of M.
+    T d;            ///< Third row of M, at most 0.
+    T kept;         ///< The fraction of the lobe above the horizon.
+    T uniform;      ///< The probability of a uniform direction instead of the lobe's.
+    Vec2T<T> along; ///< The azimuth of wo; unit vector.
 };
 
-/// The lobe for a direction.
-/// \param roughness  In [0, 1].
-/// \param wo         Unit vector in the surface's frame, to where the light goes.
-/// \return The lobe.
+/// The lobe for an outgoing direction.
 template <std::floating_point T>
 [[nodiscard]] EonLobeT<T> eon_lobe(T roughness, const Vec3T<T>& wo) noexcept {
     const T r = roughness, mu = std::abs(wo.z);
@@ -118,7 +102,7 @@ template <std::floating_point T>
     lobe.c = T(1) + r * (T(0.20013) + mu * (T(-0.506373) + T(0.261777) * mu));
     lobe.d = r * (T(0.540852) + mu * (T(-1.01625) + T(0.475392) * mu)) /
              (T(-1.0743) + mu * (T(0.0725628) + mu));
-    lobe.d = std::min(lobe.d, T(0)); // the fit is a hair above 0 at the pole
+    lobe.d = std::min(lobe.d, T(0)); // the fit is slightly positive at the pole
     lobe.kept = (T(1) + T(1) / std::sqrt(lobe.d * lobe.d + T(1))) / T(2);
     lobe.uniform =
         std::pow(r, T(0.1)) *
@@ -129,30 +113,26 @@ template <std::floating_point T>
     return lobe;
 }
 
-/// The density of a direction above the horizon: the lobe's and the uniform one's.
-/// \param lobe  The lobe.
-/// \param wi    Unit vector with z > 0.
+/// The density of a direction above the horizon: the lobe and the uniform part.
 /// \return Per steradian, above 0.
 template <std::floating_point T>
 [[nodiscard]] T pdf_eon_lobe(const EonLobeT<T>& lobe, const Vec3T<T>& wi) noexcept {
     const T x = lobe.along.x * wi.x + lobe.along.y * wi.y;
     const T y = lobe.along.x * wi.y - lobe.along.y * wi.x;
-    // Back through M, times its determinant.
+    // The inverse of M, times its determinant.
     const T minor = lobe.a - lobe.b * lobe.d;
     const T determinant = lobe.c * minor;
     const Vec3T<T> v{lobe.c * (x - lobe.b * wi.z), minor * y,
                      lobe.c * (lobe.a * wi.z - lobe.d * x)};
     const T square = glm::dot(v, v);
-    const T jacobian = determinant / square; // squared: of solid angles, with |v|^-4
+    const T jacobian = determinant / square; // squared below: it scales solid angles
     const T bent = std::max(T(0), v.z) * jacobian * jacobian *
                    std::numbers::inv_pi_v<T> / lobe.kept;
     const T even = std::numbers::inv_pi_v<T> / T(2);
     return lobe.uniform * even + (T(1) - lobe.uniform) * bent;
 }
 
-/// A direction with the density pdf_eon_lobe().
-/// \param lobe  The lobe.
-/// \param u     Point of [0,1)^3; z chooses the lobe or a uniform direction.
+/// Samples the density pdf_eon_lobe(); u.z chooses the lobe or a uniform direction.
 /// \return Unit vector; rounding may leave it on the horizon.
 /// \cite eon2025
 // [eon lobe sample]
@@ -161,8 +141,8 @@ template <std::floating_point T>
                                        const Vec3T<T>& u) noexcept {
     if (u.z < lobe.uniform) return sample_uniform_hemisphere(Vec2T<T>{u.x, u.y});
 
-    // On the disc M takes a half circle and half an ellipse above the horizon: to them
-    // each chord along x is shrunk.
+    // The directions that M maps above the horizon are a half disc and half an ellipse
+    // of the unit disc: shrink each chord along x to them.
     const Vec3T<T> h = sample_cosine_hemisphere(Vec2T<T>{u.x, u.y});
     const T half_chord = std::sqrt(std::max(T(0), (T(1) - h.y) * (T(1) + h.y)));
     const T x = lobe.kept * h.x - (T(1) - lobe.kept) * half_chord;
@@ -183,9 +163,6 @@ template <std::floating_point T>
 }
 
 /// The BRDF.
-/// \param surface  The surface.
-/// \param wo       Unit vector in the surface's frame, to where the light goes.
-/// \param wi       Unit vector in the surface's frame, to where it comes from.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const EonT<T>& surface, const Vec3T<T>& wo,
@@ -195,12 +172,7 @@ template <std::floating_point T>
 }
 
 /// The density of sample().
-/// \param surface  The surface.
-/// \param wo       Unit vector in the surface's frame, to where the light goes.
-/// \param wi       Unit vector in the surface's frame, to where it comes from.
-/// \param which    The parts to sample from.
-/// \return Per steradian on the side of `wo`; 0 elsewhere, and 0 without
-///         Lobes::diffuse.
+/// \return Per steradian on the side of `wo`; 0 elsewhere.
 template <std::floating_point T>
 [[nodiscard]] T pdf(const EonT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
@@ -209,15 +181,8 @@ template <std::floating_point T>
                                 Vec3T<T>{wi.x, wi.y, std::abs(wi.z)});
 }
 
-/// A direction of about the density of f cos.
-/// \param surface  The surface.
-/// \param wo       Unit vector in the surface's frame, to where the light goes.
-/// \param u        Point of [0,1)^3; z chooses the lobe or a uniform direction.
-/// \param which    The parts to sample from.
-/// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or
-///         without Lobes::diffuse.
-/// \cost About three times a cosine-weighted direction's; see chapter 14 for what it
-///       saves.
+/// Samples a density close to f cos; u.z chooses the lobe or a uniform direction.
+/// \cost About three times that of a cosine-weighted direction.
 /// \cite eon2025
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
@@ -235,9 +200,7 @@ sample(const EonT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
     return diffuse_sample(wi, f_cos / density, density);
 }
 
-/// Refuses an albedo or a roughness outside [0, 1].
-/// \param surface  The surface.
-/// \throws std::invalid_argument naming the member.
+/// Requires an albedo and a roughness within [0, 1].
 template <std::floating_point T>
 void check(const EonT<T>& surface) {
     require_unit("eon.albedo", surface.albedo);

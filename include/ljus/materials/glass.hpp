@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/glass.hpp
-/// \brief Clear or coloured glass with a smooth surface.
+/// \brief Clear or coloured glass with a smooth surface, and thin panes.
 
 #include <algorithm>
 #include <array>
@@ -17,9 +17,9 @@ namespace ljus {
 
 /// \defgroup glass Glass
 /// \brief Section 3.2.5: surfaces that reflect and refract.
-/// \erratum{The report's program reflects the same share at every angle, multiplies
-/// what it refracts by a cosine, reflects nothing inside, and returns up to 1.6 times
-/// the light. Here the shares F and 1 - F are split once.}
+/// \erratum{The report's program reflects the same fraction at every angle, multiplies
+/// refracted light by a cosine, reflects nothing inside, and returns up to 1.6 times
+/// the light. Here light is split once, into F and 1 - F.}
 /// \{
 
 /// The smooth boundary of a transparent body: outside is z > 0 and has index 1.
@@ -36,21 +36,16 @@ using Glass = GlassT<float>; ///< GlassT in float.
 
 namespace detail {
 
-/// What light meets that comes to the boundary: how much is reflected, and where the
-/// rest goes.
+/// The split of light at the boundary: the reflected fraction and the refracted
+/// direction.
 template <std::floating_point T>
 struct GlassBoundaryT {
-    std::optional<Vec3T<T>> refracted{}; ///< Nothing in total internal reflection.
+    std::optional<Vec3T<T>> refracted{}; ///< Nothing under total internal reflection.
     T reflectance = T(1);                ///< F, in [0, 1].
-    T eta_scale = T(1);                  ///< Of radiance that is refracted.
+    T eta_scale = T(1);                  ///< Scale of refracted radiance.
 };
 
-/// The boundary, met along a direction.
-/// \param glass      The glass.
-/// \param wo         Unit vector in the surface's frame, to where the light goes; z < 0
-///                   is inside.
-/// \param transport  Radiance from index n_t is scaled by (n_i/n_t)^2; flux is not.
-/// \return The two ways.
+/// The split of light that leaves the boundary along `wo`; inside is z < 0.
 /// \cost Three square roots, three divisions; F is not evaluated in total reflection.
 /// \report{Section 3.2.5}
 template <std::floating_point T>
@@ -69,17 +64,9 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// One of the two branches: reflection with probability F, refraction with 1 - F. Each
-/// is chosen as often as it carries light, so that both have the weight 1; radiance
-/// that comes from index n_t is then scaled by (n_i/n_t)^2.
-/// \param glass      The glass.
-/// \param wo         Unit vector in the surface's frame, to where the light goes; z < 0
-///                   is inside.
-/// \param u          Point of [0,1)^3; z chooses the branch.
-/// \param transport  Radiance or flux.
-/// \param which      The parts to sample from.
-/// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
-/// \cost As boundary().
+/// Samples reflection with probability F, refraction with 1 - F. Both have weight 1,
+/// and radiance from index n_t is then scaled by (n_i/n_t)^2.
+/// \cost That of boundary().
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
@@ -93,12 +80,8 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
     return specular_sample(*met.refracted, RgbT<T>{T(1)}, met.eta_scale);
 }
 
-/// Both branches, each with its share: for a path that goes both ways. What sample()
-/// makes noise of, a lamp mirrored in a ball, is then the same in each path.
-/// \param glass      The glass.
-/// \param wo         Unit vector in the surface's frame, to where the light goes; z < 0
-///                   is inside.
-/// \param transport  Radiance or flux.
+/// Both branches with their weights, for a path that splits. The noise of the random
+/// choice, for instance in a lamp's reflection in a ball, vanishes.
 /// \return The reflected and the refracted sample; nothing if there is only one.
 template <std::floating_point T>
 [[nodiscard]] std::optional<std::array<BsdfSampleT<T>, 2>>
@@ -111,16 +94,13 @@ both_ways(const GlassT<T>& glass, const Vec3T<T>& wo, Transport transport) noexc
         specular_sample(*met.refracted, RgbT<T>{T(1) - f}, met.eta_scale)};
 }
 
-/// The absorption inside, per scene unit; see transmittance().
-/// \param glass  The glass.
+/// The absorption coefficient inside, per scene unit; see transmittance().
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<T> absorption(const GlassT<T>& glass) noexcept {
     return glass.absorption;
 }
 
-/// Refuses an index or an absorption that no glass can have.
-/// \param glass  The glass.
-/// \throws std::invalid_argument naming the member.
+/// Requires a valid index and a finite absorption of at least 0.
 template <std::floating_point T>
 void check(const GlassT<T>& glass) {
     detail::require_index("glass.index", glass.index);
@@ -132,9 +112,9 @@ void check(const GlassT<T>& glass) {
 /// \defgroup thin_glass Thin glass
 /// \brief Section 3.2.5, for a window: two boundaries so close that they are one.
 ///
-/// A pane is a *thin sheet*, as a soap film is: what goes on goes straight on, which is
-/// no scattering but visibility. So shadow rays and photons go through, tinted;
-/// sample() knows the reflection only. See \ref next_vertex.
+/// A pane is a *thin sheet*, like a soap film: transmitted light goes straight on,
+/// which is visibility, not scattering. Shadow rays and photons pass through it,
+/// tinted; sample() returns the reflection only. See \ref next_vertex.
 /// \{
 
 /// A pane with air on both sides.
@@ -144,43 +124,43 @@ struct ThinGlassT {
     using Scalar = T;                           ///< The precision of its numbers.
     static constexpr bool only_specular = true; ///< See OnlySpecular.
     T index = T(1.5);                           ///< Index of refraction of the glass.
-    RgbT<T> tint{T(1)}; ///< What is left of light that crosses the glass straight,
-                        ///< without its boundaries; in [0, 1].
+    RgbT<T> tint{T(1)}; ///< Transmittance of the glass at normal incidence, without its
+                        ///< boundaries; in [0, 1].
 };
 using ThinGlass = ThinGlassT<float>; ///< ThinGlassT in float.
 
 namespace detail {
 
-/// What a pane reflects and lets through.
+/// The reflectance and transmittance of a pane.
 template <std::floating_point T>
-struct PaneSharesT {
-    RgbT<T> reflected;   ///< Of the light that arrives.
-    RgbT<T> transmitted; ///< Of the light that arrives; absorbed is the rest.
+struct PaneFractionsT {
+    RgbT<T> reflected;   ///< Fraction of the incident light.
+    RgbT<T> transmitted; ///< Fraction of the incident light; the rest is absorbed.
 };
 
-/// All reflections within a pane, summed. With R of one boundary and a left of one way
-/// through the glass,
+/// The sum of all reflections within a pane. With R of one boundary and the
+/// transmittance a of one crossing of the glass,
 ///
 /// \f[ T_\infty = (1-R)^2 a \left(1 + R^2 a^2 + R^4 a^4 + \dots\right)
 ///              = \frac{(1-R)^2 a}{1 - R^2 a^2}, \qquad
 ///     R_\infty = R + R\,a\,T_\infty \f]
 ///
-/// with a = tint^(1/cos) of the angle within the glass. The waves of both boundaries
-/// are added without their phases: the pane is thicker than light is coherent.
+/// with a = tint^(1/cos) for the angle within the glass. The reflections are added
+/// without interference: the pane is thicker than the light's coherence length.
 /// \param pane       The pane.
 /// \param cos_theta  Cosine between ray and normal, in [0, 1].
-/// \return The shares; without tint they add up to 1.
+/// \return Reflectance and transmittance; without tint they add up to 1.
 /// \cost fresnel(), one more square root, three powers if there is a tint.
 // [pane]
 template <std::floating_point T>
-[[nodiscard]] PaneSharesT<T> pane_shares(const ThinGlassT<T>& pane,
-                                         T cos_theta) noexcept {
+[[nodiscard]] PaneFractionsT<T> pane_fractions(const ThinGlassT<T>& pane,
+                                               T cos_theta) noexcept {
     const T r = fresnel(cos_theta, T(1), pane.index);
     if (!(r < T(1))) return {RgbT<T>{T(1)}, RgbT<T>{T(0)}};
     const T sine2 = (T(1) - cos_theta) * (T(1) + cos_theta);
     const T cosine =
         std::sqrt(std::max(T(0), T(1) - sine2 / (pane.index * pane.index)));
-    PaneSharesT<T> shares{};
+    PaneFractionsT<T> shares{};
     for (int c = 0; c < 3; ++c) {
         const T tint = pane.tint[c];
         const T a = tint == T(1) ? T(1) : std::pow(tint, T(1) / cosine);
@@ -194,24 +174,24 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// What goes straight on through a pane. A material with this function is a thin sheet.
+/// The transmittance of a pane. A material with this function is a thin sheet.
 /// \param pane  The pane.
-/// \param wo    Unit vector in the surface's frame, to where the light goes.
-/// \return PaneSharesT::transmitted.
+/// \param wo    Outgoing direction; unit vector in the surface's frame.
+/// \return PaneFractionsT::transmitted.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> pass_through(const ThinGlassT<T>& pane,
                                    const Vec3T<T>& /*position*/,
                                    const Vec3T<T>& wo) noexcept {
-    return detail::pane_shares(pane, std::min(std::abs(wo.z), T(1))).transmitted;
+    return detail::pane_fractions(pane, std::min(std::abs(wo.z), T(1))).transmitted;
 }
 
-/// The mirror direction, with PaneSharesT::reflected as weight. What goes straight on
-/// is not sampled.
+/// The mirror direction, with PaneFractionsT::reflected as weight. Transmission is not
+/// sampled.
 /// \param pane   The pane.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param which  The parts to sample from.
+/// \param wo     Outgoing direction; unit vector in the surface's frame.
+/// \param which  The lobes to sample.
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
-/// \cost pane_shares().
+/// \cost pane_fractions().
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
@@ -220,12 +200,11 @@ sample(const ThinGlassT<T>& pane, const Vec3T<T>& wo, const Vec3T<T>&,
     if (!has(which, Lobes::specular) || !(wo.z > T(0) || wo.z < T(0)))
         return std::nullopt;
     const T cos_theta = std::min(std::abs(wo.z), T(1));
-    return specular_sample(reflect(wo), detail::pane_shares(pane, cos_theta).reflected);
+    return specular_sample(reflect(wo),
+                           detail::pane_fractions(pane, cos_theta).reflected);
 }
 
-/// Refuses an index or a tint that no pane can have.
-/// \param pane  The pane.
-/// \throws std::invalid_argument naming the member.
+/// Requires a valid index and a tint within [0, 1].
 template <std::floating_point T>
 void check(const ThinGlassT<T>& pane) {
     detail::require_index("thin_glass.index", pane.index);

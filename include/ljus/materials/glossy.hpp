@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/glossy.hpp
-/// \brief Brushed metal, satin, a worn mirror: facets that reflect.
+/// \brief Brushed metal, satin, a worn mirror: reflecting microfacets.
 
 #include <limits>
 
@@ -20,8 +20,8 @@ namespace ljus {
 
 namespace detail {
 
-/// The reflectance of a facet that is given by its colour straight on: Schlick's.
-/// \param color      At normal incidence, in [0, 1].
+/// The reflectance of a facet given by its colour at normal incidence: Schlick's.
+/// \param color      Reflectance at normal incidence, in [0, 1].
 /// \param cos_theta  Cosine between ray and facet, in [0, 1].
 /// \return In [0, 1].
 template <std::floating_point T>
@@ -30,8 +30,8 @@ template <std::floating_point T>
             schlick(color.z, cos_theta)};
 }
 
-/// The reflectance of a facet of metal.
-/// \param index      The metal's.
+/// The reflectance of a metal facet.
+/// \param index      Index of the metal.
 /// \param cos_theta  Cosine between ray and facet, in [0, 1].
 /// \return In [0, 1].
 template <std::floating_point T>
@@ -40,28 +40,26 @@ template <std::floating_point T>
     return fresnel_conductor(cos_theta, index);
 }
 
-/// The least roughness besides 0: below it a float's rounding of a direction is not
-/// small beside alpha.
+/// The smallest roughness besides 0: below it the rounding of a float direction is not
+/// small against alpha.
 template <std::floating_point T>
 inline constexpr T min_roughness = T(0.01);
 
 } // namespace detail
 
-/// A surface of small mirrors, on both sides. Light that hits a second facet is lost:
-/// of white, at roughness 1, more than half.
-/// \tparam Facet  What says how a facet reflects: a colour straight on, or a metal's
-///                index.
+/// A two-sided surface of small mirrors. Light that hits a second facet is lost: more
+/// than half of it on a white surface of roughness 1.
+/// \tparam Facet  A colour at normal incidence, or a metal's index.
 template <std::floating_point T, typename Facet = RgbT<T>>
 struct GlossyT {
     using Scalar = T;     ///< The precision of its numbers.
-    Facet reflectance{};  ///< Of a facet.
-    T roughness = T(0.3); ///< alpha = roughness^2; 0, a mirror, or in [0.01, 1].
+    Facet reflectance{};  ///< Reflectance of a facet.
+    T roughness = T(0.3); ///< alpha = roughness^2; 0 (a mirror) or in [0.01, 1].
 };
-using Glossy = GlossyT<float>;                             ///< Of a colour, in float.
-using RoughMetal = GlossyT<float, ConductorIndexT<float>>; ///< Of metal, in float.
+using Glossy = GlossyT<float>;                             ///< With a colour, in float.
+using RoughMetal = GlossyT<float, ConductorIndexT<float>>; ///< With a metal, in float.
 
-/// The lobes of this material: a glossy one, which counts as diffuse because it has an
-/// f; with roughness 0 a specular one.
+/// The lobes of this material: a glossy one, or with roughness 0 a specular one.
 template <std::floating_point T, typename F>
 [[nodiscard]] constexpr Lobes lobes(const GlossyT<T, F>& gloss) noexcept {
     return gloss.roughness > T(0) ? Lobes::glossy : Lobes::specular;
@@ -73,12 +71,9 @@ template <std::floating_point T, typename F>
 ///       = \frac{F\, D}{2\,(w_{i,z}\, r(w_o) + w_{o,z}\, r(w_i))} \f]
 ///
 /// with ggx_distribution() and ggx_lambda().
-/// \param gloss  The surface.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param wi     Unit vector in the surface's frame, to where it comes from.
-/// \return f in 1/sr, without the cosine; 0 on different sides, and where both graze so
-///         that f is beyond the largest T.
-/// \cost Three square roots, one division for each cosine.
+/// \return f in 1/sr, without the cosine; 0 for directions on different sides, and at
+///         grazing angles where f would overflow.
+/// \cost Three square roots, one division per cosine.
 /// \cite walter2007 \cite heitz2014
 // [glossy]
 template <std::floating_point T, typename F>
@@ -100,13 +95,9 @@ template <std::floating_point T, typename F>
 // [glossy]
 
 /// The density of sample().
-/// \param gloss  The surface.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param wi     Unit vector in the surface's frame, to where it comes from.
-/// \param which  The parts to sample from.
 /// \return \f$ G_1 D / 4 w_{o,z} = D / 2 (w_{o,z} + r(w_o)) \f$ per steradian on the
-///         side of `wo`; 0 elsewhere. Its integral is below 1: what is missing are
-///         directions into the surface.
+///         side of `wo`; 0 elsewhere. Its integral is below 1, because directions into
+///         the surface are rejected.
 /// \cite heitz2018
 template <std::floating_point T, typename F>
 [[nodiscard]] T pdf(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& wi,
@@ -119,14 +110,9 @@ template <std::floating_point T, typename F>
            (T(2) * (out.z + detail::ggx_lambda(alpha, out)));
 }
 
-/// A facet that is seen from `wo`, and the mirror direction of it. The weight is
+/// The mirror direction of a facet that is visible from `wo`. The weight is
 /// \f$ F\, G_2 / G_1 \f$, at most F.
-/// \param gloss  The surface.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param u      Point of [0,1)^3; z is not used.
-/// \param which  The parts to sample from.
-/// \return The sample; nothing if `wo` lies on the surface, if the direction would lead
-///         into it, or without the part.
+/// \return Nothing, too, if the direction would lead into the surface.
 /// \cost One sine, one cosine, eight square roots.
 /// \cite heitz2018
 template <std::floating_point T, typename F>
@@ -155,9 +141,7 @@ sample(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
     return diffuse_sample(in, weight, pdf(gloss, wo, in));
 }
 
-/// Refuses what no facet can reflect, and a roughness out of range.
-/// \param gloss  The surface.
-/// \throws std::invalid_argument naming the member.
+/// Requires a valid reflectance, and a roughness of 0 or within [0.01, 1].
 template <std::floating_point T, typename F>
 void check(const GlossyT<T, F>& gloss) {
     if constexpr (std::same_as<F, RgbT<T>>)

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/lambertian.hpp
-/// \brief The matt surface that looks equally bright from everywhere.
+/// \brief The matt surface that looks equally bright from all directions.
 
 #include <numbers>
 
@@ -12,16 +12,16 @@ namespace ljus {
 
 /// \defgroup lambertian Lambert
 /// \brief Section 3.2.1: the Lambertian BRDF.
-/// \erratum{The program's "BRDF" is cos(theta) times colour: no 1/pi, and a cosine that
-/// belongs to the integral and is then counted twice.}
+/// \erratum{The program's "BRDF" is cos(theta) times colour: it lacks 1/pi, and its
+/// cosine, which belongs to the integral, is counted twice.}
 /// \{
 
-/// A matt surface, on both sides.
+/// A two-sided matt surface.
 /// \report{Section 3.2.1}
 template <std::floating_point T>
 struct LambertianT {
     using Scalar = T;       ///< The precision of its numbers.
-    RgbT<T> albedo{T(0.5)}; ///< Share of the light that comes back, in [0, 1].
+    RgbT<T> albedo{T(0.5)}; ///< Reflected fraction of the light, in [0, 1].
 };
 using Lambertian = LambertianT<float>; ///< LambertianT in float.
 
@@ -31,11 +31,8 @@ template <std::floating_point T>
     return Lobes::diffuse;
 }
 
-/// The BRDF: f = albedo/pi, so that the light that comes back, the integral of f cos
-/// over the hemisphere, is the albedo.
-/// \param surface  The surface.
-/// \param wo       Unit vector in the surface's frame, to where the light goes.
-/// \param wi       Unit vector in the surface's frame, to where it comes from.
+/// The BRDF: f = albedo/pi, so that the integral of f cos over the hemisphere is the
+/// albedo.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \report{Section 3.2.1}
 // [lambertian]
@@ -48,21 +45,14 @@ template <std::floating_point T>
 }
 // [lambertian]
 
-/// The density of sample(): pdf_cosine_lobe().
-/// \return Per steradian.
+/// The density of sample(), per steradian: pdf_cosine_lobe().
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf(const LambertianT<T>&, const Vec3T<T>& wo,
                               const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
     return pdf_cosine_lobe(wo, wi, which);
 }
 
-/// A direction with density cos/pi: the weight f cos/pdf is then the albedo alone.
-/// \param surface  The surface.
-/// \param wo       Unit vector in the surface's frame, to where the light goes.
-/// \param u        Point of [0,1)^3; z is not used.
-/// \param which    The parts to sample from.
-/// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or
-///         without Lobes::diffuse.
+/// Samples the density cos/pi: the weight f cos/pdf is then the albedo alone.
 /// \cost One sine, one cosine, one square root.
 /// \report{Section 3.2.4}
 template <std::floating_point T>
@@ -75,9 +65,7 @@ sample(const LambertianT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
     return next;
 }
 
-/// Refuses an albedo outside [0, 1].
-/// \param surface  The surface.
-/// \throws std::invalid_argument naming the albedo.
+/// Requires an albedo within [0, 1].
 template <std::floating_point T>
 void check(const LambertianT<T>& surface) {
     require_unit("lambertian.albedo", surface.albedo);

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/materials/material.hpp
-/// \brief What a material is: six functions, and the sample that one of them returns;
-/// how matt ones are sampled.
+/// \brief The interface of a material: six functions, and the sample type; the cosine lobe
+/// of matt ones.
 
 #include <array>
 #include <cmath>
@@ -16,62 +16,64 @@
 
 namespace ljus {
 
-/// \defgroup bsdf What a material is
+/// \defgroup bsdf Materials
 /// \brief Section 3.2.1: how a surface scatters light.
 ///
 /// A material is a struct with public members and a `Scalar`, and free functions beside
-/// it. It works in a local frame with z along the shading normal; `wi` and `wo` are
-/// unit vectors that point *away* from the surface: `wo` to where light is going, `wi`
-/// to where it comes from. z > 0 is outside.
+/// it. It works in a local frame with z along the shading normal, and z > 0 outside.
+/// `wo` (outgoing) and `wi` (incident) are unit vectors that point *away* from the
+/// surface: light comes from `wi` and leaves along `wo`.
 ///
-///     Lobes lobes(m);                   // which parts there are
-///     Rgb   evaluate(m, wo, wi);        // f in 1/sr, no cosine; deltas left out
-///     float pdf(m, wo, wi, which);      // per steradian, of what sample() returns
+///     Lobes lobes(m);                   // the kinds of lobes that it has
+///     Rgb   evaluate(m, wo, wi);        // f in 1/sr, no cosine, no delta lobes
+///     float pdf(m, wo, wi, which);      // density of sample(), per steradian
 ///     std::optional<BsdfSample> sample(m, wo, u, transport, which);
-///     void  check(m);                   // throws, and names what is wrong
+///     void  check(m);                   // throws std::invalid_argument
 ///
-/// The `which` of pdf() and sample() are the lobes to choose from, all unless told
-/// otherwise. What a material may have as well, what that is for, and what happens
-/// without it:
+/// `u` is a point of [0,1)^3, whose z chooses a lobe, `transport` says whether radiance
+/// or flux is carried, and `which` are the lobes to sample, by default all. sample()
+/// returns nothing if `wo` lies on the surface, without a lobe of `which`, or if the
+/// surface is black. The exception of check() names the wrong member.
+///
+/// A material may have further functions. The table says what each is for and what
+/// happens without it:
 ///
 /// \snippet{lineno} ljus/materials/material.hpp material hooks
 ///
-/// The survey prints which of these each material of a scene has. One more is asked for
-/// by radiosity alone, diffuse_albedo(m): a material without it is black there.
+/// The survey prints which of these each material of a scene has. Radiosity alone also
+/// asks for diffuse_albedo(m): a material without it is black there.
 /// \{
 
-/// The lobes of a material, as a set. A lobe is *specular* if it sends a ray into one
-/// direction (a delta); all others have an f and a pdf. In Heckbert's letters these are
-/// D, glossy ones too.
+/// A set of lobes. A *specular* lobe scatters into a single direction (a delta); all
+/// others have an f and a pdf and count as D in Heckbert's notation, even glossy ones.
 enum class Lobes : std::uint8_t {
-    none = 0,     ///< Nothing.
-    diffuse = 1,  ///< Light from everywhere goes everywhere.
-    glossy = 2,   ///< A blurred mirror: around one direction, the more so the smoother.
-    specular = 4, ///< Mirrors and clear boundaries.
-    non_specular = 3, ///< What evaluate() knows: diffuse and glossy.
+    none = 0,         ///< Nothing.
+    diffuse = 1,      ///< Scatters into all directions.
+    glossy = 2,       ///< A blurred mirror: scatters around one direction.
+    specular = 4,     ///< Mirrors and clear boundaries.
+    non_specular = 3, ///< The lobes of evaluate(): diffuse and glossy.
     all = 7,          ///< Every lobe.
 };
 
-/// The parts that are in both sets.
+/// The lobes that are in both sets.
 [[nodiscard]] constexpr Lobes operator&(Lobes a, Lobes b) noexcept {
     return static_cast<Lobes>(static_cast<unsigned>(a) & static_cast<unsigned>(b));
 }
 
-/// The parts that are in one set or the other.
+/// The lobes that are in either set.
 [[nodiscard]] constexpr Lobes operator|(Lobes a, Lobes b) noexcept {
     return static_cast<Lobes>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
 
-/// Whether a set contains a part.
+/// True if a set contains a lobe.
 /// \param set   The set.
-/// \param part  One lobe; or several, for whether it contains any of them.
+/// \param part  One lobe; or several, of which the set must contain at least one.
 [[nodiscard]] constexpr bool has(Lobes set, Lobes part) noexcept {
     return (set & part) != Lobes::none;
 }
 
-/// What a path carries. Radiance that crosses into index n scales by n^2, because the
-/// same light is squeezed into a narrower cone; the flux of a photon does not
-/// \cite veach1997.
+/// What a path carries. Radiance that enters index n is scaled by n^2, because the same
+/// light fills a narrower cone; the flux of a photon is not scaled \cite veach1997.
 enum class Transport : std::uint8_t {
     radiance, ///< Paths from the camera.
     flux,     ///< Photons.
@@ -80,20 +82,18 @@ enum class Transport : std::uint8_t {
 /// One scattered direction.
 template <std::floating_point T>
 struct BsdfSampleT {
-    Vec3T<T> wi{T(0), T(0), T(1)}; ///< Where the light comes from; unit vector.
-    RgbT<T> weight{T(0)};          ///< f |cos|/pdf: what the path is multiplied by.
-    T pdf = T(0);          ///< Per steradian, choice of lobe included; 0: delta.
-    bool specular = false; ///< Whether `wi` is a delta's direction.
-    T eta_scale =
-        T(1); ///< What of the weight is (n_i/n_t)^2: light squeezed into another
-              ///< cone, not lost, so that roulette leaves it out.
+    Vec3T<T> wi{T(0), T(0), T(1)}; ///< Incident direction; unit vector.
+    RgbT<T> weight{T(0)};  ///< f |cos|/pdf: the factor of the path's throughput.
+    T pdf = T(0);          ///< Per steradian, times the lobe's probability; 0: delta.
+    bool specular = false; ///< True if `wi` belongs to a delta.
+    T eta_scale = T(1);    ///< (n_i/n_t)^2 within the weight; roulette ignores it.
 };
 using BsdfSample = BsdfSampleT<float>; ///< BsdfSampleT in float.
 
-/// A sample of a delta: its density is infinite, and says nothing.
-/// \param wi       Where the light comes from.
-/// \param share    Of that light which goes on, over the lobe's probability.
-/// \param eta_scale  (n_i/n_t)^2 for radiance that crosses a boundary; else 1.
+/// A sample of a delta lobe; its pdf is 0, because the density is infinite.
+/// \param wi       Incident direction.
+/// \param share    The scattered fraction of light, over the lobe's probability.
+/// \param eta_scale  (n_i/n_t)^2 for radiance that crosses a boundary, otherwise 1.
 template <std::floating_point T>
 [[nodiscard]] constexpr BsdfSampleT<T>
 specular_sample(const Vec3T<T>& wi, const RgbT<T>& share, T eta_scale = T(1)) noexcept {
@@ -105,7 +105,7 @@ specular_sample(const Vec3T<T>& wi, const RgbT<T>& share, T eta_scale = T(1)) no
 }
 
 /// A sample of a lobe with a density.
-/// \param wi       Where the light comes from.
+/// \param wi       Incident direction.
 /// \param weight   f |cos|/pdf.
 /// \param density  Per steradian, times the lobe's probability.
 template <std::floating_point T>
@@ -114,18 +114,19 @@ diffuse_sample(const Vec3T<T>& wi, const RgbT<T>& weight, T density) noexcept {
     return {.wi = wi, .weight = weight, .pdf = density, .specular = false};
 }
 
-/// A material without an f in 1/sr: it sends light into single directions, and says so
-/// by `static constexpr bool only_specular = true`. What it need not say then:
+/// A material with specular lobes only. It declares
+/// `static constexpr bool only_specular = true`, and then needs no lobes(), evaluate()
+/// and pdf():
 template <typename M>
 concept OnlySpecular = std::floating_point<typename M::Scalar> && M::only_specular;
 
-/// The lobes of such a material: specular ones.
+/// The lobes of such a material: specular.
 template <OnlySpecular M>
 [[nodiscard]] constexpr Lobes lobes(const M&) noexcept {
     return Lobes::specular;
 }
 
-/// Almost every pair of directions sees nothing.
+/// f is 0 except at the delta.
 /// \return 0.
 template <OnlySpecular M>
 [[nodiscard]] constexpr RgbT<typename M::Scalar>
@@ -134,7 +135,7 @@ evaluate(const M&, const Vec3T<typename M::Scalar>& /*wo*/,
     return RgbT<typename M::Scalar>{0};
 }
 
-/// The density of the parts that have one.
+/// The density is 0 except at the delta.
 /// \return 0.
 template <OnlySpecular M>
 [[nodiscard]] constexpr typename M::Scalar
@@ -143,7 +144,7 @@ pdf(const M&, const Vec3T<typename M::Scalar>& /*wo*/,
     return 0;
 }
 
-/// A material as the renderers see it; see the head of this page for the functions.
+/// A material as renderers use it; see the top of this page for the functions.
 template <typename M>
 concept Material = std::floating_point<typename M::Scalar> &&
     requires(const M& m, const Vec3T<typename M::Scalar>& v, Transport transport,
@@ -157,7 +158,7 @@ concept Material = std::floating_point<typename M::Scalar> &&
     check(m);
 };
 
-/// The absorption inside, for every material that says nothing else: none.
+/// The default absorption inside: none.
 /// \return 0 per scene unit.
 template <typename M>
 requires std::floating_point<typename M::Scalar>
@@ -165,13 +166,13 @@ requires std::floating_point<typename M::Scalar>
     return RgbT<typename M::Scalar>{0};
 }
 
-/// A material that may have a medium inside: it says what it absorbs.
+/// A material with a medium inside: it provides absorption().
 template <typename M>
 concept MayAbsorb = requires(const detail::Own<M>& m) {
     absorption(m);
 };
 
-/// The emitted radiance, for every material that says nothing else: none.
+/// The default emitted radiance: none.
 /// \return 0 W/(m^2 sr).
 template <typename M>
 requires std::floating_point<typename M::Scalar>
@@ -179,13 +180,13 @@ requires std::floating_point<typename M::Scalar>
     return RgbT<typename M::Scalar>{0};
 }
 
-/// A material as it is at a point: itself, or `at_point(m, position, uv)` of one that
-/// is not the same everywhere. One that looks up by uv says so by
-/// `static constexpr bool uses_uv = true`; for all others uv is not worked out.
+/// A material at a point: the material itself, or `at_point(m, position, uv)` of one
+/// that varies. A material that uses uv declares `static constexpr bool uses_uv =
+/// true`; for all others uv is not computed.
 /// \param m         The material; must outlive the result.
 /// \param position  The point.
-/// \param uv        Its coordinates on its shape, of texture_coordinates().
-/// \return Something to sample().
+/// \param uv        Its coordinates on its shape, from texture_coordinates().
+/// \return A material to sample().
 template <typename M>
 [[nodiscard]] constexpr decltype(auto)
 material_at(const M& m, const Vec3T<typename M::Scalar>& position,
@@ -196,16 +197,16 @@ material_at(const M& m, const Vec3T<typename M::Scalar>& position,
         return (m);
 }
 
-/// Whether two directions leave the same side of the surface; false on the surface.
+/// True if two directions leave the same side of the surface; false on the surface.
 template <std::floating_point T>
 [[nodiscard]] constexpr bool same_side(const Vec3T<T>& a, const Vec3T<T>& b) noexcept {
-    // Not a.z * b.z > 0, which underflows.
+    // a.z * b.z > 0 would underflow.
     return (a.z > T(0) && b.z > T(0)) || (a.z < T(0) && b.z < T(0));
 }
 
 namespace detail {
 
-/// The hooks of a type of material.
+/// The optional functions of a type of material.
 template <Material M>
 [[nodiscard]] constexpr auto material_hooks() noexcept {
     using V = Vec3T<typename M::Scalar>;
@@ -218,11 +219,11 @@ template <Material M>
              requires(O m) { absorption(m); }},
         Hook{"emission", "its own light", "black",
              requires(O m) { emission(m); }},
-        Hook{"at_point", "another colour per place", "the same anywhere",
+        Hook{"at_point", "varies over the surface", "the same anywhere",
              requires(O m, V position, Uv uv) { at_point(m, position, uv); }},
         Hook{"uses_uv", "at_point() with uv", "uv is 0",
              requires { M::uses_uv; }},
-        Hook{"both_ways", "a path that splits", "one way by chance",
+        Hook{"both_ways", "a path that splits", "one branch at random",
              requires(O m, V wo, Transport way) { both_ways(m, wo, way); }},
         Hook{"pass_through", "light that goes straight on", "opaque",
              requires(O m, V position, V wo) { pass_through(m, position, wo); }},

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/mirror.hpp
-/// \brief The perfect mirror.
+/// \brief The perfect mirror, and polished metal.
 
 #include <algorithm>
 
@@ -16,23 +16,18 @@ namespace ljus {
 /// \brief Section 3.2.4: perfectly reflective surfaces.
 /// \{
 
-/// A mirror, on both sides, equally good at every angle.
+/// A two-sided mirror with the same reflectance at every angle.
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 struct MirrorT {
     using Scalar = T;                           ///< The precision of its numbers.
     static constexpr bool only_specular = true; ///< See OnlySpecular.
-    RgbT<T> reflectance{T(1)}; ///< Share of the light that comes back, in [0, 1].
+    RgbT<T> reflectance{T(1)}; ///< Reflected fraction of the light, in [0, 1].
 };
 using Mirror = MirrorT<float>; ///< MirrorT in float.
 
 /// The mirror direction. The weight is the reflectance: delta and cosine cancel.
-/// \param mirror  The mirror.
-/// \param wo      Unit vector in the surface's frame, to where the light goes.
-/// \param which   The parts to sample from.
-/// \return The sample; nothing if `wo` lies on the surface, if the mirror is black, or
-///         without Lobes::specular.
-/// \cost Two changes of sign.
+/// \cost Two sign changes.
 /// \report{Section 3.2.4, Eq. (4)}
 // [mirror sample]
 template <std::floating_point T>
@@ -46,9 +41,7 @@ sample(const MirrorT<T>& mirror, const Vec3T<T>& wo, const Vec3T<T>&,
 }
 // [mirror sample]
 
-/// Refuses a reflectance outside [0, 1].
-/// \param mirror  The mirror.
-/// \throws std::invalid_argument naming the reflectance.
+/// Requires a reflectance within [0, 1].
 template <std::floating_point T>
 void check(const MirrorT<T>& mirror) {
     require_unit("mirror.reflectance", mirror.reflectance);
@@ -57,10 +50,10 @@ void check(const MirrorT<T>& mirror) {
 /// \}
 
 /// \defgroup metal Polished metal
-/// \brief Section 3.2.4: a perfectly reflective surface, coloured as metals are.
+/// \brief Section 3.2.4: a perfectly reflective surface with the colour of a metal.
 /// \{
 
-/// Smooth metal, on both sides. Its colour fades to white at grazing angles.
+/// Smooth two-sided metal. Its colour fades to white at grazing angles.
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 struct MetalT {
@@ -70,11 +63,7 @@ struct MetalT {
 };
 using Metal = MetalT<float>; ///< MetalT in float.
 
-/// The mirror direction, with the reflectance of its angle as weight.
-/// \param metal  The metal.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param which  The parts to sample from.
-/// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
+/// The mirror direction, with the reflectance at its angle as weight.
 /// \cost Three times fresnel_conductor().
 /// \report{Section 3.2.4, Eq. (4)}
 template <std::floating_point T>
@@ -87,9 +76,7 @@ sample(const MetalT<T>& metal, const Vec3T<T>& wo, const Vec3T<T>&,
     return specular_sample(reflect(wo), fresnel_conductor(cos_theta, metal.index));
 }
 
-/// Refuses an index that no metal has.
-/// \param metal  The metal.
-/// \throws std::invalid_argument naming the member.
+/// Requires an index that a metal can have.
 template <std::floating_point T>
 void check(const MetalT<T>& metal) {
     detail::require_conductor("metal.index", metal.index);

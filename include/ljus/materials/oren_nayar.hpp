@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/oren_nayar.hpp
-/// \brief The rough matt surface of Oren and Nayar, as their qualitative model has it.
+/// \brief The rough matt surface of Oren and Nayar: their qualitative model.
 
 #include <algorithm>
 #include <limits>
@@ -14,18 +14,18 @@ namespace ljus {
 
 /// \defgroup oren_nayar Oren-Nayar
 /// \brief Section 3.2.1: the Oren-Nayar BRDF, \cite orennayar1994.
-/// \erratum{The program takes the cosine of the angle between wi and wo for that
+/// \erratum{The program uses the cosine between wi and wo where the model has that
 /// between their azimuths, and clamps the sum. Figure 14 shows roughness 1, 10 and 100:
-/// the unit is radians, and A and B have saturated long before 10.}
+/// the unit is radians, and A and B saturate long before 10.}
 /// \{
 
-/// A surface of matt facets whose slopes vary by `sigma`: flatter than Lambert's, and
-/// brighter towards the light. It is two-sided.
+/// A two-sided surface of matt facets whose slopes vary by `sigma`: it looks flatter
+/// than Lambert's, and brighter towards the light.
 /// \report{Section 3.2.1}
 template <std::floating_point T>
 struct OrenNayarT {
     using Scalar = T;       ///< The precision of its numbers.
-    RgbT<T> albedo{T(0.5)}; ///< Of a facet, in [0, 1].
+    RgbT<T> albedo{T(0.5)}; ///< Albedo of a facet, in [0, 1].
     T sigma = T(0.3); ///< Standard deviation of the slope angle, radians; 0: Lambert.
 };
 using OrenNayar = OrenNayarT<float>; ///< OrenNayarT in float.
@@ -38,9 +38,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The larger cosine of two directions to the normal. Where both graze so that no float
-/// of ordinary size tells them from the horizon, the horizon is a little above it, or
-/// what is divided by the cosine would be infinite.
+/// The larger cosine of two directions to the normal, with a lower bound that keeps
+/// quotients finite where both directions graze.
 /// \param wo, wi  Unit vectors in the surface's frame.
 /// \return At least epsilon^2.
 template <std::floating_point T>
@@ -49,21 +48,19 @@ template <std::floating_point T>
     return std::max(std::max(std::abs(wi.z), std::abs(wo.z)), epsilon * epsilon);
 }
 
-/// The ratio of the qualitative model to Lambert's.
+/// The ratio of the qualitative model to Lambert's BRDF.
 ///
 /// \f[ A + B\,\max(0, \cos(\phi_i - \phi_o))\,\sin\alpha\,\tan\beta, \quad
 ///     A = 1 - \frac{\sigma^2}{2(\sigma^2 + 0.33)}, \quad
 ///     B = \frac{0.45\,\sigma^2}{\sigma^2 + 0.09} \f]
 ///
-/// with alpha the larger and beta the smaller of the two angles to the normal. The
-/// product of the sines and the cosine of the azimuths is x_i x_o + y_i y_o, and what
-/// is left of the tangent is a division by the larger cosine: no angle is needed.
-/// \param sigma  Roughness in radians, in [0, 1000].
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param wi     Unit vector in the surface's frame, to where it comes from, on the
-///               same side.
-/// \return The ratio: at least 1/2, and without bound where both directions graze: up
-///         to 3e13 in float.
+/// where alpha is the larger and beta the smaller of the two angles to the normal. The
+/// product of both sines with the cosine of the azimuths is x_i x_o + y_i y_o, and the
+/// tangent leaves a division by the larger cosine: no angle is computed.
+/// \param sigma   Roughness in radians, in [0, 1000].
+/// \param wo, wi  Unit vectors on the same side.
+/// \return The ratio: at least 1/2, and unbounded where both directions graze: up to
+///         3e13 in float.
 /// \cost Three divisions; no trigonometric function.
 // [oren nayar]
 template <std::floating_point T>
@@ -79,12 +76,9 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The BRDF: Lambert's albedo/pi times oren_nayar_ratio(). Light that goes from facet
-/// to facet is left out, so that white returns less than all at most angles; at grazing
-/// ones the model returns up to 1.5 percent too much.
-/// \param surface  The surface.
-/// \param wo       Unit vector in the surface's frame, to where the light goes.
-/// \param wi       Unit vector in the surface's frame, to where it comes from.
+/// The BRDF: Lambert's albedo/pi times oren_nayar_ratio(). Light between facets is left
+/// out, so that white returns less than all light at most angles; at grazing angles the
+/// model returns up to 1.5 percent too much.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \report{Section 3.2.1}
 template <std::floating_point T>
@@ -95,23 +89,15 @@ template <std::floating_point T>
                              detail::oren_nayar_ratio(surface.sigma, wo, wi));
 }
 
-/// The density of sample(): pdf_cosine_lobe().
-/// \return Per steradian.
+/// The density of sample(), per steradian: pdf_cosine_lobe().
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf(const OrenNayarT<T>&, const Vec3T<T>& wo,
                               const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
     return pdf_cosine_lobe(wo, wi, which);
 }
 
-/// A direction with density cos/pi; the weight is the albedo times the ratio to
-/// Lambert.
-/// \param surface  The surface.
-/// \param wo       Unit vector in the surface's frame, to where the light goes.
-/// \param u        Point of [0,1)^3; z is not used.
-/// \param which    The parts to sample from.
-/// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or
-///         without Lobes::diffuse.
-/// \cost As Lambert's and three divisions.
+/// Samples the density cos/pi; the weight is the albedo times the ratio.
+/// \cost That of Lambert's, and three divisions.
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
@@ -127,9 +113,8 @@ sample(const OrenNayarT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
 
 namespace detail {
 
-/// Refuses a roughness that is no angle.
-/// \param what   The name of the roughness, e.g. "oren_nayar.sigma".
-/// \param sigma  The roughness.
+/// Requires a roughness within [0, 1000] radians; `what` is its name, e.g.
+/// "oren_nayar.sigma".
 /// \throws std::invalid_argument as require().
 template <std::floating_point T>
 void require_roughness(std::string_view what, T sigma) {
@@ -139,9 +124,7 @@ void require_roughness(std::string_view what, T sigma) {
 
 } // namespace detail
 
-/// Refuses an albedo outside [0, 1] and a roughness that is no angle.
-/// \param surface  The surface.
-/// \throws std::invalid_argument naming the member.
+/// Requires an albedo within [0, 1] and a roughness within [0, 1000] radians.
 template <std::floating_point T>
 void check(const OrenNayarT<T>& surface) {
     require_unit("oren_nayar.albedo", surface.albedo);

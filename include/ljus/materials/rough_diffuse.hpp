@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/rough_diffuse.hpp
-/// \brief The relatives of the qualitative Oren-Nayar model: before it, beside it,
-/// after it.
+/// \brief Relatives of the qualitative Oren-Nayar model, older and newer.
 
 #include "ljus/materials/oren_nayar.hpp"
 
@@ -12,23 +11,23 @@ namespace ljus {
 /// \brief Section 3.2.1: which Oren-Nayar?
 /// \{
 
-/// One of the formulas that bear the name. White surfaces return at most this much of a
-/// constant sky, at any angle and roughness.
+/// The formulas that bear the name. The number is the largest fraction of a constant
+/// sky that a white surface returns, over all angles and roughnesses.
 enum class RoughModel : std::uint8_t {
-    as_printed, ///< The report's program: 0.57, the angle between wi and wo, a clamp.
-    full,       ///< Oren and Nayar 1994 with light from facet to facet: 1.05.
+    as_printed, ///< The report's program: 0.57; the angle between wi and wo, a clamp.
+    full,       ///< Oren and Nayar 1994 with interreflection between facets: 1.05.
     fujii, ///< Fujii's first improvement \cite fujii2012, with its 0.17 term: 1.03.
-    fon    ///< Fujii's second, which never gains: 1. Its roughness is in [0, 1].
+    fon    ///< Fujii's second, which adds no light: 1. Its roughness is in [0, 1].
 };
 
-/// A matt surface by one of the models, two-sided.
+/// A two-sided matt surface by one of the models.
 /// \report{Section 3.2.1}
 template <std::floating_point T>
 struct RoughDiffuseT {
     using Scalar = T;                   ///< The precision of its numbers.
-    RgbT<T> albedo{T(0.5)};             ///< Of a facet, in [0, 1].
+    RgbT<T> albedo{T(0.5)};             ///< Albedo of a facet, in [0, 1].
     T sigma = T(0.3);                   ///< Radians; for `fon` a number in [0, 1].
-    RoughModel model = RoughModel::fon; ///< Which formula.
+    RoughModel model = RoughModel::fon; ///< The formula.
 };
 using RoughDiffuse = RoughDiffuseT<float>; ///< RoughDiffuseT in float.
 
@@ -37,12 +36,8 @@ using RoughDiffuse = RoughDiffuseT<float>; ///< RoughDiffuseT in float.
 
 namespace detail {
 
-/// As the report's program has it: the cosine between the directions stands for that
-/// between their azimuths, and the sum is cut at 1.
-/// \param sigma  Radians.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param wi     Unit vector in the surface's frame, to where it comes from, on the
-///               same side.
+/// The formula of the report's program: it uses the cosine between the directions for
+/// that between their azimuths, and clamps the sum to 1.
 /// \return The ratio to Lambert, in [1/2, 1].
 /// \report{Section 3.2.1}
 template <std::floating_point T>
@@ -57,11 +52,11 @@ template <std::floating_point T>
     return std::min(T(1), a + b * cosine * tangent);
 }
 
-/// What one reflection and what two reflections give.
+/// The ratios for one and for two reflections.
 template <std::floating_point T>
 struct RoughRatiosT {
-    T single{}; ///< To be multiplied by albedo/pi.
-    T twice{};  ///< To be multiplied by albedo^2/pi.
+    T single{}; ///< Factor of albedo/pi.
+    T twice{};  ///< Factor of albedo^2/pi.
 };
 
 /// The full model of 1994, equations (30) and (31) of \cite orennayar1994.
@@ -71,13 +66,9 @@ struct RoughRatiosT {
 ///     \quad 0.17 \frac{\sigma^2}{\sigma^2 + 0.13}
 ///     \left(1 - \cos\phi \left(\frac{2\beta}{\pi}\right)^2\right) \f]
 ///
-/// with alpha the larger of the two angles to the normal, and beta the smaller.
-/// \param sigma  Radians.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param wi     Unit vector in the surface's frame, to where it comes from, on the
-///               same side.
-/// \return Both parts. For directions that graze and oppose each other their terms
-///         cancel, and with them all digits of the sum, which goes below 0.
+/// where alpha is the larger of the two angles to the normal, and beta the smaller.
+/// \return Both ratios. For opposite grazing directions the terms cancel and lose all
+///         digits, and the sum may be negative.
 /// \cost Two arc tangents, nine divisions.
 // [full]
 template <std::floating_point T>
@@ -107,11 +98,8 @@ template <std::floating_point T>
 }
 // [full]
 
-/// s/t of Fujii: the sines and the cosine of the azimuths in one product; behind the
-/// normal, where it is negative, it is not divided.
-/// \param wo  Unit vector in the surface's frame, to where the light goes.
-/// \param wi  Unit vector in the surface's frame, to where it comes from, on the same
-///            side.
+/// Fujii's term s/t, where s, the product of both sines with the cosine of the
+/// azimuths, is divided only if it is positive.
 /// \return At least -1.
 // [fujii]
 template <std::floating_point T>
@@ -121,11 +109,7 @@ template <std::floating_point T>
 }
 
 /// Fujii's improved model.
-/// \param sigma  Radians.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param wi     Unit vector in the surface's frame, to where it comes from, on the
-///               same side.
-/// \return Both parts.
+/// \return Both ratios.
 /// \cite fujii2012
 template <std::floating_point T>
 [[nodiscard]] RoughRatiosT<T> rough_fujii(T sigma, const Vec3T<T>& wo,
@@ -141,10 +125,6 @@ template <std::floating_point T>
 inline constexpr T fon_constant = T(0.5) - T(2) / T(3) * std::numbers::inv_pi_v<T>;
 
 /// Fujii's second model, called FON by \cite eon2025.
-/// \param roughness  In [0, 1].
-/// \param wo         Unit vector in the surface's frame, to where the light goes.
-/// \param wi         Unit vector in the surface's frame, to where it comes from, on the
-///                   same side.
 /// \return The ratio to Lambert.
 /// \cost Two divisions.
 template <std::floating_point T>
@@ -161,12 +141,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Pi times the BRDF: what a cosine-weighted sample is multiplied by.
-/// \param surface  The surface.
-/// \param wo       Unit vector in the surface's frame, to where the light goes.
-/// \param wi       Unit vector in the surface's frame, to where it comes from, on the
-///                 same side.
-/// \return At least 0, where rough_full() is cut off.
+/// Pi times the BRDF, the weight of a cosine-weighted sample.
+/// \return At least 0; negative values of rough_full() become 0.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> rough_weight(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo,
                                    const Vec3T<T>& wi) noexcept {
@@ -196,9 +172,6 @@ template <std::floating_point T>
 }
 
 /// The BRDF of the surface's model.
-/// \param surface  The surface.
-/// \param wo       Unit vector in the surface's frame, to where the light goes.
-/// \param wi       Unit vector in the surface's frame, to where it comes from.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo,
@@ -207,21 +180,14 @@ template <std::floating_point T>
     return std::numbers::inv_pi_v<T> * detail::rough_weight(surface, wo, wi);
 }
 
-/// The density of sample(): pdf_cosine_lobe().
-/// \return Per steradian.
+/// The density of sample(), per steradian: pdf_cosine_lobe().
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf(const RoughDiffuseT<T>&, const Vec3T<T>& wo,
                               const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
     return pdf_cosine_lobe(wo, wi, which);
 }
 
-/// A direction with density cos/pi.
-/// \param surface  The surface.
-/// \param wo       Unit vector in the surface's frame, to where the light goes.
-/// \param u        Point of [0,1)^3; z is not used.
-/// \param which    The parts to sample from.
-/// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or
-///         without Lobes::diffuse.
+/// Samples the density cos/pi.
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
@@ -232,10 +198,8 @@ sample(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
     return next;
 }
 
-/// Refuses an albedo outside [0, 1], a roughness that is no angle, and for `fon` one
-/// above 1.
-/// \param surface  The surface.
-/// \throws std::invalid_argument naming the member.
+/// Requires an albedo within [0, 1] and a valid roughness, which for `fon` is at most
+/// 1.
 template <std::floating_point T>
 void check(const RoughDiffuseT<T>& surface) {
     require_unit("rough_diffuse.albedo", surface.albedo);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/soap_film.hpp
-/// \brief A soap film: a sheet that lets light go straight on, but for some colours.
+/// \brief A soap film: a thin sheet with the colours of interference.
 
 #include <algorithm>
 
@@ -14,46 +14,43 @@ namespace ljus {
 /// \defgroup soap_film Soap films
 /// \brief The soap bubble of figure 4. Chapter: \ref ch_soap_film.
 ///
-/// The film is a *thin sheet*: light that it does not reflect goes straight on, through
-/// both surfaces at once. That is no scattering but visibility; so sample() knows the
-/// reflection only, and pass_through() says how much is left; see \ref next_vertex.
+/// The film is a *thin sheet*: light that it does not reflect goes straight on through
+/// both surfaces, which is visibility, not scattering. sample() returns the reflection
+/// only, and pass_through() is the transmittance; see \ref next_vertex.
 /// \{
 
-/// Where the colours come from.
+/// How the colours are computed.
 enum class FilmColor : std::uint8_t {
-    table,             ///< look_up(): the spectrum seen by an eye, baked beforehand.
+    table,             ///< look_up(): integrated over the spectrum in advance.
     three_wavelengths, ///< film_three()
     preintegrated      ///< film_preintegrated()
 };
 
-/// A soap film between air and air, on both sides the same, thinner the higher up:
-/// \f$ d(z) = d_0\, e^{-z/h} \f$, as films are that hang under their own weight
-/// \cite pasquet2022.
+/// A soap film in air. Its thickness falls with height, as in films that hang under
+/// their own weight \cite pasquet2022 : \f$ d(z) = d_0\, e^{-z/h} \f$.
 template <std::floating_point T>
 struct SoapFilmT {
     using Scalar = T;                           ///< The precision of its numbers.
     static constexpr bool only_specular = true; ///< See OnlySpecular.
-    T thickness = T(400);          ///< d_0 in nm, at the height of `level`; <= 1 mm.
-    T index = T(1.33);             ///< Of the liquid, at least 1.
-    T scale = T(0);                ///< h in scene units; 0: as thick everywhere.
-    Vec3T<T> level{T(0)};          ///< A point at whose height the film is d_0 thick.
-    Vec3T<T> up{T(0), T(0), T(1)}; ///< Against gravity; unit vector.
-    FilmColor color = FilmColor::preintegrated; ///< Which of the three.
-    FilmTableT<T> table{}; ///< Of bake_film_table(index), for FilmColor::table.
+    T thickness = T(400); ///< d_0 in nm, at the height of `level`; <= 1 mm.
+    T index = T(1.33);    ///< Index of the liquid, at least 1.
+    T scale = T(0);       ///< h in scene units; 0: constant thickness.
+    Vec3T<T> level{T(0)}; ///< A point at the height where the thickness is d_0.
+    Vec3T<T> up{T(0), T(0), T(1)};              ///< Against gravity; unit vector.
+    FilmColor color = FilmColor::preintegrated; ///< How the colours are computed.
+    FilmTableT<T> table{}; ///< From bake_film_table(index), for FilmColor::table.
 };
 using SoapFilm = SoapFilmT<float>; ///< SoapFilmT in float.
 
 namespace detail {
 
-/// How thick a film can be here, in nm: 1 mm.
+/// The largest thickness of a film, in nm: 1 mm.
 template <std::floating_point T>
 inline constexpr T max_film_thickness = T(1e6);
 
 } // namespace detail
 
-/// How thick a film is at a point.
-/// \param film      The film.
-/// \param position  The point.
+/// The thickness of a film at a point.
 /// \return In nm, in [0, 1 mm].
 // [thickness_at]
 template <std::floating_point T>
@@ -62,16 +59,14 @@ template <std::floating_point T>
     if (film.scale == T(0)) return film.thickness;
     const T height = glm::dot(position - film.level, film.up);
     const T thickness = film.thickness * std::exp(-height / film.scale);
-    // So that 0 times infinity, far below a film of no thickness, is thick.
+    // A NaN, from 0 times infinity far below a film without thickness, gives the
+    // maximum.
     return thickness < detail::max_film_thickness<T> ? thickness
                                                      : detail::max_film_thickness<T>;
 }
 // [thickness_at]
 
-/// What a film reflects.
-/// \param film       The film.
-/// \param cos_theta  Cosine between ray and normal, of either sign.
-/// \param thickness  In nm.
+/// The reflectance of a film, for a cosine of either sign and a thickness in nm.
 /// \return R for each channel, in [0, 1].
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> reflectance(const SoapFilmT<T>& film, T cos_theta,
@@ -88,16 +83,16 @@ template <std::floating_point T>
     return into_gamut(film_preintegrated(c, film.index, thickness));
 }
 
-/// A point of a film: a material that is the film there.
+/// A film at one point; it is a material itself.
 template <std::floating_point T>
 struct FilmPointT {
     using Scalar = T;                           ///< The precision of its numbers.
     static constexpr bool only_specular = true; ///< See OnlySpecular.
-    const SoapFilmT<T>& film;                   ///< Of which it is a point.
-    T thickness;                                ///< In nm, here.
+    const SoapFilmT<T>& film;                   ///< The film.
+    T thickness;                                ///< Thickness at the point, in nm.
 };
 
-/// Nothing to refuse: the film was checked.
+/// Does nothing: the film has been checked.
 template <std::floating_point T>
 void check(const FilmPointT<T>&) noexcept {}
 
@@ -110,11 +105,8 @@ template <std::floating_point T>
     return {film, thickness_at(film, position)};
 }
 
-/// What goes straight on through a film: all that is not reflected. A material with
-/// this function is a thin sheet.
-/// \param film      The film.
-/// \param position  Where.
-/// \param wo        Unit vector in the surface's frame, to where the light goes.
+/// The transmittance of a film at a point. A material with this function is a thin
+/// sheet.
 /// \return T = 1 - R for each channel.
 // [pass_through]
 template <std::floating_point T>
@@ -124,12 +116,8 @@ template <std::floating_point T>
 }
 // [pass_through]
 
-/// The mirror direction, with the film's colour there as weight. What goes straight on
-/// is not sampled; see pass_through().
-/// \param point  A point of a film.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param which  The parts to sample from.
-/// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
+/// The mirror direction, with the reflectance at the point as weight. Transmission is
+/// not sampled; see pass_through().
 /// \report{Figure 4}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
@@ -140,7 +128,7 @@ sample(const FilmPointT<T>& point, const Vec3T<T>& wo, const Vec3T<T>&,
     return specular_sample(reflect(wo), reflectance(point.film, wo.z, point.thickness));
 }
 
-/// The same for a film as thick as at its level.
+/// A sample of a film with the thickness of its `level`.
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const SoapFilmT<T>& film, const Vec3T<T>& wo, const Vec3T<T>& u,
@@ -148,9 +136,7 @@ sample(const SoapFilmT<T>& film, const Vec3T<T>& wo, const Vec3T<T>& u,
     return sample(FilmPointT<T>{film, film.thickness}, wo, u, transport, which);
 }
 
-/// Refuses a film that cannot be.
-/// \param film  The film.
-/// \throws std::invalid_argument naming the member.
+/// Requires every member within its range, and the table of the film's index.
 template <std::floating_point T>
 void check(const SoapFilmT<T>& film) {
     require(film.thickness >= T(0) && film.thickness <= detail::max_film_thickness<T>,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/textured.hpp
-/// \brief Any material with a colour, its colour from a texture.
+/// \brief Any material with a colour, multiplied by a texture.
 
 #include "ljus/image/texture.hpp"
 #include "ljus/materials/material.hpp"
@@ -9,28 +9,25 @@
 namespace ljus {
 
 /// \defgroup textured Textured materials
-/// \brief A material that becomes another one at each place.
+/// \brief A material whose colour varies over the surface.
 ///
-/// Renderers ask material_at(), which asks at_point(): a plain material has none and is
-/// itself, a textured one answers with its base in the colour of the place. So no plain
-/// material knows of textures, and a scene without them compiles nothing of this.
+/// Renderers call material_at(), which calls at_point(). A plain material has no
+/// at_point() and is used as it is; a textured one returns its base in the colour of
+/// the point. So a scene without textures compiles nothing of this.
 /// \{
 
-/// A material whose colour is multiplied by a texture's.
+/// A material whose colour is multiplied by that of a texture.
 template <Material Base, typename Texture>
 struct Textured {
     using Scalar = typename Base::Scalar;            ///< The precision of its numbers.
-    static constexpr bool uses_uv = UsesUv<Texture>; ///< As its texture says.
-    Base base{};       ///< White, if the texture's colour shall stay.
-    Texture texture{}; ///< In [0, 1] everywhere.
+    static constexpr bool uses_uv = UsesUv<Texture>; ///< As the texture declares it.
+    Base base{};       ///< White, if the texture's colour is to be kept.
+    Texture texture{}; ///< Colours within [0, 1].
 };
 
 namespace detail {
 
-/// A material in another colour; its `albedo`, `reflectance`, `tint` or `color` is it.
-/// \param base   The material.
-/// \param color  What its colour is multiplied by.
-/// \return The same material in the new colour.
+/// A material with its `albedo`, `reflectance`, `tint` or `color` multiplied.
 template <Material Base>
 [[nodiscard]] constexpr Base
 colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
@@ -47,11 +44,7 @@ colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
 
 } // namespace detail
 
-/// The material of a place: the base in the texture's colour.
-/// \param textured  The material.
-/// \param position  In scene units.
-/// \param uv        The coordinates of the place on its shape.
-/// \return A base material.
+/// The material at a point: the base in the texture's colour.
 /// \cost color_at() of the texture.
 // [at_point]
 template <typename Base, typename Texture, std::floating_point T>
@@ -62,35 +55,30 @@ template <typename Base, typename Texture, std::floating_point T>
 }
 // [at_point]
 
-/// What goes straight on through a textured pane; only of a base that is thin, and of a
-/// texture that looks up by the place alone, which is all that is known here.
-/// \param textured  The material.
-/// \param position  Where.
-/// \param wo        Unit vector in the surface's frame, to where the light goes.
-/// \return Of each channel, what the base lets through there.
+/// The transmittance of a textured pane. Its texture may depend on the position only,
+/// because uv is not known here.
+/// \return The base's transmittance per channel.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] auto pass_through(const Textured<Base, Texture>& textured,
                                 const Vec3T<T>& position, const Vec3T<T>& wo) noexcept
     -> decltype(pass_through(textured.base, position, wo)) {
-    static_assert(!UsesUv<Texture>,
-                  "The texture of a pane looks up by the place, not by uv.");
+    static_assert(!UsesUv<Texture>, "The texture of a pane must not use uv: "
+                                    "give it a PlaneMap or a GlobeMap.");
     const Base here = at_point(textured, position, Vec2T<T>{T(0)});
     return pass_through(here, position, wo);
 }
 
-/// \name What the base says
-/// What is asked of no place in particular: by a survey, or when a shape is added.
+/// \name Functions of the base
+/// They answer for the whole material: for a survey, or when a shape is added.
 /// \{
 
-/// The parts of the base.
-/// \param m  The material.
+/// The lobes of the base.
 template <typename Base, typename Texture>
 [[nodiscard]] constexpr Lobes lobes(const Textured<Base, Texture>& m) noexcept {
     return lobes(m.base);
 }
 
-/// The absorption inside: the base's.
-/// \param m  The material.
+/// The base's absorption coefficient inside.
 /// \return Per scene unit.
 template <typename Base, typename Texture>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
@@ -98,8 +86,7 @@ absorption(const Textured<Base, Texture>& m) noexcept {
     return absorption(m.base);
 }
 
-/// The emitted radiance: the base's, everywhere.
-/// \param m  The material.
+/// The base's emitted radiance, everywhere.
 /// \return W/(m^2 sr).
 template <typename Base, typename Texture>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
@@ -107,10 +94,7 @@ emission(const Textured<Base, Texture>& m) noexcept {
     return emission(m.base);
 }
 
-/// f of the base in its own colour; that of a place is evaluate(material_at(m, ...)).
-/// \param m   The material.
-/// \param wo  Unit vector in the surface's frame, to where the light goes.
-/// \param wi  Unit vector in the surface's frame, to where it comes from.
+/// f of the base in its own colour; at a point use evaluate(material_at(m, ...)).
 /// \return f in 1/sr, without the cosine.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const Textured<Base, Texture>& m, const Vec3T<T>& wo,
@@ -119,10 +103,6 @@ template <typename Base, typename Texture, std::floating_point T>
 }
 
 /// The density of the base's sample().
-/// \param m      The material.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param wi     Unit vector in the surface's frame, to where it comes from.
-/// \param which  The parts to sample from.
 /// \return Per steradian.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] T pdf(const Textured<Base, Texture>& m, const Vec3T<T>& wo,
@@ -131,12 +111,6 @@ template <typename Base, typename Texture, std::floating_point T>
 }
 
 /// A sample of the base in its own colour.
-/// \param m          The material.
-/// \param wo         Unit vector in the surface's frame, to where the light goes.
-/// \param u          Point of [0,1)^3.
-/// \param transport  Radiance or flux.
-/// \param which      The parts to sample from.
-/// \return The sample; nothing as for the base.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const Textured<Base, Texture>& m, const Vec3T<T>& wo, const Vec3T<T>& u,
@@ -146,8 +120,7 @@ sample(const Textured<Base, Texture>& m, const Vec3T<T>& wo, const Vec3T<T>& u,
 
 /// \}
 
-/// Refuses what the base or the texture refuses.
-/// \param textured  The material.
+/// Checks the base and the texture.
 /// \throws std::invalid_argument naming the member.
 template <typename Base, typename Texture>
 void check(const Textured<Base, Texture>& textured) {

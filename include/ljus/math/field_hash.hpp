@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/math/field_hash.hpp
-/// \brief A number that tells values from all others: what a saved map was made of.
+/// \brief A hash of all members of a struct: it records what a saved map was made of.
 
 #include <array>
 #include <bit>
@@ -13,11 +13,11 @@
 
 namespace ljus::detail {
 
-// The unsigned number of the same size.
+// The unsigned integer of the same size.
 template <typename Number>
 using BitsOf = std::conditional_t<sizeof(Number) == 8, std::uint64_t, std::uint32_t>;
 
-// The bytes of a number, the lowest first, on every machine.
+// The bytes of a number, lowest first on every machine.
 template <typename Number>
 [[nodiscard]] std::array<unsigned char, sizeof(Number)>
 bytes_of(Number value) noexcept {
@@ -32,20 +32,20 @@ bytes_of(Number value) noexcept {
     return bytes;
 }
 
-// FNV-1a, with 64 bits: a byte after those that the hash is of.
+// One step of 64-bit FNV-1a: adds a byte to a hash.
 inline constexpr std::uint64_t fnv_start = 0xcbf29ce484222325u;
 constexpr std::uint64_t fnv_hash(std::uint64_t hash, unsigned char byte) noexcept {
     return (hash ^ byte) * 0x100000001b3u;
 }
 
-// Stands for a member of any type, to count the members of an aggregate.
+// Converts to a member of any type, to count the members of an aggregate.
 template <typename Whole>
 struct AnyMember {
     template <typename Member>
     requires(!std::is_same_v<Member, Whole>) operator Member() const;
 };
 
-// How many members an aggregate has; 11 for all that have more than ten.
+// The number of members of an aggregate; 11 stands for more than ten.
 template <typename A, std::size_t N = 11>
 constexpr std::size_t member_count() noexcept {
     constexpr bool fits = []<std::size_t... I>(std::index_sequence<I...>) {
@@ -60,9 +60,8 @@ constexpr std::size_t member_count() noexcept {
         return member_count<A, N - 1>();
 }
 
-// FNV-1a of the numbers that values hold, in the order of their members: the same on
-// every machine. Their names and padding do not count; what a list holds, and how much
-// of it there is, does.
+// FNV-1a over the numbers that values hold, in the order of their members, with the
+// lengths of lists. Names and padding do not count: the hash is the same everywhere.
 struct FieldHash {
     std::uint64_t value = fnv_start;
 
@@ -71,8 +70,7 @@ struct FieldHash {
         (add_one(values), ...);
     }
 
-    // Types of equal members are told apart. Two families of compilers name types in
-    // two ways.
+    // Tells apart types with equal members. The name depends on the compiler's family.
     template <typename V>
     void add_name_of() {
         for (const char* c = typeid(V).name(); *c != '\0'; ++c) add(*c);
@@ -91,12 +89,12 @@ private:
         } else if constexpr (requires { v.begin(), v.end(), v.size(); }) {
             add(std::uint64_t(v.size()));
             for (const auto& each : v) add(each);
-        } else if constexpr (requires { v.data(); }) { // made once of data, as a mesh
+        } else if constexpr (requires { v.data(); }) { // made from data, like a mesh
             add(v.data());
         } else {
             static_assert(std::is_aggregate_v<V>,
-                          "What a light map is made of must be a struct with "
-                          "public members, or have a data() that returns one.");
+                          "A type that goes into a light map's key must be a struct "
+                          "with public members, or have a data() that returns one.");
             add_members(v);
         }
     }
@@ -104,8 +102,9 @@ private:
     template <typename V>
     void add_members(const V& v) {
         constexpr std::size_t count = member_count<V>();
-        static_assert(count <= 10, "What a light map is made of may have ten members: "
-                                   "put some of them into a struct.");
+        static_assert(count <= 10,
+                      "A type that goes into a light map's key may have at "
+                      "most ten members: put some of them into a struct.");
         if constexpr (count == 1) {
             const auto& [a] = v;
             add(a);

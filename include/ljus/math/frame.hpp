@@ -8,11 +8,11 @@
 namespace ljus {
 
 /// \defgroup frame Frames
-/// \brief Materials and samplers work with z along the normal; a frame takes them
-/// there.
+/// \brief Materials and samplers work with z along the normal; a frame converts to and
+/// from that system.
 /// \{
 
-/// Three orthonormal vectors; `normal` plays the part of z.
+/// Three orthonormal vectors; `normal` is the local z axis.
 template <std::floating_point T>
 struct FrameT {
     Vec3T<T> tangent{T(1), T(0), T(0)};   ///< The local x axis, of unit length.
@@ -38,10 +38,7 @@ template <std::floating_point T>
             .normal = n};
 }
 
-/// A vector of the world, seen in the frame.
-/// \param frame  Orthonormal frame.
-/// \param v      Vector in world coordinates.
-/// \return The same vector in local coordinates; z is its part along the normal.
+/// Converts a vector from world to local coordinates; z is its normal component.
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec3T<T> to_local(const FrameT<T>& frame,
                                           const Vec3T<T>& v) noexcept {
@@ -49,10 +46,7 @@ template <std::floating_point T>
             glm::dot(v, frame.normal)};
 }
 
-/// A local vector, seen in the world.
-/// \param frame  Orthonormal frame.
-/// \param v      Vector in local coordinates.
-/// \return The same vector in world coordinates.
+/// Converts a vector from local to world coordinates.
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec3T<T> to_world(const FrameT<T>& frame,
                                           const Vec3T<T>& v) noexcept {

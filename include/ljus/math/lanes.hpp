@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/math/lanes.hpp
-/// \brief Eight numbers at a time, without a line of assembly.
+/// \brief Arithmetic on eight numbers at a time, in portable C++.
 
 #include <array>
 #include <bit>
@@ -18,18 +18,16 @@ namespace ljus {
 namespace detail {
 
 /// \defgroup lanes Lanes
-/// \brief Eight numbers side by side: loops of a constant length, which compilers turn
-/// into the widest instructions that they may use. What keeps them from it: a long
-/// body, a choice between products, shifts that differ by lane.
+/// \brief Eight numbers in loops of constant length, which compilers turn into vector
+/// instructions. A long body, a choice between products, and shifts that differ by lane
+/// prevent that.
 /// \{
 
-/// How many numbers stand side by side.
+/// The number of lanes.
 inline constexpr int lane_count = 8;
 
-/// Calls `body(i)` for each of eight lanes, in a loop that stays one.
-///
-/// A compiler that unrolls the loop before it looks for vectors, as g++ does inside of
-/// other loops, finds eight separate numbers and no vector any more.
+/// Calls `body(i)` for each of eight lanes, in a loop that is not unrolled.
+/// g++ unrolls inner loops before it vectorises, and then finds no vector any more.
 /// \param body  Called with an int in [0, 8).
 template <typename Body>
 constexpr void for_lanes(Body&& body) noexcept {
@@ -40,7 +38,7 @@ constexpr void for_lanes(Body&& body) noexcept {
 #endif
     for (int i = 0; i < lane_count; ++i) body(i);
 }
-/// The bit of each lane in a number that has one for each.
+/// The bit that stands for each lane in a bit mask.
 inline constexpr std::uint32_t lane_bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
 
 /// Eight numbers of any precision.
@@ -57,14 +55,11 @@ struct alignas(32) Lanes3T {
     T y[lane_count]; ///< Second coordinates.
     T z[lane_count]; ///< Third coordinates.
 
-    /// One of them.
-    /// \param lane  In [0, 8).
+    /// The vector in one lane.
     [[nodiscard]] constexpr Vec3T<T> operator[](std::size_t lane) const noexcept {
         return {x[lane], y[lane], z[lane]};
     }
-    /// Replaces one of them.
-    /// \param lane  In [0, 8).
-    /// \param v     The new one.
+    /// Replaces the vector in one lane.
     constexpr void set(std::size_t lane, const Vec3T<T>& v) noexcept {
         x[lane] = v.x;
         y[lane] = v.y;
@@ -73,34 +68,31 @@ struct alignas(32) Lanes3T {
 };
 using Lanes3 = Lanes3T<float>; ///< Lanes3T in float.
 
-/// Eight answers: all bits of a lane set for yes, none for no.
+/// Eight answers: -1 (all bits set) for yes, 0 for no.
 struct alignas(32) LaneMask {
     std::int32_t lane[lane_count]; ///< -1 or 0.
 };
 
-/// The lanes that say yes, as a number to take them from one by one: eight bits a lane.
-/// Written in the two steps that compilers know: to bytes, and those into one register.
-/// \param mask  The answers.
-/// \return 0 for none.
+/// Packs a mask into one byte per lane, for take_lane(). It is written in two steps
+/// that compilers know: narrow to bytes, then move the bytes into one register.
+/// \return 1 in the byte of each lane that says yes; 0 if none does.
 [[nodiscard]] constexpr std::uint64_t yes_lanes(const LaneMask& mask) noexcept {
     std::array<std::int8_t, lane_count> bytes{};
     for (std::size_t i = 0; i < lane_count; ++i)
         bytes[i] = static_cast<std::int8_t>(mask.lane[i]);
     return std::bit_cast<std::uint64_t>(bytes) & 0x0101010101010101u;
 }
-/// Takes a lane out of what yes_lanes() returned.
-/// \param lanes  Not 0; becomes what is left.
-/// \return The lane's place.
+/// Removes one lane from the set that yes_lanes() returned.
+/// \param lanes  Not 0; the lane's byte is cleared.
+/// \return The lane's index.
 [[nodiscard]] constexpr std::size_t take_lane(std::uint64_t& lanes) noexcept {
     const auto place = static_cast<std::size_t>(std::countr_zero(lanes)) / 8;
     lanes &= lanes - 1;
     return std::endian::native == std::endian::little ? place : lane_count - 1 - place;
 }
 
-/// Which of eight numbers are at most so large.
-/// \param numbers  The numbers.
-/// \param bound    How large.
-/// \return A bit each, the first number's the lowest; none for NaN.
+/// Tests which of eight numbers are at most `bound`.
+/// \return A bit mask, with lane 0 in the lowest bit; a NaN does not pass.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::uint32_t lanes_up_to(const LanesT<T>& numbers,
                                                   T bound) noexcept {
@@ -109,15 +101,14 @@ template <std::floating_point T>
     return bits;
 }
 
-/// The place of the smallest of eight numbers, or of one that differs from it in the
-/// last three bits only.
-///
-/// The bits of a number that is not below 0 are ordered as it is; in place of the last
-/// three stands the place, and the smallest integer tells both.
-/// \param numbers  The numbers; none of those that count below 0.
-/// \param among    Which of them count: a bit each, the first number's the lowest.
-/// \param bound    Larger ones do not count, nor does NaN.
-/// \return The place, or 8 if there is none.
+/// The index of the smallest of eight numbers, up to a difference in the last three
+/// bits.
+/// The bits of numbers >= 0 are ordered like the numbers. Their last three bits are
+/// replaced by the index, so that the smallest integer gives both.
+/// \param numbers  The numbers; those in `among` must be >= 0.
+/// \param among    Bit mask of the lanes that count, with lane 0 in the lowest bit.
+/// \param bound    Larger numbers do not count, nor does NaN.
+/// \return The index, or 8 if no number counts.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::uint32_t
 smallest_lane(const LanesT<T>& numbers, std::uint32_t among, T bound) noexcept {
@@ -138,18 +129,18 @@ smallest_lane(const LanesT<T>& numbers, std::uint32_t among, T bound) noexcept {
 } // namespace detail
 
 /// \defgroup prefetch Prefetching
-/// \brief A processor waits for its memory some hundred steps; it can be told in time.
+/// \brief Reading memory takes hundreds of cycles; a prefetch starts it early.
 /// \{
 
 namespace detail {
 
-/// Says that `lines` cache lines of 64 bytes will soon be read. A hint: where a
-/// compiler has none to give, nothing happens, and all answers are the same.
-/// \param address  Where the first begins; any address.
-/// \cost An instruction a line.
+/// Hints that `lines` cache lines of 64 bytes will soon be read. Results do not depend
+/// on it, and compilers without such a hint ignore it.
+/// \param address  Start of the first line; any address.
+/// \cost One instruction per line.
 template <int lines = 1>
 inline void prefetch([[maybe_unused]] const void* address) noexcept {
-#if defined(__GNUC__) // clang says so, too
+#if defined(__GNUC__) // clang defines it, too
     for (int i = 0; i < lines; ++i)
         __builtin_prefetch(static_cast<const char*>(address) + 64 * i);
 #endif

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/math/low_discrepancy.hpp
-/// \brief Sobol's points, scrambled: numbers that know where the others have been.
+/// \brief Scrambled Sobol points: random numbers that fill space evenly.
 
 #include <array>
 
@@ -10,28 +10,26 @@
 namespace ljus {
 
 /// \defgroup low_discrepancy Low-discrepancy numbers
-/// \brief Points that fill the unit cube more evenly than chance would.
+/// \brief Points that fill the unit cube more evenly than random ones.
 ///
-/// Random points leave gaps and form heaps; a sum over N of them has an error that goes
-/// with \f$N^{-1/2}\f$. The first \f$2^m\f$ points of Sobol lie one in each cell of
-/// every dyadic grid, and where the summed function is smooth in few dimensions the
-/// scrambled ones have an error near \f$N^{-3/2}\f$; where it has edges, still better
-/// than chance.
+/// The error of a mean of N random points falls like \f$N^{-1/2}\f$. The first
+/// \f$2^m\f$ Sobol points put one point into each cell of every dyadic grid. For a
+/// smooth function of few dimensions the error of scrambled points falls almost like
+/// \f$N^{-3/2}\f$; with edges it is larger, but below that of random points.
 /// \{
 
 namespace detail {
 
-/// How many dimensions sobol() has.
+/// The number of dimensions of sobol().
 inline constexpr std::uint32_t sobol_dimensions = 16;
 
-/// The direction numbers of all dimensions: entry [d][i] is what bit i of the index
-/// turns over in dimension d.
+/// The direction numbers of all dimensions: bit i of the index flips the bits [d][i]
+/// in dimension d.
 using SobolTable = std::array<std::array<std::uint32_t, 32>, sobol_dimensions>;
 
-/// Works the direction numbers out, by the recurrence of Joe and Kuo, from a primitive
-/// polynomial (degree s, inner coefficients a) and s odd numbers a dimension.
-/// \return The table; made by the compiler.
-/// \cite joe2008
+/// Computes the direction numbers at compile time, by the recurrence of Joe and Kuo,
+/// from a primitive polynomial (degree s, inner coefficients a) and s odd numbers per
+/// dimension \cite joe2008.
 [[nodiscard]] constexpr SobolTable make_sobol_table() noexcept {
     struct Seed {
         unsigned s, a, m[6];
@@ -65,15 +63,15 @@ using SobolTable = std::array<std::array<std::uint32_t, 32>, sobol_dimensions>;
     return table;
 }
 
-/// The table.
+/// The direction numbers.
 inline constexpr SobolTable sobol_table = make_sobol_table();
 
-/// One coordinate of one of Sobol's points \cite sobol1967.
-/// \param index      Which point.
+/// One coordinate of a Sobol point \cite sobol1967.
+/// \param index      The index of the point.
 /// \param dimension  Which coordinate, below sobol_dimensions.
 /// \return The coordinate times 2^32. The first 2^m points are a (t,m,s)-net: t is 0
 ///         in each dimension alone and in dimensions 0 and 1 together.
-/// \cost One exclusive or a bit of the index that is set.
+/// \cost One exclusive or per set bit of the index.
 [[nodiscard]] constexpr std::uint32_t sobol(std::uint32_t index,
                                             std::uint32_t dimension) noexcept {
     std::uint32_t bits = 0;
@@ -82,9 +80,7 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
     return bits;
 }
 
-/// The bits in the opposite order.
-/// \param x  Any number.
-/// \return Its mirror image.
+/// Reverses the order of the bits of x.
 [[nodiscard]] constexpr std::uint32_t reversed_bits(std::uint32_t x) noexcept {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
@@ -93,16 +89,15 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
     return (x >> 16) | (x << 16);
 }
 
-/// Owen's scrambling of one coordinate, by a hash: each bit is turned over, or not, by
-/// chance that depends on the seed and on all bits above it. Cells of a dyadic grid are
-/// exchanged for each other, so that the points keep their evenness; each of them alone
-/// becomes uniform over [0, 1).
+/// Owen's scrambling of one coordinate by a hash: whether a bit is flipped depends on
+/// the seed and on all higher bits. Cells of a dyadic grid are permuted, so that the
+/// points stay evenly spread, and each point alone becomes uniform over [0, 1).
 ///
-/// A product and a sum carry upwards only: on the reversed bits, each result depends on
-/// the bits above it in the original.
-/// \param bits  A coordinate of sobol().
-/// \param seed  Another one for each dimension; seeds that differ in their last bits
-///              alone give dimensions that know of each other.
+/// Sums and products carry upwards only. On reversed bits, each bit of the result
+/// therefore depends on the higher bits of the original.
+/// \param bits  A coordinate from sobol().
+/// \param seed  Another seed per dimension; seeds that differ only in their last bits
+///              give correlated dimensions.
 /// \return The scrambled coordinate times 2^32.
 /// \cite owen1995 \cite burley2020
 // [owen]
@@ -121,24 +116,24 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 
 } // namespace detail
 
-/// The numbers of one path out of many that shall be spread evenly together: the first
-/// sobol_dimensions are a scrambled point of Sobol, all further ones are random. Draw
-/// from it as from a RandomStream.
+/// The numbers of one path among many that are to be spread evenly together. The first
+/// sobol_dimensions numbers are a scrambled Sobol point; all further ones are random.
+/// It is used like a RandomStream.
 ///
-/// Each number alone is as uniform as a random one, so that no mean changes. Numbers of
-/// one path are independent; those of different paths avoid each other.
+/// Each number is uniform, so that no mean changes. The numbers of one path are
+/// independent; those of different paths are stratified.
 struct SobolStream {
-    std::uint64_t seed = 0;      ///< Of the scrambling; the same for all paths.
-    std::uint32_t index = 0;     ///< Which point.
-    std::uint32_t dimension = 0; ///< The next one.
-    RandomStream rest{};         ///< What comes after the last dimension.
+    std::uint64_t seed = 0;      ///< Seed of the scrambling; the same for all paths.
+    std::uint32_t index = 0;     ///< Index of the point.
+    std::uint32_t dimension = 0; ///< The next dimension.
+    RandomStream rest{};         ///< Supplies the numbers after the last dimension.
 };
 
 /// The stream of one path.
 /// \param seed       The user's seed.
-/// \param pass       Which part of the work draws.
-/// \param iteration  Which repetition of the pass; each is scrambled anew.
-/// \param path       Which path of the pass; after 2^32 the scrambling changes.
+/// \param pass       The pass that draws.
+/// \param iteration  The repetition of the pass; each has its own scrambling.
+/// \param path       The path's number in the pass; after 2^32 the scrambling changes.
 /// \return A stream at dimension 0.
 [[nodiscard]] constexpr SobolStream sobol_stream(std::uint64_t seed, Pass pass,
                                                  std::uint64_t iteration,
@@ -150,9 +145,7 @@ struct SobolStream {
 
 namespace detail {
 
-/// The stream of one path whose numbers are all random: those of random_stream(), for
-/// code that shall be compiled once for both.
-/// \param rest  Where the numbers come from.
+/// A stream with random numbers only, for code that is compiled once for both kinds.
 /// \return A stream past its last dimension.
 [[nodiscard]] constexpr SobolStream without_points(const RandomStream& rest) noexcept {
     return {.dimension = sobol_dimensions, .rest = rest};
@@ -160,23 +153,20 @@ namespace detail {
 
 } // namespace detail
 
-/// Moves a stream to the start of a bounce. The dimensions of the point go on: paths
-/// that draw equally much in each bounce meet the same ones.
-/// \param stream  The stream.
-/// \param bounce  Which bounce.
+/// Moves a stream to the start of a bounce. The dimensions of the Sobol point are not
+/// reset: paths that draw equally often per bounce use the same dimensions there.
 constexpr void start_bounce(SobolStream& stream, std::uint64_t bounce) noexcept {
     start_bounce(stream.rest, bounce);
 }
 
-/// The next number, uniform in [0, 1): never 1, in float or in double.
-/// \param stream  Moves on by one dimension.
+/// The next number, uniform in [0, 1), never 1; uses one dimension.
 /// \return A multiple of 2^-24 (float) or 2^-32 (double, while the dimensions last).
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(SobolStream& stream) noexcept {
     const std::uint32_t d = stream.dimension;
     if (d >= detail::sobol_dimensions) return next_1d<T>(stream.rest);
     ++stream.dimension;
-    constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u; // seeds side by side are alike
+    constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u; // adjacent seeds would correlate
     const std::uint32_t bits =
         detail::owen_scrambled(detail::sobol(stream.index, d), stream.seed + d * odd);
     if constexpr (sizeof(T) == 4)
@@ -185,16 +175,14 @@ template <std::floating_point T = float>
         return static_cast<T>(bits) * T(0x1p-32);
 }
 
-/// The next point of the unit square [0, 1)^2.
-/// \param stream  Moves on by two dimensions.
+/// The next point of the unit square [0, 1)^2; uses two dimensions.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec2T<T> next_2d(SobolStream& stream) noexcept {
     const T x = next_1d<T>(stream);
     return {x, next_1d<T>(stream)};
 }
 
-/// The next point of the unit cube [0, 1)^3.
-/// \param stream  Moves on by three dimensions.
+/// The next point of the unit cube [0, 1)^3; uses three dimensions.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec3T<T> next_3d(SobolStream& stream) noexcept {
     const T x = next_1d<T>(stream);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/math/polynomial.hpp
-/// \brief The real roots of a polynomial in an interval, in order, none skipped.
+/// \brief All real roots of a polynomial in an interval, in ascending order.
 
 #include <array>
 #include <cmath>
@@ -22,11 +22,11 @@ namespace ljus {
 
 namespace detail {
 
-/// A polynomial of degree N on [0, 1], as its Bernstein coefficients:
+/// A polynomial of degree N on [0, 1], given by its Bernstein coefficients:
 /// \f[ p(u) = \sum_{i=0}^{N} c_i \binom{N}{i} u^i (1 - u)^{N-i}. \f]
-/// The first and the last are the values at the ends; p lies between the least and the
-/// largest; and it has no more roots in (0, 1) than the row changes its sign, and as
-/// many or fewer by an even number \cite farouki2012.
+/// c_0 and c_N are p(0) and p(1), and p stays between the smallest and the largest
+/// coefficient. The number of roots in (0, 1) is the number of sign changes of the
+/// coefficients, or less by an even number \cite farouki2012.
 template <std::floating_point T, std::size_t N>
 struct BernsteinT {
     std::array<T, N + 1> c{}; ///< c_0 to c_N.
@@ -40,10 +40,8 @@ template <std::floating_point T, std::size_t N>
     return row;
 }
 
-/// The value of a polynomial.
-/// \param p  The polynomial.
-/// \param u  In [0, 1].
-/// \return p(u), wrong by at most 3 N units of roundoff of the largest |c_i|.
+/// p(u) for u in [0, 1], with an error of at most 3 N units of roundoff of the largest
+/// |c_i|.
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] constexpr T value_at(const BernsteinT<T, N>& p, T u) noexcept {
     constexpr auto binomial = binomials<T, N>();
@@ -56,7 +54,7 @@ template <std::floating_point T, std::size_t N>
     return sum;
 }
 
-/// The derivative of a polynomial by u.
+/// The derivative of a polynomial with respect to u.
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] constexpr BernsteinT<T, N - 1>
 derivative(const BernsteinT<T, N>& p) noexcept {
@@ -65,7 +63,7 @@ derivative(const BernsteinT<T, N>& p) noexcept {
     return result;
 }
 
-/// How often the row of coefficients changes its sign, zeros left out.
+/// The number of sign changes of the coefficients; zeros do not count.
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] constexpr int sign_changes(const BernsteinT<T, N>& p) noexcept {
     int changes = 0;
@@ -77,7 +75,7 @@ template <std::floating_point T, std::size_t N>
     return changes;
 }
 
-/// What rounding may have done to the values of a polynomial: 8 eps max |c_i|.
+/// A bound of the rounding error of a polynomial's values: 8 eps max |c_i|.
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] constexpr T noise(const BernsteinT<T, N>& p) noexcept {
     T largest = T(0);
@@ -85,13 +83,13 @@ template <std::floating_point T, std::size_t N>
     return T(8) * std::numeric_limits<T>::epsilon() * largest;
 }
 
-/// The root between two points where the signs differ: Newton's steps as long as each
-/// is half as long as the last, bisection else.
+/// The root between two points of opposite sign: Newton's method while each step is at
+/// most half as long as the last one, bisection otherwise.
 /// \param p   The polynomial.
-/// \param a   Where p has the one sign, or is zero.
-/// \param b   Where it has the other; a < b.
-/// \return The root, to a unit of roundoff of 1 where p is steep.
-/// \cost At most 2 steps for each bit of T, then the middle of what is left.
+/// \param a   A point where p has one sign, or is zero.
+/// \param b   A point where p has the other sign; a < b.
+/// \return The root, within one unit of roundoff of 1 where p is steep.
+/// \cost At most 2 steps per bit of T.
 // [root_between]
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] T root_between(const BernsteinT<T, N>& p, T a, T b) noexcept {
@@ -114,33 +112,31 @@ template <std::floating_point T, std::size_t N>
 }
 // [root_between]
 
-/// Roots in ascending order; room for one at every end of a monotone piece.
+/// Roots in ascending order; at most N + 1, one per end of a monotone piece.
 template <std::floating_point T, std::size_t N>
 struct RootsT {
     std::array<T, N + 1> at{}; ///< The first `count` are roots.
-    std::size_t count = 0;     ///< How many.
+    std::size_t count = 0;     ///< The number of roots.
     /// The first root.
     [[nodiscard]] const T* begin() const noexcept { return at.data(); }
-    /// Behind the last root.
+    /// One past the last root.
     [[nodiscard]] const T* end() const noexcept { return at.data() + count; }
     /// Appends a root.
     void add(T root) noexcept { at[count++] = root; }
 };
 
 /// All roots of a polynomial in [0, 1].
-///
-/// Between two neighbouring roots of its derivative a polynomial is monotone: there it
-/// has one root if the signs at the ends differ, and none else. The derivative's roots
-/// are found in the same way, down to degree 1 \cite yuksel2022. No division by a
-/// leading coefficient: it may be tiny or 0.
-///
-/// \param p          The polynomial. Data that are not finite have no roots.
-/// \param tolerance  What its coefficients may be wrong by; a value at an extremum or
-///                   an end that is no larger counts as a root, so that none is lost.
-/// \return Ascending. Each is the exact root of a polynomial that differs from p by at
-///         most 2 `tolerance` on [0, 1]; each exact root of p has one of them within
-///         reach of such a change. A root of multiplicity m comes 1 to m times.
-/// \cost At most N (N + 1) / 2 calls of root_between(); mostly 0 or 1 of them.
+/// Between two neighbouring roots of its derivative a polynomial is monotone: it has
+/// one root there if the signs at the ends differ, otherwise none. The derivative's
+/// roots are found in the same way, down to degree 1 \cite yuksel2022. Nothing
+/// is divided by the leading coefficient, which may be tiny or 0.
+/// \param p          The polynomial. One that is not finite has no roots.
+/// \param tolerance  The error of its coefficients. A value at an extremum or an end
+///                   that is no larger counts as a root, so that no root is missed.
+/// \return Ascending roots. Each is an exact root of a polynomial that differs from p
+///         by at most 2 `tolerance` on [0, 1], and near each exact root of p there is
+///         one. A root of multiplicity m appears 1 to m times.
+/// \cost At most N (N + 1) / 2 calls of root_between(); mostly 0 or 1.
 // [roots]
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] RootsT<T, N> roots(const BernsteinT<T, N>& p, T tolerance) noexcept {
@@ -165,7 +161,7 @@ template <std::floating_point T, std::size_t N>
     ends.add(T(1));
 
     T value = p.c[0];
-    bool crossed = false; // in the piece before this end
+    bool crossed = false; // whether p crosses zero in the previous piece
     for (std::size_t i = 0; i < ends.count; ++i) {
         const bool last = i + 1 == ends.count;
         const T next = last                  ? value
@@ -181,10 +177,10 @@ template <std::floating_point T, std::size_t N>
 }
 // [roots]
 
-/// The first point at which a polynomial no longer has the sign that it has at 0.
+/// The first point at which a polynomial loses the sign that it has at 0.
 /// \param p  The polynomial; p(0), its first coefficient, is not 0.
-/// \return Where it first crosses zero in (0, 1], or touches it within noise() at an
-///         extremum; nothing if it keeps its sign, and nothing for a NaN.
+/// \return The first u in (0, 1] where p crosses zero, or comes within noise() of it at
+///         an extremum; nothing if p keeps its sign or is NaN.
 /// \cost No evaluation if the coefficients have one sign; one root if they change once.
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] std::optional<T> first_change(const BernsteinT<T, N>& p) noexcept {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/math/random.hpp
-/// \brief Random numbers that depend on where they are used, not on who draws first.
+/// \brief Random numbers that depend on where they are used, not on the drawing order.
 
 #include <cstdint>
 
@@ -10,43 +10,41 @@
 namespace ljus {
 
 /// \defgroup random Random streams
-/// \brief Counter-based streams: the same seed gives the same picture on any number of
-/// threads, because a number depends only on its place.
+/// \brief Counter-based streams: a number depends on its key and index only, so that
+/// the same seed gives the same picture on any number of threads.
 /// \{
 
-/// The parts of the work that draw numbers; each has streams of its own.
+/// The passes that draw numbers; each has its own streams.
 enum class Pass : std::uint32_t {
     camera,           ///< Camera paths.
     general_photons,  ///< Photons of the general map.
     caustics_photons, ///< Photons of the caustics map.
     form_factors,     ///< Rays between the patches of radiosity.
-    irradiance,       ///< Irradiance that is precomputed at photons.
+    irradiance,       ///< Precomputed irradiance at photons.
     gathering,        ///< Final gathering for the irradiance cache.
-    user = 1000       ///< The first number that is free for the reader's own passes.
+    user = 1000       ///< The first value free for user-defined passes.
 };
 
-/// Scrambles 64 bits so that each input bit changes half of the output's: the
-/// finaliser of SplitMix64 \cite steele2014, a bijection.
-/// \param x  Any number.
-/// \return The scrambled number.
+/// Mixes 64 bits so that each input bit changes half of the output bits: the finaliser
+/// of SplitMix64 \cite steele2014, a bijection.
 [[nodiscard]] constexpr std::uint64_t mix_bits(std::uint64_t x) noexcept {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
     return x ^ (x >> 31);
 }
 
-/// The numbers of one path. The n-th number is a function of the key and of n alone;
-/// n holds the bounce in its upper and the dimension in its lower 16 bits.
+/// The numbers of one path. Number n is a function of the key and n alone; the bounce
+/// is n >> 16, and the dimension is in the lower 16 bits of n.
 struct RandomStream {
     std::uint64_t key = 0;     ///< Made by random_stream() from seed, pass and path.
-    std::uint64_t counter = 0; ///< The place of the next number.
+    std::uint64_t counter = 0; ///< The index n of the next number.
 };
 
 /// The stream of one path.
 /// \param seed       The user's seed.
-/// \param pass       Which part of the work draws.
-/// \param iteration  Which repetition of the pass, for progressive methods.
-/// \param path       Which path of the pass.
+/// \param pass       The pass that draws.
+/// \param iteration  The repetition of the pass, for progressive methods.
+/// \param path       The path's number in the pass.
 /// \return A stream at bounce 0, dimension 0.
 [[nodiscard]] constexpr RandomStream random_stream(std::uint64_t seed, Pass pass,
                                                    std::uint64_t iteration,
@@ -58,17 +56,15 @@ struct RandomStream {
         .key = mix_bits(mix_bits(work + odd * (iteration + 1)) ^ mix_bits(path + odd))};
 }
 
-/// Moves a stream to the start of a bounce, whatever was drawn in the one before.
-/// \param stream  The stream.
-/// \param bounce  Which bounce; 0 is the camera or the light.
+/// Moves a stream to the start of a bounce (0: the camera or the light), whatever was
+/// drawn before.
 constexpr void start_bounce(RandomStream& stream, std::uint64_t bounce) noexcept {
     stream.counter = bounce << 16;
 }
 
-/// The next number, uniform in [0, 1): never 1, in float or in double.
-/// \param stream  Moves on by one dimension.
+/// The next number, uniform in [0, 1), never 1; uses one dimension.
 /// \return A multiple of 2^-24 (float) or 2^-53 (double).
-/// \cost Two multiplications and a few shifts; no state is shared.
+/// \cost Two multiplications and a few shifts.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(RandomStream& stream) noexcept {
     constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u;
@@ -79,18 +75,15 @@ template <std::floating_point T = float>
         return static_cast<T>(bits >> 11) * T(0x1p-53);
 }
 
-/// The next point of the unit square [0, 1)^2.
-/// \param stream  Moves on by two dimensions.
-/// \return Two independent numbers.
+/// The next point of the unit square [0, 1)^2; uses two dimensions.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec2T<T> next_2d(RandomStream& stream) noexcept {
     const T x = next_1d<T>(stream);
     return {x, next_1d<T>(stream)};
 }
 
-/// The next point of the unit cube [0, 1)^3: a direction and the choice of a lobe.
-/// \param stream  Moves on by three dimensions.
-/// \return Three independent numbers.
+/// The next point of the unit cube [0, 1)^3: a direction and the choice of a lobe. It
+/// uses three dimensions.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec3T<T> next_3d(RandomStream& stream) noexcept {
     const T x = next_1d<T>(stream);
@@ -98,19 +91,18 @@ template <std::floating_point T = float>
     return {x, y, next_1d<T>(stream)};
 }
 
-/// What numbers are drawn from. A stream of another kind is a struct with these
-/// functions beside it:
+/// A source of random numbers: a copyable struct with these functions beside it:
 ///
 /// | function                     | what it does                                      |
 /// |------------------------------|---------------------------------------------------|
 /// | next_1d<T>(stream)           | the next number of [0, 1)                         |
 /// | next_2d<T>(stream)           | the next point of the unit square                 |
 /// | next_3d<T>(stream)           | the next point of the unit cube                   |
-/// | start_bounce(stream, bounce) | moves to the numbers of a bounce, which depend on |
-/// |                              | nothing that was drawn before                     |
+/// | start_bounce(stream, bounce) | moves to the numbers of a bounce, which do not    |
+/// |                              | depend on what was drawn before                   |
 ///
-/// Copies of a stream draw the same numbers. One that a renderer names as its `Stream`
-/// has also a member `key`, which tells the rays of a picture apart, and a start_ray().
+/// Copies of a stream draw the same numbers. The `Stream` of a renderer also has a
+/// member `key`, which tells the rays of a picture apart, and a start_ray().
 template <typename S>
 concept StreamLike = std::copyable<S> && requires(S& stream, std::uint64_t bounce) {
     { next_1d<float>(stream) } -> std::same_as<float>;

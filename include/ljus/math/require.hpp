@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/math/require.hpp
-/// \brief The checks at the border of the library, each with a sentence to act on.
+/// \brief Checks of input data; each failure is one sentence that one can act on.
 
 #include <cmath>
 #include <cstdio>
@@ -18,29 +18,29 @@
 namespace ljus {
 
 /// \defgroup require Checks at the border
-/// \brief Data are checked once, where a scene, a camera, a map or an image is made.
+/// \brief Data are checked once: when a scene, a camera, a map or an image is made.
 /// \{
 
 namespace detail {
 
-// Text takes a compiler long: what follows is made once for all types of values.
+// Text is slow to compile: what follows is compiled once for all types of values.
 
-// Several texts, one after the other.
+// The concatenation of several texts.
 [[nodiscard]] LJUS_CORE_INLINE std::string
 join(std::initializer_list<std::string_view> parts);
 
-// Where the program's country writes a comma, it is still a point here.
+// Replaces the decimal comma of some locales by a point.
 inline char* with_point(char* digits) {
     if (char* const comma = std::strchr(digits, ',')) *comma = '.';
     return digits;
 }
 
-// One number, or several as the components of a vector; `single` says that they came
-// from floats. See to_text().
+// One number, or several as the components of a vector; `single` means that they are
+// floats. See to_text().
 [[nodiscard]] LJUS_CORE_INLINE std::string
 numbers_to_text(std::initializer_list<double> values, bool single);
 
-#ifndef LJUS_CORE // else they are there already
+#ifndef LJUS_CORE // otherwise defined in ljus::core
 LJUS_CORE_INLINE std::string join(std::initializer_list<std::string_view> parts) {
     std::string text;
     for (const std::string_view part : parts) text.append(part);
@@ -59,7 +59,7 @@ LJUS_CORE_INLINE std::string numbers_to_text(std::initializer_list<double> value
             const double read = std::strtod(digits, nullptr);
             if (read == value || (single && float(read) == float(value))) break;
         }
-        // C writes at least two digits of an exponent: 1e-07.
+        // C writes at least two digits of an exponent: 1e-07 becomes 1e-7.
         with_point(digits);
         char* const e = std::strchr(digits, 'e');
         if (e != nullptr && e[2] == '0') std::memmove(e + 2, e + 3, std::strlen(e + 2));
@@ -75,10 +75,8 @@ LJUS_CORE_INLINE std::string numbers_to_text(std::initializer_list<double> value
 
 } // namespace detail
 
-/// A number as a person writes it: -1, 0.5, 1e-7, 1e+30, NaN, infinity; with as many
-/// digits, from 6 on, as bring the same value back, so that 1.0000001 is not "1".
-/// \param value  Any number.
-/// \return The text.
+/// A number as text: -1, 0.5, 1e-7, 1e+30, NaN, infinity. It has at least 6 digits, and
+/// more if they are needed to read the same value back.
 template <std::floating_point T>
 [[nodiscard]] std::string to_text(T value) {
     return detail::numbers_to_text({double(value)}, std::is_same_v<T, float>);
@@ -100,7 +98,7 @@ template <std::floating_point T>
 
 namespace detail {
 
-// Apart from the check, so that what is inlined everywhere stays small.
+// Outside of require(), so that what is inlined everywhere stays small.
 template <typename Value>
 [[noreturn]] void refuse(std::string_view what, const Value& value,
                          std::string_view right) {
@@ -110,7 +108,7 @@ template <typename Value>
 
 } // namespace detail
 
-/// Refuses a value with one sentence: what it is, its value, what would be right.
+/// Throws one sentence if a condition fails: the name, the value, what would be right.
 /// \param ok     The condition that must hold.
 /// \param what   The name of the value, e.g. "sphere.radius".
 /// \param value  The value, shown in the message.
@@ -122,47 +120,31 @@ void require(bool ok, std::string_view what, const Value& value,
     if (!ok) detail::refuse(what, value, right);
 }
 
-/// Refuses a vector with a NaN or infinite component.
-/// \param what   The name of the vector.
-/// \param value  The vector.
-/// \throws std::invalid_argument  as require().
+/// Requires that every component of a vector is finite; throws as require().
 template <std::floating_point T>
 void require_finite(std::string_view what, const Vec3T<T>& value) {
     require(is_finite(value), what, value, "finite in every component");
 }
 
-/// Refuses a number that is not finite and above 0.
-/// \param what   The name of the number.
-/// \param value  The number.
-/// \throws std::invalid_argument  as require().
+/// Requires that a number is finite and above 0; throws as require().
 template <std::floating_point T>
 void require_positive(std::string_view what, T value) {
     require(std::isfinite(value) && value > T(0), what, value, "finite and above 0");
 }
 
-/// Refuses a count below the least that makes sense.
-/// \param what   The name of the number.
-/// \param value  The number.
-/// \param least  The smallest that is right.
-/// \throws std::invalid_argument  as require().
+/// Requires that a count is at least `least`; throws as require().
 inline void require_at_least(std::string_view what, long long value, long long least) {
     if (value < least)
         detail::refuse(what, value, detail::join({"at least ", to_text(least)}));
 }
 
-/// Refuses a number outside [0, 1].
-/// \param what   The name of the number.
-/// \param value  The number.
-/// \throws std::invalid_argument  as require().
+/// Requires that a number is within [0, 1]; throws as require().
 template <std::floating_point T>
 void require_unit(std::string_view what, T value) {
     require(value >= T(0) && value <= T(1), what, value, "within [0, 1]");
 }
 
-/// Refuses a colour with a channel outside [0, 1].
-/// \param what   The name of the colour.
-/// \param value  The colour.
-/// \throws std::invalid_argument  as require().
+/// Requires that every channel of a colour is within [0, 1]; throws as require().
 template <std::floating_point T>
 void require_unit(std::string_view what, const RgbT<T>& value) {
     const bool ok = value.x >= T(0) && value.y >= T(0) && value.z >= T(0) &&
@@ -170,10 +152,8 @@ void require_unit(std::string_view what, const RgbT<T>& value) {
     require(ok, what, value, "within [0, 1] in every channel");
 }
 
-/// Refuses a colour with a negative, NaN or infinite channel.
-/// \param what   The name of the colour.
-/// \param value  The colour.
-/// \throws std::invalid_argument  as require().
+/// Requires that every channel of a colour is finite and at least 0; throws as
+/// require().
 template <std::floating_point T>
 void require_radiance(std::string_view what, const RgbT<T>& value) {
     const bool ok =

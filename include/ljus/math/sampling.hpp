@@ -14,15 +14,14 @@ namespace ljus {
 /// \defgroup sampling Sampling
 /// \brief Section 3.2.4: pure functions of a point u of [0,1)^2, each beside its pdf.
 ///
-/// Directions are unit vectors around +z. The caller owns the randomness, so that every
-/// function here can be plotted, stratified and tested.
+/// Directions are unit vectors around +z. The caller supplies the random numbers, so
+/// that every function here can be plotted, stratified and tested.
 /// \{
 
 namespace detail {
 
-/// The concentric map, as rounding leaves it.
-/// \param u  Point of [0,1)^2.
-/// \return Point of the unit disc, or up to 2 units of roundoff outside.
+/// The concentric map without the correction of rounding: a point of the unit disc, or
+/// up to 2 units of roundoff outside.
 template <std::floating_point T>
 [[nodiscard]] inline Vec2T<T> concentric_map(const Vec2T<T>& u) noexcept {
     constexpr T quarter = std::numbers::pi_v<T> / T(4);
@@ -39,10 +38,9 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// A point of the unit disc, uniform in area: the concentric map
-/// \cite shirley1997, which takes squares around the centre to circles. What rounding
-/// puts onto the border or beside the disc is taken 4 units of roundoff inwards.
-/// \param u  Point of [0,1)^2.
+/// A point of the unit disc, uniform in area: the concentric map \cite shirley1997,
+/// which maps squares around the centre to circles. A point that rounding puts onto the
+/// border or outside is moved 4 units of roundoff inwards.
 /// \return Point with x^2 + y^2 < 1.
 /// \cost One division, one sine, one cosine.
 template <std::floating_point T>
@@ -52,9 +50,7 @@ template <std::floating_point T>
     return p.x * p.x + p.y * p.y < T(1) - two ? p : (T(1) - two) * p;
 }
 
-/// The density of sample_concentric_disc(), per unit of area.
-/// \param p  Point of the plane.
-/// \return 1/pi, or 0 outside the disc.
+/// The density of sample_concentric_disc(), per unit of area: 1/pi, or 0 outside.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_concentric_disc(const Vec2T<T>& p) noexcept {
     return p.x * p.x + p.y * p.y <= T(1) ? std::numbers::inv_pi_v<T> : T(0);
@@ -62,18 +58,16 @@ template <std::floating_point T>
 
 /// A direction above the horizon with density cos(theta)/pi: a point of the disc,
 /// lifted onto the hemisphere (Malley's method).
-///
-/// The border of the disc would lie on the horizon, where the density is 0 and a weight
-/// f cos/pdf is 0/0. It stands for the middle of its cell of random numbers instead,
-/// which is half a roundoff inside: z >= sqrt(epsilon), always.
-/// \param u  Point of [0,1)^2.
+/// A point on the border of the disc would lie on the horizon, where the density is 0
+/// and the weight f cos/pdf is 0/0. The map uses the middle of each cell of random
+/// numbers instead, half a roundoff inside, so that always z >= sqrt(epsilon).
 /// \return Unit vector with z > 0.
-/// \cost As sample_concentric_disc(), and one square root.
+/// \cost That of sample_concentric_disc(), and one square root.
 /// \report{Section 3.2.4}
 // [cosine hemisphere]
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<T> sample_cosine_hemisphere(const Vec2T<T>& u) noexcept {
-    // `inline` is a hint that g++ takes; a path tracer is faster with it.
+    // `inline` is a hint that makes a path tracer faster with g++.
     const Vec2T<T> p = detail::concentric_map(u);
     // The map keeps the larger of |a| and |b| as the radius of p.
     const T a = std::abs(T(2) * u.x - T(1));
@@ -84,18 +78,16 @@ template <std::floating_point T>
 }
 // [cosine hemisphere]
 
-/// The density of sample_cosine_hemisphere(), per steradian; the cosine is in it.
-/// \param d  Unit vector.
-/// \return cos(theta)/pi, or 0 on and below the horizon.
+/// The density of sample_cosine_hemisphere(), per steradian: cos(theta)/pi, or 0 on and
+/// below the horizon.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_cosine_hemisphere(const Vec3T<T>& d) noexcept {
     return d.z > T(0) ? d.z * std::numbers::inv_pi_v<T> : T(0);
 }
 
 /// A direction inside a cone around +z, uniform in solid angle.
-///
-/// The cone is given by 1 - cos(theta), not by the cosine: a lamp one degree wide has
-/// cos = 0.99996, of which float keeps hardly three digits. See one_minus_cosine().
+/// The cone is given by 1 - cos(theta), which keeps its digits for small angles: a lamp
+/// one degree wide has cos = 0.99996. See one_minus_cosine().
 /// \param u                  Point of [0,1)^2.
 /// \param one_minus_cos_max  1 - cos of the half angle, in (0, 2]; 1 is the hemisphere.
 /// \return Unit vector within the cone.
@@ -109,10 +101,10 @@ template <std::floating_point T>
     return {r * std::cos(phi), r * std::sin(phi), T(1) - w};
 }
 
-/// The density of sample_uniform_cone() for the directions inside, per steradian.
+/// The density of sample_uniform_cone(), per steradian, for directions inside. The
+/// caller tests whether a direction is inside.
 /// \param one_minus_cos_max  1 - cos of the half angle, in (0, 2].
-/// \return 1 over the solid angle 2 pi (1 - cos). Whether a direction is inside is for
-///         the caller to know, who has met the lamp or not.
+/// \return 1 over the solid angle 2 pi (1 - cos).
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_uniform_cone(T one_minus_cos_max) noexcept {
     return std::numbers::inv_pi_v<T> / (T(2) * one_minus_cos_max);
@@ -127,25 +119,20 @@ template <std::floating_point T>
     return sin_squared / (T(1) + std::sqrt(T(1) - sin_squared));
 }
 
-/// A direction above the horizon, uniform in solid angle.
-/// \param u  Point of [0,1)^2.
-/// \return Unit vector with z > 0.
+/// A direction above the horizon (z > 0), uniform in solid angle.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_uniform_hemisphere(const Vec2T<T>& u) noexcept {
     return sample_uniform_cone(u, T(1));
 }
 
-/// The density of sample_uniform_hemisphere(), per steradian.
-/// \param d  Unit vector.
-/// \return 1/(2 pi), or 0 on and below the horizon.
+/// The density of sample_uniform_hemisphere(), per steradian: 1/(2 pi), or 0 on and
+/// below the horizon.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_uniform_hemisphere(const Vec3T<T>& d) noexcept {
     return d.z > T(0) ? std::numbers::inv_pi_v<T> / T(2) : T(0);
 }
 
 /// A direction, uniform over the whole sphere.
-/// \param u  Point of [0,1)^2.
-/// \return Unit vector.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_uniform_sphere(const Vec2T<T>& u) noexcept {
     return sample_uniform_cone(u, T(2));
@@ -157,9 +144,8 @@ template <std::floating_point T>
     return std::numbers::inv_pi_v<T> / T(4);
 }
 
-/// A point of a triangle, uniform in area: the square folded along its diagonal
-/// \cite heitz2019. Neighbours in u stay neighbours, and no square root is taken.
-/// \param u  Point of [0,1)^2.
+/// A point of a triangle, uniform in area: the square is folded along its diagonal
+/// \cite heitz2019. Neighbours in u stay neighbours, and no square root is needed.
 /// \return Barycentric coordinates of the three vertices, each >= 0, with sum 1.
 /// \cost Five additions and multiplications.
 template <std::floating_point T>
@@ -172,9 +158,8 @@ template <std::floating_point T>
     return {u.x - half, half, T(1) - u.x};
 }
 
-/// The density of sample_uniform_triangle(), per unit of area.
-/// \param area  The triangle's area, > 0; 1/2 for the barycentric plane itself.
-/// \return 1/area.
+/// The density of sample_uniform_triangle(), per unit of area; `area` is the
+/// triangle's, 1/2 for the barycentric plane itself.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_uniform_triangle(T area) noexcept {
     return T(1) / area;
@@ -186,15 +171,13 @@ template <std::floating_point T>
 /// \brief Section 3.2.4: "two uniform random generators for the azimuth and inclination
 /// angles".
 ///
-/// A belt near the pole is shorter than one near the horizon, and gets as many
-/// directions: they crowd around the normal. That is a density like any other, if it is
-/// divided by.
-/// \erratum{The report does not mention that density. Without it the directions count
+/// A belt near the pole is shorter than one near the horizon, but gets as many
+/// directions: they crowd around the normal. An estimate must divide by this density.
+/// \erratum{The report does not mention the density. Without it the directions count
 /// as if they were cosine-weighted.}
 /// \{
 
 /// A direction above the horizon whose inclination and azimuth are uniform.
-/// \param u  Point of [0,1)^2.
 /// \return Unit vector with z > 0.
 /// \cost Two sines, two cosines.
 /// \report{Section 3.2.4}
@@ -205,7 +188,7 @@ template <std::floating_point T>
     const T inclination = u.x * pi / T(2);
     const T azimuth = T(2) * pi * u.y;
     const T r = std::sin(inclination);
-    // Not cos(inclination), which rounding takes below 0 at the horizon.
+    // Not cos(inclination), which rounding makes negative at the horizon.
     const T z = std::sin((T(1) - u.x) * pi / T(2));
     return {r * std::cos(azimuth), r * std::sin(azimuth), z};
 }
@@ -215,10 +198,9 @@ template <std::floating_point T>
 ///
 /// \f[ p(\omega) = \frac{1}{\pi^2 \sin\theta} \f]
 ///
-/// 2/pi per radian of inclination, 1/(2 pi) per radian of azimuth, and a solid angle of
-/// sin(theta) for a radian of each.
-/// \param d  Unit vector.
-/// \return At least 1/pi^2; infinite at the pole itself, 0 on and below the horizon.
+/// The factors are 2/pi per radian of inclination, 1/(2 pi) per radian of azimuth, and
+/// 1/sin(theta), because a radian of each spans a solid angle of sin(theta).
+/// \return At least 1/pi^2; infinite at the pole, 0 on and below the horizon.
 // [naive pdf]
 template <std::floating_point T>
 [[nodiscard]] T pdf_naive_hemisphere(const Vec3T<T>& d) noexcept {

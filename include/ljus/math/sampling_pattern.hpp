@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/math/sampling_pattern.hpp
-/// \brief Where the rays of a pixel go through it: four patterns for any number.
+/// \brief The positions of rays within a pixel: four patterns for any number of rays.
 
 #include <bit>
 #include <cstdint>
@@ -17,17 +17,15 @@ namespace ljus {
 
 namespace detail {
 
-/// A pixel cut into columns x rows cells, or only into columns and rows.
+/// A pixel cut into columns x rows cells, or into n columns and n rows only.
 struct Strata {
-    int columns = 1; ///< Cells side by side.
-    int rows = 1;    ///< Cells above each other.
-    bool n_rooks =
-        false; ///< One ray in each column and one in each row: `columns` rays.
+    int columns = 1;      ///< The number of columns.
+    int rows = 1;         ///< The number of rows.
+    bool n_rooks = false; ///< One ray per column and per row (n rooks): `columns` rays.
 };
 
-/// The cells for a number of rays: exactly as many as rays, as square as the number
-/// allows; for a prime, or a number with only long factors, rooks that do not attack
-/// each other.
+/// Chooses cells for a number of rays: exactly one per ray, as square as possible. A
+/// prime, or a number with only long factors, gets n rooks that attack no other.
 /// \param rays  At least 1.
 /// \return The cells.
 /// \erratum{The report's program steps by 1/sqrt(n) and drops the remainder: of 8 rays
@@ -41,15 +39,15 @@ struct Strata {
     return {.columns = columns, .rows = rows};
 }
 
-/// A number's place in a random order of 0 ... count - 1, without a table: rounds of an
-/// invertible scramble within the next power of two, repeated until it lands inside;
-/// then all places are moved on by the same random step, because the scramble alone
-/// favours some places by half.
+/// The value at index i of a random permutation of 0 ... count - 1, without a table:
+/// rounds of an invertible hash within the next power of two are repeated until the
+/// value is below count. A random offset is added last, because the hash alone prefers
+/// some values by half.
 /// \param i      In [0, count).
 /// \param count  At least 1, and at most 2^31.
-/// \param key    Which order.
-/// \return The place; each place once, and each as often as any over the keys.
-/// \cost At most two scrambles in the mean.
+/// \param key    Selects the permutation.
+/// \return Each value once; over the keys, all values are equally likely.
+/// \cost At most two hashes on average.
 /// \cite kensler2013
 [[nodiscard]] constexpr std::uint32_t shuffled(std::uint32_t i, std::uint32_t count,
                                                std::uint64_t key) noexcept {
@@ -58,7 +56,7 @@ struct Strata {
     const auto offset = static_cast<std::uint32_t>(bits);
     const auto factor = static_cast<std::uint32_t>(bits >> 32) | 1u;
     do {
-        // Each step is a bijection of the numbers up to the mask.
+        // Each step is a bijection of the numbers in [0, mask].
         i = (i * factor + offset) & mask;
         i ^= i >> 3;
         i = (i * 0x2c1b3c6du) & mask;
@@ -67,15 +65,15 @@ struct Strata {
         i ^= i >> 7;
     } while (i >= count);
     const std::uint64_t step = ((mix_bits(~bits) >> 32) * count) >> 32; // in [0, count)
-    const std::uint64_t place = i + step; // a remainder would take a division
+    const std::uint64_t place = i + step; // a remainder would need a division
     return static_cast<std::uint32_t>(place < count ? place : place - count);
 }
 
-/// The place of one ray within its pixel.
+/// The position of one ray within its pixel.
 /// \param strata  From strata_for().
-/// \param ray     Its number, in [0, rays).
-/// \param key     Of the pixel; decides which rooks stand where.
-/// \param u       Where in its cell: point of the unit square.
+/// \param ray     The ray's number, in [0, rays).
+/// \param key     The pixel's key; it selects the placement of the rooks.
+/// \param u       The position in the ray's cell: point of the unit square.
 /// \return Point of the unit square, uniform over all rays and keys; rounding may put
 ///         it onto the far border of its cell, and so onto 1.
 /// \report{Section 3.2}
@@ -97,30 +95,27 @@ template <std::floating_point T>
 /// \}
 
 /// \defgroup sampling_pattern Sampling patterns
-/// \brief Section 3.2: "stratified grid sampling", and what came after it. Chapter:
+/// \brief Section 3.2: "stratified grid sampling", and later patterns. Chapter:
 /// \ref ch_first_picture.
 /// \{
 
-/// How the rays of a pixel are spread over it. Every pattern has exactly as many points
-/// as are asked for, each of them uniform over the pixel, so that no mean changes.
+/// How the rays of a pixel are spread over it. Every pattern has exactly the number of
+/// points that is asked for, and each point is uniform, so that no mean changes.
 enum class Sampling : std::uint8_t {
-    random,         ///< Each for itself.
-    jittered,       ///< One in each of a x b = n cells; rooks where n is prime.
-    multi_jittered, ///< The same, and one in each of n strips of x, and of y; any n.
-    sobol           ///< The first n points of Sobol, scrambled after Owen.
+    random,         ///< Independent points.
+    jittered,       ///< One in each of a x b = n cells; n rooks where n is prime.
+    multi_jittered, ///< Jittered, and one in each of n strips of x and of y; any n.
+    sobol           ///< The first n Sobol points, with Owen's scrambling.
 };
 
-/// A pattern that is ready for its points.
+/// A prepared pattern.
 struct Pattern {
-    Sampling sampling = Sampling::multi_jittered; ///< Which one.
-    int points = 1;                               ///< How many there will be.
+    Sampling sampling = Sampling::multi_jittered; ///< The kind of pattern.
+    int points = 1;                               ///< The number of points.
     detail::Strata strata{};                      ///< Its cells, if it has any.
 };
 
-/// Prepares a pattern.
-/// \param sampling  Which one.
-/// \param points    At least 1.
-/// \return The pattern.
+/// Prepares a pattern of at least 1 point.
 [[nodiscard]] constexpr Pattern make_pattern(Sampling sampling, int points) noexcept {
     Pattern pattern{.sampling = sampling, .points = points};
     if (sampling == Sampling::jittered) pattern.strata = detail::strata_for(points);
@@ -131,7 +126,7 @@ struct Pattern {
             columns = 1;
             while (columns + 1 <= points / (columns + 1)) ++columns;
         }
-        const int rows = (points - 1) / columns + 1; // the last may be part of a row
+        const int rows = (points - 1) / columns + 1; // the last may be incomplete
         pattern.strata = {.columns = columns, .rows = rows};
     }
     return pattern;
@@ -139,17 +134,15 @@ struct Pattern {
 
 namespace detail {
 
-/// The strip, of as many as there are points, in which a point of a multi-jittered
-/// pattern stands whose last row is broken off.
-///
-/// A column that has a point of the last row is wider than its neighbours by a strip.
-/// Those columns are spread over the pixel, from a random start, and in the end all
-/// strips are moved on by the same random step: no place is favoured.
+/// The x strip of a point of a multi-jittered pattern whose last row is incomplete.
+/// A column with a point of the last row is wider than its neighbours by one strip.
+/// These columns are spread over the pixel from a random start. Finally all strips are
+/// shifted by the same random step, so that none is preferred.
 /// \param pattern  From make_pattern().
-/// \param i        Which point, in [0, points).
-/// \param key      Of the pixel.
-/// \return In [0, points), each once.
-/// \cost Two orders of shuffled() and five divisions.
+/// \param i        The point's number, in [0, points).
+/// \param key      The pixel's key.
+/// \return The strip, in [0, points); each once.
+/// \cost Two calls of shuffled() and five divisions.
 // [broken_row]
 [[nodiscard]] constexpr std::uint32_t
 strip_of_broken(const Pattern& pattern, std::uint32_t i, std::uint64_t key) noexcept {
@@ -159,10 +152,10 @@ strip_of_broken(const Pattern& pattern, std::uint32_t i, std::uint64_t key) noex
     const std::uint64_t bits = mix_bits(key + 1);
     const std::uint64_t start = ((bits >> 32) * m) >> 32; // in [0, m)
     const std::uint64_t step = ((bits & 0xffffffffu) * all) >> 32;
-    // How many of the first c columns have a point of the last row.
+    // The number of columns, among the first c, with a point of the last row.
     const auto before = [&](std::uint64_t c) { return (c * last + start) / m; };
     std::uint64_t column = shuffled(i % m, m, key);
-    if (row == full) // the k-th column that has one
+    if (row == full) // the k-th column with such a point
         column = (shuffled(i % m, last, key) * std::uint64_t(m) + m - 1 - start) / last;
     const auto points =
         static_cast<std::uint32_t>(full + before(column + 1) - before(column));
@@ -173,15 +166,14 @@ strip_of_broken(const Pattern& pattern, std::uint32_t i, std::uint64_t key) noex
 // [broken_row]
 
 /// A point of a correlated multi-jittered pattern.
-///
-/// The points stand in a grid of m columns and n rows, of which the last may be broken
-/// off: that is how a prime has its place. Within its cell a point stands, in x, at a
-/// place that its row has and, in y, at one that its column has. So along both sides
-/// each of as many strips as there are points holds one, for any number.
+/// The points lie in a grid of m columns and n rows, where the last row may be
+/// incomplete; so any number of points is possible, even a prime. Within a cell, the x
+/// offset belongs to the point's row and the y offset to its column. Thus each of as
+/// many strips as points holds one point, along x and along y.
 /// \param pattern  From make_pattern().
-/// \param number   Which point, in [0, points).
-/// \param key      Of the pixel; another order of rows and columns for each.
-/// \param u        Where in its strips: point of the unit square.
+/// \param number   The point's number, in [0, points).
+/// \param key      The pixel's key; it selects the order of rows and columns.
+/// \param u        The position in its strips: point of the unit square.
 /// \return Point of the unit square; rounding may put it onto 1.
 /// \cite kensler2013
 // [multi_jittered]
@@ -201,9 +193,9 @@ template <std::floating_point T>
 }
 // [multi_jittered]
 
-/// One of Sobol's points, scrambled.
-/// \param number  Which point.
-/// \param key     Of the pixel; another scrambling for each.
+/// A scrambled Sobol point.
+/// \param number  The index of the point.
+/// \param key     The pixel's key; it selects the scrambling.
 /// \return Point of the unit square, below 1. The first 2^k points lie one in each cell
 ///         of every dyadic grid of 2^k cells.
 /// \cite owen1995 \cite burley2020
@@ -217,15 +209,15 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// A point of a pattern: the place of one ray within its pixel.
+/// A point of a pattern: the position of one ray within its pixel.
 /// \param pattern  From make_pattern().
-/// \param number   Which of its points, in [0, points); the order means nothing.
-/// \param key      Of the pixel: the points of two keys are independent. Any number;
-///                 mix_bits() makes good keys of numbers that follow each other.
-/// \param u        Two random numbers in [0, 1), which Sobol's points leave unused.
+/// \param number   The point's number, in [0, points); the order has no meaning.
+/// \param key      The pixel's key: the points of two keys are independent. Any number;
+///                 mix_bits() turns consecutive numbers into good keys.
+/// \param u        Two random numbers in [0, 1); Sobol points do not use them.
 /// \return Point of the unit square, uniform over keys and u; rounding may put it onto
 ///         1.
-/// \cost The chapter's table has the nanoseconds per point, for 64 points and for 61.
+/// \cost See the chapter's table: nanoseconds per point, for 64 points and for 61.
 /// \report{Section 3.2}
 // [spread]
 template <std::floating_point T>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/math/stratified_stream.hpp
-/// \brief Random numbers that the rays of a pixel share out among themselves.
+/// \brief Random numbers that are stratified over the rays of a pixel.
 
 #include <limits>
 
@@ -10,20 +10,20 @@
 namespace ljus {
 
 /// \defgroup stratified_stream Stratified streams
-/// \brief Section 2.1, distributed rays: the rays of a pixel spread evenly over the
+/// \brief Section 2.1, distributed rays: the rays of a pixel are spread evenly over the
 /// pixel, the lens, the time, each light and each lobe \cite cook1984. Chapter:
 /// \ref ch_distributed_rays.
 /// \{
 
-/// The numbers of one ray of a pixel. In each draw the pixel's n rays share out the
-/// interval, or the square, by the pattern of the picture. Which ray has which place is
-/// another order for each draw, so that nothing ties the time to the place on the lens.
+/// The numbers of one ray of a pixel. In each draw, the pixel's n rays are spread over
+/// the interval or the square by the picture's pattern. Each draw permutes the rays in
+/// another way, so that the time does not depend on the position on the lens.
 struct StratifiedStream {
-    Pattern pattern{};           ///< Of the rays of a pixel.
-    int ray = 0;                 ///< Which of them, in [0, pattern.points).
-    std::uint64_t key = 0;       ///< Of the pixel.
+    Pattern pattern{};           ///< The pattern of the pixel's rays.
+    int ray = 0;                 ///< The ray's number, in [0, pattern.points).
+    std::uint64_t key = 0;       ///< The pixel's key.
     std::uint64_t dimension = 0; ///< The next draw.
-    RandomStream rest{};         ///< Where in its cell.
+    RandomStream rest{};         ///< The positions within cells.
 };
 
 /// Sets a stream to the numbers of one ray of a pixel.
@@ -44,9 +44,7 @@ constexpr void start_ray(StratifiedStream& stream, std::uint64_t seed,
               .rest = random_stream(seed, Pass::camera, 0, path)};
 }
 
-/// Moves a stream to the start of a bounce, whatever was drawn in the one before.
-/// \param stream  The stream.
-/// \param bounce  Which bounce; 0 is the camera.
+/// Moves a stream to the start of a bounce (0: the camera), whatever was drawn before.
 constexpr void start_bounce(StratifiedStream& stream, std::uint64_t bounce) noexcept {
     stream.dimension = bounce << 16;
     start_bounce(stream.rest, bounce);
@@ -54,10 +52,8 @@ constexpr void start_bounce(StratifiedStream& stream, std::uint64_t bounce) noex
 
 namespace detail {
 
-/// The ray's number in the order of the next draw, and the draw's key.
-/// \param stream  Moves on by one draw.
-/// \param key     Set to the draw's key.
-/// \return In [0, pattern.points).
+/// The cell of the ray in the next draw, in [0, pattern.points); also sets the draw's
+/// key.
 [[nodiscard]] constexpr std::uint32_t next_cell(StratifiedStream& stream,
                                                 std::uint64_t& key) noexcept {
     key = mix_bits(stream.key + 0x9e3779b97f4a7c15u * ++stream.dimension);
@@ -65,7 +61,7 @@ namespace detail {
                     static_cast<std::uint32_t>(stream.pattern.points), key);
 }
 
-/// What rounding may have put onto 1, put below it again.
+/// Moves a number that rounding may have put onto 1 below it.
 template <std::floating_point T>
 [[nodiscard]] constexpr T below_one(T x) noexcept {
     constexpr T last = T(1) - std::numeric_limits<T>::epsilon() / T(2);
@@ -74,9 +70,7 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The next number, uniform in [0, 1): each of the pixel's rays has a part of its own.
-/// \param stream  Moves on by one draw.
-/// \return The number.
+/// The next number, uniform in [0, 1), stratified over the pixel's rays.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(StratifiedStream& stream) noexcept {
     std::uint64_t key = 0;
@@ -85,24 +79,21 @@ template <std::floating_point T = float>
     return detail::below_one((cell + u) / T(stream.pattern.points));
 }
 
-/// The next point of the unit square: each of the pixel's rays has a place of its own.
-/// \param stream  Moves on by one draw.
-/// \return The point.
+/// The next point of the unit square, stratified over the pixel's rays.
 // [next 2d]
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec2T<T> next_2d(StratifiedStream& stream) noexcept {
     std::uint64_t key = 0;
     const auto cell = static_cast<int>(detail::next_cell(stream, key));
-    // Another key than next_cell()'s: of two rays, the same order twice would be none.
+    // Not next_cell()'s key: applying the same permutation twice would correlate rays.
     const Vec2T<T> u =
         spread(stream.pattern, cell, mix_bits(key), next_2d<T>(stream.rest));
     return {detail::below_one(u.x), detail::below_one(u.y)};
 }
 // [next 2d]
 
-/// The next point of the unit cube: a direction, and the choice of a lobe.
-/// \param stream  Moves on by two draws.
-/// \return A stratified point of the square, and a stratified number.
+/// A stratified point of the square and a stratified number, in two draws: a direction,
+/// and the choice of a lobe.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec3T<T> next_3d(StratifiedStream& stream) noexcept {
     const Vec2T<T> xy = next_2d<T>(stream);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/math/sum.hpp
-/// \brief Sums of many terms that keep their digits.
+/// \brief Sums of many terms with a small rounding error.
 
 #include <cmath>
 #include <concepts>
@@ -14,14 +14,14 @@
 namespace ljus {
 
 /// \defgroup sum Sums
-/// \brief A plain float sum of 10^8 equal terms stops at 2^24 of them: 83 % are lost.
+/// \brief A plain float sum of 10^8 ones stops at 2^24: it loses 83 %.
 /// \{
 
 namespace detail {
 
 template <typename T>
 [[nodiscard]] constexpr T pairwise_sum(const T* first, std::size_t count) noexcept {
-    // Short runs are added plainly: the calls would cost more than the terms.
+    // Short runs are added plainly: calls would cost more than additions.
     if (count <= 16) {
         T sum(0);
         for (std::size_t i = 0; i < count; ++i) sum = sum + first[i];
@@ -31,13 +31,13 @@ template <typename T>
     return pairwise_sum(first, half) + pairwise_sum(first + half, count - half);
 }
 
-/// The sum of numbers or colours by halves: each half is summed in the same way.
+/// The pairwise sum of numbers or colours: each half is summed in the same way.
 ///
 /// No term passes through more than 16 + log2(n) additions, so that the error grows
-/// like log n instead of n, at the price of a plain sum.
+/// like log n instead of n, at the cost of a plain sum.
 /// \param terms  Anything contiguous: a vector, an array, a span.
 /// \return The sum; 0 for no terms.
-/// \cost One addition a term.
+/// \cost One addition per term.
 template <typename Terms>
 requires std::constructible_from < std::span<const typename Terms::value_type>,
 const Terms& > [[nodiscard]] constexpr auto pairwise_sum(const Terms& terms) noexcept {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/math/vector.hpp
-/// \brief The names of GLM's vectors in this library.
+/// \brief This library's names for GLM's vectors.
 
 #include <cmath>
 #include <concepts>
@@ -36,23 +36,23 @@ template <std::floating_point T>
 using RgbT = glm::vec<3, T>;
 using Rgb = RgbT<float>; ///< RgbT in float.
 
-/// The precision of a computation: what the caller asked for, or that of the data, if
-/// that was none (void) or something that is no precision.
+/// The precision of a computation: Compute if it is a floating-point type, otherwise
+/// (void) the precision T of the data.
 template <typename Compute, std::floating_point T>
 using ComputeT = std::conditional_t<std::is_floating_point_v<Compute>, Compute, T>;
 
-/// At least double: for the few places where neither the digits nor the range of float
-/// will do, and speed does not matter.
+/// At least double, for the few computations where the digits or the range of float do
+/// not suffice.
 template <std::floating_point T>
 using WideT = decltype(T() + double());
 
-/// Whether every component is neither NaN nor infinite.
+/// True if every component is finite.
 template <std::floating_point T>
 [[nodiscard]] bool is_finite(const Vec3T<T>& v) noexcept {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Whether all three channels are zero.
+/// True if all three channels are zero.
 template <std::floating_point T>
 [[nodiscard]] constexpr bool is_black(const RgbT<T>& c) noexcept {
     return c.x == T(0) && c.y == T(0) && c.z == T(0);
@@ -60,8 +60,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The size of each component. Not glm::abs(), which branches on each sign: for the
-/// direction of a ray a processor cannot predict it.
+/// The absolute value of each component. glm::abs() branches on each sign, which a
+/// processor cannot predict for the direction of a ray.
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<T> sizes(const Vec3T<T>& v) noexcept {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/optics/absorption.hpp
-/// \brief Beer and Lambert: light that travels through a coloured medium.
+/// \brief The law of Beer and Lambert: absorption in a coloured medium.
 
 #include <cmath>
 
@@ -11,20 +11,18 @@
 namespace ljus {
 
 /// \defgroup absorption Absorption
-/// \brief The colour of glass grows with the way through it.
+/// \brief The colour of glass deepens with the distance through it.
 ///
-/// The program behind the report tints once at each boundary, whatever lies between:
-/// thin and thick glass look alike.
+/// The report's program tints once per boundary, so that thin and thick glass look
+/// alike.
 /// \{
 
-/// The share of light that is left after a distance.
-///
+/// The fraction of light that remains after a distance.
 /// \f[ T(d) = e^{-\sigma d} \f]
-///
-/// \param sigma     Absorption, per scene unit, >= 0.
-/// \param distance  Length of the way, in scene units, >= 0, finite.
+/// \param sigma     Absorption coefficient per scene unit, >= 0.
+/// \param distance  In scene units, >= 0, finite.
 /// \return T in [0, 1] for each channel; 1 without absorption.
-/// \cost Three exponentials, or none if `sigma` is 0.
+/// \cost Three exponentials; none if `sigma` is 0.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> transmittance(const RgbT<T>& sigma, T distance) {
     if (is_black(sigma)) return RgbT<T>{T(1)};
@@ -32,10 +30,10 @@ template <std::floating_point T>
             std::exp(-sigma.z * distance)};
 }
 
-/// The absorption that turns white light into a colour on its way.
+/// The absorption coefficient that turns white light into a colour after a distance.
 /// \param color     Linear colour after `distance`, each channel in (0, 1]. A channel
-///                  of 0 would need infinite absorption, at any distance.
-/// \param distance  Length of the way, in scene units, > 0: a ball's diameter, say.
+///                  of 0 would need infinite absorption.
+/// \param distance  In scene units, > 0: a ball's diameter, say.
 /// \return sigma = -log(color)/distance, per scene unit.
 /// \throws std::invalid_argument for a colour or a distance outside these ranges.
 template <std::floating_point T>

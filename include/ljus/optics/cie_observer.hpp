@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/optics/cie_observer.hpp
-/// \brief From a spectrum to three channels: the eye, as the CIE measured it in 1931.
+/// \brief Converts a spectrum to three channels, by the CIE's observer of 1931.
 
 #include <algorithm>
 #include <cmath>
@@ -10,30 +10,25 @@
 
 namespace ljus {
 
-/// \defgroup cie_observer The eye
-/// \brief What red, green and blue a spectrum is.
+/// \defgroup cie_observer The standard observer
+/// \brief The red, green and blue of a spectrum.
 /// \{
 
 namespace detail {
 
-/// One side of a bell has one width, the other side another.
-/// \param wavelength  In nm.
-/// \param center      In nm.
-/// \param left        Inverse width below the centre, 1/nm.
-/// \param right       Inverse width above it, 1/nm.
-/// \return In (0, 1], 1 at the centre.
+/// A Gaussian, at most 1, with inverse widths `left` and `right` (1/nm) below and above
+/// its centre.
 template <std::floating_point T>
-[[nodiscard]] T lopsided_bell(T wavelength, T center, T left, T right) noexcept {
+[[nodiscard]] T piecewise_gaussian(T wavelength, T center, T left, T right) noexcept {
     const T x = (wavelength - center) * (wavelength < center ? left : right);
     return std::exp(-x * x / T(2));
 }
 
 } // namespace detail
 
-/// The colour matching functions of the CIE's standard observer of 1931, for 2 degrees,
-/// by a fit with seven bells: at most 0.03 from the table, where its values go up to
-/// 1.8.
-/// \param wavelength  In nm; light is seen from 380 to 780.
+/// The colour matching functions of the CIE's standard observer of 1931 (2 degrees), by
+/// a fit with seven Gaussians: within 0.03 of the table, whose values go up to 1.8.
+/// \param wavelength  In nm; visible light has 380 to 780.
 /// \return \f$ \bar x, \bar y, \bar z \f$. The integral of each is 106.9 nm.
 /// \cost Seven exponentials.
 /// \cite wyman2013
@@ -41,7 +36,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> cie_observer(T wavelength) noexcept {
     const auto bell = [&](double center, double left, double right) {
-        return detail::lopsided_bell(wavelength, T(center), T(left), T(right));
+        return detail::piecewise_gaussian(wavelength, T(center), T(left), T(right));
     };
     return {T(0.362) * bell(442.0, 0.0624, 0.0374) +
                 T(1.056) * bell(599.8, 0.0264, 0.0323) -
@@ -53,15 +48,15 @@ template <std::floating_point T>
 }
 // [observer]
 
-/// Linear sRGB of a colour, such that light of equal energy at all wavelengths, X = Y =
-/// Z = 1, is the screen's white: what reflects all light has to be (1, 1, 1), whatever
-/// the lamp. (X, Y and Z are scaled by those of the screen's white, and then the
-/// standard's matrix follows.)
+/// Linear sRGB of a colour. Equal energy at all wavelengths, X = Y = Z = 1, becomes the
+/// screen's white (1, 1, 1), because a surface that reflects all light must look white
+/// under any lamp: X, Y and Z are scaled by those of the screen's white before the
+/// standard's matrix.
 /// \param xyz  Relative to equal energy.
-/// \return Linear sRGB. A pure colour has a channel below 0: no screen shows it.
+/// \return Linear sRGB. A pure colour has a negative channel: no screen shows it.
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<T> xyz_to_rgb(const Vec3T<T>& xyz) noexcept {
-    // The rows of IEC 61966-2-1 times (0.95047, 1, 1.08883); they add up to 1.
+    // The rows of IEC 61966-2-1 times (0.95047, 1, 1.08883); each adds up to 1.
     constexpr T r[] = {T(3.2404542 * 0.95047), T(-1.5371385), T(-0.4985314 * 1.08883)};
     constexpr T g[] = {T(-0.9692660 * 0.95047), T(1.8760108), T(0.0415560 * 1.08883)};
     constexpr T b[] = {T(0.0556434 * 0.95047), T(-0.2040259), T(1.0572252 * 1.08883)};
@@ -71,11 +66,11 @@ template <std::floating_point T>
     return {row(r), row(g), row(b)};
 }
 
-/// The colour that a screen can show and a surface can have, nearest to one that it
-/// cannot: mixed with as much grey of the same luminance as brings all channels into
-/// [0, 1]. Cutting the channels off instead would add light.
+/// Moves a colour into the range that a screen can show and a surface can reflect: it
+/// is mixed with just enough grey of the same luminance to bring all channels into
+/// [0, 1]. Clamping the channels would add light.
 /// \param c  Linear sRGB.
-/// \return The same luminance, if it lies in [0, 1]; each channel in [0, 1].
+/// \return The same luminance, clamped to [0, 1]; each channel in [0, 1].
 // [into_gamut]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> into_gamut(const RgbT<T>& c) noexcept {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/optics/conductor.hpp
-/// \brief The share of light that a metal reflects.
+/// \brief The reflectance of metals.
 
 #include <cmath>
 #include <string>
@@ -15,9 +15,9 @@ namespace ljus {
 /// \defgroup conductor Metals
 /// \brief Fresnel's equations with a complex index: what makes gold yellow.
 ///
-/// A metal's index is complex, \f$ \bar n = n + ik \f$: the wave that enters dies
-/// within a fraction of its length, and nothing is refracted. n and k depend on the
-/// wavelength, and that is the metal's colour.
+/// A metal's index is complex, \f$ \bar n = n + ik \f$: the wave that enters decays
+/// within a fraction of its wavelength, and nothing is refracted. n and k depend on the
+/// wavelength, which gives the metal its colour.
 /// \{
 
 /// The complex index of a metal at three wavelengths, for red, green and blue.
@@ -28,8 +28,8 @@ struct ConductorIndexT {
 };
 using ConductorIndex = ConductorIndexT<float>; ///< ConductorIndexT in float.
 
-/// Measured indices at 620, 539 and 459 nm, wavelengths that a display's red, green
-/// and blue are near to \cite babar2015.
+/// Measured indices at 620, 539 and 459 nm, which are close to a display's red, green
+/// and blue \cite babar2015.
 /// \{
 template <std::floating_point T>
 inline constexpr ConductorIndexT<T> gold{{T(0.1357), T(0.3290), T(1.457)},
@@ -42,13 +42,13 @@ inline constexpr ConductorIndexT<T> silver{{T(0.04803), T(0.05168), T(0.052)},
                                            {T(4.164), T(3.483), T(2.765)}};
 /// \}
 
-/// The reflectance of a metal, seen from air, at one wavelength.
+/// The reflectance of a metal in air, at one wavelength.
 ///
 /// \f[ R_s = \left|\frac{c - q}{c + q}\right|^2, \quad
 ///     R_p = R_s \left|\frac{q c - s^2}{q c + s^2}\right|^2, \quad
 ///     q = \sqrt{\bar n^2 - s^2}, \quad c = \cos\theta,\ s = \sin\theta \f]
 ///
-/// and R is their mean. The root is taken where its two parts do not cancel.
+/// and R is their mean. The root is computed without cancellation.
 /// \param cos_theta  Cosine between ray and normal, in [0, 1].
 /// \param n          Real part of the index, >= 0.
 /// \param k          Imaginary part, >= 0. With k = 0 this is fresnel(cos_theta, 1, n).
@@ -71,7 +71,7 @@ template <std::floating_point T>
     const T b = real >= T(0) ? smaller : larger;
 
     const auto square = [](T x) { return x * x; };
-    // At grazing incidence onto nothing, n = 1 and k = 0, both parts are 0.
+    // Grazing incidence with n = 1 and k = 0 gives 0/0.
     const auto share = [](T part, T all) { return all > T(0) ? part / all : T(1); };
     const T r_s = share(square(c - a) + square(b), square(c + a) + square(b));
     const T ratio = share(square(a * c - sin2) + square(b * c),
@@ -80,10 +80,7 @@ template <std::floating_point T>
 }
 // [fresnel_conductor]
 
-/// The reflectance of a metal in three channels.
-/// \param cos_theta  Cosine between ray and normal, in [0, 1].
-/// \param index      Of the metal.
-/// \return R in [0, 1] for each channel.
+/// The reflectance of a metal in three channels, each in [0, 1].
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> fresnel_conductor(T cos_theta,
                                         const ConductorIndexT<T>& index) noexcept {
@@ -94,9 +91,7 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Refuses an index that no metal has.
-/// \param what   The name of the index, e.g. "metal.index".
-/// \param index  The index.
+/// Requires an index that a metal can have; `what` is its name, e.g. "metal.index".
 /// \throws std::invalid_argument as require().
 template <std::floating_point T>
 void require_conductor(std::string_view what, const ConductorIndexT<T>& index) {

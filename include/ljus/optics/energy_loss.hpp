@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/optics/energy_loss.hpp
-/// \brief How much light stays between the facets of a rough surface after one
-/// reflection, and what of it further ones bring back.
+/// \brief The energy that one reflection at a rough surface loses, and the fraction of
+/// it that multiple scattering returns.
 
 #include <algorithm>
 #include <array>
@@ -18,60 +18,49 @@ namespace ljus {
 
 namespace detail {
 
-/// What white facets do not return of light at an angle \cite kulla2017, in a table
-/// over the cosine mu, with steps that are small at the horizon, and within alpha of it
-/// smaller still: there the loss is steep.
+/// The energy that white facets lose after one reflection \cite kulla2017, tabulated
+/// over the cosine mu. Cells are small near the horizon and smallest below alpha, where
+/// the loss is steep.
 template <std::floating_point T>
 struct EnergyLossT {
-    static constexpr int cells = 128; ///< Between the cosines of the table.
-    T alpha = T(0);                   ///< Of the surface; 0: a mirror, without a loss.
+    static constexpr int cells = 128; ///< Cells of the table.
+    T alpha = T(0);                   ///< Roughness; 0: a mirror, without a loss.
     std::array<T, cells + 1> at{};    ///< 1 - E(mu), in [0, 1).
-    std::array<T, cells + 1> below{}; ///< Which share of all that is lost is lost at
-                                      ///< smaller cosines; from 0 to 1.
+    std::array<T, cells + 1> below{}; ///< Fraction of the whole loss at smaller
+                                      ///< cosines; from 0 to 1.
     T mean = T(0);                    ///< 1 minus the mean of E over the hemisphere.
 };
 
-/// The cosine at a place of the table.
-/// \param alpha  Roughness, > 0.
-/// \param place  From 0 to EnergyLossT::cells.
-/// \return mu in [0, 1]: \f$ \alpha s^2 / (\alpha + 1 - s^2) \f$, with s from 0 to 1.
+/// The cosine at a position of the table, from 0 to EnergyLossT::cells:
+/// \f$ \alpha s^2 / (\alpha + 1 - s^2) \f$, with s from 0 to 1.
 template <std::floating_point T>
 [[nodiscard]] constexpr T facet_cosine(T alpha, T place) noexcept {
     const T s = place / T(EnergyLossT<T>::cells);
     return alpha * s * s / (alpha + (T(1) - s) * (T(1) + s));
 }
 
-/// The place of a cosine in the table: facet_cosine() the other way round.
-/// \param alpha      Roughness, > 0.
-/// \param cos_theta  mu, in [0, 1].
-/// \return From 0 to EnergyLossT::cells.
+/// The position of a cosine in the table: the inverse of facet_cosine().
 template <std::floating_point T>
-[[nodiscard]] T facet_place(T alpha, T cos_theta) noexcept {
+[[nodiscard]] T facet_position(T alpha, T cos_theta) noexcept {
     const T x = cos_theta * (T(1) + alpha) / (cos_theta + alpha);
     return std::sqrt(std::min(x, T(1))) * T(EnergyLossT<T>::cells);
 }
 
-/// What white facets do not return.
-/// \param loss       The table.
-/// \param cos_theta  mu, in [0, 1].
-/// \return 1 - E(mu), in [0, 1); 0 of a mirror.
-/// \cost A square root, a division and two neighbours in memory.
+/// The loss of white facets at an angle: 1 - E(mu), in [0, 1); 0 for a mirror.
+/// \cost A square root, a division and two adjacent table entries.
 // [lost at]
 template <std::floating_point T>
 [[nodiscard]] T lost_at(const EnergyLossT<T>& loss, T cos_theta) noexcept {
     if (!(loss.alpha > T(0))) return T(0);
-    const T place = facet_place(loss.alpha, cos_theta);
+    const T place = facet_position(loss.alpha, cos_theta);
     const int i = std::min(static_cast<int>(place), loss.cells - 1);
     const auto low = static_cast<std::size_t>(i);
     return loss.at[low] + (place - T(i)) * (loss.at[low + 1] - loss.at[low]);
 }
 // [lost at]
 
-/// A cosine with the density of what is lost, the cosine included: as often as white
-/// facets lose light there. Within a cell of the table it is cosine-weighted.
-/// \param loss  The table, not a mirror's.
-/// \param u     In [0, 1).
-/// \return mu in [0, 1].
+/// Samples a cosine with a density proportional to the loss times the cosine. Within a
+/// cell of the table it is cosine-weighted.
 /// \cost A binary search and a square root.
 template <std::floating_point T>
 [[nodiscard]] T sample_lost(const EnergyLossT<T>& loss, T u) noexcept {
@@ -85,14 +74,11 @@ template <std::floating_point T>
     return std::sqrt(low * low + share * (high - low) * (high + low));
 }
 
-/// The density of sample_lost(), with an even azimuth.
-/// \param loss       The table, not a mirror's.
-/// \param cos_theta  mu, in [0, 1].
-/// \return Per steradian.
+/// The density of sample_lost() with a uniform azimuth, per steradian.
 template <std::floating_point T>
 [[nodiscard]] T pdf_lost(const EnergyLossT<T>& loss, T cos_theta) noexcept {
-    const int i =
-        std::min(static_cast<int>(facet_place(loss.alpha, cos_theta)), loss.cells - 1);
+    const int i = std::min(static_cast<int>(facet_position(loss.alpha, cos_theta)),
+                           loss.cells - 1);
     const auto cell = static_cast<std::size_t>(i);
     const T low = facet_cosine(loss.alpha, T(i));
     const T high = facet_cosine(loss.alpha, T(i + 1));
@@ -100,9 +86,8 @@ template <std::floating_point T>
            std::numbers::inv_pi_v<T> / ((high - low) * (high + low));
 }
 
-// The mean of 1 - G2/G1 over the facets that are seen: what reflection into another
-// facet costs. Most of it is at u.y close to 1, where facets are steep; there the grid
-// is fine.
+// The mean of 1 - G2/G1 over the visible facets: the light that other facets intercept.
+// Most of it is at u.y close to 1, where facets are steep; the grid is fine there.
 inline double energy_loss(double alpha, double mu) {
     constexpr int rows = 96, columns = 48;
     const Vec3T<double> out{std::sqrt((1 - mu) * (1 + mu)), 0, mu};
@@ -125,9 +110,9 @@ inline double energy_loss(double alpha, double mu) {
 }
 
 /// Makes the table of one roughness, in double.
-/// \param alpha  Roughness; 0 is a mirror, else in [1e-4, 1].
-/// \return The table: below the loss, by 4e-4 at most, so that no step of it makes
-///         light; above it by less than 1e-5, at the horizon.
+/// \param alpha  Roughness: 0 for a mirror, otherwise in [1e-4, 1].
+/// \return The table. It is at most 4e-4 below the loss, so that interpolation adds no
+///         light; at the horizon it is less than 1e-5 above.
 /// \cost 0.6 million visible normals: about 50 ms.
 template <std::floating_point T = float>
 [[nodiscard]] EnergyLossT<T> bake_energy_loss(T alpha) {
@@ -141,7 +126,7 @@ template <std::floating_point T = float>
         const double lost = detail::energy_loss(double(alpha), mu) - 2e-4;
         loss.at[i] = static_cast<T>(std::max(0.0, lost));
     }
-    // The mean is that of the table: what is given back is then neither more nor less.
+    // The mean of the table itself, so that exactly the loss is returned.
     constexpr int parts = 16;
     std::array<double, EnergyLossT<T>::cells + 1> sum{};
     for (std::size_t i = 1; i < sum.size(); ++i) {
@@ -164,26 +149,25 @@ template <std::floating_point T = float>
 
 /// \}
 
-/// \defgroup multiple_scattering Light from facet to facet
-/// \brief What one reflection at a rough surface loses, further ones bring back.
+/// \defgroup multiple_scattering Multiple scattering
+/// \brief Further reflections return what the first one at a rough surface loses.
 ///
-/// A surface of facets that returns the share E(mu) of light at a cosine mu, if its
-/// facets were white, keeps 1 - E(mu) among them. Spread that as if it had been lost on
-/// the way in and were found again on the way out \cite kulla2017 :
+/// White facets return the fraction E(mu) of light at a cosine mu, and lose 1 - E(mu).
+/// A second, reciprocal lobe returns the loss \cite kulla2017 :
 ///
 /// \f[ f = f_1 + \frac{\rho_m}{\pi}
 ///     \frac{(1 - E(\mu_i))\,(1 - E(\mu_o))}{1 - \bar E}, \qquad
 ///     \rho_m = \frac{\rho^2 \bar E}{1 - \rho (1 - \bar E)} \f]
 ///
-/// with the mean \f$ \bar E = 2 \int E(\mu)\,\mu\,d\mu \f$. For white facets the
-/// integral over one direction is exactly what f_1 has lost, and the two directions can
-/// be exchanged. EON and full gloss are such surfaces.
+/// with the mean \f$ \bar E = 2 \int E(\mu)\,\mu\,d\mu \f$. For white facets its
+/// integral over one direction is exactly what f_1 has lost. EON and CompensatedGlossy
+/// use this lobe.
 /// \{
 
 namespace detail {
 
-/// What light that is lost once will bring back, over all its further ways.
-/// \param reflectance  Of a facet, the mean over the angles, in [0, 1].
+/// The albedo of the lobe of multiple scattering.
+/// \param reflectance  Reflectance of a facet, averaged over the angles, in [0, 1].
 /// \param loss         1 minus the mean of E, in [0, 1).
 /// \return rho_m in [0, 1]; 1 for white.
 /// \cite kulla2017

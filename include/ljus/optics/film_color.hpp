@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/optics/film_color.hpp
-/// \brief The colours of thin films, three ways.
+/// \brief The colours of thin films, computed in three ways.
 
 #include <array>
 #include <cmath>
@@ -13,24 +13,24 @@
 namespace ljus {
 
 /// \defgroup film_color Colours of thin films
-/// \brief A film's reflectance changes within the width of one channel: a spectrum must
-/// be seen by an eye before it is red, green and blue.
+/// \brief A film's reflectance varies within the band of one channel: it must be
+/// integrated over the spectrum.
 /// \{
 
 namespace detail {
 
-/// The range of wavelengths that is summed over, in nm: what is outside is not seen.
+/// The range of wavelengths that sums cover, in nm; the rest is invisible.
 template <std::floating_point T>
 inline constexpr std::array<T, 2> visible{T(360), T(830)};
 
 } // namespace detail
 
-/// What an eye sees of a spectrum.
+/// The colour of a spectrum.
 /// \param spectrum  Called with a wavelength in nm; 1 for white.
 /// \param step      Distance of the samples, nm.
-/// \return Linear sRGB, (1, 1, 1) for a spectrum of 1; may lie outside of what a screen
-///         can show.
-/// \cost 470 nm / step calls, and seven exponentials with each.
+/// \return Linear sRGB, (1, 1, 1) for a spectrum of 1; it may be outside the range of a
+///         screen.
+/// \cost 470 nm / step calls, each with seven exponentials.
 // [spectrum color]
 template <std::floating_point T, typename Spectrum>
 [[nodiscard]] RgbT<T> spectrum_color(Spectrum spectrum, T step = T(1)) {
@@ -49,19 +49,19 @@ template <std::floating_point T, typename Spectrum>
 }
 // [spectrum color]
 
-/// The colour of a film: the reference. Samples of the spectrum are as close as the
-/// film's fringes ask for; the colour may lie outside of what a screen can show.
+/// The colour of a film: the reference. The samples of the spectrum resolve the film's
+/// fringes.
 /// \param cos_theta  Cosine outside, in [0, 1].
-/// \param index      Of the film, >= 1.
+/// \param index      Index of the film, >= 1.
 /// \param thickness  In nm, >= 0.
-/// \return R as linear sRGB.
+/// \return R as linear sRGB; it may be outside the range of a screen.
 /// \cost 470 wavelengths for a film of 400 nm, 10 000 times that for one of 1 mm.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_spectral(T cos_theta, T index, T thickness) {
     const T path = thickness * std::sqrt(film_cosine2(cos_theta, index));
-    // At the shortest wavelength the phase 4 pi path / lambda moves by 1/2 a sample.
+    // At the shortest wavelength the phase 4 pi path / lambda advances 1/2 per sample.
     const T finest = detail::visible<T>[0] * detail::visible<T>[0] /
-                     (T(8) * std::numbers::pi_v<T> * path); // infinite for no film
+                     (T(8) * std::numbers::pi_v<T> * path); // infinite without a film
     return spectrum_color<T>(
         [&](T wavelength) {
             return thin_film(cos_theta, index, thickness, wavelength).reflected;
@@ -77,11 +77,11 @@ inline constexpr Vec3T<T> screen_wavelengths{T(611.4), T(549.1), T(464.3)};
 
 } // namespace detail
 
-/// The colour of a film by three wavelengths, one a channel.
+/// The colour of a film by three wavelengths, one per channel.
 /// \param cos_theta  Cosine outside, in [0, 1].
-/// \param index      Of the film, > 0.
+/// \param index      Index of the film, > 0.
 /// \param thickness  In nm, >= 0.
-/// \return R in [0, 1] for each channel: fringes never fade, however thick the film.
+/// \return R in [0, 1] for each channel; the fringes of a thick film do not fade.
 /// \cost Three times thin_film().
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_three(T cos_theta, T index, T thickness) noexcept {
@@ -94,11 +94,10 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// How much of a wave that comes late an eye still sees swing: the Fourier transform of
-/// its sensitivity, by four Gaussians over the wave number.
-/// \param delay  By how much one wave comes later than the other, nm.
-/// \return The mean of cos(2 pi delay / wavelength), as linear sRGB: 1 for no delay,
-///         and towards 0 for a large one.
+/// The mean of cos(2 pi delay / wavelength) over the eye's sensitivity: its Fourier
+/// transform, by four Gaussians over the wave number.
+/// \param delay  Difference of the optical paths of two waves, nm.
+/// \return As linear sRGB: 1 for no delay, approaching 0 for a large one.
 /// \cost Four cosines and four exponentials.
 /// \cite belcour2017
 template <std::floating_point T>
@@ -125,17 +124,17 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The colour of a film, integrated over the spectrum beforehand. A film's reflectance
-/// is a sum of waves that have been inside k times,
+/// The colour of a film, preintegrated over the spectrum. A film's reflectance is a sum
+/// over waves that have crossed the film k times,
 ///
 /// \f[ R = \frac{2R_1}{1 + R_1} - 2\,\frac{1 - R_1}{1 + R_1} \sum_{k \ge 1} R_1^k
 ///     \cos 2k\varphi \f]
 ///
-/// and the eye's mean of each cosine is known; three of them are taken.
+/// and the eye's mean of each cosine is known; the sum is cut after k = 3.
 /// \param cos_theta  Cosine outside, in [0, 1].
-/// \param index      Of the film, >= 1.
+/// \param index      Index of the film, >= 1.
 /// \param thickness  In nm, >= 0.
-/// \return R as linear sRGB; may lie outside of what a screen can show.
+/// \return R as linear sRGB; it may be outside the range of a screen.
 /// \cost Three times visible_swing().
 /// \cite belcour2017
 // [preintegrated]
@@ -143,7 +142,7 @@ template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_preintegrated(T cos_theta, T index, T thickness) noexcept {
     const T c = cos_theta;
     const T g = std::sqrt(film_cosine2(c, index));
-    if (g == T(0)) return RgbT<T>{T(0)}; // along the surface of nothing
+    if (g == T(0)) return RgbT<T>{T(0)}; // grazing, without a film
     const auto square = [](T x) { return x * x; };
     const T n2 = index * index;
     const T one_surface[] = {square((c - g) / (c + g)),
@@ -154,11 +153,11 @@ template <std::floating_point T>
                               detail::visible_swing(T(3) * delay)};
     RgbT<T> sum{T(0)};
     for (const T r : one_surface) {
-        // Of what goes through.
+        // The transmitted light.
         const RgbT<T> waves = r * (swings[0] + r * (swings[1] + r * swings[2]));
         sum += (r - (T(1) - r) * waves) / (T(1) + r);
     }
-    return sum; // twice the mean of two
+    return sum; // twice the mean of two polarisations
 }
 // [preintegrated]
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/optics/film_table.hpp
-/// \brief The colours of all films of one liquid, in a table.
+/// \brief A table of the colours of all films of one liquid.
 
 #include <cmath>
 #include <vector>
@@ -14,41 +14,40 @@ namespace ljus {
 /// \addtogroup film_color
 /// \{
 
-/// The colours of films of one index, over angle and optical path: evenly spaced
-/// in the square root of the cosine, because a film turns into a mirror just before the
-/// grazing angle, and in the square root of the path n d cos(theta_t), because the
-/// fringes run along it and fade.
+/// The colours of films of one index, over angle and optical path. It is evenly spaced
+/// in the square root of the cosine, because a film turns into a mirror just before
+/// grazing incidence, and in the square root of the path n d cos(theta_t), because
+/// fringes fade with longer paths.
 template <std::floating_point T>
 struct FilmTableT {
-    T index = T(0);               ///< Of the films; 0 if the table is not made.
-    int cosines = 0;              ///< Columns: the cosine's root from 0 to 1.
-    int paths = 0;                ///< Rows: the path's root from 0 on, and the mean.
-    T longest = T(0);             ///< Path in nm, above which colours have faded.
+    T index = T(0);               ///< Index of the films; 0 if there is no table.
+    int cosines = 0;              ///< Columns: square root of the cosine, from 0 to 1.
+    int paths = 0;                ///< Rows: square root of the path; then the mean.
+    T longest = T(0);             ///< Path in nm above which colours have faded.
     std::vector<RgbT<T>> cells{}; ///< Row by row; in [0, 1].
-    int greyed = 0;               ///< Cells that no screen shows: see into_gamut().
-    T worst = T(0);               ///< The most negative channel that a cell had.
+    int greyed = 0;               ///< Cells that into_gamut() has changed.
+    T worst = T(0);               ///< The most negative channel before that.
 };
 using FilmTable = FilmTableT<float>; ///< FilmTableT in float.
 
 namespace detail {
 
-/// How fine a table is.
+/// The resolution of a table.
 struct FilmTableSize {
     int cosines = 65;      ///< At least 2.
-    int paths = 641;       ///< At least 2, without the row of the mean.
+    int paths = 641;       ///< At least 2, not counting the row of the mean.
     double longest = 4000; ///< In nm.
 };
 
-// Wavelengths that are evenly spaced over the visible ones, in nm, and what the eye
-// makes of each.
+// Wavelengths evenly spaced over the visible range, in nm, and the eye's response to
+// each.
 struct FilmSpectrum {
     std::vector<double> wavelengths{};
     std::vector<Vec3T<double>> eye{};
     Vec3T<double> white{0}; // the sum of `eye`
 };
 
-// As close to each other as the fringes of the longest path ask for: see
-// film_spectral().
+// The spacing resolves the fringes of the longest path: see film_spectral().
 [[nodiscard]] inline FilmSpectrum film_spectrum(double longest) {
     const double first = visible<double>[0], last = visible<double>[1];
     const double finest = first * first / (4 * std::numbers::pi * longest);
@@ -64,7 +63,7 @@ struct FilmSpectrum {
     return spectrum;
 }
 
-// Appends a colour to a table, made one that a screen shows.
+// Appends a colour to a table, moved into the range of a screen.
 template <std::floating_point T>
 void add_cell(FilmTableT<T>& table, const RgbT<double>& color) {
     const RgbT<double> shown = into_gamut(color);
@@ -77,10 +76,10 @@ void add_cell(FilmTableT<T>& table, const RgbT<double>& color) {
 
 /// Makes the table of one index, in double.
 /// \param index  In [1, 1000].
-/// \param size   How fine; by default 42 000 colours, half a megabyte in float.
-/// \return The table.
+/// \param size   The resolution; the default has 42 000 colours, half a megabyte in
+///               float.
 /// \throws std::invalid_argument  for an index or a size out of range.
-/// \cost By default 10 million samples: about 0.1 s.
+/// \cost With the default size 10 million samples: about 0.1 s.
 template <std::floating_point T = float>
 [[nodiscard]] FilmTableT<T> bake_film_table(T index,
                                             const detail::FilmTableSize& size = {}) {
@@ -124,12 +123,9 @@ template <std::floating_point T = float>
     return table;
 }
 
-/// The colour of a film from its table: bilinear, and the mean beyond the longest path.
-/// \param table      Of bake_film_table().
-/// \param cos_theta  Cosine outside, in [0, 1].
-/// \param thickness  In nm, >= 0.
+/// The colour of a film by its table: bilinear, and the mean beyond the longest path.
 /// \return R as linear sRGB, each channel in [0, 1].
-/// \cost Three square roots, a division and four cells of memory.
+/// \cost Three square roots, a division and four table entries.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> look_up(const FilmTableT<T>& table, T cos_theta,
                               T thickness) noexcept {
@@ -142,7 +138,7 @@ template <std::floating_point T>
         const auto* cell = table.cells.data() + row * table.cosines + column;
         return glm::mix(cell[0], cell[1], right);
     };
-    // Written so that infinity and NaN are thick.
+    // Written so that infinity and NaN count as thick.
     if (!(y < static_cast<T>(table.paths - 1))) return in_row(table.paths);
     const int row = static_cast<int>(y);
     return glm::mix(in_row(row), in_row(row + 1), y - static_cast<T>(row));

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/optics/fresnel.hpp
-/// \brief The exact share of unpolarised light that a boundary reflects.
+/// \brief The exact reflectance of a boundary for unpolarised light.
 
 #include <cmath>
 #include <concepts>
@@ -13,10 +13,10 @@
 namespace ljus {
 
 /// \defgroup fresnel Fresnel's equations
-/// \brief Section 3.2.5: what Schlick's formula approximates.
+/// \brief Section 3.2.5: the equations that Schlick's formula approximates.
 /// \{
 
-/// Which of the twins a material uses.
+/// The formula for the reflectance of a dielectric.
 enum class FresnelModel : std::uint8_t {
     exact,   ///< fresnel()
     schlick, ///< schlick_dielectric()
@@ -24,11 +24,8 @@ enum class FresnelModel : std::uint8_t {
 
 namespace detail {
 
-/// ((a - b)/(a + b))^2, as 1 - 4ab/(a + b)^2 where that keeps more digits: rounding of
-/// the small second term hardly shows in the result.
-/// \param a  First part, >= 0.
-/// \param b  Second part, >= 0; not both may be 0.
-/// \return A number in [0, 1].
+/// ((a - b)/(a + b))^2, in [0, 1], evaluated as 1 - 4ab/(a + b)^2 where that is more
+/// precise; a and b are at least 0, and not both 0.
 template <std::floating_point T>
 [[nodiscard]] constexpr T squared_contrast(T a, T b) noexcept {
     const T sum = a + b;
@@ -40,7 +37,7 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The reflectance of the boundary of two transparent media.
+/// The reflectance of the boundary between two transparent media.
 ///
 /// \f[ R = \frac{1}{2} \left(
 ///     \left|\frac{n_i \cos\theta_i - n_t \cos\theta_t}
@@ -48,15 +45,15 @@ template <std::floating_point T>
 ///     \left|\frac{n_t \cos\theta_i - n_i \cos\theta_t}
 ///                {n_t \cos\theta_i + n_i \cos\theta_t}\right|^2 \right) \f]
 ///
-/// the mean of the two polarisations. The other cosine comes from Snell's law as in
-/// refract(), written so that n_i <= n_t cancels nothing:
+/// is the mean over the two polarisations. The other cosine comes from Snell's law as
+/// in refract(), in a form without cancellation for n_i <= n_t:
 /// \f$ (n_t \cos\theta_t)^2 = (n_t \cos\theta_i)^2 + (n_t - n_i)(n_t + n_i)
 /// \sin^2\theta_i \f$.
 /// \param cos_theta_i  Cosine between incoming ray and normal, in [0, 1].
 /// \param n_i          Index on the side of the incoming ray, in [1e-9, 1e9].
 /// \param n_t          Index on the other side, in [1e-9, 1e9].
 /// \return R in [0, 1]: exactly 0 for equal indices, 1 under total internal reflection.
-///         The rest, 1 - R, is transmitted.
+///         The fraction 1 - R is transmitted.
 /// \cost One square root, four to six divisions.
 /// \report{Section 3.2.5}
 // [fresnel]
@@ -64,7 +61,7 @@ template <std::floating_point T>
 [[nodiscard]] T fresnel(T cos_theta_i, T n_i, T n_t) noexcept {
     const T c = cos_theta_i;
     const T delta = (n_t - n_i) * (n_t + n_i);
-    if (delta == T(0)) return T(0); // one medium, no boundary
+    if (delta == T(0)) return T(0); // no boundary
     const T sin2 = (T(1) - c) * (T(1) + c);
     const T g2 = (n_t * c) * (n_t * c) + delta * sin2;
     if (g2 <= T(0)) return T(1); // total internal reflection
@@ -76,12 +73,9 @@ template <std::floating_point T>
 }
 // [fresnel]
 
-/// Schlick's approximation behind the same interface: the twin of fresnel().
-/// \param cos_theta_i  Cosine between incoming ray and normal, in [0, 1].
-/// \param n_i          Index on the side of the incoming ray, in [1e-9, 1e9].
-/// \param n_t          Index on the other side, in [1e-9, 1e9].
+/// Schlick's approximation with the interface of fresnel().
 /// \return R in [0, 1]; for n = 1.5 within 0.036 of fresnel(), from either side.
-/// \cost A square root only on the way out of the denser medium.
+/// \cost One square root if n_i > n_t, otherwise none.
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] T schlick_dielectric(T cos_theta_i, T n_i, T n_t) noexcept {
@@ -93,12 +87,7 @@ template <std::floating_point T>
     return square <= T(0) ? T(1) : schlick(r0, std::sqrt(square));
 }
 
-/// The reflectance by the model that a material names.
-/// \param model        Exact or Schlick.
-/// \param cos_theta_i  Cosine between incoming ray and normal, in [0, 1].
-/// \param n_i          Index on the side of the incoming ray, in [1e-9, 1e9].
-/// \param n_t          Index on the other side, in [1e-9, 1e9].
-/// \return R in [0, 1].
+/// The reflectance by a material's model.
 template <std::floating_point T>
 [[nodiscard]] T fresnel(FresnelModel model, T cos_theta_i, T n_i, T n_t) noexcept {
     return model == FresnelModel::exact ? fresnel(cos_theta_i, n_i, n_t)

@@ -11,14 +11,14 @@ namespace ljus {
 /// \brief Section 3.2.4: a ray perfectly reflected over the normal.
 /// \{
 
-/// The direction of a ray after a mirror.
+/// The direction of a ray after a mirror reflection.
 ///
 /// \f[ R = 2I - D, \qquad I = D - (D \cdot N)\,N \f]
 ///
-/// I is the part of D along the surface: it stays, and the part along N turns round.
+/// I is the component of D along the surface; the component along N changes its sign.
 /// \param d  The direction in which the incoming ray *travels*, towards the surface.
-/// \param n  Unit normal, on either side: N and -N give the same R.
-/// \return The direction in which the reflected ray travels, as long as `d`.
+/// \param n  Unit normal; N and -N give the same R.
+/// \return The direction in which the reflected ray travels, of the length of `d`.
 /// \cost One dot product.
 /// \report{Section 3.2.4, Eq. (4)}
 // [reflect]
@@ -29,10 +29,8 @@ template <std::floating_point T>
 }
 // [reflect]
 
-/// The same in a material's frame, where N = +z and both directions point *away* from
-/// the surface. Nothing is rounded.
-/// \param wo  Vector in the surface's frame, to where the light goes.
-/// \return wi, to where it comes from, on the same side as `wo`.
+/// The mirror direction in a material's frame, where N = +z and both directions point
+/// *away* from the surface. It is exact.
 /// \report{Section 3.2.4, Eq. (4)}
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec3T<T> reflect(const Vec3T<T>& wo) noexcept {

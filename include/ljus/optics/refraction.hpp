@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/optics/refraction.hpp
-/// \brief Snell's law without an angle, and total internal reflection.
+/// \brief Snell's law without angles, and total internal reflection.
 
 #include <cmath>
 #include <optional>
@@ -12,43 +12,43 @@
 namespace ljus {
 
 /// \defgroup refraction Refraction
-/// \brief Section 3.2.5: the direction of a ray behind a boundary of two media.
+/// \brief Section 3.2.5: the direction of a ray after a boundary between two media.
 ///
-/// With \f$ \eta = n_1/n_2 \f$, the index where the ray comes from over the one where
-/// it goes, Snell's law multiplies the part P of D along the surface by \f$ \eta \f$;
-/// the cosine behind the boundary is what is left of the unit length:
+/// Let \f$ \eta = n_1/n_2 \f$, the index of the medium that the ray leaves over that of
+/// the one that it enters. Snell's law multiplies P, the component of D along the
+/// surface, by \f$ \eta \f$. The cosine behind the boundary follows from unit length:
 ///
 /// \f[ T = \eta P \pm N \cos\theta_2, \qquad
 ///     \cos^2\theta_2 = \cos^2\theta_1 + (1 - \eta)(1 + \eta)\,|P|^2 \f]
 ///
-/// For \f$ \eta \le 1 \f$ nothing cancels in this form, and \f$ \eta = 1 \f$ gives the
-/// direction back. A negative square is total internal reflection.
+/// For \f$ \eta \le 1 \f$ nothing cancels in this form; for \f$ \eta = 1 \f$ the
+/// direction is unchanged. A negative square means total internal reflection.
 /// \erratum{theta_1 is the angle between -D and N; D and N form an obtuse one. The case
 /// without a refracted ray, sin(theta_1) n_1/n_2 > 1, is not mentioned.}
 /// \{
 
 namespace detail {
 
-/// The difference of two products without cancellation: Kahan's form, by FMA.
+/// The difference of two products without cancellation: Kahan's form, with FMA.
 /// \return a b - c d, within 1.5 units of roundoff.
 template <std::floating_point T>
 [[nodiscard]] T difference_of_products(T a, T b, T c, T d) noexcept {
     const T cd = c * d;
-    const T lost = std::fma(-c, d, cd); // what rounding took from c d, exactly
+    const T lost = std::fma(-c, d, cd); // the rounding error of c d, exactly
     return std::fma(a, b, -cd) + lost;
 }
 
 } // namespace detail
 
-/// The direction of a ray behind a boundary. Write `ljus::refract`: the compiler finds
-/// GLM's function of that name by itself, and that one knows no total reflection.
+/// The direction of a ray after a boundary. Write `ljus::refract`: an unqualified call
+/// may find GLM's refract(), which does not report total reflection.
 /// \param direction  The direction in which the ray *travels*, towards the surface;
 ///                   unit vector.
 /// \param normal     Unit normal, on either side.
-/// \param eta        n_1/n_2: index where the ray comes from over index where it goes,
-///                   > 0.
+/// \param eta        n_1/n_2: index of the medium that the ray leaves over index of the
+///                   one that it enters, > 0.
 /// \return The refracted unit direction; nothing under total internal reflection, and
-///         nothing when any input is NaN.
+///         nothing if an input is NaN.
 /// \cost Two square roots, one division, two cross products by FMA. The sine comes from
 ///       a cross product, because D - (D.N)N loses it near normal incidence.
 /// \report{Section 3.2.5}
@@ -73,12 +73,12 @@ template <std::floating_point T>
 }
 // [refract]
 
-/// The same in a material's frame, where N = +z and directions point *away* from the
-/// surface: P is then (x, y), without any rounding.
-/// \param wo   Unit vector in the surface's frame, to where the light goes.
+/// Refraction in a material's frame, where N = +z and directions point *away* from the
+/// surface: P is then (x, y), exactly.
+/// \param wo   Unit vector in the surface's frame, the outgoing direction.
 /// \param eta  n_1/n_2: index on the side of `wo` over index on the other side, > 0.
 /// \return wi, the unit vector on the other side; nothing under total internal
-///         reflection, and nothing when any input is NaN.
+///         reflection, and nothing if an input is NaN.
 /// \cost Two square roots and one division.
 /// \report{Section 3.2.5}
 // [refract local]
@@ -96,9 +96,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Refuses an index of refraction that is no number above 0, or none of any substance.
-/// \param what   The name of the index, e.g. "glass.index".
-/// \param index  The index.
+/// Requires an index of refraction within [0.001, 1000]; `what` is its name, e.g.
+/// "glass.index".
 /// \throws std::invalid_argument as require().
 template <std::floating_point T>
 void require_index(std::string_view what, T index) {

@@ -6,11 +6,11 @@
 namespace ljus {
 
 /// \defgroup schlick Schlick's approximation
-/// \brief Section 3.2.5: the share of light that a boundary reflects, in products only.
+/// \brief Section 3.2.5: the reflectance of a boundary, by multiplications only.
 ///
-/// \erratum{The cosine is the one on the side of the *thinner* medium. With the angle
-/// of the incoming light, as printed, glass reflects 0.04 at 42 degrees from inside,
-/// where all is reflected.}
+/// \erratum{The cosine is the one in the medium of *lower* index. With the angle of the
+/// incoming light, as printed, glass reflects 0.04 at 42 degrees from inside, where
+/// reflection is total.}
 /// \{
 
 /// The reflectance at normal incidence.
@@ -29,7 +29,7 @@ template <typename T>
 ///
 /// by Schlick (1994) \cite schlick1994.
 /// \param r0         Reflectance at normal incidence, in [0, 1]; see schlick_r0().
-/// \param cos_theta  Cosine between ray and normal in the thinner medium, in [0, 1].
+/// \param cos_theta  Cosine in the medium of lower index, in [0, 1].
 /// \return The reflectance, from r0 to exactly 1 at grazing incidence.
 /// \cost Seven additions and multiplications; no square root, no division.
 /// \report{Section 3.2.5}
@@ -42,9 +42,9 @@ template <typename T>
 }
 // [schlick]
 
-/// The reflectance of a boundary crossed in either direction: takes the thinner side's
-/// cosine of the two. The second one needs a square root, and a caller who refracts has
-/// it already; see schlick_dielectric() in fresnel.hpp for the one who has not.
+/// The reflectance of a boundary crossed in either direction. It uses the cosine in the
+/// medium of lower index. The second cosine needs a square root, which a caller who
+/// refracts has already; otherwise use schlick_dielectric() in fresnel.hpp.
 /// \param n_i    Index on the side of the incoming ray, in [1e-9, 1e9].
 /// \param n_t    Index on the other side, in [1e-9, 1e9].
 /// \param cos_i  Cosine of the incoming ray, in [0, 1].

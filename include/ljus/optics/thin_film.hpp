@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/optics/thin_film.hpp
-/// \brief Light that meets itself: what a film as thin as a wavelength reflects.
+/// \brief Interference: the reflectance of a film as thin as a wavelength.
 
 #include <cmath>
 #include <numbers>
@@ -13,13 +13,13 @@ namespace ljus {
 /// \defgroup thin_film Thin films
 /// \brief The soap bubble of figure 4.
 ///
-/// A film has two surfaces. Light that the second one reflects comes out later than
-/// that of the first, and what comes out together adds up as waves do.
+/// A film has two surfaces. The wave that the second one reflects is delayed against
+/// that of the first, and the two interfere.
 /// \{
 
 namespace detail {
 
-/// What a film does with the light of one wavelength.
+/// The reflectance and transmittance of a film at one wavelength.
 template <std::floating_point T>
 struct FilmSharesT {
     T reflected = T(0);   ///< R.
@@ -28,21 +28,20 @@ struct FilmSharesT {
 
 } // namespace detail
 
-/// \f$ (n_t \cos\theta_t)^2 \f$, which is the square of the cosine *in* the film times
-/// that of the index: \f$ \cos^2\theta + (n - 1)(n + 1) \f$, without cancellation.
-/// \param cos_theta  Outside.
-/// \param index      Of the film.
-/// \return Below 0 if nothing is refracted into the film.
+/// \f$ (n_t \cos\theta_t)^2 \f$, the square of index times cosine *inside* the film:
+/// \f$ \cos^2\theta + (n - 1)(n + 1) \f$, without cancellation.
+/// \return Negative if nothing is refracted into the film.
 template <std::floating_point T>
 [[nodiscard]] constexpr T film_cosine2(T cos_theta, T index) noexcept {
     return cos_theta * cos_theta + (index - T(1)) * (index + T(1));
 }
 
-/// Both shares, the mean of two polarisations, from how strongly waves beat.
-/// \param cos_theta  Outside, in [0, 1].
-/// \param index      Of the film, > 0.
+/// Reflectance and transmittance, averaged over two polarisations, from the amplitude
+/// of interference.
+/// \param cos_theta  Cosine outside, in [0, 1].
+/// \param index      Index of the film, > 0.
 /// \param beat       \f$ q = (n^2 - 1) \sin\varphi / g \f$; see thin_film().
-/// \return The shares.
+/// \return R and T.
 /// \cost Four divisions.
 // [film_shares]
 template <std::floating_point T>
@@ -52,11 +51,11 @@ template <std::floating_point T>
     const T sin2 = (T(1) - cos_theta) * (T(1) + cos_theta);
     const T p = beat * (c2 - sin2 / (index * index)); // 0 at Brewster's angle
     const auto shares = [&](T q) {
-        // A film of no thickness does nothing, even at the grazing angle.
+        // A film without thickness reflects nothing, even at grazing incidence.
         if (q == T(0)) return detail::FilmSharesT<T>{};
         const T root = T(2) * cos_theta / q, ratio = root * root;
         const T reflected = T(1) / (T(1) + ratio);
-        // The smaller one is no difference; and no ratio is too large.
+        // The smaller one needs no subtraction; the ratio may be infinite.
         return detail::FilmSharesT<T>{reflected, ratio < T(1) ? ratio * reflected
                                                               : T(1) - reflected};
     };
@@ -67,24 +66,24 @@ template <std::floating_point T>
 }
 // [film_shares]
 
-/// What a film between air and air reflects and transmits at one wavelength, with all
-/// the reflections inside it: the sum of Airy's series,
+/// The reflectance and transmittance of a film in air at one wavelength, with all
+/// reflections inside it: the sum of Airy's series,
 ///
 /// \f[ R = \frac{F \sin^2\varphi}{1 + F \sin^2\varphi}, \quad
 ///     F = \frac{4 R_1}{(1 - R_1)^2}, \quad
 ///     \varphi = \frac{2\pi}{\lambda}\, n\, d \cos\theta_t \f]
 ///
-/// for each polarisation, with R_1 of one surface. It is evaluated as
+/// for each polarisation, where R_1 belongs to one surface. It is evaluated as
 /// \f$ F \sin^2\varphi = q^2 / 4\cos^2\theta \f$ with
-/// \f$ q = (n^2 - 1) \sin\varphi / g \f$, \f$ g = n \cos\theta_t \f$, for waves that
-/// swing across the plane of incidence, and q times \f$ \cos^2\theta -
-/// \sin^2\theta/n^2 \f$ for those within it. Nothing cancels, R + T = 1, and where
-/// nothing is refracted (n < 1) the sine becomes a hyperbolic one: light tunnels.
+/// \f$ q = (n^2 - 1) \sin\varphi / g \f$, \f$ g = n \cos\theta_t \f$, for waves
+/// polarised perpendicular to the plane of incidence; for the others q is multiplied by
+/// \f$ \cos^2\theta - \sin^2\theta/n^2 \f$. Nothing cancels, and R + T = 1. Where
+/// nothing is refracted (n < 1) the sine becomes hyperbolic: light tunnels.
 /// \param cos_theta   Cosine between ray and normal, outside, in [0, 1].
-/// \param index       Of the film, > 0.
+/// \param index       Index of the film, > 0.
 /// \param thickness   >= 0, in the unit of the wavelength.
 /// \param wavelength  In air, > 0.
-/// \return The shares: R = 0 for a film of no thickness.
+/// \return R and T; R = 0 for a film without thickness.
 /// \cost A square root, a sine and five divisions.
 /// \cite bornwolf1999
 // [thin_film]
@@ -101,11 +100,11 @@ template <std::floating_point T>
 }
 // [thin_film]
 
-/// The mean of a film's reflectance over all phases: what a film reflects that is so
-/// thick that light does not meet itself. For both waves \f$ 1 - 1/\sqrt{1 + F} =
+/// The mean of a film's reflectance over all phases: the reflectance of a film too
+/// thick for interference. For each polarisation it is \f$ 1 - 1/\sqrt{1 + F} =
 /// 2R_1/(1 + R_1) \f$.
 /// \param cos_theta  Cosine outside, in [0, 1].
-/// \param index      Of the film, >= 1.
+/// \param index      Index of the film, >= 1.
 /// \return In [0, 1].
 template <std::floating_point T>
 [[nodiscard]] T thick_film(T cos_theta, T index) noexcept {
@@ -116,7 +115,7 @@ template <std::floating_point T>
     const T sin2 = (T(1) - c) * (T(1) + c);
     const auto mean = [&](T q_of_wave) {
         const T root = std::hypot(T(2) * c, q_of_wave);
-        // 1 - 2c/root, without the difference.
+        // 1 - 2c/root, without cancellation.
         return root > T(0) ? q_of_wave * q_of_wave / (root * (root + T(2) * c)) : T(0);
     };
     return (mean(q) + mean(q * (c * c - sin2 / (index * index)))) / T(2);

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/radiosity/exchange_area.hpp
-/// \brief The form factor between any two flat patches, by an integral along their
-/// edges.
+/// \brief The form factor between two flat patches, by an integral along their edges.
 
 #include <array>
 #include <cmath>
@@ -13,20 +12,19 @@
 namespace ljus {
 
 /// \defgroup exchange_area Exchange areas
-/// \brief Section 2.2: the form factor times the area of its patch, the same in both
-/// directions.
+/// \brief Section 2.2: the form factor times the area of its patch, which is symmetric.
 /// \{
 
 namespace detail {
 
-// The integral of ln(sqrt(z^2 + d^2) / unit) over z, from 0; d is at least 0.
+// The integral of ln(sqrt(z^2 + d^2) / unit) over z, from 0; d >= 0.
 [[nodiscard]] inline double log_once(double z, double d, double unit) noexcept {
     const double r2 = z * z + d * d;
     if (!(r2 > 0)) return 0;
     return z * std::log(r2 / (unit * unit)) / 2 - z + d * std::atan2(z, d);
 }
 
-// The same twice over, but for 3/4 z^2.
+// The integral of log_once() over z, without the term -3/4 z^2.
 [[nodiscard]] inline double log_twice(double z, double d, double unit) noexcept {
     const double r2 = z * z + d * d;
     if (!(r2 > 0)) return 0;
@@ -34,7 +32,7 @@ namespace detail {
            d * z * std::atan2(z, d);
 }
 
-// Nodes within (0, 1) for what ends in s ln s: the double exponential rule.
+// Nodes in (0, 1) for integrands with an end like s ln s: the double exponential rule.
 struct EdgeRule {
     static constexpr int count = 49;
     std::array<double, count> place{};
@@ -57,9 +55,9 @@ struct EdgeRule {
     return rule;
 }
 
-// The same integral for edges that are far from each other: Gauss's rule of six points
-// on both, which beyond six lengths is exact to the last digit. The closed form would
-// be a small difference of large numbers there.
+// The integral over two distant edges: Gauss's rule of six points on both, which is
+// exact to the last digit beyond six lengths. The closed form would be a small
+// difference of large numbers there.
 [[nodiscard]] inline double edges_apart(const glm::dvec3& way, const glm::dvec3& u,
                                         const glm::dvec3& v, double unit) noexcept {
     constexpr std::array place{0.03376524289842397, 0.1693953067668678,
@@ -77,9 +75,9 @@ struct EdgeRule {
     return glm::dot(u, v) * sum;
 }
 
-// The same integral for parallel edges, in closed form. `ahead` and `d` are how far the
-// start of the second edge lies from that of the first, along the second and across it;
-// `back` is the length of the first edge, negative if the two run against each other.
+// The integral over parallel edges, in closed form. The start of the second edge lies
+// `ahead` along it and `d` across it from the start of the first; `back` is the length
+// of the first edge, negative if the two have opposite directions.
 [[nodiscard]] inline double parallel_edges(double ahead, double d, double back,
                                            double length_v, double unit) noexcept {
     const auto f = [&](double z) { return log_twice(z, d, unit); };
@@ -87,8 +85,8 @@ struct EdgeRule {
            f(ahead) - 1.5 * length_v * back;
 }
 
-// Where the first edge passes the ends of the second, and its line: shares of its
-// length, with both of its ends, in order.
+// Splits the first edge at the ends of the second and at its line: fractions of its
+// length in ascending order, including 0 and 1.
 [[nodiscard]] inline std::array<double, 5>
 pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
                double length_u, const glm::dvec3& along) noexcept {
@@ -107,15 +105,15 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
 /// The integral of the logarithm of the distance over two edges, times the cosine of
 /// their angle.
 ///
-/// In closed form if the edges are parallel, and 0 if they are perpendicular. Else the
-/// inner integral is closed and the outer one is summed by the double exponential rule
-/// \cite takahasi1974, which a singularity at an end does not disturb; one in between,
-/// where the edges come close to each other, is made an end.
-/// \param a     From here
-/// \param u     along this: the first edge.
-/// \param b     From here
-/// \param v     along this: the second edge.
-/// \param unit  Distances are measured in it: some length of this size.
+/// It has a closed form for parallel edges, and is 0 for perpendicular ones. Otherwise
+/// the inner integral is closed and the outer one is summed by the double exponential
+/// rule \cite takahasi1974, which allows singularities at the ends: the first edge is
+/// split where it comes close to the second.
+/// \param a     Start of the first edge.
+/// \param u     The first edge, as a vector.
+/// \param b     Start of the second edge.
+/// \param v     The second edge, as a vector.
+/// \param unit  The unit of distances; any length of their magnitude.
 /// \return \f$\cos\varphi \int\!\!\int \ln(r / \text{unit})\, ds\, dt\f$
 [[nodiscard]] inline double edge_pair(const glm::dvec3& a, const glm::dvec3& u,
                                       const glm::dvec3& b, const glm::dvec3& v,
@@ -134,7 +132,7 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
         return parallel_edges(ahead, d, std::copysign(length_u, cosine), length_v,
                               unit);
     }
-    // Inner integral: over the second edge, from the point s of the first.
+    // Inner integral: over the second edge, seen from the point s of the first.
     const auto inner = [&](double s) {
         const glm::dvec3 from = way - s * u;
         const double z = glm::dot(from, along);
@@ -155,20 +153,18 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
 
 } // namespace detail
 
-/// The exchange area of two facets between which nothing stands: the area of either,
-/// times the form factor from it to the other.
+/// The exchange area of two facets with nothing between them: the area of either one
+/// times the form factor to the other.
 ///
-/// Stokes' theorem, once for each of the two areas, leaves an integral along the edges
+/// Stokes' theorem, applied to both areas, leaves an integral along the edges
 /// \cite goral1984 :
 /// \f[ A_1 F_{12} = \int_{A_1}\!\int_{A_2}
 ///     \frac{\cos\theta_1 \cos\theta_2}{\pi r^2}\, dA_2\, dA_1
 ///   = \frac{1}{2\pi} \oint\!\oint \ln r\; dx_1 \cdot dx_2. \f]
-/// What of a facet lies behind the plane of the other is cut off first.
-/// \param one  A facet with an area.
-/// \param two  Another.
+/// Each facet is first clipped by the plane of the other.
 /// \return In squared scene units, at least 0.
-/// \cost 1 microsecond for two rectangles along the axes, 40 for two that are turned;
-///       the relative error is about 1e-15 (distance / size)^2.
+/// \cost 1 microsecond for two axis-aligned rectangles, 40 for two at other angles; the
+///       relative error is about 1e-15 (distance / size)^2.
 /// \report{Section 2.2}
 // [exchange_area]
 [[nodiscard]] inline double exchange_area(const Facet& one, const Facet& two) noexcept {
@@ -198,10 +194,10 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
 /// \addtogroup form_factor
 /// \{
 
-/// The form factor from a floor to a wall that stands on one of its edges.
+/// The form factor from a floor to a wall on one of its edges.
 /// \param edge    Length of the common edge, above 0.
-/// \param floor   The floor's other side.
-/// \param height  The wall's other side.
+/// \param floor   Length of the floor's other side.
+/// \param height  Height of the wall.
 /// \return From the floor to the wall: 0.2000438 for two unit squares.
 /// \cite howell2010
 [[nodiscard]] inline double form_factor_corner(double edge, double floor,

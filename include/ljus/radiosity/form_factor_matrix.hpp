@@ -10,7 +10,7 @@
 
 namespace ljus {
 
-/// \defgroup form_factors All form factors
+/// \defgroup form_factors The matrix of form factors
 /// \brief Section 2.2: "a form factor, which describes patch visibility, is calculated
 /// for each pair of patches". Chapter: \ref ch_radiosity.
 /// \{
@@ -18,45 +18,45 @@ namespace ljus {
 /// The form factors of a scene, as exchange areas \f$ A_i F_{ij} = A_j F_{ji} \f$: one
 /// number serves both directions, so that reciprocity is exact.
 struct FormFactors {
-    std::vector<double> area{};     ///< Of each patch, in squared scene units.
-    std::vector<double> exchange{}; ///< Row by row, symmetric: squared scene units.
+    std::vector<double> area{};     ///< Area of each patch, in squared scene units.
+    std::vector<double> exchange{}; ///< Symmetric matrix, row by row; same unit.
 
-    /// How many patches there are.
+    /// The number of patches.
     [[nodiscard]] std::size_t size() const noexcept { return area.size(); }
     /// The exchange areas of a patch with all others.
     [[nodiscard]] std::span<const double> row(std::size_t i) const noexcept {
         return {exchange.data() + i * size(), size()};
     }
-    /// The share of what patch i sends out that arrives at patch j.
+    /// The form factor: the fraction of the flux of patch i that arrives at patch j.
     [[nodiscard]] double operator()(std::size_t i, std::size_t j) const noexcept {
         return row(i)[j] / area[i];
     }
-    /// The share of what patch i sends out that arrives at any patch: 1 in a closed
+    /// The fraction of the flux of patch i that arrives at any patch: 1 in a closed
     /// room.
     [[nodiscard]] double row_sum(std::size_t i) const noexcept {
         return detail::pairwise_sum(row(i)) / area[i];
     }
 };
 
-/// How form factors are found.
+/// How form factors are computed.
 struct FormFactorSettings {
     bool analytic = true;   ///< Closed forms between flat patches; false: rays for all.
-    int rays = 256;         ///< From each patch that rays are cast from.
+    int rays = 256;         ///< Rays per patch whose form factors have no closed form.
     int shadow_rays = 16;   ///< Between two flat patches, unless the scene is convex.
     bool closed = false;    ///< No light leaves: make each row's sum exactly 1.
-    std::uint64_t seed = 1; ///< Of the random streams.
-    int threads = 0;        ///< 0: all that there are.
+    std::uint64_t seed = 1; ///< Seed of the random streams.
+    int threads = 0;        ///< As in ParallelSettings.
     Progress progress = no_progress; ///< Called with (done, total); false stops.
 };
 
 namespace detail {
 
-/// Scales form factors until each row's sum is 1, as in a room that no light leaves;
-/// symmetry is kept \cite sinkhorn1967. Then the rays' noise neither makes light nor
-/// swallows it, which matters when the albedo is near 1.
-/// \param factors  Changed: each exchange area by a factor of its row and one of its
-///                 column.
-/// \return Whether it could be done: not if a patch sees no other.
+/// Scales form factors until each row's sum is 1, as in a closed room, and keeps their
+/// symmetry \cite sinkhorn1967. The noise of rays then neither adds nor removes light,
+/// which matters for an albedo near 1.
+/// \param factors  Each exchange area is multiplied by a factor of its row and one of
+///                 its column.
+/// \return False if a patch sees no other.
 inline bool close_rows(FormFactors& factors) {
     const std::size_t n = factors.size();
     std::vector<double> scale(n, 1.0);
@@ -80,16 +80,13 @@ inline bool close_rows(FormFactors& factors) {
 
 } // namespace detail
 
-/// Finds the form factors between all patches: the closed form between flat ones, times
-/// the visible share; else by rays from both, weighted so that their noise is least.
-/// \param world     The scene that was cut up.
-/// \param all       Its patches.
-/// \param settings  How.
-/// \return The form factors, symmetric to the last bit, the same for any number of
-///         threads; nothing if the progress callback stopped it.
+/// Computes the form factors between all patches: between flat ones the closed form
+/// times the visible fraction, otherwise by rays from both, weighted for minimal noise.
+/// \return The form factors, symmetric to the last bit and the same for any number of
+///         threads; nothing if the progress callback stopped the computation.
 /// \throws std::invalid_argument  if a number of rays is below 1, or rows cannot be
 ///         closed.
-/// \cost n^2 numbers of 8 bytes; of time see the chapter.
+/// \cost n^2 numbers of 8 bytes; the chapter has the times.
 /// \report{Section 2.2}
 template <AnyWorld W>
 [[nodiscard]] std::optional<FormFactors>
@@ -116,9 +113,9 @@ make_form_factors(const W& world, const Patches& all,
             if (!closed_form(j)) continue;
             row[j] = exchange_area(all.patches[i].facet, all.patches[j].facet);
             if (row[j] > 0 && !all.convex)
-                row[j] *= detail::visible_share(world, all, number,
-                                                static_cast<std::uint32_t>(j),
-                                                settings.shadow_rays, settings.seed);
+                row[j] *= detail::visible_fraction(world, all, number,
+                                                   static_cast<std::uint32_t>(j),
+                                                   settings.shadow_rays, settings.seed);
         }
     };
     if (!parallel_blocks(static_cast<long long>(n), fill,
@@ -138,7 +135,7 @@ make_form_factors(const W& world, const Patches& all,
         }
     if (settings.closed)
         require(detail::close_rows(factors), "closed", 1LL,
-                "false in a room with a patch that sees no other");
+                "false, because a patch of the room sees no other");
     return factors;
 }
 

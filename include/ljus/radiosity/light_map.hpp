@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/radiosity/light_map.hpp
-/// \brief The irradiance of all surfaces, and pictures of it from anywhere.
+/// \brief The irradiance of all surfaces, and pictures of it from any camera.
 
 #include <span>
 #include <vector>
@@ -19,27 +19,26 @@ namespace ljus {
 /// real-time applications such as games". Chapter: \ref ch_radiosity.
 /// \{
 
-/// What a light map was made of, in two numbers: light_map_key() makes them. A map is
-/// drawn in no other scene, and loaded from a file for no other key.
+/// Identifies what a light map was made of; see light_map_key(). A map belongs to one
+/// scene, and a saved map is loaded for the same key only.
 struct LightMapKey {
-    std::uint64_t scene = 0;    ///< Of shapes, materials and lights.
-    std::uint64_t settings = 0; ///< Of the settings that change the map.
-    /// Whether both are of the same.
+    std::uint64_t scene = 0;    ///< Hash of shapes, materials and lights.
+    std::uint64_t settings = 0; ///< Hash of the settings that change the map.
+    /// True if both hashes are equal.
     friend bool operator==(const LightMapKey&, const LightMapKey&) = default;
 };
 
-/// The light on the surfaces of a scene, whoever looks at it.
-///
-/// It holds irradiance, not radiosity: what a surface makes of it, the surface knows.
+/// The light on the surfaces of a scene, for any viewpoint. It holds irradiance, not
+/// radiosity; the surface's albedo is applied when it is drawn.
 struct LightMap {
-    LightMapKey key{};                      ///< What it was made of.
-    std::vector<PatchGrid> grids{};         ///< One a side of an object.
-    std::vector<RgbT<double>> irradiance{}; ///< Of each patch, W/m^2.
+    LightMapKey key{};                      ///< Identifies scene and settings.
+    std::vector<PatchGrid> grids{};         ///< One per side of an object.
+    std::vector<RgbT<double>> irradiance{}; ///< Irradiance of each patch, W/m^2.
 };
 
 namespace detail {
 
-// All that is part of a scene, which its camera is not.
+// A hash of the scene without its camera.
 template <AnyWorld W>
 [[nodiscard]] std::uint64_t scene_hash(const W& world) {
     FieldHash hash;
@@ -53,7 +52,7 @@ template <AnyWorld W>
     std::apply(lists, world.materials());
     hash.add(world.objects());
     for (std::uint32_t i = 0; i < world.light_count(); ++i)
-        if (!world.can_be_met(i)) // what can be met is among shapes and objects
+        if (!world.can_be_met(i)) // the others are among shapes and objects
             world.visit_light(i, [&]<typename L>(const L& light) {
                 hash.template add_name_of<L>();
                 hash.add(light);
@@ -61,16 +60,14 @@ template <AnyWorld W>
     return hash.value;
 }
 
-/// The vertices of a cell, by their numbers within the grid: four of a quad, three of a
-/// triangle. On a ball the first column has one vertex, the pole, and so has the last.
-/// \param grid   The grid.
-/// \param place  Of the cell.
+/// The indices of a cell's vertices in its grid: four of a quad, three of a triangle.
+/// On a ball the first and the last column have one vertex each, a pole.
 [[nodiscard]] constexpr std::array<std::uint32_t, 4>
 cell_vertices(const PatchGrid& grid, const CellPlace& place) noexcept {
     const auto vertex = [&](std::uint32_t right, std::uint32_t up) {
         const std::uint32_t column = place.column + right;
         const std::uint32_t row = place.row + up;
-        if (grid.kind == GridKind::triangle) // rows get shorter by one vertex each
+        if (grid.kind == GridKind::triangle) // each row is one vertex shorter
             return row * (grid.columns + 2) - row * (row + 1) / 2 + column;
         if (grid.kind == GridKind::quad) return row * (grid.columns + 1) + column;
         if (column == 0) return 0u;
@@ -85,11 +82,8 @@ cell_vertices(const PatchGrid& grid, const CellPlace& place) noexcept {
 
 } // namespace detail
 
-/// The light at the vertices of a grid: the mean of the patches that meet there, after
-/// Gouraud \cite gouraud1971.
-/// \param grid        The grid.
-/// \param irradiance  Of its cells.
-/// \return Of its vertices.
+/// The light at the vertices of a grid: the mean of the adjacent cells' irradiance,
+/// after Gouraud \cite gouraud1971.
 [[nodiscard]] inline std::vector<RgbT<double>>
 vertex_light(const PatchGrid& grid, std::span<const RgbT<double>> irradiance) {
     std::vector<RgbT<double>> sum(grid.vertices(), RgbT<double>(0));
@@ -105,28 +99,28 @@ vertex_light(const PatchGrid& grid, std::span<const RgbT<double>> irradiance) {
     return sum;
 }
 
-/// What a picture of a light map looks like.
+/// How a light map is drawn.
 struct LightMapSettings {
-    bool smooth = true; ///< Blended between vertices; false: each patch by itself.
+    bool smooth = true; ///< Interpolate between vertices; false: constant patches.
 };
 
-/// A light map with its scene, ready to be rendered: `render(view, camera, picture)`.
+/// A light map with its world: a renderer for `render(view, camera, picture)`.
 template <typename W>
 class LightMapView {
 public:
-    using Stream = RandomStream; ///< It draws nothing.
+    using Stream = RandomStream; ///< Not used.
 
     /// \param of    The world that the map was made for; must outlive the view.
     /// \param map   The light map.
     /// \param look  How it is drawn.
-    /// \throws std::invalid_argument  if the map does not go with the world.
+    /// \throws std::invalid_argument  if the map was made for another world.
     LightMapView(WorldRef<W> of, LightMap map, const LightMapSettings& look = {})
         : world_(of), map_(std::move(map)), look_(look) {
         const W& world = of.get();
         if (map_.key.scene != detail::scene_hash(world))
             throw std::invalid_argument(
                 "The light map was made for another scene, with other shapes, "
-                "materials or lights; make it anew.");
+                "materials or lights; make it again for this scene.");
         for (const auto& list : world.objects())
             grid_of_.emplace_back(list.size(), std::array{no_grid, no_grid});
         std::size_t next = 0;
@@ -144,7 +138,7 @@ public:
             require(same && grid.first == next &&
                         map_.irradiance.size() - next >= grid.size(),
                     "a grid of the light map", static_cast<long long>(number),
-                    "one of an object of the scene");
+                    "the grid of an object of the scene");
             grid_of_[grid.object.type][grid.object.index][grid.back] = number;
             vertices_.push_back(
                 vertex_light(grid, std::span<const RgbT<double>>(map_.irradiance)
@@ -152,13 +146,13 @@ public:
             next += grid.size();
         }
     }
-    /// Which scene.
+    /// The world.
     [[nodiscard]] const W& world() const noexcept { return world_.get(); }
-    /// Its light.
+    /// The light map.
     [[nodiscard]] const LightMap& map() const noexcept { return map_; }
-    /// How it is drawn.
+    /// How the map is drawn.
     [[nodiscard]] const LightMapSettings& look() const noexcept { return look_; }
-    /// The grid of each side, as in Patches.
+    /// The grid of each side, as in Patches::grid_of.
     [[nodiscard]] const auto& grid_of() const noexcept { return grid_of_; }
     /// vertex_light() of each grid.
     [[nodiscard]] const auto& vertices() const noexcept { return vertices_; }
@@ -174,11 +168,8 @@ private:
 template <typename W>
 LightMapView(const W&, LightMap, const LightMapSettings& = {}) -> LightMapView<W>;
 
-/// The irradiance at a place of a grid, blended between its cell's vertices.
-/// \param grid      The grid.
-/// \param at        The place, see place_on().
-/// \param vertices  vertex_light() of the grid.
-/// \return W/m^2.
+/// The irradiance at a point of a grid, interpolated between its cell's vertices, in
+/// W/m^2.
 [[nodiscard]] inline RgbT<double>
 blended_light(const PatchGrid& grid, const glm::dvec2& at,
               std::span<const RgbT<double>> vertices) noexcept {
@@ -193,12 +184,9 @@ blended_light(const PatchGrid& grid, const glm::dvec2& at,
            t.y * vertices[v[2]];
 }
 
-/// The radiance that a ray finds: one intersection and one look into the map.
-/// \param view     The scene and its light map.
-/// \param ray      A primary ray.
-/// \param context  Its log is told of each term.
-/// \return Emitted radiance, and albedo / pi of the irradiance, W/(m^2 sr); what is no
-///         patch is black.
+/// The radiance along a ray: one intersection and one look-up in the map.
+/// \return Emitted radiance plus albedo / pi times irradiance, W/(m^2 sr); surfaces
+///         without patches are black.
 /// \report{Section 2.2}
 // [radiance]
 template <AnyWorld W, std::floating_point T, typename Context>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/radiosity/patch_grid.hpp
-/// \brief One side of a shape, cut into cells.
+/// \brief The sides of shapes, divided into cells.
 
 #include <algorithm>
 #include <array>
@@ -14,62 +14,59 @@
 namespace ljus {
 
 /// \defgroup patch_grid Grids of patches
-/// \brief Section 2.2: where a patch lies on its shape, and which patch a point is of.
+/// \brief Section 2.2: the position of a patch on its shape, and the patch of a point.
 ///
-/// A place on a shape is a point of the unit square: u and v of a flat hit; on a ball
-/// the height and the angle around it, in which equal squares are equal areas.
+/// A point of a shape has coordinates in the unit square: u and v of a hit on a flat
+/// shape; height and azimuth on a ball, where equal squares are equal areas.
 /// \{
 
 namespace detail {
 
-/// How a shape is cut.
+/// How a shape is divided.
 enum class GridKind : std::uint8_t {
-    quad,     ///< Into columns along u and rows along v.
-    triangle, ///< Into columns squared triangles, all of one size and form.
-    ball,     ///< As a quad whose first and last row meet.
+    quad,     ///< Columns along u and rows along v.
+    triangle, ///< columns^2 congruent triangles.
+    ball,     ///< Like a quad, with the first and the last row adjacent.
 };
 
 } // namespace detail
 
 /// The cells of one side of a shape.
 struct PatchGrid {
-    ObjectId object{};                              ///< Of the scene.
-    detail::GridKind kind = detail::GridKind::quad; ///< How it is cut.
-    bool back = false;         ///< The side that emission does not leave.
-    bool inward = false;       ///< The side against the shape's own normal.
+    ObjectId object{};                              ///< The object.
+    detail::GridKind kind = detail::GridKind::quad; ///< How it is divided.
+    bool back = false;                              ///< The side that does not emit.
+    bool inward = false;       ///< The side opposite to the shape's own normal.
     std::uint32_t columns = 1; ///< At least 1.
-    std::uint32_t rows = 1;    ///< At least 1; as the columns for a triangle.
-    std::uint32_t first = 0;   ///< The number of its first patch.
+    std::uint32_t rows = 1;    ///< At least 1; equal to `columns` for a triangle.
+    std::uint32_t first = 0;   ///< The index of its first patch.
 
-    /// How many cells there are.
+    /// The number of cells.
     [[nodiscard]] constexpr std::uint32_t size() const noexcept {
         return columns * rows;
     }
-    /// How many vertices they have.
+    /// The number of vertices.
     [[nodiscard]] constexpr std::uint32_t vertices() const noexcept {
         if (kind == detail::GridKind::triangle)
             return (columns + 1) * (columns + 2) / 2;
         return kind == detail::GridKind::ball ? (columns - 1) * rows + 2
                                               : (columns + 1) * (rows + 1);
     }
-    friend bool operator==(const PatchGrid&, const PatchGrid&) = default; ///< Equal?
+    friend bool operator==(const PatchGrid&, const PatchGrid&) = default; ///< Equality.
 };
 
 namespace detail {
 inline std::uint32_t cells_along(double length, double size) noexcept {
-    // Not all of a long side is asked for: a million cells are refused all the same.
+    // The limit prevents overflow; a million cells are refused anyway.
     return static_cast<std::uint32_t>(
         std::clamp(std::ceil(length / size * (1 - 1e-9)), 1.0, 1e6));
 }
 } // namespace detail
 
-/// \name How finely a shape is cut
+/// \name Grids for shapes
 /// \{
 
-/// How a shape is cut.
-/// \param shape  A quad, a triangle or a sphere.
-/// \param size   The longest that an edge of a cell may be, in scene units.
-/// \return The grid, of the shape's front.
+/// The grid for the front of a shape, with cells of edge length at most `size`.
 template <std::floating_point T>
 [[nodiscard]] PatchGrid patch_grid(const QuadT<T>& shape, double size) noexcept {
     return {.columns = detail::cells_along(double(glm::length(shape.edge_u)), size),
@@ -92,14 +89,14 @@ template <std::floating_point T>
 }
 /// \}
 
-/// A cell by its place: columns along u, rows along v.
+/// The position of a cell in its grid.
 struct CellPlace {
     std::uint32_t column = 0; ///< Along u.
     std::uint32_t row = 0;    ///< Along v.
-    bool upper = false;       ///< The triangle that stands on its tip.
+    bool upper = false;       ///< A triangle with its tip down.
 };
 
-/// Where a cell lies.
+/// The position of a cell.
 [[nodiscard]] constexpr CellPlace place_of(const PatchGrid& grid,
                                            std::uint32_t cell) noexcept {
     if (grid.kind != detail::GridKind::triangle)
@@ -109,11 +106,11 @@ struct CellPlace {
     return {cell / 2, row, cell % 2 == 1};
 }
 
-/// Which cell a place of the shape belongs to.
+/// The cell that contains a point of the shape.
 /// \param grid  The grid.
-/// \param at    The place; what rounding put outside belongs to the border.
-/// \param local Takes where in the cell's own square it lies, unless it is null.
-/// \return Its number within the grid.
+/// \param at    The point in (u, v); it is clamped to the unit square.
+/// \param local Receives the point in the cell's own unit square, unless it is null.
+/// \return The cell's index within the grid.
 [[nodiscard]] inline std::uint32_t cell_of(const PatchGrid& grid, const glm::dvec2& at,
                                            glm::dvec2* local = nullptr) noexcept {
     const double u = std::clamp(at.x, 0.0, 1.0) * grid.columns;
@@ -131,7 +128,7 @@ struct CellPlace {
 
 namespace detail {
 
-/// What can be cut into patches.
+/// A shape that can be divided into patches.
 template <typename S>
 concept Cuttable = requires(const S& shape) {
     patch_grid(shape, 1.0);
@@ -140,14 +137,11 @@ concept Cuttable = requires(const S& shape) {
 /// The side of an object that a ray has hit.
 template <std::floating_point T>
 struct HitSideT {
-    Vec3T<T> outer{T(0)}; ///< The shape's own normal there.
-    bool back = false;    ///< Whether emission does not leave this side.
+    Vec3T<T> outer{T(0)}; ///< The shape's own normal at the hit.
+    bool back = false;    ///< True for the side that does not emit.
 };
 
 /// Finds the side of an object that a ray has hit.
-/// \param world  The closed scene.
-/// \param ray    The ray.
-/// \param hit    What closest_hit() returned.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] HitSideT<T> side_of(const W& world, const RayT<T>& ray,
                                   const SceneHitT<T>& hit) {
@@ -158,11 +152,8 @@ template <AnyWorld W, std::floating_point T>
     return {outer, inward != world.object(hit.object).inside_out};
 }
 
-/// The place of a hit on its shape.
-/// \param kind          Of the grid.
-/// \param hit           u and v of a flat shape.
-/// \param outer_normal  The shape's own normal: it tells the place on a ball.
-/// \return Point of the unit square.
+/// The coordinates of a hit on its shape, in the unit square. On a ball they come from
+/// the shape's own normal.
 template <std::floating_point T>
 [[nodiscard]] glm::dvec2 place_on(GridKind kind, const FlatHitT<T>& hit,
                                   const Vec3T<T>& outer_normal) noexcept {
@@ -173,11 +164,7 @@ template <std::floating_point T>
 }
 
 /// A point of a cell, uniform over its area.
-/// \param grid   The grid.
-/// \param shape  Its shape.
-/// \param cell   Number of the cell.
-/// \param u      Point of the unit square.
-/// \return The point; its normal on the grid's side.
+/// \return The point, with the normal of the grid's side.
 template <typename S, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_cell(const PatchGrid& grid, const S& shape,
                                            std::uint32_t cell,
@@ -198,9 +185,6 @@ template <typename S, std::floating_point T>
 }
 
 /// The corners of a cell of a flat shape, facing the grid's side.
-/// \param grid  The grid.
-/// \param whole The shape's own facet.
-/// \param cell  Number of the cell.
 [[nodiscard]] inline Facet cell_facet(const PatchGrid& grid, const Facet& whole,
                                       std::uint32_t cell) noexcept {
     const CellPlace place = place_of(grid, cell);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/radiosity/patch_rays.hpp
-/// \brief Rays from patches, and between them: form factors where no closed form is.
+/// \brief Rays from and between patches, for form factors without a closed form.
 
 #include <optional>
 #include <span>
@@ -21,11 +21,7 @@ namespace ljus {
 namespace detail {
 
 /// A point of a patch, uniform over its area.
-/// \param world   The closed scene.
-/// \param all     Its patches.
-/// \param number  Of the patch.
-/// \param u       Point of the unit square.
-/// \return The point; its normal on the patch's side.
+/// \return The point, with the normal of the patch's side.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_patch(const W& world, const Patches& all,
                                             std::uint32_t number, const Vec2T<T>& u) {
@@ -39,11 +35,7 @@ template <AnyWorld W, std::floating_point T>
 }
 
 /// The patch that a ray has hit.
-/// \param world  The closed scene.
-/// \param all    Its patches.
-/// \param ray    The ray.
-/// \param hit    What closest_hit() returned.
-/// \return Its number; nothing for a side without patches.
+/// \return The patch's index; nothing for a side without patches.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<std::uint32_t> patch_at(const W& world, const Patches& all,
                                                     const RayT<T>& ray,
@@ -58,17 +50,17 @@ template <AnyWorld W, std::floating_point T>
 
 } // namespace detail
 
-/// Shoots rays from a patch, by the cosine, and sees where they arrive: the share that
-/// arrives at a patch is the form factor, visibility included.
+/// Casts cosine-weighted rays from a patch. The fraction that arrives at another patch
+/// is the form factor, including visibility.
 ///
-/// Rays *between* two patches have the weight cos cos / r^2, which has no bound where
-/// the patches touch; these have none.
+/// Rays *between* two patches have the weight cos cos / r^2, which is unbounded where
+/// the patches touch; the weight here is constant.
 /// \param world   The closed scene.
 /// \param all     Its patches.
-/// \param number  The patch.
-/// \param rays    How many, at least 1.
-/// \param seed    Of the random streams.
-/// \param row     Area / rays is added for each arrival: a row of exchange areas.
+/// \param number  Index of the patch.
+/// \param rays    The number of rays, at least 1.
+/// \param seed    Seed of the random streams.
+/// \param row     A row of exchange areas; each arrival adds area / rays.
 /// \cite malley1988
 // [shoot_rays]
 template <AnyWorld W>
@@ -81,7 +73,7 @@ void shoot_rays(const W& world, const Patches& all, std::uint32_t number, int ra
     for (int i = 0; i < rays; ++i) {
         RandomStream stream = random_stream(seed, Pass::form_factors, number,
                                             static_cast<std::uint64_t>(i));
-        // Places and directions are spread evenly, and paired in a random order.
+        // Positions and directions are stratified, and paired in a random order.
         const auto other = static_cast<int>(detail::shuffled(
             static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(rays), key));
         const Vec2T<T> place =
@@ -101,19 +93,13 @@ void shoot_rays(const W& world, const Patches& all, std::uint32_t number, int ra
 
 namespace detail {
 
-/// Which part of the light between two patches nothing stops: by rays between points of
-/// both, each with the weight that the light on its way has.
-/// \param world   The closed scene.
-/// \param all     Its patches.
-/// \param one     A flat patch.
-/// \param two     Another one.
-/// \param rays    How many, at least 1.
-/// \param seed    Of the random streams.
-/// \return In [0, 1]: the weights cancel, and the closed form knows them better.
+/// The visible fraction of the exchange between two patches, by rays between points of
+/// both. Each ray is weighted by the exchange along it.
+/// \return In [0, 1]; the exchange itself comes from the closed form.
 template <AnyWorld W>
-[[nodiscard]] double visible_share(const W& world, const Patches& all,
-                                   std::uint32_t one, std::uint32_t two, int rays,
-                                   std::uint64_t seed) {
+[[nodiscard]] double visible_fraction(const W& world, const Patches& all,
+                                      std::uint32_t one, std::uint32_t two, int rays,
+                                      std::uint64_t seed) {
     using T = typename W::Scalar;
     const detail::Strata strata = detail::strata_for(rays);
     const std::uint64_t pair = (std::uint64_t(one) << 32) + two;
@@ -122,7 +108,7 @@ template <AnyWorld W>
         RandomStream stream = random_stream(seed, Pass::form_factors, pair,
                                             static_cast<std::uint64_t>(i));
         const Vec2T<T> u = detail::stratified(strata, i, pair, next_2d<T>(stream));
-        // The same squares on the other patch, in another order.
+        // The same strata on the other patch, in another order.
         const auto other = static_cast<int>(detail::shuffled(
             static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(rays), ~pair));
         const Vec2T<T> v = detail::stratified(strata, other, ~pair, next_2d<T>(stream));

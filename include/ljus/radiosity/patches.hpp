@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/radiosity/patches.hpp
-/// \brief The surfaces of a scene cut into patches.
+/// \brief The surfaces of a scene, divided into patches.
 
 #include <span>
 #include <string>
@@ -17,51 +17,51 @@ namespace ljus {
 /// areas called patches". Chapter: \ref ch_radiosity.
 /// \{
 
-/// A patch: a part of one side of an object, taken as equally bright all over.
+/// A patch: a cell of one side of an object, with constant radiosity.
 // [patch]
 struct Patch {
-    std::uint32_t grid = 0;  ///< Which of Patches::grids it belongs to.
+    std::uint32_t grid = 0;  ///< Index of its grid in Patches::grids.
     double area = 0;         ///< In squared scene units.
-    RgbT<double> albedo{0};  ///< Share of the light that it sends back.
-    RgbT<double> emitted{0}; ///< Radiosity of its own, W/m^2: pi times the radiance.
-    Facet facet{};           ///< Its corners, facing its own side; none on a ball.
+    RgbT<double> albedo{0};  ///< Reflected fraction of the light.
+    RgbT<double> emitted{0}; ///< Emitted radiosity, W/m^2: pi times the radiance.
+    Facet facet{};           ///< Its corners, facing its side; empty on a ball.
 };
 // [patch]
 
-/// The number of "no grid".
+/// Stands for the index of no grid.
 inline constexpr std::uint32_t no_grid = 0xffffffffu;
 
-/// A scene, cut up.
+/// The patches of a scene.
 struct Patches {
-    std::vector<PatchGrid> grids; ///< One a side of an object.
+    std::vector<PatchGrid> grids; ///< One per side of an object.
     std::vector<Patch> patches;   ///< Grid by grid.
-    bool convex = true;           ///< Whether nothing can stand between two others.
-    std::vector<std::string> left_out; ///< What radiosity cannot carry, in sentences.
-    /// The grid of each side: by type and number of the object, front and back.
+    bool convex = true;           ///< True if nothing can stand between two patches.
+    std::vector<std::string> left_out; ///< Sentences on what radiosity leaves out.
+    /// The grid of each side: by type and index of the object, front and back.
     std::vector<std::vector<std::array<std::uint32_t, 2>>> grid_of;
 };
 
-/// How a scene is cut up.
+/// How a scene is divided.
 struct PatchSettings {
-    double size = 0.25;        ///< The longest that a side of a patch may be.
-    std::uint32_t most = 8192; ///< The most patches; the matrix has their square.
+    double size = 0.25; ///< The largest edge length of a patch, scene units.
+    std::uint32_t most =
+        8192; ///< The largest number of patches; memory has its square.
 };
 
-/// The albedo that radiosity can carry: of a material that looks equally bright from
-/// everywhere, in one colour.
-/// \param m  The material.
+/// The albedo of a material for radiosity. A material with this function must reflect
+/// the same radiance in all directions.
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<double> diffuse_albedo(const LambertianT<T>& m) noexcept {
     return RgbT<double>(m.albedo);
 }
 
-/// What has a diffuse_albedo().
+/// A material with a diffuse_albedo().
 template <typename M>
 concept Matt = requires(const M& m) {
     diffuse_albedo(m);
 };
 
-/// Whether a shape is flat, and its form factors have a closed form.
+/// A flat shape, whose form factors have a closed form.
 template <typename S>
 concept Flat = requires(const S& shape) {
     facet_of(shape);
@@ -69,9 +69,9 @@ concept Flat = requires(const S& shape) {
 
 namespace detail {
 
-// An upper bound of how far a shape reaches along a normal.
+// An upper bound of a shape's extent along a normal.
 template <typename S>
-double reach_along(const S& shape, const glm::dvec3& normal) {
+double extent_along(const S& shape, const glm::dvec3& normal) {
     if constexpr (Flat<S>) {
         const Facet facet = facet_of(shape);
         double most = glm::dot(facet.corners[0], normal);
@@ -97,10 +97,10 @@ void each_shape(const W& world, F f) {
     std::apply([&](const auto&... shapes) { (all(shapes), ...); }, world.shapes());
 }
 
-// Whether anything of the scene stands before a side of a shape, for all that its
-// numbers can tell; before the side of a ball that its normal points to, always.
+// True if anything in the scene may lie in front of a side of a flat shape. A ball
+// always has something in front of the side that its normal points to.
 template <AnyWorld W, typename G>
-bool anything_before(const W& world, const G& shape, bool inward, bool inside_out) {
+bool faces_anything(const W& world, const G& shape, bool inward, bool inside_out) {
     if constexpr (Flat<G>) {
         const Facet side = inward ? turned(facet_of(shape)) : facet_of(shape);
         const glm::dvec3 normal = glm::normalize(area_vector(side));
@@ -111,7 +111,7 @@ bool anything_before(const W& world, const G& shape, bool inward, bool inside_ou
                                                        glm::abs(world.box().high)));
         bool any = false;
         each_shape(world, [&](const auto& other, ObjectId) {
-            any = any || reach_along(other, normal) > plane + rounding;
+            any = any || extent_along(other, normal) > plane + rounding;
         });
         return any;
     } else {
@@ -119,7 +119,7 @@ bool anything_before(const W& world, const G& shape, bool inward, bool inside_ou
     }
 }
 
-// Cuts one side of an object.
+// Divides one side of an object into patches.
 template <typename S>
 void add_side(Patches& all, const S& shape, const PatchGrid& side, Patch patch,
               std::uint32_t most) {
@@ -128,7 +128,7 @@ void add_side(Patches& all, const S& shape, const PatchGrid& side, Patch patch,
         double(all.patches.size()) + double(grid.columns) * double(grid.rows);
     require(total <= double(most), "the number of patches", total,
             "at most " + std::to_string(most) +
-                ", for there is a form factor for each pair of them: take larger ones");
+                " (each pair has a form factor): choose larger patches");
     grid.first = static_cast<std::uint32_t>(all.patches.size());
     patch.grid = static_cast<std::uint32_t>(all.grids.size());
     patch.area = double(area(shape)) / double(grid.size());
@@ -142,7 +142,7 @@ void add_side(Patches& all, const S& shape, const PatchGrid& side, Patch patch,
     all.grids.push_back(grid);
 }
 
-// Cuts the open sides of a matt object, and returns the grids of its front and back.
+// Divides the open sides of a matt object, and returns the grids of its front and back.
 template <typename S, std::floating_point T>
 std::array<std::uint32_t, 2>
 cut_sides(Patches& all, const S& shape, ObjectId id, const ObjectT<T>& object,
@@ -170,18 +170,14 @@ inline void say(Patches& all, long long count, const char* one, const char* many
 
 } // namespace detail
 
-/// Cuts the matt surfaces of a scene into patches: quads, triangles and balls.
+/// Divides the matt surfaces of a scene into patches: quads, triangles and balls.
 ///
-/// A wall is matt on both sides, and each has patches of its own; but a side before
-/// which nothing stands has none, and a ball has them on the side that its normal
-/// points to. What is no patch still stands in the way of light, and sends none back:
-/// `left_out` names it.
-/// \param world     The closed scene.
-/// \param settings  How small, and how many at most.
-/// \return The patches.
+/// A wall has patches on both sides, except on a side that nothing lies in front of. A
+/// ball has patches on the side that its normal points to. Other objects occlude, but
+/// reflect no light: `left_out` names them.
 /// \throws std::invalid_argument  if `size` is not above 0, if there are more patches
 ///         than `most`, or none.
-/// \cost Each pair of objects is looked at once.
+/// \cost One test per pair of objects.
 /// \report{Section 2.2}
 template <AnyWorld W>
 [[nodiscard]] Patches make_patches(const W& world, const PatchSettings& settings = {}) {
@@ -195,9 +191,9 @@ template <AnyWorld W>
         const auto& object = world.object(id);
         std::array<bool, 2> open{};
         for (const bool back : {false, true})
-            open[back] = detail::anything_before(
-                world, shape, back != object.inside_out, object.inside_out);
-        // A wall that sees something on one side only stands between nothing.
+            open[back] = detail::faces_anything(world, shape, back != object.inside_out,
+                                                object.inside_out);
+        // A wall with something in front of one side only occludes nothing.
         all.convex =
             all.convex && (Flat<G> ? !(open[0] && open[1]) : object.inside_out);
         std::array<std::uint32_t, 2> sides{no_grid, no_grid};
@@ -214,14 +210,15 @@ template <AnyWorld W>
         all.grid_of[id.type].push_back(sides);
     };
     detail::each_shape(world, cut);
-    detail::say(all, shiny, " object does not look equally bright from everywhere",
-                " objects do not look equally bright from everywhere");
-    detail::say(all, unknown, " object is of a shape that is not cut into patches",
-                " objects are of a shape that is not cut into patches");
+    detail::say(all, shiny, " object is not Lambertian and reflects no light",
+                " objects are not Lambertian and reflect no light");
+    detail::say(all, unknown, " object is of a shape that is not divided into patches",
+                " objects are of a shape that is not divided into patches");
     detail::say(all, static_cast<long long>(world.light_count()) - lamps,
-                " light is no surface", " lights are no surfaces");
+                " light is not a surface and is left out",
+                " lights are not surfaces and are left out");
     require(!all.patches.empty(), "the number of patches", 0LL,
-            "at least 1: a diffuse quad, triangle or ball that sees another");
+            "at least 1: add a Lambertian quad, triangle or ball that sees another");
     return all;
 }
 

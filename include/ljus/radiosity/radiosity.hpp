@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/radiosity/radiosity.hpp
-/// \brief From a scene to its light map: patches, form factors, equations.
+/// \brief From a scene to its light map: patches, form factors, linear equations.
 
 #include "ljus/radiosity/light_map.hpp"
 #include "ljus/radiosity/radiosity_solve.hpp"
@@ -12,35 +12,31 @@ namespace ljus {
 /// \brief Section 2.2, after Goral et al. \cite goral1984. Chapter: \ref ch_radiosity.
 /// \{
 
-/// All that one may choose.
+/// All settings of radiosity.
 struct RadiositySettings {
-    PatchSettings patches{};      ///< How the scene is cut up.
-    FormFactorSettings factors{}; ///< How form factors are found.
+    PatchSettings patches{};      ///< How the scene is divided.
+    FormFactorSettings factors{}; ///< How form factors are computed.
     SolveSettings solve{};        ///< How the equations are solved.
 };
 
-/// Where the light has gone, in W.
+/// The flux that is emitted and where it ends, in W.
 struct EnergyBalance {
     RgbT<double> emitted{0};  ///< By all patches.
     RgbT<double> absorbed{0}; ///< By all patches.
-    RgbT<double> escaped{0};  ///< Through openings, and to what is no patch.
+    RgbT<double> escaped{0};  ///< Through openings, and to surfaces without patches.
 };
 
-/// Radiosity, with all that it was made of.
+/// The results of radiosity, step by step.
 struct Radiosity {
-    Patches patches{};            ///< What the scene was cut into.
-    FormFactors factors{};        ///< Between all of them.
-    RadiositySolution solution{}; ///< The radiosity of each.
-    LightMap map{};               ///< The irradiance of each, to be drawn and saved.
+    Patches patches{};            ///< The patches of the scene.
+    FormFactors factors{};        ///< Between all patches.
+    RadiositySolution solution{}; ///< The radiosity of each patch.
+    LightMap map{};               ///< The irradiance of each patch, to draw and save.
 };
 
-/// Accounts for the light of a solution.
-/// \param patches    The patches.
-/// \param factors    The form factors.
-/// \param radiosity  Of each patch, W/m^2.
-/// \return Emitted = absorbed + escaped, if the equations are solved and the form
-///         factors reciprocal: to rounding, however large the patches and however few
-///         the rays.
+/// The energy balance of a solution.
+/// \return Emitted = absorbed + escaped, up to rounding, if the equations are solved
+///         and the form factors reciprocal, for any size of patches and number of rays.
 [[nodiscard]] inline EnergyBalance
 energy_balance(const Patches& patches, const FormFactors& factors,
                const std::vector<RgbT<double>>& radiosity) {
@@ -55,11 +51,8 @@ energy_balance(const Patches& patches, const FormFactors& factors,
     return sum;
 }
 
-/// What a light map is made of: the scene, and those settings that change the map.
-/// \param world     The closed scene.
-/// \param settings  Patches, form factors and solver; their progress and threads do not
-///                  count.
-/// \return The key.
+/// The key of a light map: a hash of the scene and of the settings that change the map,
+/// which progress and threads do not.
 template <AnyWorld W>
 [[nodiscard]] LightMapKey light_map_key(const W& world,
                                         const RadiositySettings& settings) {
@@ -72,13 +65,8 @@ template <AnyWorld W>
     return {detail::scene_hash(world), how.value};
 }
 
-/// The light map of a solution.
-/// \param world      The closed scene.
-/// \param patches    Its patches.
-/// \param factors    Their form factors.
-/// \param radiosity  Of each patch, W/m^2. One that still waits to be sent on is seen
-///                   already: the map holds what arrives.
-/// \return The light map, without the settings in its key.
+/// The light map of a solution; it also has the light that a patch has not yet shot.
+/// Its key lacks the settings.
 template <AnyWorld W>
 [[nodiscard]] LightMap make_light_map(const W& world, const Patches& patches,
                                       const FormFactors& factors,
@@ -89,10 +77,8 @@ template <AnyWorld W>
 }
 
 /// Radiosity of a scene, from the patches to the light map.
-/// \param world     Matt quads, triangles and balls, and what stands in their light.
-/// \param settings  How.
-/// \return The light map and all that led to it; nothing if the progress callback of
-///         the form factors stopped it. See Patches::left_out.
+/// \return All results; nothing if the progress callback of the form factors stopped
+///         the computation. See Patches::left_out.
 /// \throws std::invalid_argument  as make_patches(), make_form_factors() and
 ///         solve_radiosity().
 /// \report{Section 2.2}

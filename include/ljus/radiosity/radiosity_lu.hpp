@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/radiosity/radiosity_lu.hpp
-/// \brief The linear equations of radiosity, solved by elimination.
+/// \brief The linear equations of radiosity, solved by Gaussian elimination.
 
 #include <vector>
 
@@ -16,7 +16,7 @@ namespace ljus {
 
 namespace detail {
 
-// Solves a x = b in place by elimination; rows are exchanged for the largest pivot.
+// Solves a x = b in place by elimination with row pivoting.
 inline void eliminate(std::vector<double>& a, std::vector<RgbT<double>>& b) {
     const std::size_t n = b.size();
     for (std::size_t k = 0; k < n; ++k) {
@@ -44,11 +44,10 @@ inline void eliminate(std::vector<double>& a, std::vector<RgbT<double>>& b) {
     }
 }
 
-/// Solves by elimination: all channels at once if every patch is grey, else one by one.
-/// \param factors  The form factors.
-/// \param patches  Albedo and emission.
+/// Solves by elimination: all channels at once if every patch is grey, otherwise one by
+/// one.
 /// \return Radiosity, W/m^2.
-/// \cost n^2 numbers of memory, n^3/3 multiplications: 10 s for 3000 patches.
+/// \cost Memory for n^2 numbers, n^3/3 multiplications: 10 s for 3000 patches.
 [[nodiscard]] inline std::vector<RgbT<double>>
 solve_lu(const FormFactors& factors, const std::vector<Patch>& patches) {
     const std::size_t n = patches.size();

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/radiosity/radiosity_solve.hpp
-/// \brief The linear equations of radiosity, solved in four ways.
+/// \brief The linear equations of radiosity, with four solvers.
 
 #include <vector>
 
@@ -19,34 +19,31 @@ namespace ljus {
 /// How the equations are solved.
 enum class RadiositySolver : std::uint8_t {
     lu,           ///< Elimination: exact, in n^3/3 steps \cite goral1984.
-    jacobi,       ///< All patches at once from the values before: one bounce of light.
+    jacobi,       ///< All patches at once from the previous values: one bounce.
     gauss_seidel, ///< One patch after the other, from the newest values.
-    shooting,     ///< The patch with the most flux to send first \cite cohen1988.
+    shooting,     ///< The patch with the most unshot flux first \cite cohen1988.
 };
 
-/// How far it goes.
+/// Which solver is used, and when it stops.
 struct SolveSettings {
-    RadiositySolver solver = RadiositySolver::shooting; ///< Which way.
-    double tolerance = 1e-12; ///< Flux not yet sent on, as a share of what is emitted.
-    int max_sweeps = 10000;   ///< As many steps as there are patches are a sweep.
-    int threads = 0;          ///< For jacobi; 0: all that there are.
+    RadiositySolver solver = RadiositySolver::shooting; ///< The solver.
+    double tolerance = 1e-12; ///< Unshot flux, as a fraction of the emitted flux.
+    int max_sweeps = 10000;   ///< One sweep is one step per patch.
+    int threads = 0;          ///< For jacobi; as in ParallelSettings.
 };
 
 /// The radiosity of all patches.
 struct RadiositySolution {
     std::vector<RgbT<double>> radiosity{}; ///< B, in W/m^2: emitted and reflected.
-    std::vector<double> residual{};        ///< Flux not yet sent on, sweep by sweep.
-    bool converged = true;                 ///< Whether the tolerance was reached.
+    std::vector<double> residual{};        ///< Unshot flux after each sweep.
+    bool converged = true;                 ///< True if the tolerance was reached.
 };
 
 namespace detail {
 
 /// The irradiance of all patches.
-/// \param factors    The form factors.
-/// \param radiosity  Of each patch, W/m^2.
-/// \param threads    As in ParallelSettings.
 /// \return \f$ H_i = \sum_j F_{ij} B_j \f$, in W/m^2.
-/// \cost n^2 multiplications for each channel.
+/// \cost n^2 multiplications per channel.
 [[nodiscard]] inline std::vector<RgbT<double>>
 multiply(const FormFactors& factors, const std::vector<RgbT<double>>& radiosity,
          int threads = 0) {
@@ -63,11 +60,11 @@ multiply(const FormFactors& factors, const std::vector<RgbT<double>>& radiosity,
     return irradiance;
 }
 
-// The flux of a residual as a share of the emitted flux, in the channel where it is
-// the largest.
-[[nodiscard]] inline double unsent_share(const FormFactors& factors,
-                                         const std::vector<RgbT<double>>& unsent,
-                                         const RgbT<double>& emitted) {
+// The unshot flux as a fraction of the emitted flux, in the channel where it is
+// largest.
+[[nodiscard]] inline double unshot_fraction(const FormFactors& factors,
+                                            const std::vector<RgbT<double>>& unsent,
+                                            const RgbT<double>& emitted) {
     RgbT<double> sum(0);
     for (std::size_t i = 0; i < unsent.size(); ++i)
         sum += factors.area[i] * glm::abs(unsent[i]);
@@ -77,23 +74,19 @@ multiply(const FormFactors& factors, const std::vector<RgbT<double>>& radiosity,
     return share;
 }
 
-// Refuses patches of which one gets all its light back: its radiosity has no end.
+// Refuses patches that receive all their light back: their radiosity would be infinite.
 inline void require_loss(const FormFactors& factors,
                          const std::vector<Patch>& patches) {
     double most = 0;
     for (std::size_t i = 0; i < patches.size(); ++i)
         most = std::max(most, max_component(patches[i].albedo) * factors.row_sum(i));
-    require(most < 1 - 1e-12, "the largest share of its light that a patch gets back",
+    require(most < 1 - 1e-12, "the largest fraction of its light that a patch regains",
             most, "below 1: take smaller albedos, more rays, or `closed` factors");
 }
 
-/// Sends the waiting light of all patches at once: one bounce.
-/// \param factors  The form factors.
-/// \param patches  Albedo.
-/// \param threads  As in ParallelSettings.
-/// \param solution The radiosity grows by what is sent.
-/// \param unsent   Radiosity that waits on each patch: what the others have sent.
-/// \cost n^2 multiplications for each channel.
+/// Shoots the unshot light of all patches at once: one bounce.
+/// The shot light is added to `solution` and removed from `unsent`.
+/// \cost n^2 multiplications per channel.
 inline void relax_all(const FormFactors& factors, const std::vector<Patch>& patches,
                       int threads, std::vector<RgbT<double>>& solution,
                       std::vector<RgbT<double>>& unsent) {
@@ -105,19 +98,15 @@ inline void relax_all(const FormFactors& factors, const std::vector<Patch>& patc
 
 } // namespace detail
 
-/// Sends the waiting light of one patch to all others. Gauss-Seidel and shooting are
-/// this step, in different orders.
-/// \param factors  The form factors.
-/// \param patches  Albedo.
-/// \param i        The patch.
-/// \param solution Its radiosity grows by what it sends.
-/// \param unsent   Radiosity that waits on each patch: of this one it becomes 0.
-/// \cost n multiplications for each channel.
+/// Shoots the unshot light of one patch to all others. Gauss-Seidel and shooting repeat
+/// this step in different orders.
+/// The shot light is added to `solution`; `unsent` of patch i becomes 0.
+/// \cost n multiplications per channel.
 // [relax]
 inline void relax_patch(const FormFactors& factors, const std::vector<Patch>& patches,
                         std::size_t i, std::vector<RgbT<double>>& solution,
                         std::vector<RgbT<double>>& unsent) {
-    // A hollow patch sends some of it to itself: a geometric series.
+    // A concave patch shoots light to itself: a geometric series.
     const RgbT<double> sent = unsent[i] / (1.0 - factors(i, i) * patches[i].albedo);
     solution[i] += sent;
     const auto row = factors.row(i);
@@ -127,10 +116,8 @@ inline void relax_patch(const FormFactors& factors, const std::vector<Patch>& pa
 }
 // [relax]
 
-/// The patch with the most flux to send: Southwell's choice.
-/// \param factors  The form factors.
-/// \param unsent   Radiosity that waits on each patch.
-/// \return Its number; the first one of equals.
+/// The patch with the most unshot flux: Southwell's choice.
+/// \return Its index; the first one of equals.
 [[nodiscard]] inline std::size_t
 brightest_patch(const FormFactors& factors, const std::vector<RgbT<double>>& unsent) {
     std::size_t best = 0;
@@ -145,15 +132,12 @@ brightest_patch(const FormFactors& factors, const std::vector<RgbT<double>>& uns
 
 /// Solves the equations of radiosity.
 ///
-/// All ways but `lu` begin in the dark: B = 0, and all light waits to be sent. What
-/// waits falls, in a sweep of jacobi or gauss_seidel, at least by the largest albedo,
+/// All solvers except `lu` start with B = 0 and all light unshot. In a sweep of jacobi
+/// or gauss_seidel the unshot light falls at least by the factor of the largest albedo,
 /// so that \f$ \log\varepsilon / \log\rho_{max} \f$ sweeps are enough.
-/// \param factors   The form factors.
-/// \param patches   Albedo and emission.
-/// \param settings  Which way, and how far.
-/// \return The radiosity, and what was left after each sweep.
-/// \throws std::invalid_argument  if a patch sends back as much as it gets, or more: an
-///         albedo of 1 in a closed room, or a row sum above 1 by the noise of few rays.
+/// \return The radiosity, and the unshot flux after each sweep.
+/// \throws std::invalid_argument  if a patch reflects all the light that it receives,
+///         or more: an albedo of 1 in a closed room, or a row sum above 1 by noise.
 /// \cost n^2 multiplications per sweep and channel.
 /// \report{Section 2.2}
 [[nodiscard]] inline RadiositySolution
@@ -169,7 +153,7 @@ solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
         flux += factors.area[i] * unsent[i];
     }
     const auto keep_residual = [&] {
-        solution.residual.push_back(detail::unsent_share(factors, unsent, flux));
+        solution.residual.push_back(detail::unshot_fraction(factors, unsent, flux));
     };
     if (settings.solver == RadiositySolver::lu) {
         solution.radiosity = detail::solve_lu(factors, patches);

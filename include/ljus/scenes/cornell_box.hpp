@@ -12,18 +12,18 @@
 namespace ljus {
 
 /// \defgroup cornell_box The Cornell box
-/// \brief The box in which renderers are compared \cite goral1984, with balls instead
-/// of blocks \cite jensen1996.
+/// \brief The box used to compare renderers \cite goral1984, with balls instead of
+/// blocks \cite jensen1996.
 /// \{
 
-/// Everything that the Cornell box is made of.
+/// The scene type of the Cornell box.
 template <std::floating_point T>
 using CornellSceneT = Scene<Shapes<QuadT<T>, SphereT<T>>,
                             Materials<LambertianT<T>, MirrorT<T>, GlassT<T>>>;
 
-/// Adds five walls, from (-1, 0, -1) to (1, 2, 1), normals inwards; the sixth, towards
-/// the camera, is open. Red is left, green right, all else white.
-/// \param scene  A scene with quads and Lambert's surfaces.
+/// Adds five walls, from (-1, 0, -1) to (1, 2, 1), with normals inwards; the side of
+/// the camera is open. The left wall is red, the right one green, all others white.
+/// \param scene  A scene with quads and Lambertian materials.
 template <typename S, std::floating_point T = typename S::Scalar>
 void add_cornell_walls(S& scene) {
     const MaterialId white = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0.75)}});
@@ -42,8 +42,7 @@ void add_cornell_walls(S& scene) {
     scene.add(QuadT<T>{corner + x, z, y}, green); // right
 }
 
-/// Where the box is looked at from: the whole of it fills the picture.
-/// \return The camera.
+/// The camera of the box, whose picture is filled by it.
 template <std::floating_point T = float>
 [[nodiscard]] CameraT<T> cornell_camera() {
     return look_at(ViewT<T>{.position{T(0), T(1), T(4.4)},
@@ -55,7 +54,7 @@ template <std::floating_point T = float>
 namespace detail {
 
 /// Adds the lamp below the ceiling, a square of side 0.5.
-/// \param scene  A scene with quads and Lambert's surfaces.
+/// \param scene  A scene with quads and Lambertian materials.
 template <typename S, std::floating_point T = typename S::Scalar>
 void add_cornell_lamp(S& scene) {
     scene.add(QuadT<T>{.corner{T(-0.25), T(1.99), T(-0.25)},
@@ -67,8 +66,7 @@ void add_cornell_lamp(S& scene) {
 
 } // namespace detail
 
-/// The box with its lamp and its balls.
-/// \return The scene and its camera.
+/// The box with its lamp, a mirror ball and a glass ball.
 template <std::floating_point T = float>
 [[nodiscard]] Room<CornellSceneT<T>> cornell_box() {
     CornellSceneT<T> scene;
@@ -81,9 +79,8 @@ template <std::floating_point T = float>
     return {World(std::move(scene)), cornell_camera<T>()};
 }
 
-/// The same box with two matt balls in the places of mirror and glass: nothing but
-/// diffuse surfaces, so that all renderers of this book could carry all of its light.
-/// \return The scene and its camera.
+/// The box with two matt balls instead of mirror and glass: all surfaces are diffuse,
+/// so that every renderer of the book could carry all of its light.
 // [matt_cornell_box]
 template <std::floating_point T = float>
 [[nodiscard]] Room<CornellSceneT<T>> matt_cornell_box() {

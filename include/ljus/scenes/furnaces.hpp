@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/scenes/furnaces.hpp
-/// \brief Closed rooms that glow, in which the answer is known.
+/// \brief Closed rooms that glow, with a known radiance.
 
 #include "ljus/geometry/shape.hpp"
 #include "ljus/materials/lambertian.hpp"
@@ -10,12 +10,12 @@
 namespace ljus {
 
 /// \defgroup furnaces Furnaces
-/// \brief Inside of a closed surface with emission L and albedo a the radiance is
+/// \brief Inside a closed surface with emission L and albedo a, the radiance is
 ///
 /// \f[ L + aL + a^2L + \dots = \frac{L}{1 - a} \f]
 ///
-/// everywhere and in every direction, whatever the room's shape, and whatever else of
-/// the same brightness stands in it.
+/// everywhere and in every direction, for any shape of the room and with any objects of
+/// the same emission and albedo in it.
 /// \{
 
 namespace detail {
@@ -38,10 +38,10 @@ CameraT<T> furnace_camera() {
 
 } // namespace detail
 
-/// A furnace within a sphere: light to light, all is area sampling of one object.
-/// \param emission  Of its wall, W/(m^2 sr).
-/// \param albedo    Of its wall, below 1.
-/// \return The scene, and a camera within it.
+/// A furnace within a sphere, lit by a single object.
+/// \param emission  Emission of the wall, W/(m^2 sr).
+/// \param albedo    Albedo of the wall, below 1.
+/// \return The scene, and a camera inside.
 /// \throws std::invalid_argument  for a negative emission or an albedo outside [0, 1].
 template <std::floating_point T>
 [[nodiscard]] Room<detail::SphereFurnaceT<T>> sphere_furnace(const RgbT<T>& emission,
@@ -53,10 +53,10 @@ template <std::floating_point T>
 }
 
 /// A furnace within a box: near an edge the lamps are so close that only multiple
-/// importance sampling keeps the noise within bounds.
-/// \param emission  Of its walls, W/(m^2 sr).
-/// \param albedo    Of its walls, below 1.
-/// \return The scene, and a camera within it.
+/// importance sampling bounds the noise.
+/// \param emission  Emission of the walls, W/(m^2 sr).
+/// \param albedo    Albedo of the walls, below 1.
+/// \return The scene, and a camera inside.
 /// \throws std::invalid_argument  for a negative emission or an albedo outside [0, 1].
 template <std::floating_point T>
 [[nodiscard]] Room<detail::BoxFurnaceT<T>> box_furnace(const RgbT<T>& emission,

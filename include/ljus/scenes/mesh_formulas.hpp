@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/scenes/mesh_formulas.hpp
-/// \brief Meshes that need no file: a ball and a ring.
+/// \brief Meshes that are computed: a sphere and a torus.
 
 #include <algorithm>
 #include <array>
@@ -17,20 +17,20 @@
 namespace ljus {
 
 /// \defgroup mesh_formulas Meshes from formulas
-/// \brief Vertices that lie on a surface which is known. Chapter: \ref ch_triangle.
+/// \brief Meshes whose vertices lie on a known surface. Chapter: \ref ch_triangle.
 /// \{
 
 namespace detail {
 
-// Triangles whose corners lie on the unit sphere.
+// Triangles with vertices on the unit sphere.
 struct UnitTriangles {
     using Triple = std::array<std::uint32_t, 3>;
     std::vector<glm::dvec3> points{};
     std::vector<Triple> triangles{}; // counter-clockwise, from outside
 };
 
-// Its corners are those of three rectangles whose sides are in the golden ratio g, each
-// in the plane of two axes.
+// The corners of three rectangles, each in a plane of two axes, with sides in the
+// golden ratio g.
 [[nodiscard]] inline UnitTriangles icosahedron() {
     UnitTriangles solid;
     auto& n = solid.points;
@@ -40,7 +40,7 @@ struct UnitTriangles {
             for (const glm::dvec3& v :
                  {glm::dvec3(0, a, b), glm::dvec3(a, b, 0), glm::dvec3(b, 0, a)})
                 n.push_back(glm::normalize(v));
-    // The faces are the triples of neighbours, 2 apart where the circumradius is
+    // A face is a triple of neighbours, which are 2 apart if the circumradius is
     // sqrt(1 + g^2).
     const double edge = 2.0 / std::sqrt(1 + g * g);
     const auto near = [&](std::uint32_t a, std::uint32_t b) {
@@ -56,7 +56,7 @@ struct UnitTriangles {
     return solid;
 }
 
-// Cuts each triangle in four, at the middles of its edges.
+// Splits each triangle into four, at the midpoints of its edges.
 inline void cut_in_four(UnitTriangles& mesh) {
     using Triple = UnitTriangles::Triple;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
@@ -79,12 +79,12 @@ inline void cut_in_four(UnitTriangles& mesh) {
 
 } // namespace detail
 
-/// A sphere of triangles: an icosahedron, each triangle cut in four again and again,
-/// its vertices on the sphere, with the sphere's normals.
-/// \param sphere  The sphere; check() holds for it.
-/// \param cuts    How often, 0 to 10: 20 * 4^cuts triangles.
+/// A sphere of triangles: an icosahedron whose triangles are split into four
+/// repeatedly, with vertices on the sphere and the sphere's normals.
+/// \param sphere  A valid sphere.
+/// \param cuts    The number of splits, 0 to 10: 20 * 4^cuts triangles.
 /// \return The data.
-/// \throws std::invalid_argument  for another number of cuts.
+/// \throws std::invalid_argument  if `cuts` is not within [0, 10].
 template <std::floating_point T>
 [[nodiscard]] MeshDataT<T> icosphere(const SphereT<T>& sphere, int cuts) {
     require(cuts >= 0 && cuts <= 10, "the number of cuts", static_cast<long long>(cuts),
@@ -100,19 +100,19 @@ template <std::floating_point T>
     return data;
 }
 
-/// A ring around the y axis, with its normals.
+/// A torus around the y axis, with its normals.
 /// \param center  Its centre.
-/// \param large   From the centre to the middle of the tube.
-/// \param small   The tube's radius, below `large` for a ring with a hole.
-/// \param around  Pieces around the axis, at least 3.
-/// \param across  Pieces around the tube, at least 3.
+/// \param large   Radius of the tube's centre line.
+/// \param small   Radius of the tube; below `large` there is a hole.
+/// \param around  Segments around the axis, at least 3.
+/// \param across  Segments around the tube, at least 3.
 /// \return The data: 2 * around * across triangles.
-/// \throws std::invalid_argument  for fewer pieces.
+/// \throws std::invalid_argument  if a number of segments is not within [3, 10000].
 template <std::floating_point T>
 [[nodiscard]] MeshDataT<T> torus(const Vec3T<T>& center, T large, T small, int around,
                                  int across) {
     require(around >= 3 && around <= 10000 && across >= 3 && across <= 10000,
-            "the smaller number of pieces",
+            "the smaller number of segments",
             static_cast<long long>(around < across ? around : across),
             "within [3, 10000]");
     MeshDataT<T> data;

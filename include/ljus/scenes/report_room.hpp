@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/scenes/report_room.hpp
-/// \brief The room of all the report's figures, and its camera.
+/// \brief The room and the camera of all the report's figures.
 
 #include <array>
 
@@ -14,15 +14,14 @@ namespace ljus {
 /// \defgroup report_room The report's room
 /// \brief A room with six walls, of which the camera sees four.
 ///
-/// x points into the picture, y to the left and z up. The two walls behind the camera
-/// are left out, with the floor and the ceiling between them, as in the report.
+/// x points into the picture, y to the left and z up. As in the report, the two walls
+/// behind the camera and the floor and ceiling between them are left out.
 /// \{
 
 /// The camera of all the report's pictures: 53.13 degrees, from (-7, 0, 0).
 ///
 /// The point (x, y, z) appears at the fraction 1/2 - y/(x + 7) of the width and
 /// 1/2 - z/(x + 7) of the height, from the upper left corner.
-/// \return The camera.
 template <std::floating_point T = float>
 [[nodiscard]] CameraT<T> report_camera() {
     return look_at(ViewT<T>{.position{T(-7), T(0), T(0)},
@@ -40,11 +39,11 @@ LambertianT<T> report_matt(T red, T green, T blue) {
 
 } // namespace detail
 
-/// Adds one of the report's lamps: a square below the ceiling, black and shining down.
-/// \param scene  A scene with quads and Lambert's surfaces.
-/// \param x      Of its first corner; it ends at x + size.
-/// \param y      The same.
-/// \param size   Of its sides.
+/// Adds one of the report's lamps: a black square below the ceiling that shines down.
+/// \param scene  A scene with quads and Lambertian materials.
+/// \param x      x of its first corner; the lamp ends at x + size.
+/// \param y      y of its first corner; the lamp ends at y + size.
+/// \param size   Length of its sides.
 /// \param color  The lamp's radiance over 30.
 template <typename S, std::floating_point T>
 void add_ceiling_lamp(S& scene, T x, T y, T size, const RgbT<T>& color) {
@@ -54,12 +53,12 @@ void add_ceiling_lamp(S& scene, T x, T y, T size, const RgbT<T>& color) {
               scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}}), T(30) * color);
 }
 
-/// Adds the report's room: floor, ceiling and the four walls in view, all matt, their
+/// Adds the report's room: floor, ceiling and the four visible walls, all matt, with
 /// normals inwards.
-/// \param scene  A scene with quads, triangles and Lambert's surfaces.
+/// \param scene  A scene with quads, triangles and Lambertian materials.
 template <typename S, std::floating_point T = typename S::Scalar>
 void add_report_room(S& scene) {
-    // The outline of the floor, from v2, the left corner next to the camera, to v6.
+    // The outline of the floor from v2, the left corner near the camera, to v6.
     constexpr std::array<std::array<T, 2>, 5> outline{
         {{T(0), T(6)}, {T(10), T(6)}, {T(13), T(0)}, {T(10), T(-6)}, {T(0), T(-6)}}};
     const auto corner = [&](std::size_t i, T z) {

@@ -12,26 +12,26 @@
 namespace ljus {
 
 /// \defgroup report_rooms The report's scenes
-/// \brief Figures 1, 11, 12, 13 and 15: what stands in the report's room.
+/// \brief Figures 1, 11, 12, 13 and 15: the objects in the report's room.
 ///
-/// What the original materials became:
+/// The original materials and what stands for them here:
 ///
 /// | the report's program                | here                                     |
 /// |-------------------------------------|------------------------------------------|
 /// | matt, colour c, up to 1             | Lambertian, albedo 0.75 c                |
-/// | Oren-Nayar, roughness 0             | the same, for it is the same             |
+/// | Oren-Nayar, roughness 0             | Lambertian, which is the same            |
 /// | mirror, reflectivity 1, colour c    | Mirror, 0.98: the colour was not used    |
-/// | glass, colour c at each boundary    | Glass, same index; the way through the   |
-/// |                                     | middle leaves \f$c^2\f$ (Beer's law)     |
+/// | glass, colour c at each boundary    | Glass, same index; transmittance         |
+/// |                                     | \f$c^2\f$ through the centre (Beer's law)|
 /// | a channel of 0 in a glass           | 0.05: no absorption is infinite          |
 /// | reflectivity r and transparency 1,  | Mixture, both divided by 1 + r: the      |
-/// | together: up to 1 + r of the light  | mirror's share is r / (1 + r)            |
-/// | index 1.0 (the thin glass)          | kept: what goes in goes straight on      |
+/// |   together: up to 1 + r of the light| mirror's fraction is r / (1 + r)         |
+/// | index 1.0 (the thin glass)          | kept: light goes straight on             |
 /// | lamp of colour c, no unit           | radiance 30 c, and black                 |
 /// | a lamp 0.00001 below the ceiling    | 0.001 below                              |
 /// \{
 
-/// Everything that the report's rooms are made of.
+/// The scene type of the report's rooms.
 template <std::floating_point T>
 using ReportSceneT =
     Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>>,
@@ -39,8 +39,8 @@ using ReportSceneT =
 
 namespace detail {
 
-// The program tints at both boundaries, so that the way through the middle of a ball
-// leaves the square of the colour: the colour itself belongs to the radius.
+// The program tints at both boundaries, so that the path through the centre of a ball
+// gives the square of the colour: the colour itself belongs to the radius.
 template <std::floating_point T>
 RgbT<T> report_absorption(const RgbT<T>& color, T radius) {
     return absorption_from_color(glm::max(color, RgbT<T>{T(0.05)}), radius);
@@ -93,8 +93,7 @@ void add_report_matt_objects(ReportSceneT<T>& scene) {
 
 } // namespace detail
 
-/// The room of figures 1 and 15: two lamps, and every material.
-/// \return The scene and its camera.
+/// The room of figures 1 and 15: two lamps and every material.
 /// \report{Figures 1 and 15}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> final_room() {
@@ -114,8 +113,7 @@ template <std::floating_point T = float>
     return {World(std::move(scene)), report_camera<T>()};
 }
 
-/// The room of figure 12: one lamp, and one of each material.
-/// \return The scene and its camera.
+/// The room of figure 12: one lamp and one of each material.
 /// \report{Figure 12, Table 3}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> all_materials_room() {
@@ -130,9 +128,8 @@ template <std::floating_point T = float>
     return {World(std::move(scene)), report_camera<T>()};
 }
 
-/// The room of figures 11 and 13: one lamp, and four balls of glass. The report's
-/// history does not have it; two of the balls were fitted to its picture.
-/// \return The scene and its camera.
+/// The room of figures 11 and 13: one lamp and four glass balls. The history of the
+/// report's program lacks it; two of the balls were fitted to the picture.
 /// \report{Figures 11 and 13, Tables 2 and 4}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> four_glass_room() {

@@ -9,14 +9,14 @@
 namespace ljus {
 
 /// \defgroup room Ready-made scenes
-/// \brief What the ready-made scenes return.
+/// \brief The type that all ready-made scenes return.
 /// \{
 
-/// A closed scene, and where it is seen from.
+/// A closed scene with its camera.
 template <typename S>
 struct Room {
     World<S> world;                       ///< Shapes, materials and lights, closed.
-    CameraT<typename S::Scalar> camera{}; ///< Where it is seen from.
+    CameraT<typename S::Scalar> camera{}; ///< Its camera.
 };
 /// Deduces the scene from its world.
 template <typename S>

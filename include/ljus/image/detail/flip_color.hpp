@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/image/detail/flip_color.hpp
-/// \brief The two colour spaces of FLIP: one to blur in, one to measure in.
+/// \brief The two colour spaces of FLIP: one for blurring, one for distances.
 
 #include <cmath>
 
@@ -14,35 +14,32 @@ namespace ljus {
 
 namespace detail {
 
-/// The shares of red, green and blue in X, Y and Z, by the primaries of Rec. 709; each
-/// row adds up to 1, because all three are in units of the white point's.
-inline constexpr Vec3T<double> xyz_shares[3] = {
+/// The contributions of red, green and blue to X, Y and Z (primaries of Rec. 709). Each
+/// row adds up to 1, because X, Y and Z are relative to the white point.
+inline constexpr Vec3T<double> xyz_weights[3] = {
     Vec3T<double>{10135552, 8788810, 4435075} / 23359437.0,
     Vec3T<double>{2613072, 8788810, 887015} / 12288897.0,
     Vec3T<double>{1425312, 8788810, 70074185} / 80288307.0};
 
 /// XYZ of a linear sRGB colour, in units of the white point D65.
-/// \param c  Linear sRGB.
 /// \return X/Xn, Y/Yn, Z/Zn; white is (1, 1, 1).
 [[nodiscard]] inline Vec3T<double> xyz_over_white(const RgbT<double>& c) noexcept {
-    return {glm::dot(xyz_shares[0], c), glm::dot(xyz_shares[1], c),
-            glm::dot(xyz_shares[2], c)};
+    return {glm::dot(xyz_weights[0], c), glm::dot(xyz_weights[1], c),
+            glm::dot(xyz_weights[2], c)};
 }
 
-/// The linear sRGB colour of XYZ: xyz_over_white() the other way round.
-/// \param xyz  X/Xn, Y/Yn, Z/Zn.
-/// \return Linear sRGB, perhaps beside [0, 1].
+/// The linear sRGB colour of XYZ: the inverse of xyz_over_white().
+/// \return Linear sRGB, not always within [0, 1].
 [[nodiscard]] inline RgbT<double> rgb_of(const Vec3T<double>& xyz) noexcept {
-    // Cramer's rule: the products of two rows, over the determinant of all three.
-    const auto& [x, y, z] = xyz_shares;
+    // Cramer's rule: cross products of two rows over the determinant.
+    const auto& [x, y, z] = xyz_weights;
     const Vec3T<double> yz = glm::cross(y, z);
     return (xyz.x * yz + xyz.y * glm::cross(z, x) + xyz.z * glm::cross(x, y)) /
            glm::dot(x, yz);
 }
 
-/// YCxCz, in which light, red-green and blue-yellow are apart, each linear in light so
-/// that it can be blurred.
-/// \param c  Linear sRGB.
+/// YCxCz, which separates lightness, red-green and blue-yellow. Each is linear in
+/// light, so that it can be blurred.
 /// \return 116 Y - 16; 500 (X - Y); 200 (Y - Z), in units of white.
 /// \cite andersson2020
 [[nodiscard]] inline Vec3T<double> opponent(const RgbT<double>& c) noexcept {
@@ -51,15 +48,13 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
 }
 
 /// The linear sRGB colour of YCxCz.
-/// \param c  From opponent().
-/// \return Linear sRGB, perhaps beside [0, 1].
+/// \return Linear sRGB, not always within [0, 1].
 [[nodiscard]] inline RgbT<double> rgb_of_opponent(const Vec3T<double>& c) noexcept {
     const double y = (c.x + 16) / 116;
     return rgb_of({y + c.y / 500, y, y - c.z / 200});
 }
 
-/// L*a*b* of a colour, with the Hunt effect: in the dark, colours are weaker.
-/// \param c  Linear sRGB.
+/// L*a*b* of a colour with the Hunt effect: dark colours are less colourful.
 /// \return L*, and a* and b* times L*/100.
 /// \cite andersson2020
 [[nodiscard]] inline Vec3T<double> hunt_lab(const RgbT<double>& c) noexcept {
@@ -74,10 +69,8 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
             0.01 * lightness * 200 * (y - z)};
 }
 
-/// The distance HyAB, made for large differences: lightness by its amount, colour by
-/// its length.
-/// \param a  From hunt_lab().
-/// \param b  The other one.
+/// The HyAB distance, made for large differences: city-block in lightness, Euclidean in
+/// a* and b*.
 /// \return |L1 - L2| + |(a1, b1) - (a2, b2)|.
 /// \cite andersson2020
 [[nodiscard]] inline double hyab(const Vec3T<double>& a,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/image/detail/flip_filter.hpp
-/// \brief What the eye does before it compares: it blurs, and finds edges and points.
+/// \brief FLIP's model of the eye: it blurs, and detects edges and points.
 
 #include <cmath>
 #include <numbers>
@@ -16,25 +16,22 @@ namespace ljus {
 
 namespace detail {
 
-/// One Gaussian of a contrast sensitivity: a sqrt(pi / b) exp(-pi^2 x^2 / b), x in
-/// degrees.
+/// One Gaussian of a contrast sensitivity function: a sqrt(pi / b) exp(-pi^2 x^2 / b),
+/// with x in degrees.
 struct EyeGaussian {
-    double a; ///< Its weight.
-    double b; ///< Its breadth, in square degrees.
+    double a; ///< Weight.
+    double b; ///< Width, in square degrees.
 };
 
-/// What the eye blurs light, red-green and blue-yellow by: the sum of two Gaussians
-/// each \cite andersson2020.
+/// The blur of lightness, red-green and blue-yellow: a sum of two Gaussians each
+/// \cite andersson2020.
 inline constexpr EyeGaussian eye_gaussians[3][2] = {
     {{1, 0.0047}, {0, 1e-5}}, {{1, 0.0053}, {0, 1e-5}}, {{34.1, 0.04}, {13.5, 0.025}}};
 
-/// Weights from -radius to radius.
+/// The weights of a filter, from -radius to radius.
 using Weights = std::vector<double>;
 
-/// Weights of a function at the whole numbers.
-/// \param radius  At least 0.
-/// \param f       Of a double.
-/// \return f(-radius), ..., f(radius).
+/// The values f(-radius), ..., f(radius) of a function.
 template <typename F>
 [[nodiscard]] Weights weights_of(int radius, F f) {
     Weights weights;
@@ -42,21 +39,15 @@ template <typename F>
     return weights;
 }
 
-/// Scales weights so that those above 0 add up to 1 and those below 0 to -1.
-/// \param weights  Any.
+/// Scales weights so that the positive ones add up to 1 and the negative ones to -1.
 inline void make_unit(Weights& weights) noexcept {
     double positive = 0, negative = 0;
     for (const double weight : weights) (weight > 0 ? positive : negative) += weight;
     for (double& weight : weights) weight /= weight > 0 ? positive : -negative;
 }
 
-/// One channel of an image, blurred along x by one set of weights and along y by
-/// another; the border's pixels go on outside.
-/// \param image    The image.
-/// \param channel  0, 1 or 2.
-/// \param along_x  An odd number of weights.
-/// \param along_y  The same.
-/// \return A number for each pixel.
+/// Convolves one channel of an image along x and along y; pixels at the border are
+/// repeated outside.
 [[nodiscard]] inline std::vector<double> blurred(const ImageT<double>& image,
                                                  int channel, const Weights& along_x,
                                                  const Weights& along_y) {
@@ -84,9 +75,7 @@ inline void make_unit(Weights& weights) noexcept {
     return result;
 }
 
-/// A picture in YCxCz, as a screen shows it: within [0, 1] of sRGB; NaN is black.
-/// \param image  Linear sRGB.
-/// \return The same in YCxCz.
+/// Converts a picture to YCxCz, clamped to [0, 1] of sRGB as on a screen; NaN is black.
 template <std::floating_point T>
 [[nodiscard]] ImageT<double> opponent_image(const ImageT<T>& image) {
     ImageT<double> result = make_image<double>(image.width, image.height);
@@ -98,15 +87,14 @@ template <std::floating_point T>
     return result;
 }
 
-/// What is left of a picture at a distance: each channel is blurred by the sensitivity
-/// of the eye to it.
-/// \param image  In YCxCz.
-/// \param ppd    Pixels in a degree.
+/// A picture as a distant viewer sees it: each channel is blurred by the eye's contrast
+/// sensitivity.
 /// \return Linear sRGB within [0, 1].
 /// \cite andersson2020
-[[nodiscard]] inline ImageT<double> as_seen(const ImageT<double>& image, double ppd) {
+[[nodiscard]] inline ImageT<double> eye_filtered(const ImageT<double>& image,
+                                                 double ppd) {
     constexpr double pi = std::numbers::pi;
-    // Three standard deviations of the broadest of them.
+    // Three standard deviations of the widest Gaussian.
     const int radius = static_cast<int>(std::ceil(3 * std::sqrt(0.04 / 2) / pi * ppd));
     ImageT<double> seen = make_image<double>(image.width, image.height);
     for (int channel = 0; channel < 3; ++channel) {
@@ -132,11 +120,9 @@ template <std::floating_point T>
     return seen;
 }
 
-/// The strength of edges and of points at each pixel: the length of the first and of
-/// the second derivative of its light, over the breadth of what the eye takes for an
-/// edge, 0.082 degrees.
-/// \param image  In YCxCz.
-/// \param ppd    Pixels in a degree.
+/// The strength of edges and points at each pixel: the lengths of the first and second
+/// derivative of lightness, smoothed by a Gaussian as wide as the eye's edge detector,
+/// 0.082 degrees.
 /// \return Edges in the first channel, points in the second.
 /// \cite andersson2020
 [[nodiscard]] inline ImageT<double> features(const ImageT<double>& image, double ppd) {
@@ -157,7 +143,7 @@ template <std::floating_point T>
         const Weights& derivative = kind == 0 ? edge : point;
         const std::vector<double> x = blurred(image, 0, derivative, smooth);
         const std::vector<double> y = blurred(image, 0, smooth, derivative);
-        // Light runs from -16 to 100; a sum of 0 takes no notice of the 16.
+        // Lightness runs from -16 to 100; weights that add up to 0 cancel the -16.
         for (std::size_t i = 0; i < x.size(); ++i)
             found.pixels[i][kind] = std::hypot(x[i], y[i]) / 116;
     }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/byte_reader.hpp
-/// \brief The bytes of an image file, read from the front; for pfm.hpp and hdr.hpp.
+/// \brief Reads the bytes of an image file; for pfm.hpp and hdr.hpp.
 
 #include <cmath>
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace ljus::detail {
 
-// A number in a file's header, as "-1.0" or "2.5e-3". The library's own strtod depends
-// on the country that the program runs in. NaN if it is no number.
+// A number in a file's header, such as "-1.0" or "2.5e-3"; NaN if it is not a number.
+// strtod would depend on the locale.
 inline double to_number(std::string_view text) {
     std::size_t i = 0;
     const auto digit = [&] {
@@ -45,8 +45,7 @@ inline double to_number(std::string_view text) {
         exponent += sign_of_exponent * power;
     }
     if (!digits || i != text.size()) return std::numeric_limits<double>::quiet_NaN();
-    // Dividing by a power of ten is exact for small ones, multiplying by its inverse
-    // not.
+    // Division by a small power of ten is exact; multiplication by its inverse is not.
     return sign_of_all * (exponent < 0.0 ? mantissa / std::pow(10.0, -exponent)
                                          : mantissa * std::pow(10.0, exponent));
 }
@@ -65,7 +64,7 @@ struct ByteReader {
         return bytes[position++];
     }
 
-    // The next word, and the one white space behind it.
+    // The next word, and the white space after it.
     std::string word() {
         std::string text;
         char c = to_char(next());
@@ -77,7 +76,7 @@ struct ByteReader {
         return text;
     }
 
-    // The last word of a line, and the end of the line.
+    // The last word of a line, whose end is skipped.
     std::string last_word() {
         std::string text = line();
         text.erase(0, text.find_first_not_of(" \t"));
@@ -85,7 +84,7 @@ struct ByteReader {
         return text;
     }
 
-    // The characters up to the end of the line, which is taken as well.
+    // The characters up to the end of the line, which is skipped.
     std::string line() {
         std::string text;
         for (char c = to_char(next()); c != '\n'; c = to_char(next())) {
@@ -97,12 +96,12 @@ struct ByteReader {
         return text;
     }
 
-    // Passes over white space that stands between the header and so many bytes.
+    // Skips white space between the header and the last `expected` bytes.
     void skip_blanks(std::size_t expected) noexcept {
         while (left() > expected && is_space(to_char(bytes[position]))) ++position;
     }
 
-    // The number of pixels that a word of the header says.
+    // A width or height, from a word of the header.
     int size(const std::string& text) const {
         long long value = 0;
         for (const char c : text)
@@ -110,12 +109,11 @@ struct ByteReader {
                                                              : 10 * value + (c - '0');
         if (value < 1 || value > max_pixels)
             fail("its width or height is '" + shown(text) +
-                 "', which must be a whole number of at least 1, and not above " +
+                 "'; it must be a whole number from 1 to " +
                  std::to_string(max_pixels));
         return static_cast<int>(value);
     }
 
-    // Refuses an image of more pixels than one can have.
     void require_pixels(int width, int height) const {
         if (width > max_pixels / height)
             fail("it has " + std::to_string(width) + " x " + std::to_string(height) +

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/json_field.hpp
-/// \brief A value of a JSON file that knows where it stands, so that errors can say it.
+/// \brief A value of a JSON file with its path, for error messages.
 
 #include <cmath>
 #include <initializer_list>
@@ -17,16 +17,16 @@
 
 namespace ljus::detail {
 
-// A value within a JSON file. It refers to the file's data and its name.
+// A value within a JSON file; refers to the file's data and its name.
 struct JsonField {
-    const nlohmann::json& value; // what stands there
-    const std::string& file;     // the name of the file, for messages
-    std::string path;            // "objects[3].radius"; empty for the whole file
+    const nlohmann::json& value;
+    const std::string& file; // the name of the file, for messages
+    std::string path;        // "objects[3].radius"; empty for the whole file
 };
 
-// A value as a message shows it.
+// A value in a message.
 [[nodiscard]] inline std::string shown_value(const nlohmann::json& value) {
-    // Large values are not printed only to be cut off.
+    // Large values are not printed in full first.
     if (value.is_object()) return "an object";
     if (value.is_array() && value.size() > 4)
         return std::string("a list of ").append(std::to_string(value.size())) +
@@ -36,7 +36,7 @@ struct JsonField {
     return shown(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-// The path of a member: with a dot, or in brackets if its name is no plain word.
+// The path of a member: with a dot, or in brackets if its name is not a plain word.
 [[nodiscard]] inline std::string path_of_member(std::string path,
                                                 const std::string& name) {
     bool plain = !name.empty() && name.size() <= 48;
@@ -48,15 +48,16 @@ struct JsonField {
     return path.append(name);
 }
 
-// Refuses a field: "scene.json: objects[3].radius is missing." `why` is the rest of the
-// sentence, without the full stop.
+// Throws an error about a field: "scene.json: objects[3].radius is missing." `why`
+// completes the sentence, without the full stop.
 [[noreturn]] inline void refuse(const JsonField& field, std::string_view why) {
     std::string message = shown_path(field.file);
     message.append(": ").append(field.path.empty() ? "the file" : field.path);
     throw std::runtime_error(message.append(" ").append(why).append("."));
 }
 
-// Refuses a field's value: "scene.json: objects[3].radius is -1; it must be above 0."
+// Throws an error about a value: "scene.json: objects[3].radius is -1; it must be above
+// 0."
 [[noreturn]] inline void refuse_value(const JsonField& field, std::string_view right) {
     refuse(field, std::string("is ")
                       .append(shown_value(field.value))
@@ -64,7 +65,7 @@ struct JsonField {
                       .append(right));
 }
 
-// Refuses a field for what a call said of it, in a sentence of its own.
+// Throws an error about a field with the sentence of another exception.
 [[noreturn]] inline void refuse_for(const JsonField& field,
                                     const std::exception& error) {
     std::string why = std::string("cannot be used: ").append(error.what());
@@ -72,8 +73,8 @@ struct JsonField {
     refuse(field, why);
 }
 
-// What a call returns; what it finds wrong, though it was right for the file, as a
-// number too small or too large for T, is said of the field.
+// The result of a call. Its errors, for instance a number that T cannot hold, are
+// reported for the field.
 template <typename Call>
 auto made_of(const JsonField& field, Call call) {
     try {
@@ -83,7 +84,7 @@ auto made_of(const JsonField& field, Call call) {
     }
 }
 
-// Names in a row: "a, b or c". Of names that a file chooses not too many are shown.
+// A list of names: "a, b or c". At most `most` names are shown.
 [[nodiscard]] inline std::string in_a_row(const std::vector<std::string>& names,
                                           std::string_view last,
                                           std::size_t most = 12) {
@@ -99,7 +100,7 @@ auto made_of(const JsonField& field, Call call) {
     return count < names.size() ? row.append(", ...") : row;
 }
 
-// Refuses what is not an object, and members that are not known.
+// Requires an object without unknown members.
 inline void require_object(const JsonField& field,
                            const std::vector<std::string>& known) {
     if (!field.value.is_object()) refuse_value(field, "an object");
@@ -117,7 +118,7 @@ inline void require_object(const JsonField& field,
     require_object(field, std::vector<std::string>(known.begin(), known.end()));
 }
 
-// A member of an object that may be missing.
+// A member of an object, if it exists.
 [[nodiscard]] inline std::optional<JsonField> find(const JsonField& field,
                                                    const std::string& name) {
     const auto found = field.value.find(name);
@@ -125,38 +126,34 @@ inline void require_object(const JsonField& field,
     return JsonField{*found, field.file, path_of_member(field.path, name)};
 }
 
-// A member that must be there.
+// A required member.
 [[nodiscard]] inline JsonField member(const JsonField& field, const std::string& name) {
     if (!field.value.is_object()) refuse_value(field, "an object");
     if (const auto found = find(field, name)) return *found;
     refuse({field.value, field.file, path_of_member(field.path, name)}, "is missing");
 }
 
-// An entry of a list; i is below its size.
 [[nodiscard]] inline JsonField entry(const JsonField& field, std::size_t i) {
     return {field.value[i], field.file, field.path + "[" + std::to_string(i) + "]"};
 }
 
-// The number of entries of a list.
 [[nodiscard]] inline std::size_t list_size(const JsonField& field) {
     if (!field.value.is_array()) refuse_value(field, "a list");
     return field.value.size();
 }
 
-// A text.
 [[nodiscard]] inline const std::string& text(const JsonField& field) {
     if (!field.value.is_string()) refuse_value(field, "a text in quotation marks");
     return field.value.get_ref<const std::string&>();
 }
 
-// A text for people, which may be missing or null.
+// A text for people; it may be missing or null.
 [[nodiscard]] inline std::string remark(const JsonField& field,
                                         const std::string& name) {
     const auto found = find(field, name);
     return !found || found->value.is_null() ? std::string() : text(*found);
 }
 
-// One of the names in a list.
 inline void require_one_of(const JsonField& field,
                            const std::vector<std::string>& names) {
     for (const std::string& name : names)
@@ -164,7 +161,7 @@ inline void require_one_of(const JsonField& field,
     refuse_value(field, in_a_row(names, "or", names.size()));
 }
 
-// A number within [low, high], which `right` says in words.
+// A number within [low, high]; `right` says that in words.
 [[nodiscard]] inline double number(const JsonField& field, double low, double high,
                                    std::string_view right) {
     if (!field.value.is_number()) refuse_value(field, "a number");
@@ -185,7 +182,7 @@ inline void require_one_of(const JsonField& field,
     return static_cast<long long>(value);
 }
 
-// The path of a file that a scene file names: beside the scene's own.
+// The path of a file that a scene file names, relative to the scene file.
 [[nodiscard]] inline std::string path_beside(const JsonField& field) {
     return path_beside(field.file, text(field));
 }

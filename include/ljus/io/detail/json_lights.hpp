@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/json_lights.hpp
-/// \brief The lights of a scene file that are no objects.
+/// \brief The lights of a scene file that are not objects.
 
 #include <nlohmann/json.hpp>
 
@@ -13,13 +13,13 @@
 namespace ljus {
 
 /// \defgroup json_lights Lights in scene files
-/// \brief Optional (nlohmann-json): what a file may say of a light without a size.
+/// \brief Optional (nlohmann-json): the fields of lights without a size.
 ///
 /// | `type` | its fields                                                              |
 /// |--------|-------------------------------------------------------------------------|
 /// | point  | position, intensity: W/sr                                               |
 /// | spot   | position, direction, intensity, inner_deg, outer_deg: see SpotLight     |
-/// | sun    | direction: where it shines to; irradiance: W/m^2                        |
+/// | sun    | direction in which it shines; irradiance: W/m^2                         |
 /// \{
 
 namespace detail {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/json_materials.hpp
-/// \brief The materials of a scene file: one row a material, and that is all.
+/// \brief The materials of a scene file: one row per material.
 
 #include <array>
 #include <numbers>
@@ -23,14 +23,14 @@
 namespace ljus {
 
 /// \defgroup json_materials Materials in scene files
-/// \brief Optional (nlohmann-json): what a file may say of a material.
+/// \brief Optional (nlohmann-json): the fields of a material.
 ///
-/// | `type`          | its fields; those in brackets may be missing                  |
+/// | `type`          | its fields; those in brackets are optional                    |
 /// |-----------------|---------------------------------------------------------------|
 /// | lambertian      | albedo                                                        |
-/// | oren-nayar      | albedo, sigma_deg: the slope angle's deviation, degrees       |
-/// | oren-nayar-full | the same; with light from facet to facet                      |
-/// | oren-nayar-printed | the same; as the report's program has it                   |
+/// | oren-nayar      | albedo, sigma_deg: standard deviation of the slope, degrees   |
+/// | oren-nayar-full | the same; with interreflection between facets                 |
+/// | oren-nayar-printed | the same; the formula of the report's program              |
 /// | fujii           | the same; Fujii's first improvement                           |
 /// | fon             | albedo, roughness; Fujii's second                             |
 /// | eon             | albedo, roughness                                             |
@@ -44,18 +44,18 @@ namespace ljus {
 /// | full-glossy     | the same; see CompensatedGlossy                               |
 /// | dielectric      | ior, \[absorption\]: smooth glass                             |
 /// | thin-glass      | ior, tint: a pane                                             |
-/// | soap-film       | ior, thickness_nm; if it drains scale, level and up           |
-/// | checker         | even, odd, a map, \[columns, rows\]: two by two fields        |
-/// | picture         | file: PNG, JPEG, ... beside the scene's; a map                |
+/// | soap-film       | ior, thickness_nm; if it drains, scale, level and up          |
+/// | checker         | even, odd, a map, \[columns, rows\]: two by two squares       |
+/// | picture         | file: PNG, JPEG or BMP, relative to the scene file; a map     |
 ///
 /// A map is origin, edge_u and edge_v of a plane; or "map": "globe" and its center; or
-/// "map": "uv", by the coordinates of the shape, with \[scale\], two numbers: see
-/// PlaneMap, GlobeMap, UvMap. Metals are gold, copper and silver.
+/// "map": "uv", the coordinates of the shape, with \[scale\], two numbers: see
+/// PlaneMap, GlobeMap, UvMap.
 /// \{
 
 namespace detail {
 
-// What the rows below ask of a material's fields.
+// Reads the fields of a material for the rows below.
 template <std::floating_point T>
 struct MaterialFields {
     const JsonField& field;
@@ -67,7 +67,7 @@ struct MaterialFields {
     T unit(const char* name) const { return value(name, 0, 1, "within [0, 1]"); }
     T slider(const char* name) const { return has(name) ? unit(name) : T(0); }
     RgbT<T> color(const char* name) const {
-        return RgbT<T>{share_field(member(field, name))};
+        return RgbT<T>{fraction_field(member(field, name))};
     }
     T degrees(const char* name) const {
         return static_cast<T>(
@@ -133,7 +133,7 @@ SoapFilmT<T> read_film(const MaterialFields<T>& in) {
     return film;
 }
 
-// A material that a file can name, its fields besides `type`, and what reads them.
+// A material's name, its fields besides `type`, and its reader.
 template <std::size_t N, typename Read>
 struct MaterialRow {
     const char* name;
@@ -150,8 +150,8 @@ Textured<LambertianT<T>, Texture> white(Texture texture) {
     return {{.albedo = RgbT<T>{T(1)}}, std::move(texture)};
 }
 
-// The table: a new material is a new row, and nothing else. The types that a scene of
-// a file lists, the reader of a name and the names in a message all follow from it.
+// The table of materials. The material types of a file's scene, the readers and the
+// names in messages follow from it, so that a new material needs a new row only.
 template <std::floating_point T>
 constexpr auto material_rows() {
     using In = const MaterialFields<T>&;
@@ -209,7 +209,7 @@ constexpr auto material_rows() {
             [](In in) { return white<T>(read_picture<T>(in.field)); })};
 }
 
-// The types of the rows, each once: several names may stand for one type.
+// The types of the rows, each once: several names may have one type.
 template <typename... M>
 Materials<M...> listed(TypeList<M...>);
 template <std::floating_point T, typename... Row>
@@ -219,7 +219,7 @@ constexpr auto materials_of(const std::tuple<Row...>&) {
             TypeList<decltype(std::declval<Row>().read(std::declval<In>()))>{});
 }
 
-/// Whatever a scene file may name.
+/// The materials that a scene file may name.
 template <std::floating_point T>
 using FileMaterialsT = decltype(listed(materials_of<T>(material_rows<T>())));
 

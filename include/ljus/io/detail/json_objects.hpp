@@ -19,28 +19,28 @@
 namespace ljus {
 
 /// \defgroup json_objects Objects in scene files
-/// \brief Optional (nlohmann-json): spheres, triangles, meshes.
+/// \brief Optional (nlohmann-json): spheres, triangles and meshes.
 ///
 /// | `type` of an object | its fields, besides material, name and emission         |
 /// |---------------------|---------------------------------------------------------|
 /// | sphere              | center, radius                                          |
 /// | triangles           | vertices, indices: three numbers per triangle, from 0   |
-/// | mesh                | file: OBJ, beside the scene's; scale (1); normals (file, |
-/// |                     | smooth or flat); see ObjMeshes                          |
+/// | mesh                | file: OBJ, relative to the scene file; scale (1);       |
+/// |                     | normals (file, smooth or flat); see ObjMeshes           |
 ///
-/// Emission is radiance: of a sphere outwards, of a triangle towards
-/// \f$(V_2 - V_1) \times (V_3 - V_1)\f$.
+/// Emission is radiance: outwards for a sphere, towards
+/// \f$(V_2 - V_1) \times (V_3 - V_1)\f$ for a triangle.
 /// \{
 
 namespace detail {
 
-/// A scene of whatever a scene file may hold.
+/// The scene type of scene files.
 template <std::floating_point T>
 using FileSceneT =
     Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>, MeshT<T>>, FileMaterialsT<T>,
           Lights<PointLightT<T>, SpotLightT<T>, SunLightT<T>>>;
 
-/// Reads no meshes: what load_json() does unless it is given an ObjMeshes.
+/// Reads no meshes: the default of load_json().
 template <std::floating_point T>
 struct NoMeshesT {
     /// \throws std::runtime_error  always.
@@ -48,12 +48,12 @@ struct NoMeshesT {
                                                   const std::string&) const {
         throw std::runtime_error(
             shown_path(file) +
-            ": meshes are not read here; load_json() must be given ObjMeshes, of "
+            ": load_json() reads no meshes unless it is given ObjMeshes, from "
             "ljus/io/load_obj.hpp.");
     }
 };
 
-// Three numbers of points that are a triangle.
+// The three indices of a triangle.
 inline std::array<std::uint32_t, 3>
 read_triangle(const JsonField& field, const std::vector<glm::dvec3>& points) {
     if (list_size(field) != 3) refuse_value(field, "a list of three numbers");
@@ -71,7 +71,7 @@ read_triangle(const JsonField& field, const std::vector<glm::dvec3>& points) {
     return corners;
 }
 
-// The triangles of an object, as quads where two of them are one.
+// The triangles of an object; two that form a parallelogram become a quad.
 template <std::floating_point T>
 FlatShapesT<T> read_triangles(const JsonField& field) {
     const JsonField vertices = member(field, "vertices");
@@ -86,7 +86,6 @@ FlatShapesT<T> read_triangles(const JsonField& field) {
     return pair_triangles<T>(points, triangles);
 }
 
-// The meshes of an object's file.
 template <std::floating_point T, typename LoadMeshes>
 std::vector<MeshT<T>> read_meshes(const JsonField& field, LoadMeshes& load_meshes) {
     const std::string path = path_beside(member(field, "file"));
@@ -106,7 +105,6 @@ SphereT<T> read_sphere(const JsonField& field) {
             .radius = static_cast<T>(length)};
 }
 
-// The material that an object names.
 inline MaterialId material_of(const JsonField& field,
                               const std::map<std::string, MaterialId>& materials) {
     const JsonField material = member(field, "material");
@@ -118,7 +116,7 @@ inline MaterialId material_of(const JsonField& field,
                  std::string("one of the materials ") + in_a_row(names, "or"));
 }
 
-// Refuses fields that objects of this type do not have.
+// Requires the fields of an object of this type.
 inline void require_fields_of_object(const JsonField& field, const std::string& type) {
     std::vector<std::string> known{"type", "name", "material", "emission"};
     const auto add = [&](std::initializer_list<const char*> own) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/json_textures.hpp
-/// \brief Vectors and colours of a scene file, and the textures made of them.
+/// \brief The vectors and colours of a scene file, and its textures.
 
 #include <variant>
 
@@ -28,7 +28,7 @@ inline glm::dvec3 point_field(const JsonField& field) {
     return vector_field(field, -max_length, max_length, "within [-1e9, 1e9]");
 }
 
-// A vector that says where to.
+// A direction, of any length above 0.
 inline glm::dvec3 direction_field(const JsonField& field) {
     const glm::dvec3 way = point_field(field);
     if (!(glm::dot(way, way) > 0)) refuse_value(field, "a vector that is not 0");
@@ -40,14 +40,14 @@ inline glm::dvec3 light_field(const JsonField& field) {
     return vector_field(field, 0, max_radiance, "within [0, 1e12]");
 }
 
-inline glm::dvec3 share_field(const JsonField& field) {
+inline glm::dvec3 fraction_field(const JsonField& field) {
     return vector_field(field, 0, 1, "within [0, 1]");
 }
 
-// Any of the maps: which one is known when the file is read.
+// Any of the maps, chosen when the file is read.
 template <std::floating_point T>
 struct FileMapT {
-    static constexpr bool uses_uv = true; // one of them does
+    static constexpr bool uses_uv = true; // the UvMap does
     std::variant<PlaneMapT<T>, GlobeMapT<T>, UvMapT<T>> map{};
 };
 template <std::floating_point T>
@@ -61,7 +61,7 @@ void check(const FileMapT<T>& any) {
     std::visit([](const auto& map) { check(map); }, any.map);
 }
 
-// The kind of a texture's map: a plane, unless `map` says another one.
+// The kind of a texture's map; a plane by default.
 inline std::string kind_of_map(const JsonField& field) {
     const auto map = find(field, "map");
     if (!map) return "plane";
@@ -69,7 +69,7 @@ inline std::string kind_of_map(const JsonField& field) {
     return text(*map);
 }
 
-// Refuses the fields of other kinds of maps than a texture's own.
+// Refuses the fields of other kinds of maps.
 inline void require_fields_of_map(const JsonField& field, const std::string& kind) {
     constexpr const char* owners[][2]{{"origin", "plane"},
                                       {"edge_u", "plane"},
@@ -124,8 +124,8 @@ FileMapT<T> read_map(const JsonField& field) {
 template <std::floating_point T>
 CheckerT<T, FileMapT<T>> read_checker(const JsonField& field) {
     CheckerT<T, FileMapT<T>> checker{.map = read_map<T>(field),
-                                     .even{share_field(member(field, "even"))},
-                                     .odd{share_field(member(field, "odd"))}};
+                                     .even{fraction_field(member(field, "even"))},
+                                     .odd{fraction_field(member(field, "odd"))}};
     const auto count = [&](const char* name, int& fields) {
         if (const auto found = find(field, name))
             fields = static_cast<int>(whole_number(*found, 2, 1'000'000));

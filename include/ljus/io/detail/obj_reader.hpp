@@ -19,18 +19,18 @@ namespace ljus {
 /// cannot be used is counted in the report, with its line.
 /// \{
 
-/// Which normals a mesh from a file gets.
+/// The normals of a mesh from a file.
 enum class ObjNormals : std::uint8_t {
-    file,   ///< The file's; where it has none, the triangles'.
-    smooth, ///< Those of smooth_normals(), whatever the file has.
-    flat    ///< The triangles'.
+    file,   ///< Those of the file, or of the triangles if it has none.
+    smooth, ///< Those of smooth_normals(), even if the file has normals.
+    flat    ///< Those of the triangles.
 };
 
-/// How a mesh file is read.
+/// The settings of load_obj().
 struct ObjSettings {
-    double scale = 1;                      ///< Every coordinate is multiplied by this.
+    double scale = 1;                      ///< Factor of every coordinate.
     ObjNormals normals = ObjNormals::file; ///< Which normals.
-    bool pictures = true;                  ///< Whether those of map_Kd are loaded.
+    bool pictures = true;                  ///< True: loads the pictures of map_Kd.
 };
 
 namespace detail {
@@ -68,7 +68,7 @@ struct ObjFacesT {
     std::vector<long long> without_uv{};    // lines of faces that have none
 };
 
-// What is known while a file is read.
+// The state of reading a file.
 template <std::floating_point T>
 struct ObjReader {
     const std::string& file; // its name, beside which its material files are

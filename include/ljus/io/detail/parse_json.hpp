@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/parse_json.hpp
-/// \brief JSON read strictly: no member twice, no endless depth, no number without end.
+/// \brief A strict JSON parser: no duplicate members, limited depth, finite numbers.
 
 #include <nlohmann/json.hpp>
 
@@ -9,25 +9,25 @@
 
 namespace ljus::detail {
 
-// The deepest nesting of lists and objects that parse_json() takes.
+// The deepest nesting of lists and objects.
 inline constexpr std::size_t max_json_depth = 32;
 
-// What may be in a file: so many numbers, or a quarter as many lists and objects, which
-// take more memory. Else a file of some megabytes could take all that there is.
+// The limit of a file: this many numbers, or a quarter as many lists and objects, which
+// take more memory. A file of some megabytes could otherwise exhaust memory.
 inline constexpr std::size_t max_json_values = std::size_t(1) << 22;
 
-// Receives what nlohmann's parser reads, piece by piece, and keeps it as one value.
+// Receives the events of nlohmann's parser and builds the value.
 struct JsonBuilder {
     using number_integer_t = nlohmann::json::number_integer_t;
     using number_unsigned_t = nlohmann::json::number_unsigned_t;
     using number_float_t = nlohmann::json::number_float_t;
 
-    std::string_view source;             // the whole file, to count lines in
+    std::string_view source;             // the whole file, for counting lines
     const std::string& file;             // its name
     nlohmann::json root{};               // what has been read
-    std::vector<nlohmann::json*> open{}; // the lists and objects around this place
-    std::vector<std::string> keys{};     // of the objects around, the members' names
-    std::size_t room = max_json_values;  // for so much more
+    std::vector<nlohmann::json*> open{}; // the enclosing lists and objects
+    std::vector<std::string> keys{};     // the current member of each open object
+    std::size_t room = max_json_values;  // the rest of the limit
 
     bool null() { return put(nullptr); }
     bool boolean(bool value) { return put(value); }
@@ -46,7 +46,7 @@ struct JsonBuilder {
         keys.back() = name;
         if (open.back()->contains(name))
             throw std::runtime_error(shown_path(file) + ": " + path() +
-                                     " is there twice.");
+                                     " appears twice.");
         return true;
     }
 
@@ -63,7 +63,7 @@ struct JsonBuilder {
                               ", column " + std::to_string(column == 0 ? 1 : column) +
                               ": ";
         std::string why = error.what();
-        std::string right;     // what would be, where the parser does not say it
+        std::string right;     // what would be right, if the parser does not say it
         if (error.id == 406) { // a number beyond the range of double
             why = path() + " is " + token;
             right = "; it must be finite";
@@ -81,7 +81,7 @@ struct JsonBuilder {
     }
 
 private:
-    // The path of the value that comes next.
+    // The path of the next value.
     std::string path() const {
         std::string all;
         for (std::size_t i = 0; i < open.size(); ++i) {
@@ -99,7 +99,7 @@ private:
     void take(std::size_t cost) {
         if (room < cost)
             throw std::runtime_error(
-                join({shown_path(file), ": there is more in it than ",
+                join({shown_path(file), ": it has more than ",
                       to_text(static_cast<long long>(max_json_values)),
                       " numbers, or a quarter as many lists, objects and members; put "
                       "large meshes into OBJ files."}));
@@ -139,9 +139,9 @@ private:
     }
 };
 
-// Reads JSON. `file` is what messages call it; they give line and column, "scene.json:
-// line 3, column 7: unexpected end of input; expected '}'.", or the path of a member
-// that is there twice, or of a value that is nested too deeply.
+// Parses JSON; `file` is its name for messages. They give line and column, "scene.json:
+// line 3, column 7: unexpected end of input; expected '}'.", or the path of a duplicate
+// member or of a value that is nested too deeply.
 [[nodiscard]] inline nlohmann::json parse_json(std::string_view source,
                                                const std::string& file) {
     source = plain_text(source, file);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/picture_damage.hpp
-/// \brief What is wrong with a PNG or JPEG file that stb_image does not ask about.
+/// \brief Finds damage in PNG and JPEG files that stb_image does not test for.
 
 #include <algorithm>
 #include <array>
@@ -13,13 +13,13 @@
 
 namespace ljus::detail {
 
-// The number in four bytes of a PNG file, the highest first.
+// A big-endian number of four bytes in a PNG file.
 inline std::uint32_t png_number(const Bytes& file, std::size_t at) noexcept {
     return std::uint32_t(file[at]) << 24 | std::uint32_t(file[at + 1]) << 16 |
            std::uint32_t(file[at + 2]) << 8 | std::uint32_t(file[at + 3]);
 }
 
-// The sum, CRC-32, that ends each chunk of a PNG file: of its name and its bytes.
+// The CRC-32 at the end of each PNG chunk, over its name and its bytes.
 inline std::uint32_t png_sum(const Bytes& file, std::size_t first, std::size_t last) {
     static constexpr auto table = [] {
         std::array<std::uint32_t, 256> sums{};
@@ -36,22 +36,22 @@ inline std::uint32_t png_sum(const Bytes& file, std::size_t first, std::size_t l
     return ~sum;
 }
 
-// What is wrong with a PNG file, which stb_image does not ask: the chunks must follow
-// one another up to IEND, each with its own sum.
+// The damage of a PNG file, or null. stb_image does not test that the chunks follow one
+// another up to IEND, and that their checksums are right.
 inline const char* png_trouble(const Bytes& file) {
     for (std::size_t at = 8; file.size() - at >= 12;) {
         const std::size_t size = png_number(file, at);
         if (size > file.size() - at - 12) return "it ends in the middle of a chunk";
         if (png_number(file, at + 8 + size) != png_sum(file, at + 4, at + 8 + size))
-            return "the sum of a chunk is wrong";
+            return "the checksum of a chunk is wrong";
         if (png_number(file, at + 4) == 0x49454e44u) return nullptr; // IEND
         at += 12 + size;
     }
     return "it ends before its last chunk";
 }
 
-// The exponent 1/gamma by which a PNG file is coded, if it says so and does not say that
-// it is sRGB or has a profile; else 0. png_trouble() has found nothing.
+// The exponent 1/gamma of a PNG file with a gAMA chunk; 0 if it has none, or an sRGB or
+// iCCP chunk as well. png_trouble() must have found nothing.
 inline double png_gamma(const Bytes& file) {
     double gamma = 0;
     for (std::size_t at = 8; file.size() - at >= 12;
@@ -62,18 +62,18 @@ inline double png_gamma(const Bytes& file) {
         if (name == 0x67414d41u && png_number(file, at) == 4)     // gAMA
             gamma = png_number(file, at + 8) / 1e5;
     }
-    // That of sRGB, nearly: so do files say it that have no other word for it.
+    // About that of sRGB: files without an sRGB chunk name it in this way.
     return std::abs(gamma - 0.45455) < 0.005 ? 0 : gamma;
 }
 
-// A byte of a file; 0 behind its end, as stb_image has it.
+// A byte of a file; 0 behind its end, as in stb_image.
 inline std::size_t byte_at(const Bytes& file, std::size_t at) {
     return at < file.size() ? std::size_t(file[at]) : std::size_t(0);
 }
 
-// Whether stb_image may read the tables of a JPEG file whose length stands at `at`: it
-// has room for 256 entries, does not count them, and takes number 255 for none. Notes
-// the tables in `there`: bit n is number n for DC, bit 16 + n for AC.
+// True if stb_image can read the tables of a JPEG segment whose length is at `at`: it
+// allocates 256 entries without counting them, and takes number 255 for none. Notes the
+// tables in `there`: bit n is DC table n, bit 16 + n is AC table n.
 inline bool good_huffman_tables(const Bytes& file, std::size_t at,
                                 std::uint32_t& there) {
     const auto byte = [&](std::size_t i) { return byte_at(file, i); };
@@ -89,8 +89,8 @@ inline bool good_huffman_tables(const Bytes& file, std::size_t at,
     return true;
 }
 
-// Whether a scan whose length stands at `at` finds its tables: stb_image reads whatever
-// is in the place of one that no file has filled.
+// True if all tables of a scan whose length is at `at` exist: stb_image would read
+// uninitialised ones.
 inline bool finds_tables(const Bytes& file, std::size_t at, bool in_parts,
                          std::uint32_t there) {
     const std::size_t components = byte_at(file, at + 2);
@@ -107,8 +107,8 @@ inline bool finds_tables(const Bytes& file, std::size_t at, bool in_parts,
     return true;
 }
 
-// Where the next marker stands behind the coded pixels that begin at a place: in them
-// 0xff is followed by 0 or by the number of a restart.
+// The index of the next marker behind the coded pixels that begin at `at`. Within
+// pixels, 0xff is followed by 0 or by a restart number.
 inline std::size_t behind_pixels(const Bytes& file, std::size_t at) {
     const auto is_marker = [&](unsigned char kind) {
         return kind != 0 && kind != 0xff && (kind & 0xf8u) != 0xd0;
@@ -117,16 +117,15 @@ inline std::size_t behind_pixels(const Bytes& file, std::size_t at) {
     return at;
 }
 
-// Whether a JPEG file has more scans than it can need. Each passes over the whole
-// picture and can be as short as ten bytes. A file has one for each of four channels at
-// most; a progressive one, whose parts refine one another, has some ten as a rule.
+// True if a JPEG file has more scans than it can need. Each scan processes the whole
+// picture and can be as short as ten bytes. A file has at most one per channel; a
+// progressive one, whose scans refine each other, usually has about ten.
 inline bool too_many_scans(int scans, bool in_parts) {
     return scans > (in_parts ? 64 : 4);
 }
 
-// How a JPEG file says that it is to be turned, by the orientation of its EXIF segment: 1
-// as it is, 2 to 8 as load_image() does it. The segment is a TIFF file: which byte of a
-// number comes first, where the first list of fields stands, its fields of 12 bytes each.
+// The orientation in the EXIF segment of a JPEG file, 1 to 8; 1 without one. The segment
+// is a TIFF file: byte order, offset of the first list of fields, fields of 12 bytes.
 inline int jpeg_orientation(const Bytes& file) {
     constexpr unsigned char exif = 0xe1, scan = 0xda;
     for (std::size_t at = 2; at + 4 <= file.size() && file[at] == 0xff;
@@ -154,8 +153,8 @@ inline int jpeg_orientation(const Bytes& file) {
     return 1;
 }
 
-// What is wrong with a JPEG file, segment by segment: stb_image trusts its tables, and
-// trusts that each scan has those that it uses.
+// The damage of a JPEG file, or null, segment by segment: stb_image trusts its tables,
+// and that each scan has its tables.
 inline const char* jpeg_trouble(const Bytes& file) {
     constexpr unsigned char tables = 0xc4, progressive = 0xc2, scan = 0xda, end = 0xd9;
     std::uint32_t there = 0;
