@@ -15,10 +15,8 @@
 #include <ljus/ljus.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/terminal.hpp"
+#include "common/example.hpp"
+#include "experiments/middle_rays.hpp"
 
 namespace {
 
@@ -186,33 +184,17 @@ void tiles(const examples::Options& options) {
         save_png(image, options.path("tiles-" + std::to_string(k) + ".png"));
         std::printf("tiles, 4 rays, %s: rmse %.4f\n", names[k], rmse(image, truth));
     }
-    // The corners of the pixels: what one ray at a fixed place sees.
-    Image aliased = ljus::make_image(options.width, options.height);
-    ljus::Counts counts;
-    ljus::RandomStream none;
-    auto context = ljus::context_of(none, counts);
-    for (int y = 0; y < options.height; ++y)
-        for (int x = 0; x < options.width; ++x)
-            pixel(aliased, x, y) =
-                radiance(Tiles{},
-                         primary_ray(camera, Vec2{float(x) + 0.5f, float(y) + 0.5f},
-                                     options.width, options.height),
-                         context);
-    save_png(aliased, options.path("tiles-one.png"));
+    save_png(examples::by_middle_rays(Tiles{}, camera, options.width, options.height),
+             options.path("tiles-one.png"));
 }
 
 /// One rendering, developed with several exposures, and without the sRGB curve.
 void exposures(const examples::Options& options) {
     const auto room = ljus::cornell_box();
-    examples::ProgressBar bar("exposure", options.quiet);
-    const auto seen = render(ljus::PhotonMapper(room.world), room.camera,
-                             {.width = options.height,
-                              .height = options.height,
-                              .samples = options.samples,
-                              .seed = options.seed,
-                              .threads = options.threads,
-                              .progress = bar});
-    examples::stop_if_asked();
+    auto settings = examples::picture_settings(options);
+    settings.width = options.height; // the room is a square
+    const auto seen = examples::rendered("exposure", ljus::PhotonMapper(room.world),
+                                         room.camera, settings, options);
     for (int stops = -4; stops <= 4; stops += 2)
         save_png(seen.image, options.path("exposure" + std::to_string(stops) + ".png"),
                  {.exposure = double(stops)});
@@ -254,12 +236,9 @@ void fields_of_view(const examples::Options& options) {
             ljus::look_at({.position{0, 0.06f * distance, 1 + distance},
                            .target{0, 0, 0},
                            .vfov_degrees = angle});
-        const auto seen = render(ljus::PathTracer(world, {.max_depth = 2}), camera,
-                                 {.width = options.width,
-                                  .height = options.height,
-                                  .samples = options.samples,
-                                  .seed = options.seed,
-                                  .threads = options.threads});
+        const auto seen = examples::rendered("field of view",
+                                             ljus::PathTracer(world, {.max_depth = 2}),
+                                             camera, options);
         save_png(seen.image,
                  options.path("fov-" + std::to_string(int(angle)) + ".png"));
     }

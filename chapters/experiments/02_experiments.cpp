@@ -17,6 +17,7 @@
 #include "common/convergence.hpp"
 #include "common/plot.hpp"
 #include "common/terminal.hpp"
+#include "experiments/middle_rays.hpp"
 
 namespace {
 
@@ -458,18 +459,9 @@ void table_of_filters(const examples::Options& options, int samples) {
 /// each filter.
 void pictures_of_rings(const examples::Options& options, int pixels, int samples) {
     const Card rings{.frequency = 2, .half = pixels / 2.0, .rings = true};
-    auto middles = ljus::make_image(pixels, pixels);
-    const auto camera = ljus::look_at({.vfov_degrees = 90});
-    for (int y = 0; y < pixels; ++y)
-        for (int x = 0; x < pixels; ++x) {
-            ljus::RandomStream none;
-            ljus::Counts counts;
-            auto context = ljus::context_of(none, counts);
-            const auto ray =
-                primary_ray(camera, {float(x) + 0.5f, float(y) + 0.5f}, pixels, pixels);
-            pixel(middles, x, y) = radiance(rings, ray, context);
-        }
-    save_png(middles, options.path("radiance-rings-none.png"));
+    save_png(examples::by_middle_rays(rings, ljus::look_at({.vfov_degrees = 90}),
+                                      pixels, pixels),
+             options.path("radiance-rings-none.png"));
     for (std::size_t i = 0; i < std::size(filters); ++i)
         save_png(picture_of(rings, filters[i], samples, pixels, options),
                  options.path("radiance-rings-" + std::to_string(i + 1) + ".png"));

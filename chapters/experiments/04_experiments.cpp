@@ -18,10 +18,7 @@
 #include <ljus/path/light_transport.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/terminal.hpp"
+#include "common/example.hpp"
 
 namespace {
 
@@ -32,21 +29,22 @@ using ljus::PhotonMapper;
 using ljus::Rgb;
 using ljus::Vec3;
 
-/// Renders with a progress bar; Ctrl-C ends the program.
+/// A picture of the options' size with its own number of rays and seed.
 template <typename Renderer>
 Image rendered(const std::string& name, const Renderer& renderer,
                const ljus::Camera& camera, const examples::Options& options, int rays,
                std::uint64_t seed) {
-    examples::ProgressBar bar(name, options.quiet);
-    const auto seen = render(renderer, camera,
-                             {.width = options.width,
-                              .height = options.height,
-                              .samples = rays,
-                              .seed = seed,
-                              .threads = options.threads,
-                              .progress = bar});
-    examples::stop_if_asked();
-    return seen.image;
+    auto settings = examples::picture_settings(options);
+    settings.samples = rays;
+    settings.seed = seed;
+    return examples::rendered(name, renderer, camera, settings, options).image;
+}
+
+/// The same, with rays and seed of the options.
+template <typename Renderer>
+Image rendered(const std::string& name, const Renderer& renderer,
+               const ljus::Camera& camera, const examples::Options& options) {
+    return examples::rendered(name, renderer, camera, options).image;
 }
 
 /// The mean over pixels and channels.
@@ -67,8 +65,8 @@ void bounces(const examples::Options& options) {
     std::string words = "E";
     for (int bounce = 0; bounce <= 10; ++bounce) {
         const std::string paths = words + "L";
-        const Image part = rendered("bounces", OnlyPaths(tracer, paths), room.camera,
-                                    options, options.samples, options.seed);
+        const Image part =
+            rendered("bounces", OnlyPaths(tracer, paths), room.camera, options);
         if (bounce <= 4)
             save_png(part, options.path("bounce-" + std::to_string(bounce) + ".png"),
                      {.exposure = 1});
@@ -98,8 +96,7 @@ void truncations(const examples::Options& options) {
     const auto room = ljus::cornell_box();
     const PathTracer tracer(room.world);
     const auto picture = [&](const char* letters) {
-        return rendered(letters, OnlyPaths(tracer, letters), room.camera, options,
-                        options.samples, options.seed);
+        return rendered(letters, OnlyPaths(tracer, letters), room.camera, options);
     };
     const Image all = picture("E(S|D)*L");
     examples::Table table{
@@ -175,8 +172,7 @@ ljus::Camera box_camera() {
 void visibility(const examples::Options& options) {
     const auto room = matt_room();
     for (const bool seen : {true, false})
-        save_png(rendered("visibility", AreaForm{room, seen}, box_camera(), options,
-                          options.samples, options.seed),
+        save_png(rendered("visibility", AreaForm{room, seen}, box_camera(), options),
                  options.path(seen ? "g-visible.png" : "g-report.png"));
 }
 
@@ -196,7 +192,6 @@ void emulate(const examples::Options& options, long long photons, int truth_rays
     const PathTracer tracer(room);
     const Image truth =
         rendered("truth", tracer, camera, options, truth_rays, options.seed + 1000);
-    save_png(truth, options.path("emulate-truth.png"));
     examples::Table table{
         .name = "transport-emulate",
         .columns = {"renderer", "seconds", "relMSE", "blocks", "FLIP", "HDR-FLIP"}};

@@ -8,9 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
+#include "common/example.hpp"
 #include "ljus/accel/mesh.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/materials/glass.hpp"
@@ -18,7 +16,6 @@
 #include "ljus/materials/mirror.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
-#include "ljus/render/render.hpp"
 #include "ljus/scenes/mesh_formulas.hpp"
 #ifdef LJUS_HAS_TINYOBJLOADER
 #include "ljus/io/load_obj.hpp"
@@ -47,14 +44,6 @@ Open floor_and_lamp() {
         Quad{.corner{-3.3f, 4, -0.3f}, .edge_u{0.6f, 0.3f, 0}, .edge_v{0, 0, 0.6f}},
         black, Rgb{60});
     return room;
-}
-
-RenderSettings picture_of(const examples::Options& options) {
-    return {.width = options.width,
-            .height = options.height,
-            .samples = options.samples,
-            .seed = options.seed,
-            .threads = options.threads};
 }
 
 // --- The adjoint's factor ---------------------------------------------------------------
@@ -125,13 +114,13 @@ void caustic_pictures(const examples::Options& options, const Sizes& sizes) {
         mapper.set_caustics(make_photon_map(
             glass_photons(room, sizes.photons, factor, options.seed, share)));
         save_png(
-            render(mapper, camera, picture_of(options)).image,
+            examples::rendered("caustic", mapper, camera, options).image,
             options.path(factor ? "mesh-caustic.png" : "mesh-caustic-without.png"));
     }
     settings.caustics = {
         .photons = sizes.photons, .seed = options.seed, .threads = options.threads};
     const PhotonMapper mapper(fine, settings);
-    save_png(render(mapper, camera, picture_of(options)).image,
+    save_png(examples::rendered("caustic", mapper, camera, options).image,
              options.path("mesh-caustic-fine.png"));
 }
 
