@@ -198,7 +198,7 @@ void exposures(const examples::Options& options) {
     for (int stops = -4; stops <= 4; stops += 2)
         save_png(seen.image, options.path("exposure" + std::to_string(stops) + ".png"),
                  {.exposure = double(stops)});
-    // What a program writes that forgets the curve.
+    // What a program writes if it forgets the curve.
     Image linear = seen.image;
     for (Rgb& c : linear.pixels)
         for (int k = 0; k < 3; ++k) c[k] = float(ljus::srgb_decode(double(c[k])));

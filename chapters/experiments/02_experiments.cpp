@@ -231,7 +231,7 @@ struct Lamp {
     }
 };
 
-/// One sample of the irradiance at the origin (or over a small patch) by each way.
+/// A sample of the irradiance at the origin, or over a small patch, by one of the ways.
 enum Way { from_lamp, uniform, by_cosine, to_lamp, ways };
 constexpr const char* way_names[] = {"rays from the lamp", "uniform directions",
                                      "cosine-weighted directions",
@@ -327,7 +327,7 @@ constexpr Filter filters[] = {Filter::box, Filter::tent, Filter::gaussian,
                               Filter::mitchell};
 constexpr const char* filter_names[] = {"box", "tent", "Gaussian", "Mitchell"};
 
-/// What a filter passes of a wave with so many cycles per pixel.
+/// How much of a wave a filter passes; the frequency is in cycles per pixel.
 double passed(Filter filter, double frequency) {
     constexpr int steps = 4000;
     double sum = 0;
@@ -410,7 +410,7 @@ void plot_filters(const std::string& folder) {
     save_plot(folder, response);
 }
 
-/// The deviation of pixels of white noise, which has no value twice.
+/// The standard deviation of a pixel whose rays see +1 or -1 by chance.
 double deviation_of_noise(Filter filter, std::uint64_t number) {
     Estimate white;
     auto stream = ljus::random_stream(5, ljus::Pass::user, 0, number);
@@ -434,7 +434,7 @@ double nanoseconds_per_ray(Filter filter, std::uint64_t number) {
     });
 }
 
-/// Table: what passes by the formula and in a picture, noise, and time.
+/// Table: what each filter passes, by the formula and in a picture; noise; and time.
 void table_of_filters(const examples::Options& options, int samples) {
     examples::Table table{.name = "radiance-filter-table",
                           .columns = {"", "passes at 0.25", "passes at 1.5", "measured",

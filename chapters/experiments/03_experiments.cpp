@@ -471,7 +471,7 @@ auto by_density(const Way& way) {
     };
 }
 
-/// That of the cosine density with numbers that are placed, not thrown.
+/// The estimator of the cosine density with strata or Owen's numbers, for add_curve().
 auto by_points(Points points) {
     return [points](int n, int seed, ljus::RandomStream& stream) {
         double sum = 0;

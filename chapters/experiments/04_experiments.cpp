@@ -133,8 +133,8 @@ auto matt_room() {
 }
 using MattRoom = decltype(matt_room());
 
-/// Eq. 1 to its first term, over the area of the lamp: what x' sends to the eye of the
-/// light that reaches it from points x'' of the lamp.
+/// The first bounce of Eq. 1, integrated over the area of the lamp: light from points x''
+/// of the lamp, which x' sends on to the eye.
 // [area form]
 struct AreaForm {
     using Stream = ljus::RandomStream;

@@ -38,7 +38,7 @@ constexpr const char* way_names[] = {
     "fixed 0.01",      "fixed 0.001", "fixed 0.0001",           "fixed 0.00001",
     "256 integer ulp", "bound alone", "ljus::offset_ray_origin"};
 
-/// Steps a float away from 0 or towards it, by so many of its neighbours.
+/// The float that lies `count` floats above x; below it, if the count is negative.
 float step(float x, int count) {
     return std::bit_cast<float>(std::bit_cast<std::int32_t>(x) +
                                 (x < 0 ? -count : count));
@@ -85,8 +85,8 @@ Vec3 offset_ray_origin(Way way, const SurfacePoint& point, const Vec3& direction
 
 // --- The count ------------------------------------------------------------------------
 
-/// How far a point lies above a surface. Three floats multiplied have 72 bits, of which
-/// long double keeps 64: the tests do this with fractions.
+/// How far a point lies above a surface. The product of three floats has 72 bits, and
+/// long double keeps 64 of them; the tests compute it exactly, with fractions.
 long double height(const Sphere& sphere, const Vec3& p) {
     const Long3 way = Long3(p) - Long3(sphere.center);
     const auto r = static_cast<long double>(sphere.radius);
@@ -103,7 +103,7 @@ Point true_normal(const Quad& quad, const Vec3&) {
     return glm::normalize(glm::cross(Point(quad.edge_u), Point(quad.edge_v)));
 }
 
-/// What went wrong with the starts of some rays, each counted once.
+/// What was wrong with the starts of rays; each wrong start is counted once.
 struct Tally {
     long rays = 0, wrong_side = 0, on_surface = 0, through_layer = 0;
     long wrong() const { return wrong_side + on_surface + through_layer; }

@@ -133,8 +133,8 @@ void plot_errors(const std::string& folder, std::size_t count) {
     examples::save_plot(folder, largest);
 }
 
-/// Nanoseconds for one intersection in the loop of a small scene: the nearest of eight
-/// spheres; the best of 21 runs, for whatever else runs only adds.
+/// Nanoseconds for one intersection in the loop of a small scene, which looks for the
+/// nearest of eight spheres. The best of 21 runs: other programs can only add time.
 template <Way way>
 double nanoseconds() {
     Numbers numbers;

@@ -56,9 +56,11 @@ Room glass_room(const MeshData& glass) {
     return World(std::move(room));
 }
 
-/// The photons that a glass mesh sends to the floor, and the share of the flux that met
-/// the glass which they carry. Scattered as radiance, a photon goes the same way, and
-/// has no factor; the n^2 of radiance is left out, too.
+/// The photons that a glass mesh sends to the floor.
+/// \param factor  Whether they are scattered as flux, with the adjoint's factor. Scattered
+///                as radiance they go the same way without it; the n^2 of radiance is
+///                left out, too.
+/// \param share   Becomes their part of the flux that met the glass.
 std::vector<Photon> glass_photons(const Room& room, long long count, bool factor,
                                   std::uint64_t seed, double& share) {
     const LightChoice choice = room.light_choice();

@@ -75,12 +75,12 @@ constexpr auto as_report = [](const auto& d, const auto& n) {
 constexpr auto by_textbook = [](const Vec3& d, const Vec3& n) {
     return d - 2 * glm::dot(d, n) * n;
 };
-/// The report's form, and the length made 1 again.
+/// The report's form, normalised.
 constexpr auto made_unit = [](const Vec3& d, const Vec3& n) {
     return glm::normalize(ljus::reflect(d, n));
 };
 
-/// Unit normals in all directions, the same in each precision but for rounding.
+/// Unit normals in all directions, the same in each precision up to rounding.
 template <typename T>
 std::vector<Vec3T<T>> normals(int count) {
     std::vector<Vec3T<T>> result;
@@ -91,7 +91,7 @@ std::vector<Vec3T<T>> normals(int count) {
     return result;
 }
 
-/// | |R| - 1 | after each of so many reflections.
+/// | |R| - 1 | after each reflection.
 template <typename T, typename Reflect>
 std::vector<double> drift(const std::vector<Vec3T<T>>& mirrors, Reflect reflect) {
     Vec3T<T> d{0, 0, 1};
