@@ -1,18 +1,53 @@
 // smoke: --quality draft
 /// \file chapters/drawings/07_drawings.cpp
-/// \brief Chapter 7: the change of coordinates that the formula of Möller and Trumbore
-/// makes.
+/// \brief Chapter 7: the weights of a point in a triangle, and the change of coordinates
+/// that the formula of Möller and Trumbore makes.
 
 #include <string>
 
 #include "common/command_line.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
+#include "ljus/geometry/triangle.hpp"
 
 namespace {
 
 using examples::Drawing;
 using examples::Point;
 namespace colors = examples::colors;
+
+/// A point, and the parts of the triangle whose areas are its weights.
+void draw_weights(const std::string& folder) {
+    const ljus::Triangle triangle{{0, 0, 0}, {3, -0.2f, 0}, {1.2f, 2.2f, 0}};
+    const ljus::Ray ray{.origin{1.3f, 0.8f, 1}};
+    const auto hit = ljus::intersect(ray, triangle);
+    const Point p = examples::flat(ray.origin);
+    const Point corners[] = {examples::flat(triangle.v1), examples::flat(triangle.v2),
+                             examples::flat(triangle.v3)};
+    const float weights[] = {1 - hit->u - hit->v, hit->u, hit->v};
+    const char* inks[] = {colors::red, colors::green, colors::blue};
+    const Point labels[] = {{0, -0.2}, {3, -0.4}, {1.2, 2.36}};
+    Drawing drawing{.name = "triangle-weights",
+                    .description =
+                        "A triangle with a point P inside. Its corner V1 has "
+                        "the weight of the area of P, V2 and V3",
+                    .low = {-0.7, -0.6},
+                    .high = {3.7, 2.55},
+                    .scale = 90};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Point& a = corners[(i + 1) % 3];
+        const Point& b = corners[(i + 2) % 3];
+        draw_area(drawing, {p, a, b}, inks[i]);
+        draw_area(drawing, {p, a, b}, inks[i]);
+        draw_line(drawing, {a, b});
+        draw_line(drawing, {p, corners[i]}, {inks[i]});
+        draw_label(drawing, {(p.x + a.x + b.x) / 3, (p.y + a.y + b.y) / 3},
+                   examples::text(double(weights[i]), "%.2f"), inks[i]);
+        draw_label(drawing, labels[i], "V_" + std::to_string(i + 1), inks[i]);
+    }
+    draw_dot(drawing, p, 4, "currentColor");
+    draw_label(drawing, {p.x + 0.02, p.y - 0.2}, "P");
+    save_drawing(folder, drawing);
+}
 
 /// The triangle with its ray, and both in the coordinates (t, u, v), where the triangle
 /// is the unit triangle and the ray is upright.
@@ -71,6 +106,7 @@ int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         line.about("Chapter 7, triangles: drawings.");
         const examples::Options options = line.parse({});
+        draw_weights(options.path(""));
         draw_change(options.path(""));
     });
 }

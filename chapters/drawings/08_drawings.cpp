@@ -4,14 +4,16 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include <ljus/accel/bvh.hpp>
+#include <ljus/geometry/shape.hpp>
 #include <ljus/math/random.hpp>
 
 #include "common/command_line.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
 
 namespace {
 
@@ -67,6 +69,58 @@ void draw_slabs(const std::string& folder) {
     draw_label(drawing, {-0.2, 0.2}, "O");
     draw_label(drawing, {4.2, -0.55}, "x-slab", colors::orange);
     draw_label(drawing, {6.4, 1.25}, "y-slab", colors::blue);
+    save_drawing(folder, drawing);
+}
+
+/// A ray in a plane of balls, and the boxes of the nodes that it visits.
+void draw_walk(const std::string& folder) {
+    std::vector<ljus::Sphere> spheres;
+    std::vector<ljus::Box> boxes;
+    ljus::RandomStream stream = ljus::random_stream(5, ljus::Pass::user, 0, 0);
+    for (int i = 0; i < 24; ++i) {
+        const ljus::Vec2 at = 92.0f * ljus::next_2d<float>(stream) + 4.0f;
+        const float radius = 1.2f + 2.4f * ljus::next_1d<float>(stream);
+        spheres.push_back({.center = {at, 0}, .radius = radius});
+        boxes.push_back(ljus::bounds(spheres.back()));
+    }
+    const ljus::Bvh tree(boxes, {.leaf_size = 2, .threads = 1});
+    Drawing drawing{.name = "bvh-walk",
+                    .description = "Balls in boxes in boxes. A ray passes through some "
+                                   "of the boxes, down to the ball that it hits",
+                    .low = {0, 0},
+                    .high = {100, 100},
+                    .scale = 3.6};
+    const auto circle = [&](std::uint32_t i, const examples::Pen& pen) {
+        const auto& [center, radius] = spheres[i];
+        draw_arc(drawing, {center.x, center.y}, radius, 0, 2 * std::numbers::pi, pen);
+    };
+    for (std::uint32_t i = 0; i < spheres.size(); ++i) circle(i, {"currentColor", 1});
+
+    const Vec3 from{2, 20, 0};
+    const ljus::Ray ray{.origin = from,
+                        .direction = glm::normalize(Vec3{96, 90, 0} - from)};
+    ljus::NearestHit nearest;
+    tree.closest(
+        ray,
+        [&](std::uint32_t slot, ljus::Ray& rest) {
+            const std::uint32_t i = tree.primitive_ids()[slot];
+            circle(i, {colors::red, 2.5});
+            if (const auto t = ljus::intersect(rest, spheres[i]))
+                nearest.offer({.t = *t}, i, rest);
+        },
+        [&](std::uint32_t i) {
+            const auto& [low, high] = tree.nodes()[i].box;
+            const std::vector<Point> corners{{low.x, low.y},
+                                             {high.x, low.y},
+                                             {high.x, high.y},
+                                             {low.x, high.y},
+                                             {low.x, low.y}};
+            draw_area(drawing, corners, colors::blue);
+            draw_line(drawing, corners, {colors::blue, 1.5});
+        });
+    circle(nearest.number, {colors::green, 3});
+    const Vec3 hit = point_at(ray, nearest.at.t);
+    draw_arrow(drawing, {from.x, from.y}, {hit.x, hit.y}, {.width = 2});
     save_drawing(folder, drawing);
 }
 
@@ -133,6 +187,7 @@ int main(int argc, char** argv) {
         line.about("Chapter 8, trees of boxes: drawings.");
         const examples::Options options = line.parse({});
         draw_slabs(options.path(""));
+        draw_walk(options.path(""));
         draw_tree(options.path(""));
     });
 }

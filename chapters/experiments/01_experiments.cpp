@@ -1,8 +1,7 @@
-// figures: fig-3 primary_rays
 // smoke: --quality draft --width 24 --height 16 --rays 2 --pixels 8
 /// \file chapters/experiments/01_experiments.cpp
-/// \brief Chapter 1: figure 3, where the rays of a pixel go and what that is worth,
-/// exposure, and fields of view.
+/// \brief Chapter 1: what patterns of rays in a pixel are worth; exposures and fields
+/// of view.
 
 #include <algorithm>
 #include <array>
@@ -16,15 +15,11 @@
 #include <ljus/ljus.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/terminal.hpp"
-#include "drawings/drawing.hpp"
+#include "common/example.hpp"
+#include "experiments/middle_rays.hpp"
 
 namespace {
 
-using examples::Drawing;
-using examples::Point;
 using ljus::Camera;
 using ljus::Image;
 using ljus::Ray;
@@ -36,172 +31,6 @@ using ljus::Vec3;
 constexpr Sampling patterns[] = {Sampling::random, Sampling::jittered,
                                  Sampling::multi_jittered, Sampling::sobol};
 constexpr const char* names[] = {"random", "jittered", "multi-jittered", "Sobol"};
-
-/// A camera with its picture as somebody sees it who stands beside.
-struct Onlooker {
-    Camera eye;
-    int width, height;
-
-    /// Where a point of the scene stands in the drawing.
-    [[nodiscard]] Point operator()(const Vec3& point) const {
-        const Vec2 seen = project(eye, point, width, height).value();
-        return {double(seen.x), height - double(seen.y)};
-    }
-};
-
-/// What figure 3 shows, and from where it is drawn.
-struct Figure3 {
-    static constexpr int columns = 6, rows = 4; ///< Of the camera plane.
-
-    Camera camera = ljus::look_at(
-        {.position{-4.2f, 1.6f, 0}, .target{0.4f, 0.7f, 0}, .vfov_degrees = 30});
-    ljus::Sphere ball{.center{0.3f, 0.75f, 0}, .radius = 0.75f};
-    ljus::Quad floor{.corner{-1.6f, 0, 1.7f}, .edge_u{4, 0, 0}, .edge_v{0, 0, -3.4f}};
-    Onlooker see{ljus::look_at({.position{-5.2f, 4.0f, 8.5f},
-                                .target{-0.75f, 0.65f, 0},
-                                .vfov_degrees = 25}),
-                 720, 380};
-    Drawing drawing{.name = "fig-3",
-                    .description = "Rays from a view point through the pixels of the "
-                                   "camera plane into the scene",
-                    .low{0, 0},
-                    .high{720, 380},
-                    .scale = 1};
-
-    /// A place of the camera plane in pixels, as far away as suits the drawing.
-    [[nodiscard]] Point plane(float x, float y) const {
-        const Ray ray = primary_ray(camera, Vec2{x, y}, columns, rows);
-        return see(point_at(ray, 2.1f / glm::dot(ray.direction, camera.forward)));
-    }
-};
-
-/// The rim of the ball, where lines from the onlooker touch it.
-std::vector<Point> rim_of_ball(const Figure3& figure) {
-    const ljus::Sphere& ball = figure.ball;
-    const Vec3 way = figure.see.eye.position - ball.center;
-    const float near = ball.radius * ball.radius / glm::dot(way, way);
-    const ljus::Frame frame = ljus::frame_around(glm::normalize(way));
-    std::vector<Point> rim;
-    for (int i = 0; i <= 64; ++i) {
-        const float angle = float(i) * std::numbers::pi_v<float> / 32;
-        const Vec3 round{std::cos(angle), std::sin(angle), 0};
-        rim.push_back(
-            figure.see(ball.center + near * way +
-                       ball.radius * std::sqrt(1 - near) * to_world(frame, round)));
-    }
-    return rim;
-}
-
-/// A ray through a place of the camera plane, to what it meets.
-void draw_camera_ray(Figure3& figure, const Vec2& pixel, const examples::Pen& pen) {
-    const ljus::World world(ljus::make_scene(placed(figure.floor, ljus::Lambertian{}),
-                                             placed(figure.ball, ljus::Lambertian{})));
-    const Ray ray = primary_ray(figure.camera, pixel, Figure3::columns, Figure3::rows);
-    const auto hit = closest_hit(world, ray);
-    const Point end = figure.see(point_at(ray, hit ? hit->at.t : 6.5f));
-    draw_line(figure.drawing, {figure.see(figure.camera.position), end}, pen);
-    if (hit) draw_dot(figure.drawing, end, 2.5, pen.color);
-}
-
-/// The camera plane with the lines between its pixels.
-void draw_camera_plane(Figure3& figure) {
-    const float columns = Figure3::columns, rows = Figure3::rows;
-    const examples::Pen pen{.color = examples::colors::blue, .width = 1.2};
-    draw_area(figure.drawing,
-              {figure.plane(0, 0), figure.plane(columns, 0),
-               figure.plane(columns, rows), figure.plane(0, rows)},
-              examples::colors::blue);
-    for (int x = 0; x <= Figure3::columns; ++x)
-        draw_line(figure.drawing,
-                  {figure.plane(float(x), 0), figure.plane(float(x), rows)}, pen);
-    for (int y = 0; y <= Figure3::rows; ++y)
-        draw_line(figure.drawing,
-                  {figure.plane(0, float(y)), figure.plane(columns, float(y))}, pen);
-}
-
-/// One pixel with all of its rays.
-void draw_pixel_with_rays(Figure3& figure) {
-    draw_area(figure.drawing,
-              {figure.plane(2, 1), figure.plane(3, 1), figure.plane(3, 2),
-               figure.plane(2, 2)},
-              examples::colors::red);
-    const auto pattern = make_pattern(Sampling::multi_jittered, 5);
-    for (int i = 0; i < 5; ++i)
-        draw_camera_ray(figure, Vec2{2, 1} + ljus::spread(pattern, i, 3, Vec2{0.5f}),
-                        {.color = examples::colors::red, .width = 1.3});
-}
-
-/// Figure 3: rays from the view point through the pixels of the camera plane into the
-/// scene, all of them made by the library's own camera.
-void draw_figure_3(const std::string& folder) {
-    Figure3 figure;
-    const ljus::Quad& floor = figure.floor;
-    const Vec3 right = floor.corner + floor.edge_u;
-    draw_area(figure.drawing,
-              {figure.see(floor.corner), figure.see(right),
-               figure.see(right + floor.edge_v),
-               figure.see(floor.corner + floor.edge_v)},
-              "currentColor");
-    const std::vector<Point> rim = rim_of_ball(figure);
-    draw_line(figure.drawing, rim);
-    draw_area(figure.drawing, rim, examples::colors::orange);
-    for (int y = 0; y < Figure3::rows; ++y)
-        for (int x = 0; x < Figure3::columns; ++x)
-            draw_camera_ray(figure, {float(x) + 0.5f, float(y) + 0.5f},
-                            {.color = "#80808070", .width = 1});
-    draw_camera_plane(figure);
-    draw_pixel_with_rays(figure);
-    const Point eye = figure.see(figure.camera.position), top = figure.plane(3, 0);
-    draw_dot(figure.drawing, eye, 5, "currentColor");
-    draw_label(figure.drawing, {eye.x + 10, eye.y + 26}, "view point");
-    draw_label(figure.drawing, {top.x, top.y + 40}, "camera plane",
-               examples::colors::blue);
-    draw_label(figure.drawing, {figure.see(right).x - 60, figure.see(right).y + 160},
-               "3D scene");
-    save_drawing(folder, figure.drawing);
-}
-
-/// The four patterns, for 64 rays and for a prime.
-void draw_patterns(const std::string& folder) {
-    Drawing drawing{.name = "patterns",
-                    .description = "Four patterns of 64 and of 61 points",
-                    .low{-0.05, -0.1},
-                    .high{4.55, 2.35},
-                    .scale = 155};
-    for (int row = 0; row < 2; ++row)
-        for (int column = 0; column < 4; ++column) {
-            const int count = row == 0 ? 64 : 61;
-            const Point low{1.15 * column, 1.15 * (1 - row)};
-            const auto at = [&](double x, double y) {
-                return Point{low.x + x, low.y + 1 - y};
-            };
-            const auto pattern = make_pattern(patterns[column], count);
-            const examples::Pen thin{.color = "#80808060", .width = 0.8};
-            const bool cells = column == 1 ? row == 0 : column == 2;
-            const int columns = pattern.strata.columns;
-            // With a broken row the columns are of two widths, and begin anywhere.
-            const bool whole = columns * pattern.strata.rows == count;
-            for (int i = 1; cells && whole && i < columns; ++i)
-                draw_line(drawing,
-                          {at(double(i) / columns, 0), at(double(i) / columns, 1)},
-                          thin);
-            // The rows of a multi-jittered pattern have `columns` points each.
-            for (int i = columns; cells && i < count; i += columns)
-                draw_line(drawing, {at(0, double(i) / count), at(1, double(i) / count)},
-                          thin);
-            draw_line(drawing, {at(0, 0), at(1, 0), at(1, 1), at(0, 1), at(0, 0)},
-                      {.width = 1});
-            auto stream = ljus::random_stream(4, ljus::Pass::user, 0, 0);
-            for (int i = 0; i < count; ++i) {
-                const Vec2 p = ljus::spread(pattern, i, 5, next_2d(stream));
-                draw_dot(drawing, at(double(p.x), double(p.y)), 2.4,
-                         examples::colors::blue);
-            }
-            if (row == 0)
-                draw_label(drawing, {low.x + 0.5, low.y + 1.08}, names[column]);
-        }
-    save_drawing(folder, drawing);
-}
 
 /// A renderer that sees a picture in the plane at distance 1: a disc, and light that
 /// changes smoothly.
@@ -220,6 +49,7 @@ Rgb radiance(const TestCard& card, const Ray& ray, Context&) {
     const Vec3 d = ray.direction / -ray.direction.z;
     return Rgb(float(card.value(double(d.x), double(d.y))));
 }
+
 /// The rms error of pixels that are not all black or all white.
 double error(const TestCard& card, Sampling sampling, int rays, int pixels,
              const Image& truth, int seeds) {
@@ -354,37 +184,21 @@ void tiles(const examples::Options& options) {
         save_png(image, options.path("tiles-" + std::to_string(k) + ".png"));
         std::printf("tiles, 4 rays, %s: rmse %.4f\n", names[k], rmse(image, truth));
     }
-    // The corners of the pixels: what one ray at a fixed place sees.
-    Image aliased = ljus::make_image(options.width, options.height);
-    ljus::Counts counts;
-    ljus::RandomStream none;
-    auto context = ljus::context_of(none, counts);
-    for (int y = 0; y < options.height; ++y)
-        for (int x = 0; x < options.width; ++x)
-            pixel(aliased, x, y) =
-                radiance(Tiles{},
-                         primary_ray(camera, Vec2{float(x) + 0.5f, float(y) + 0.5f},
-                                     options.width, options.height),
-                         context);
-    save_png(aliased, options.path("tiles-one.png"));
+    save_png(examples::by_middle_rays(Tiles{}, camera, options.width, options.height),
+             options.path("tiles-one.png"));
 }
 
 /// One rendering, developed with several exposures, and without the sRGB curve.
 void exposures(const examples::Options& options) {
     const auto room = ljus::cornell_box();
-    examples::ProgressBar bar("exposure", options.quiet);
-    const auto seen = render(ljus::PhotonMapper(room.world), room.camera,
-                             {.width = options.height,
-                              .height = options.height,
-                              .samples = options.samples,
-                              .seed = options.seed,
-                              .threads = options.threads,
-                              .progress = bar});
-    examples::stop_if_asked();
+    auto settings = examples::picture_settings(options);
+    settings.width = options.height; // the room is a square
+    const auto seen = examples::rendered("exposure", ljus::PhotonMapper(room.world),
+                                         room.camera, settings, options);
     for (int stops = -4; stops <= 4; stops += 2)
         save_png(seen.image, options.path("exposure" + std::to_string(stops) + ".png"),
                  {.exposure = double(stops)});
-    // What a program writes that forgets the curve.
+    // What a program writes if it forgets the curve.
     Image linear = seen.image;
     for (Rgb& c : linear.pixels)
         for (int k = 0; k < 3; ++k) c[k] = float(ljus::srgb_decode(double(c[k])));
@@ -422,12 +236,9 @@ void fields_of_view(const examples::Options& options) {
             ljus::look_at({.position{0, 0.06f * distance, 1 + distance},
                            .target{0, 0, 0},
                            .vfov_degrees = angle});
-        const auto seen = render(ljus::PathTracer(world, {.max_depth = 2}), camera,
-                                 {.width = options.width,
-                                  .height = options.height,
-                                  .samples = options.samples,
-                                  .seed = options.seed,
-                                  .threads = options.threads});
+        const auto seen = examples::rendered("field of view",
+                                             ljus::PathTracer(world, {.max_depth = 2}),
+                                             camera, options);
         save_png(seen.image,
                  options.path("fov-" + std::to_string(int(angle)) + ".png"));
     }
@@ -439,14 +250,12 @@ void fields_of_view(const examples::Options& options) {
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         int pixels = 32;
-        line.about("Chapter 1, primary rays: figure 3, patterns, exposure.");
+        line.about("Chapter 1: patterns in a pixel, exposures, and fields of view.");
         line.add("--pixels", pixels, "Side of the test card in pixels", 4, 200);
         const examples::Options options =
             line.parse({.draft{.width = 240, .height = 160, .samples = 9},
                         .report{.width = 600, .height = 400, .samples = 64},
                         .reference{.width = 900, .height = 600, .samples = 1024}});
-        draw_figure_3(options.path(""));
-        draw_patterns(options.path(""));
         plot_errors(options.path(""), pixels, options.pick(1024, 4096, 16384));
         tiles(options);
         exposures(options);

@@ -1,8 +1,7 @@
-// figures: radiance
-// smoke: --quality draft --width 24 --height 24 --rays 4 --shots 20000 --pixels 24
+// smoke: --quality draft --rays 4 --shots 20000 --pixels 24
 /// \file chapters/experiments/02_experiments.cpp
-/// \brief Chapter 2: flux, irradiance and radiance, each counted with rays; and what a
-/// pixel makes of them.
+/// \brief Chapter 2: the experiments behind its tables and plots: flux, irradiance and
+/// radiance, each counted with rays; and what filters make of a pixel.
 
 #include <cmath>
 #include <cstdio>
@@ -16,13 +15,12 @@
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/convergence.hpp"
-#include "drawings/drawing.hpp"
+#include "common/plot.hpp"
+#include "common/terminal.hpp"
+#include "experiments/middle_rays.hpp"
 
 namespace {
 
-using examples::Drawing;
-using examples::Pen;
-using examples::Point;
 using examples::text;
 using ljus::Estimate;
 using ljus::Filter;
@@ -31,7 +29,6 @@ using Vec = ljus::Vec3T<double>;
 using Quad = ljus::QuadT<double>;
 using Sphere = ljus::SphereT<double>;
 using Ray = ljus::RayT<double>;
-namespace colors = examples::colors;
 
 constexpr double pi = std::numbers::pi;
 
@@ -40,218 +37,6 @@ struct Sizes {
     int shots = 0;  ///< Rays for each count.
     int pixels = 0; ///< Side of the rings.
 };
-
-// --- Drawings -------------------------------------------------------------------------
-
-/// A point of space as an onlooker far away sees it who stands above and to the right.
-Point seen(const Vec& p) {
-    const Vec right{0.94, 0, -0.34}, up{-0.12, 0.94, -0.33};
-    return {glm::dot(p, right), glm::dot(p, up)};
-}
-
-/// A direction: an angle in the plane of x and z, and a height, both in radians.
-Vec direction(double azimuth, double height) {
-    return {std::cos(height) * std::cos(azimuth), std::sin(height),
-            -std::cos(height) * std::sin(azimuth)};
-}
-
-/// The unit sphere around the eye, a patch on it, and the larger patch far away that
-/// covers the same directions.
-void draw_solid_angle(const std::string& folder) {
-    Drawing d{.name = "radiance-solid-angle",
-              .description = "A patch A at the distance r, and the patch of the unit "
-                             "sphere that it covers: the solid angle",
-              .low{-1.15, -1.15},
-              .high{3.2, 1.15},
-              .scale = 160};
-    draw_arc(d, {0, 0}, 1, 0, 2 * pi);
-    std::vector<Point> equator;
-    for (int i = 0; i <= 64; ++i) equator.push_back(seen(direction(i * pi / 32, 0)));
-    draw_line(d, equator, {.color = "#80808080", .width = 1});
-    constexpr double a0 = -0.55, a1 = -0.1, h0 = 0.1, h1 = 0.55, far = 3;
-    const auto rim = [&](double radius) {
-        std::vector<Point> line;
-        constexpr int n = 16;
-        const auto add = [&](double a, double h) {
-            line.push_back(seen(radius * direction(a, h)));
-        };
-        for (int i = 0; i < n; ++i) add(a0 + (a1 - a0) * i / n, h0);
-        for (int i = 0; i < n; ++i) add(a1, h0 + (h1 - h0) * i / n);
-        for (int i = 0; i < n; ++i) add(a1 + (a0 - a1) * i / n, h1);
-        for (int i = 0; i <= n; ++i) add(a0, h1 + (h0 - h1) * i / n);
-        return line;
-    };
-    for (const double a : {a0, a1})
-        for (const double h : {h0, h1})
-            draw_line(d, {{0, 0}, seen(far * direction(a, h))},
-                      {.color = "#80808080", .width = 1});
-    draw_area(d, rim(1), colors::orange);
-    draw_line(d, rim(1), {.color = colors::orange, .width = 2});
-    draw_area(d, rim(far), colors::blue);
-    draw_line(d, rim(far), {.color = colors::blue, .width = 2});
-    draw_dot(d, {0, 0}, 4, "currentColor");
-    const Vec middle = direction(-0.325, 0.32);
-    draw_label(d, seen(1.0 * middle), "ω", colors::orange);
-    draw_label(d, seen(far * middle), "A", colors::blue);
-    const Point below = seen(0.5 * far * direction(-0.325, h0));
-    draw_label(d, {below.x + 0.1, below.y - 0.3}, "r");
-    draw_label(d, {-0.4, -0.55}, "radius 1");
-    draw_label(d, {2.3, -0.9}, "ω = A / r²");
-    save_drawing(folder, d);
-}
-
-/// Squares of 1, 4 and 9 cells in the same beam.
-void draw_inverse_square(const std::string& folder) {
-    Drawing d{.name = "radiance-inverse-square",
-              .description = "The rays through one cell at distance 1 fill four cells "
-                             "at distance 2 and nine at distance 3",
-              .low{-0.35, -1.35},
-              .high{3.2, 1.05},
-              .scale = 180};
-    constexpr double half = 0.26;
-    for (const double y : {-half, half})
-        for (const double z : {-half, half})
-            draw_line(d, {{0, 0}, seen(3.0 * Vec{1, y, z})},
-                      {.color = "#80808080", .width = 1});
-    for (int r = 3; r >= 1; --r) {
-        const auto at = [&](double j, double k) {
-            return seen(Vec{double(r), half * (2 * j - r), half * (2 * k - r)});
-        };
-        const Pen pen{.color = r == 1   ? colors::orange
-                               : r == 2 ? colors::blue
-                                        : colors::green,
-                      .width = 1.6};
-        draw_area(d, {at(0, 0), at(r, 0), at(r, r), at(0, r)}, pen.color);
-        for (int j = 0; j <= r; ++j) {
-            draw_line(d, {at(j, 0), at(j, r)}, pen);
-            draw_line(d, {at(0, j), at(r, j)}, pen);
-        }
-        const Point above = at(r, r);
-        draw_label(d, {above.x - 0.1, above.y + 0.16},
-                   "r = " + std::to_string(r) +
-                       (r == 1 ? ": E" : ": E/" + std::to_string(r * r)),
-                   pen.color);
-    }
-    draw_dot(d, {0, 0}, 7, colors::orange);
-    draw_label(d, {-0.1, -0.22}, "lamp");
-    save_drawing(folder, d);
-}
-
-/// The same patch in the same beam, upright and tilted, with the rays that it takes.
-void draw_cosine(const std::string& folder) {
-    Drawing d{.name = "radiance-cosine",
-              .description = "A patch that faces a beam takes eight rays; tilted by 60 "
-                             "degrees it takes four",
-              .low{-0.2, -1.3},
-              .high{7, 1.5},
-              .scale = 100};
-    for (const bool tilted : {false, true}) {
-        const double left = tilted ? 3.9 : 0, theta = tilted ? pi / 3 : 0;
-        const Point center{left + 1.6, 0};
-        const Point along{std::sin(theta), std::cos(theta)}; // of half length 1
-        int taken = 0;
-        for (int i = 0; i < 10; ++i) {
-            const double y = -1.125 + 0.25 * i;
-            const bool hits = std::abs(y) < along.y;
-            taken += hits;
-            const double end = hits ? center.x + y / along.y * along.x : left + 2.9;
-            draw_arrow(d, {left, y}, {end, y},
-                       {.color = hits ? colors::orange : "#80808080", .width = 1.3});
-        }
-        draw_line(d,
-                  {{center.x - along.x, center.y - along.y},
-                   {center.x + along.x, center.y + along.y}},
-                  {.width = 4});
-        const Point normal{center.x - 1.25 * along.y, center.y + 1.25 * along.x};
-        if (tilted) {
-            draw_arrow(d, center, normal, {.color = colors::blue, .width = 2});
-            draw_label(d, {normal.x - 0.02, normal.y + 0.17}, "n", colors::blue);
-            draw_arc(d, center, 0.5, pi - theta, pi,
-                     {.color = colors::blue, .width = 1.5});
-            draw_label(d, {center.x - 0.68, center.y + 0.36}, "θ", colors::blue);
-        }
-        draw_label(d, {left + 1.45, 1.3}, std::to_string(taken) + " rays");
-    }
-    save_drawing(folder, d);
-}
-
-/// Two small patches that send light to each other.
-void draw_beam(const std::string& folder) {
-    Drawing d{.name = "radiance-beam",
-              .description = "A beam between two tilted patches, with their normals, "
-                             "angles and solid angles",
-              .low{-0.4, -0.85},
-              .high{6.6, 1.75},
-              .scale = 100};
-    const Point a{0.5, 0.2}, b{5.5, 0.5};
-    const auto patch = [](const Point& at, double angle, double half) {
-        const Point t{half * std::cos(angle), half * std::sin(angle)};
-        return std::vector<Point>{{at.x - t.x, at.y - t.y}, {at.x + t.x, at.y + t.y}};
-    };
-    const auto pa = patch(a, pi / 2 - 0.5, 0.42);
-    const auto pb = patch(b, pi / 2 + 0.35, 0.5);
-    // What leaves the middle of one for all of the other, and the other way round.
-    draw_area(d, {a, pb[0], pb[1]}, colors::orange);
-    draw_area(d, {b, pa[0], pa[1]}, colors::blue);
-    draw_line(d, {a, b}, {.color = "#808080", .width = 1.2, .dashed = true});
-    draw_line(d, pa, {.color = colors::orange, .width = 4});
-    draw_line(d, pb, {.color = colors::blue, .width = 4});
-    const Point na{a.x + 1.1 * std::cos(-0.5), a.y + 1.1 * std::sin(-0.5)};
-    const Point nb{b.x - 1.1 * std::cos(0.35), b.y - 1.1 * std::sin(0.35)};
-    draw_arrow(d, a, na, {.color = colors::orange});
-    draw_arrow(d, b, nb, {.color = colors::blue});
-    const double line = std::atan2(b.y - a.y, b.x - a.x);
-    draw_arc(d, a, 0.75, -0.5, line, {.color = colors::orange});
-    draw_arc(d, b, 0.75, pi + line, pi + 0.35, {.color = colors::blue});
-    draw_label(d, {a.x + 0.95, a.y - 0.2}, "θ", colors::orange);
-    draw_label(d, {b.x - 0.93, b.y - 0.21}, "θ′", colors::blue);
-    draw_label(d, {pa[1].x - 0.15, pa[1].y + 0.22}, "A", colors::orange);
-    draw_label(d, {pb[1].x + 0.28, pb[1].y + 0.12}, "A′", colors::blue);
-    draw_label(d, {3, 0.15}, "r");
-    draw_label(d, {3, 1.5}, "A cos θ · A′ cos θ′ / r²");
-    save_drawing(folder, d);
-}
-
-/// A pixel, a lens and what both see of the scene.
-void draw_pixel(const std::string& folder) {
-    Drawing d{.name = "radiance-pixel",
-              .description = "The rays of one pixel: from each place of the pixel "
-                             "through each place of the lens to the plane in focus",
-              .low{-1.9, -1.45},
-              .high{5.6, 1.5},
-              .scale = 100};
-    constexpr double film = -1.2, focus = 4.6, half_lens = 0.62;
-    constexpr double pixel_low = -0.32, pixel_high = -0.02;
-    const auto at_focus = [&](double y) { return -y * focus / -film; };
-    for (const double y : {pixel_low, pixel_high})
-        draw_area(d, {{film, y}, {0, half_lens}, {focus, at_focus(y)}, {0, -half_lens}},
-                  y == pixel_low ? colors::blue : colors::orange);
-    for (const double y : {pixel_low, pixel_high})
-        for (const double lens : {-half_lens, 0.0, half_lens})
-            draw_line(d, {{film, y}, {0, lens}, {focus, at_focus(y)}},
-                      {.color = y == pixel_low ? colors::blue : colors::orange,
-                       .width = 1.2});
-    for (int i = -3; i <= 4; ++i)
-        draw_line(d, {{film - 0.07, -0.02 + 0.3 * i}, {film + 0.07, -0.02 + 0.3 * i}});
-    draw_line(d, {{film, -0.95}, {film, 1.2}});
-    draw_line(d, {{film, pixel_low}, {film, pixel_high}},
-              {.color = colors::red, .width = 6});
-    std::vector<Point> lens;
-    for (int i = 0; i <= 48; ++i)
-        lens.push_back(
-            {0.1 * std::cos(i * pi / 24), half_lens * std::sin(i * pi / 24)});
-    draw_line(d, lens, {.width = 2});
-    draw_line(d, {{0, half_lens}, {0, 1.2}}, {.width = 4});
-    draw_line(d, {{0, -half_lens}, {0, -1.2}}, {.width = 4});
-    draw_line(d, {{focus, -1.2}, {focus, 1.4}}, {.color = "#808080", .dashed = true});
-    draw_line(d, {{focus, at_focus(pixel_high)}, {focus, at_focus(pixel_low)}},
-              {.color = colors::red, .width = 6});
-    draw_label(d, {film, -1.2}, "film");
-    draw_label(d, {0, -1.35}, "aperture");
-    draw_label(d, {focus, -1.35}, "in focus");
-    draw_label(d, {film - 0.4, -0.17}, "pixel", colors::red);
-    save_drawing(folder, d);
-}
 
 // --- Counting rays --------------------------------------------------------------------
 
@@ -399,54 +184,6 @@ void near_the_lamp(const std::string& folder) {
 
 // --- Radiance along a ray -------------------------------------------------------------
 
-/// A lamp, a ball of radius 0.6 and radiance 0.9, before a white wall.
-auto wall_and_lamp(float distance) {
-    using Scene = ljus::Scene<ljus::Shapes<ljus::Sphere, ljus::Quad>,
-                              ljus::Materials<ljus::Lambertian>>;
-    Scene scene;
-    const auto white = scene.add(ljus::Lambertian{.albedo = Rgb{0.8f}});
-    const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
-    scene.add(ljus::Quad{{-40, -40, 0}, {80, 0, 0}, {0, 80, 0}}, white);
-    scene.add(ljus::Sphere{.center{0, 0, distance}, .radius = 0.6f}, black, Rgb{0.9f});
-    return ljus::World(std::move(scene));
-}
-
-/// Pictures and a table: a lamp that leaves the wall, as a fixed camera sees both.
-void leave_the_wall(const examples::Options& options) {
-    examples::Table table{.name = "radiance-wall",
-                          .columns = {"lamp to wall (m)", "radiance of the lamp",
-                                      "radiance of the wall behind it", "by formula"}};
-    const auto camera =
-        ljus::look_at({.position{8, 0.6f, 5}, .target{0, 0, 1.4f}, .vfov_degrees = 36});
-    int number = 0;
-    for (const float r : {0.8f, 1.6f, 3.2f}) {
-        const auto world = wall_and_lamp(r);
-        const ljus::PathTracer tracer(world);
-        const auto picture = render(tracer, camera,
-                                    {.width = options.width,
-                                     .height = options.height,
-                                     .samples = options.samples,
-                                     .seed = options.seed,
-                                     .threads = options.threads});
-        save_png(picture.image,
-                 options.path("radiance-wall-" + std::to_string(++number) + ".png"));
-        // Two pixels of one ray's width: at the lamp, and at the wall behind it.
-        const auto one = [&](const ljus::Vec3& target) {
-            const auto eye = ljus::look_at(
-                {.position{8, 0.6f, 5}, .target = target, .vfov_degrees = 0.01f});
-            return render(tracer, eye, {.width = 1, .height = 1, .samples = 65536})
-                .image.pixels[0]
-                .x;
-        };
-        const double sine = 0.6 / double(r);
-        table.rows.push_back({text(double(r)), text(double(one({0, 0, r})), "%.4f"),
-                              text(double(one({0, 0, 0})), "%.4f"),
-                              text(0.8 * 0.9 * sine * sine, "%.4f")});
-        examples::stop_if_asked();
-    }
-    save_table(options.path(""), table);
-}
-
 /// Table: the same lamp from further and further away.
 void step_back(const std::string& folder, int shots) {
     examples::Table table{.name = "radiance-step-back",
@@ -494,7 +231,7 @@ struct Lamp {
     }
 };
 
-/// One sample of the irradiance at the origin (or over a small patch) by each way.
+/// A sample of the irradiance at the origin, or over a small patch, by one of the ways.
 enum Way { from_lamp, uniform, by_cosine, to_lamp, ways };
 constexpr const char* way_names[] = {"rays from the lamp", "uniform directions",
                                      "cosine-weighted directions",
@@ -590,7 +327,7 @@ constexpr Filter filters[] = {Filter::box, Filter::tent, Filter::gaussian,
                               Filter::mitchell};
 constexpr const char* filter_names[] = {"box", "tent", "Gaussian", "Mitchell"};
 
-/// What a filter passes of a wave with so many cycles per pixel.
+/// How much of a wave a filter passes; the frequency is in cycles per pixel.
 double passed(Filter filter, double frequency) {
     constexpr int steps = 4000;
     double sum = 0;
@@ -673,7 +410,7 @@ void plot_filters(const std::string& folder) {
     save_plot(folder, response);
 }
 
-/// The deviation of pixels of white noise, which has no value twice.
+/// The standard deviation of a pixel whose rays see +1 or -1 by chance.
 double deviation_of_noise(Filter filter, std::uint64_t number) {
     Estimate white;
     auto stream = ljus::random_stream(5, ljus::Pass::user, 0, number);
@@ -697,7 +434,7 @@ double nanoseconds_per_ray(Filter filter, std::uint64_t number) {
     });
 }
 
-/// Table: what passes by the formula and in a picture, noise, and time.
+/// Table: what each filter passes, by the formula and in a picture; noise; and time.
 void table_of_filters(const examples::Options& options, int samples) {
     examples::Table table{.name = "radiance-filter-table",
                           .columns = {"", "passes at 0.25", "passes at 1.5", "measured",
@@ -722,18 +459,9 @@ void table_of_filters(const examples::Options& options, int samples) {
 /// each filter.
 void pictures_of_rings(const examples::Options& options, int pixels, int samples) {
     const Card rings{.frequency = 2, .half = pixels / 2.0, .rings = true};
-    auto middles = ljus::make_image(pixels, pixels);
-    const auto camera = ljus::look_at({.vfov_degrees = 90});
-    for (int y = 0; y < pixels; ++y)
-        for (int x = 0; x < pixels; ++x) {
-            ljus::RandomStream none;
-            ljus::Counts counts;
-            auto context = ljus::context_of(none, counts);
-            const auto ray =
-                primary_ray(camera, {float(x) + 0.5f, float(y) + 0.5f}, pixels, pixels);
-            pixel(middles, x, y) = radiance(rings, ray, context);
-        }
-    save_png(middles, options.path("radiance-rings-none.png"));
+    save_png(examples::by_middle_rays(rings, ljus::look_at({.vfov_degrees = 90}),
+                                      pixels, pixels),
+             options.path("radiance-rings-none.png"));
     for (std::size_t i = 0; i < std::size(filters); ++i)
         save_png(picture_of(rings, filters[i], samples, pixels, options),
                  options.path("radiance-rings-" + std::to_string(i + 1) + ".png"));
@@ -752,26 +480,20 @@ void compare_filters(const examples::Options& options, int pixels, int samples) 
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 2, radiance: its laws counted with rays, and filters.");
+        line.about("Chapter 2: the laws of light counted with rays, and filters.");
         line.add("--shots", sizes.shots, "Rays per count", 1000, 2000000000);
         line.add("--pixels", sizes.pixels, "Side of the pictures of rings", 8, 4000);
-        const examples::Options options =
-            line.parse({.draft{.width = 240, .height = 160, .samples = 16},
-                        .report{.width = 480, .height = 320, .samples = 64},
-                        .reference{.width = 480, .height = 320, .samples = 1024}});
+        line.without({"--width", "--height"});
+        const examples::Options options = line.parse({.draft{.samples = 16},
+                                                      .report{.samples = 64},
+                                                      .reference{.samples = 1024}});
         if (!line.given("--shots"))
             sizes.shots = options.pick(400000, 10000000, 100000000);
         if (!line.given("--pixels")) sizes.pixels = options.pick(160, 400, 400);
         const std::string folder = options.path("");
-        draw_solid_angle(folder);
-        draw_inverse_square(folder);
-        draw_cosine(folder);
-        draw_beam(folder);
-        draw_pixel(folder);
         solid_angles(folder, sizes.shots);
         count_on_patches(folder, sizes.shots);
         near_the_lamp(folder);
-        leave_the_wall(options);
         step_back(folder, std::min(sizes.shots, 1000000));
         trade(folder, options.pick(4096, 65536, 262144), options.pick(16, 64, 256));
         compare_filters(options, sizes.pixels, std::min(options.samples, 256));

@@ -1,8 +1,7 @@
-// figures: monte_carlo
 // smoke: --quality draft --width 20 --height 20 --seeds 4 --most 256
 /// \file chapters/experiments/03_experiments.cpp
-/// \brief Chapter 3: integrals as means of random numbers, one idea after the other, on
-/// an integral whose value is known; and how errors are measured.
+/// \brief Chapter 3: the experiments behind its tables and plots: one idea after the
+/// other, on an integral whose value is known; and how errors are measured.
 
 #include <algorithm>
 #include <array>
@@ -22,19 +21,17 @@
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/convergence.hpp"
-#include "drawings/drawing.hpp"
+#include "common/plot.hpp"
+#include "common/terminal.hpp"
 #include "experiments/glass_integral.hpp"
 
 namespace {
 
-using namespace examples::detail; // f, its truth, the ways to draw
-using examples::Drawing;
-using examples::Point;
+using namespace examples::glass; // f, its truth, the ways to draw
 using examples::text;
 using ljus::Estimate;
 using ljus::Image;
 using ljus::Rgb;
-namespace colors = examples::colors;
 
 constexpr double pi = std::numbers::pi;
 
@@ -69,7 +66,6 @@ struct Table {
 };
 
 /// The mean of f/p over n samples.
-// [estimator]
 template <typename Way>
 Estimate integrate(const Way& way, int n, ljus::RandomStream& stream) {
     Estimate result;
@@ -79,7 +75,6 @@ Estimate integrate(const Way& way, int n, ljus::RandomStream& stream) {
     }
     return result;
 }
-// [estimator]
 
 ljus::RandomStream stream_of(int seed, int iteration = 0) {
     return ljus::random_stream(std::uint64_t(seed), ljus::Pass::user,
@@ -100,131 +95,7 @@ double rms_error(Points points, int n, int seeds, double right, Value value) {
     return std::sqrt(squares);
 }
 
-// --- Drawings -------------------------------------------------------------------------
-
-/// The axes of a drawing over [0, 1].
-void draw_axes(Drawing& d, double top, const std::string& x, const std::string& y) {
-    draw_arrow(d, {0, 0}, {1.08, 0});
-    draw_arrow(d, {0, 0}, {0, top});
-    draw_label(d, {1.12, 0}, x);
-    draw_label(d, {-0.04, top - 0.01}, y);
-    draw_label(d, {0, -0.05}, "0");
-    draw_label(d, {1, -0.05}, "1");
-}
-
-/// A curve over [0, 1], stretched by a factor.
-template <typename Curve>
-std::vector<Point> curve_of(Curve curve, double scale) {
-    std::vector<Point> points;
-    for (int i = 0; i <= 200; ++i) {
-        const double x = i / 200.0;
-        points.push_back({x, scale * curve(x)});
-    }
-    return points;
-}
-
-/// The area below f, and the rectangle of the same area that a mean finds.
-void draw_mean(const std::string& folder) {
-    constexpr double scale = 3.2;
-    Drawing d{.name = "monte_carlo-mean",
-              .description = "A curve, its values at eight random places, and their "
-                             "mean as a rectangle of nearly the same area",
-              .low{-0.12, -0.12},
-              .high{1.24, 0.62},
-              .scale = 480};
-    auto line = curve_of(f, scale);
-    draw_line(d, line, {.color = colors::blue, .width = 2.5});
-    auto stream = stream_of(23);
-    Estimate mean;
-    for (int i = 0; i < 8; ++i) {
-        const double c = next_1d<double>(stream);
-        add(mean, f(c));
-        draw_line(d, {{c, 0}, {c, scale * f(c)}}, {.color = colors::orange});
-        draw_dot(d, {c, scale * f(c)}, 4, colors::orange);
-    }
-    const double h = scale * mean.mean;
-    draw_area(d, {{0, 0}, {1, 0}, {1, h}, {0, h}}, colors::orange);
-    draw_line(d, {{0, h}, {1, h}}, {.color = colors::orange, .width = 2});
-    draw_line(d, {{0, scale * truth}, {1, scale * truth}},
-              {.color = colors::blue, .dashed = true});
-    draw_axes(d, 0.58, "c", "f");
-    draw_label(d, {1.11, h - 0.035}, "mean of 8", colors::orange);
-    draw_label(d, {1.06, scale * truth + 0.02}, "I", colors::blue);
-    save_drawing(folder, d);
-}
-
-/// The cumulative curve of the grazing density, read from the side.
-void draw_inversion(const std::string& folder) {
-    Drawing d{.name = "monte_carlo-inversion",
-              .description = "Evenly spaced numbers u on the vertical axis go right to "
-                             "the cumulative curve and down to x, where they crowd "
-                             "below its steep part",
-              .low{-0.14, -0.14},
-              .high{1.24, 1.14},
-              .scale = 360};
-    draw_axes(d, 1.1, "x", "u");
-    const auto cdf = [](double x) { return 1 - std::pow(1 - x, 6); };
-    draw_line(d, curve_of(cdf, 1), {.color = colors::blue, .width = 2.5});
-    for (int i = 0; i < 10; ++i) {
-        const double u = (i + 0.5) / 10, x = Grazing::sample(u);
-        draw_line(d, {{0, u}, {x, u}}, {.color = "#80808090", .width = 1});
-        draw_arrow(d, {x, u}, {x, 0}, {.color = colors::orange, .width = 1.2});
-        draw_dot(d, {0, u}, 3, "currentColor");
-    }
-    draw_line(d, {{0, 1}, {1, 1}}, {.color = "#80808080", .width = 1, .dashed = true});
-    draw_label(d, {0.76, 0.92}, "F", colors::blue);
-    draw_label(d, {-0.05, 1}, "1");
-    save_drawing(folder, d);
-}
-
-/// Random numbers, one in each cell, and Owen's, below each other.
-void draw_strata(const std::string& folder) {
-    Drawing d{.name = "monte_carlo-strata",
-              .description = "16 numbers on a line: random ones in heaps and gaps, one "
-                             "in each of 16 cells, and scrambled Sobol",
-              .low{-0.28, -0.14},
-              .high{1.06, 0.5},
-              .scale = 500};
-    constexpr const char* names[] = {"random", "strata", "Owen"};
-    constexpr const char* pens[] = {colors::blue, colors::orange, colors::green};
-    for (std::size_t row = 0; row < 3; ++row) {
-        const double y = 0.4 - 0.2 * double(row);
-        draw_line(d, {{0, y}, {1, y}});
-        for (int i = 0; i <= 16; ++i)
-            draw_line(d, {{i / 16.0, y - 0.03}, {i / 16.0, y + 0.03}},
-                      {.color = "#80808080", .width = 1});
-        auto stream = stream_of(4);
-        for (int i = 0; i < 16; ++i)
-            draw_dot(d, {number(static_cast<Points>(row), i, 16, 99, stream), y}, 5,
-                     pens[row]);
-        draw_label(d, {-0.14, y}, names[row], pens[row]);
-    }
-    save_drawing(folder, d);
-}
-
 // --- The estimator and its error ------------------------------------------------------
-
-/// Plot: the mean of one run as it goes on, with two standard errors to each side.
-void running_mean(const std::string& folder, int most) {
-    examples::Plot plot{.name = "monte_carlo-running",
-                        .columns = {"samples n", "estimate", "+ 2 standard errors",
-                                    "- 2 standard errors", "I"},
-                        .y_label = "mean of f/p",
-                        .log_x = true,
-                        .more = "set yrange [0.06:0.115]\n"};
-    auto stream = stream_of(3);
-    Estimate mean;
-    double next = 8;
-    for (int n = 1; n <= most; ++n) {
-        add(mean, f(next_1d<double>(stream)));
-        if (n < next) continue;
-        next = n * 1.15;
-        const double error = standard_error(mean);
-        plot.rows.push_back({double(n), mean.mean, mean.mean + 2 * error,
-                             mean.mean - 2 * error, truth});
-    }
-    save_plot(folder, plot);
-}
 
 /// Plots and a table: error against n for smooth values and for values with an edge.
 void error_against_n(const std::string& folder, const Sizes& sizes) {
@@ -600,7 +471,7 @@ auto by_density(const Way& way) {
     };
 }
 
-/// That of the cosine density with numbers that are placed, not thrown.
+/// The estimator of the cosine density with strata or Owen's numbers, for add_curve().
 auto by_points(Points points) {
     return [points](int n, int seed, ljus::RandomStream& stream) {
         double sum = 0;
@@ -732,7 +603,7 @@ int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
         line.about(
-            "Chapter 3, Monte Carlo: means of random numbers, and their errors.");
+            "Chapter 3: densities, strata, roulette, and how errors are measured.");
         line.add("--seeds", sizes.seeds, "Runs behind each error", 2, 100000);
         line.add("--most", sizes.most, "Samples per run, at most", 64, 1 << 24);
         const examples::Options options =
@@ -743,10 +614,6 @@ int main(int argc, char** argv) {
         if (!line.given("--most")) sizes.most = options.pick(4096, 65536, 262144);
         const std::string folder = options.path("");
         const int samples = options.pick(100000, 2000000, 20000000);
-        draw_mean(folder);
-        draw_inversion(folder);
-        draw_strata(folder);
-        running_mean(folder, std::max(sizes.most, 4096));
         error_against_n(folder, sizes);
         coverage(folder, options.pick(1000, 20000, 100000));
         importance(folder, samples);

@@ -1,8 +1,7 @@
-// figures: fig-2 light_transport
 // smoke: --quality draft --width 16 --height 16 --rays 1 --photons 2000 --truth 2
 /// \file chapters/experiments/04_experiments.cpp
-/// \brief Chapter 4: figure 2, the parts of a picture by their paths, Eq. 1 with and
-/// without visibility, and what of an error can be seen.
+/// \brief Chapter 4: the experiments behind its tables and plots: the parts of a picture by
+/// their paths, Eq. 1 with and without visibility, and what of an error can be seen.
 
 #include <algorithm>
 #include <array>
@@ -19,10 +18,7 @@
 #include <ljus/path/light_transport.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/terminal.hpp"
+#include "common/example.hpp"
 
 namespace {
 
@@ -33,21 +29,22 @@ using ljus::PhotonMapper;
 using ljus::Rgb;
 using ljus::Vec3;
 
-/// Renders with a progress bar; Ctrl-C ends the program.
+/// A picture of the options' size with its own number of rays and seed.
 template <typename Renderer>
 Image rendered(const std::string& name, const Renderer& renderer,
                const ljus::Camera& camera, const examples::Options& options, int rays,
                std::uint64_t seed) {
-    examples::ProgressBar bar(name, options.quiet);
-    const auto seen = render(renderer, camera,
-                             {.width = options.width,
-                              .height = options.height,
-                              .samples = rays,
-                              .seed = seed,
-                              .threads = options.threads,
-                              .progress = bar});
-    examples::stop_if_asked();
-    return seen.image;
+    auto settings = examples::picture_settings(options);
+    settings.samples = rays;
+    settings.seed = seed;
+    return examples::rendered(name, renderer, camera, settings, options).image;
+}
+
+/// The same, with rays and seed of the options.
+template <typename Renderer>
+Image rendered(const std::string& name, const Renderer& renderer,
+               const ljus::Camera& camera, const examples::Options& options) {
+    return examples::rendered(name, renderer, camera, options).image;
 }
 
 /// The mean over pixels and channels.
@@ -55,32 +52,6 @@ double mean_radiance(const Image& image) {
     double sum = 0;
     for (const Rgb& c : image.pixels) sum += double(c.x + c.y + c.z) / 3;
     return sum / double(image.pixels.size());
-}
-
-/// Figure 2: direct light beside all of it, and what lies between them.
-void figure_2(const examples::Options& options, long long photons) {
-    const auto room = ljus::cornell_box();
-    const ljus::PhotonMappingSettings settings{
-        .caustics{.photons = photons},
-        .caustics_estimate{.radius = options.pick(0.1f, 0.02f, 0.007f)}};
-    const PhotonMapper mapper(room.world, settings);
-    // [figure 2]
-    const auto picture = [&](const auto& renderer) {
-        return rendered("figure 2", renderer, room.camera, options, options.samples,
-                        options.seed);
-    };
-    const Image all = picture(mapper);
-    const Image direct = picture(OnlyPaths(mapper, "ES*D?L"));
-    Image indirect = all;
-    for (std::size_t i = 0; i < all.pixels.size(); ++i)
-        indirect.pixels[i] -= direct.pixels[i];
-    // [figure 2]
-    save_png(direct, options.path("fig-2-direct.png"));
-    save_png(all, options.path("fig-2-global.png"));
-    save_png(indirect, options.path("fig-2-difference.png"));
-    const double part = mean_radiance(indirect) / mean_radiance(all);
-    std::printf("figure 2: %.0f %% of the light is indirect; FLIP %.3f\n", 100 * part,
-                flip(direct, all));
 }
 
 /// The picture bounce by bounce, and how the light that is left shrinks.
@@ -94,8 +65,8 @@ void bounces(const examples::Options& options) {
     std::string words = "E";
     for (int bounce = 0; bounce <= 10; ++bounce) {
         const std::string paths = words + "L";
-        const Image part = rendered("bounces", OnlyPaths(tracer, paths), room.camera,
-                                    options, options.samples, options.seed);
+        const Image part =
+            rendered("bounces", OnlyPaths(tracer, paths), room.camera, options);
         if (bounce <= 4)
             save_png(part, options.path("bounce-" + std::to_string(bounce) + ".png"),
                      {.exposure = 1});
@@ -125,8 +96,7 @@ void truncations(const examples::Options& options) {
     const auto room = ljus::cornell_box();
     const PathTracer tracer(room.world);
     const auto picture = [&](const char* letters) {
-        return rendered(letters, OnlyPaths(tracer, letters), room.camera, options,
-                        options.samples, options.seed);
+        return rendered(letters, OnlyPaths(tracer, letters), room.camera, options);
     };
     const Image all = picture("E(S|D)*L");
     examples::Table table{
@@ -163,8 +133,8 @@ auto matt_room() {
 }
 using MattRoom = decltype(matt_room());
 
-/// Eq. 1 to its first term, over the area of the lamp: what x' sends to the eye of the
-/// light that reaches it from points x'' of the lamp.
+/// The first bounce of Eq. 1, integrated over the area of the lamp: light from points x''
+/// of the lamp, which x' sends on to the eye.
 // [area form]
 struct AreaForm {
     using Stream = ljus::RandomStream;
@@ -202,8 +172,7 @@ ljus::Camera box_camera() {
 void visibility(const examples::Options& options) {
     const auto room = matt_room();
     for (const bool seen : {true, false})
-        save_png(rendered("visibility", AreaForm{room, seen}, box_camera(), options,
-                          options.samples, options.seed),
+        save_png(rendered("visibility", AreaForm{room, seen}, box_camera(), options),
                  options.path(seen ? "g-visible.png" : "g-report.png"));
 }
 
@@ -223,7 +192,6 @@ void emulate(const examples::Options& options, long long photons, int truth_rays
     const PathTracer tracer(room);
     const Image truth =
         rendered("truth", tracer, camera, options, truth_rays, options.seed + 1000);
-    save_png(truth, options.path("emulate-truth.png"));
     examples::Table table{
         .name = "transport-emulate",
         .columns = {"renderer", "seconds", "relMSE", "blocks", "FLIP", "HDR-FLIP"}};
@@ -273,12 +241,12 @@ void emulate(const examples::Options& options, long long photons, int truth_rays
 
 } // namespace
 
-/// Makes the chapter's figures.
+/// Makes the chapter's tables, plots, and their pictures.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long photons = 0;
         int truth = 0;
-        line.about("Chapter 4, light transport: figure 2, paths by class, and FLIP.");
+        line.about("Chapter 4: pictures by their classes of paths, and FLIP.");
         line.add("--photons", photons, "Of each map; 0: by the quality", 0, 100000000);
         line.add("--truth", truth, "Rays per pixel of the truth; 0: by the quality", 0,
                  1000000);
@@ -286,14 +254,11 @@ int main(int argc, char** argv) {
             line.parse({.draft{.width = 96, .height = 96, .samples = 9},
                         .report{.width = 400, .height = 400, .samples = 64},
                         .reference{.width = 400, .height = 400, .samples = 1024}});
-        const long long seen =
-            photons != 0 ? photons : options.pick(30000LL, 300000LL, 3000000LL);
-        if (photons == 0) photons = options.pick(30000LL, 1000000LL, 10000000LL);
+        if (photons == 0) photons = options.pick(30000LL, 300000LL, 3000000LL);
         if (truth == 0) truth = options.pick(512, 2048, 65536);
-        figure_2(options, photons);
         bounces(options);
         truncations(options);
         visibility(options);
-        emulate(options, seen, truth);
+        emulate(options, photons, truth);
     });
 }

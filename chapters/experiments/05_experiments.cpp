@@ -1,17 +1,14 @@
-// figures: ray
-// smoke: --quality draft --cases 50 --width 24
+// smoke: --quality draft --cases 50
 /// \file chapters/experiments/05_experiments.cpp
-/// \brief Chapter 5: where a ray starts that leaves a surface. A fixed distance is too
-/// long for one scene and too short for the next.
+/// \brief Chapter 5: the experiments behind its plot and table: how often a ray starts on
+/// the wrong side of the surface that it leaves.
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,8 +17,6 @@
 #include "common/plot.hpp"
 #include "experiments/numbers.hpp"
 #include "ljus/geometry/shape.hpp"
-#include "ljus/image/image.hpp"
-#include "ljus/io/png.hpp"
 
 using ljus::Quad;
 using ljus::Ray;
@@ -43,7 +38,7 @@ constexpr const char* way_names[] = {
     "fixed 0.01",      "fixed 0.001", "fixed 0.0001",           "fixed 0.00001",
     "256 integer ulp", "bound alone", "ljus::offset_ray_origin"};
 
-/// Steps a float away from 0 or towards it, by so many of its neighbours.
+/// The float that lies `count` floats above x; below it, if the count is negative.
 float step(float x, int count) {
     return std::bit_cast<float>(std::bit_cast<std::int32_t>(x) +
                                 (x < 0 ? -count : count));
@@ -90,8 +85,8 @@ Vec3 offset_ray_origin(Way way, const SurfacePoint& point, const Vec3& direction
 
 // --- The count ------------------------------------------------------------------------
 
-/// How far a point lies above a surface. Three floats multiplied have 72 bits, of which
-/// long double keeps 64: the tests do this with fractions.
+/// How far a point lies above a surface. The product of three floats has 72 bits, and
+/// long double keeps 64 of them; the tests compute it exactly, with fractions.
 long double height(const Sphere& sphere, const Vec3& p) {
     const Long3 way = Long3(p) - Long3(sphere.center);
     const auto r = static_cast<long double>(sphere.radius);
@@ -108,7 +103,7 @@ Point true_normal(const Quad& quad, const Vec3&) {
     return glm::normalize(glm::cross(Point(quad.edge_u), Point(quad.edge_v)));
 }
 
-/// What went wrong with the starts of some rays, each counted once.
+/// What was wrong with the starts of rays; each wrong start is counted once.
 struct Tally {
     long rays = 0, wrong_side = 0, on_surface = 0, through_layer = 0;
     long wrong() const { return wrong_side + on_surface + through_layer; }
@@ -228,140 +223,22 @@ void compare(const std::string& folder, int cases) {
              share(all[way].through_layer)});
     }
     examples::save_table(folder, table);
-    for (const auto& row : table.rows) {
-        for (const auto& cell : row) std::printf("%-16s ", cell.c_str());
-        std::printf("\n");
-    }
+    examples::print_row(table.columns, 23);
+    examples::print_rows(table, 23);
     std::printf("of %ld starts each\n", all[0].rays);
-}
-
-// --- The picture ----------------------------------------------------------------------
-
-/// A ball on a floor under a lamp, and beside it a lid of 1/800 its width, with an
-/// orange lamp below it; all of it `size` times as large, `offset` sizes away from 0.
-struct Room {
-    Sphere ball;
-    std::array<Quad, 3> quads; ///< Floor, lower and upper face of the lid.
-    Vec3 eye, lamp, low_lamp;
-    float size;
-};
-
-Room make_room(double size, double offset) {
-    const Point place = offset * Point{1, 1, -1};
-    const auto at = [&](double x, double y, double z) {
-        return Vec3(size * (place + Point{x, y, z}));
-    };
-    const auto s = static_cast<float>(size);
-    const auto flat = [&](double x, double y, double z, float w, float d) {
-        return Quad{at(x, y, z), {0, 0, d * s}, {w * s, 0, 0}};
-    };
-    return {.ball = {at(-0.9, 0.5, 0.1), 0.5f * s},
-            .quads = {flat(-4, 0, -5, 8, 9), flat(0, 0.8, -0.7, 1.6f, 1.4f),
-                      flat(0, 0.802, -0.7, 1.6f, 1.4f)},
-            .eye = at(0.2, 2, 4.2),
-            .lamp = at(-2.5, 3, 1.5),
-            .low_lamp = at(0.8, 0.35, 0),
-            .size = s};
-}
-
-/// The first hit of a ray, with its surface.
-struct Found {
-    float t = std::numeric_limits<float>::infinity();
-    SurfacePoint point{};
-    int object = -1;
-};
-
-Found first_hit(const Room& room, Ray ray) {
-    Found found;
-    const auto ask = [&](const auto& shape, int object) {
-        const auto hit = ljus::intersect(ray, shape);
-        if (!hit) return;
-        ray.t_max = found.t = ljus::as_hit(*hit).t;
-        found.point = ljus::surface_point(shape, ray, ljus::as_hit(*hit));
-        found.object = object;
-    };
-    ask(room.ball, 0);
-    for (int i = 0; i < 3; ++i) ask(room.quads[static_cast<std::size_t>(i)], i + 1);
-    return found;
-}
-
-/// Direct light, each lamp by one shadow ray. A fixed start lies so far along the ray,
-/// from the point O + tD, as in the report's program; ours is spawn_ray_to().
-ljus::Rgb shade(const Room& room, const Ray& ray, const Found& found, float fixed) {
-    const ljus::Rgb colors[] = {{0.8f, 0.3f, 0.25f},
-                                {0.7f, 0.7f, 0.7f},
-                                {0.3f, 0.5f, 0.75f},
-                                {0.3f, 0.5f, 0.75f}};
-    const ljus::Rgb color = colors[found.object];
-    ljus::Rgb light{0.04f};
-    const auto add = [&](const Vec3& lamp, const ljus::Rgb& power) {
-        Ray shadow = ljus::spawn_ray_to(found.point, SurfacePoint{.position = lamp});
-        if (fixed > 0) {
-            shadow.origin = ljus::point_at(ray, found.t);
-            const float length = glm::length(lamp - shadow.origin);
-            shadow.direction = (lamp - shadow.origin) / length;
-            shadow.t_min = fixed, shadow.t_max = length;
-        }
-        if (first_hit(room, shadow).object >= 0) return;
-        const Vec3 way = (lamp - found.point.position) / room.size;
-        Vec3 normal = found.point.normal;
-        if (glm::dot(normal, ray.direction) > 0) normal = -normal; // towards the eye
-        const float distance2 = glm::dot(way, way);
-        const float cosine = glm::dot(normal, way) / std::sqrt(distance2);
-        // The lid lets nothing through; what comes from behind has found a way in.
-        light += power * std::abs(cosine) / distance2;
-    };
-    add(room.lamp, ljus::Rgb{9});
-    add(room.low_lamp, 0.35f * ljus::Rgb{1, 0.55f, 0.15f});
-    return color * light;
-}
-ljus::Image picture(int width, double size, float fixed) {
-    constexpr int height_by_3 = 2;
-    const int height = std::max(1, width * height_by_3 / 3);
-    const Room room = make_room(size, 10);
-    const Point eye(room.eye);
-    const Point target = size * (10.0 * Point{1, 1, -1} + Point{0, 0.35, 0});
-    const Point forward = glm::normalize(target - eye);
-    const Point right = glm::normalize(glm::cross(forward, Point{0, 1, 0}));
-    const Point up = glm::cross(right, forward);
-    ljus::Image image = ljus::make_image<float>(width, height);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const double across = 0.9 * ((x + 0.5) / width - 0.5);
-            const double along = 0.9 * (0.5 * height - y - 0.5) / width;
-            const Ray ray{.origin = room.eye,
-                          .direction = Vec3(
-                              glm::normalize(forward + across * right + along * up))};
-            const Found found = first_hit(room, ray);
-            ljus::pixel(image, x, y) = found.object < 0
-                                           ? ljus::Rgb{0.05f, 0.06f, 0.08f}
-                                           : shade(room, ray, found, fixed);
-        }
-    return image;
 }
 
 } // namespace
 
-/// Makes the chapter's figures.
-/// \param argc  Number of arguments.
-/// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// Makes the chapter's plot and table.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         int cases = 0;
-        line.about("Chapter 5, the ray: its figures and its table.");
+        line.about("Chapter 5, the ray: its plot and its table.");
         line.add("--cases", cases, "Objects a size", 1, 100000000);
-        const examples::Options options = line.parse(
-            {.draft{.width = 540}, .report{.width = 540}, .reference{.width = 1080}});
+        line.without({"--width", "--height", "--rays", "--seed", "--threads"});
+        const examples::Options options = line.parse();
         if (!line.given("--cases")) cases = options.pick(10000, 50000, 1000000);
         compare(options.out, cases);
-        for (const auto& [name, scale] :
-             {std::pair{"0.01", 0.01}, std::pair{"0.1", 0.1}, std::pair{"1", 1.0},
-              std::pair{"100", 100.0}, std::pair{"10000", 1e4}}) {
-            ljus::save_png(picture(options.width, scale, 1e-3f),
-                           options.path(std::string("ray-fixed-") + name + ".png"));
-            ljus::save_png(picture(options.width, scale, 0),
-                           options.path(std::string("ray-leave-") + name + ".png"));
-        }
     });
 }

@@ -1,13 +1,11 @@
-// figures: sphere
-// smoke: --quality draft --cases 2000 --width 32
+// smoke: --quality draft --cases 2000
 /// \file chapters/experiments/06_experiments.cpp
-/// \brief Chapter 6: how the printed ray-sphere formula fails, and what a better one
-/// costs.
+/// \brief Chapter 6: the experiments behind its plots and its table: how often the printed
+/// formula fails, and what a better one costs.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
@@ -20,8 +18,6 @@
 #include "common/plot.hpp"
 #include "experiments/numbers.hpp"
 #include "ljus/geometry/sphere.hpp"
-#include "ljus/image/image.hpp"
-#include "ljus/io/png.hpp"
 
 using ljus::Ray;
 using ljus::Sphere;
@@ -40,6 +36,7 @@ Ray random_ray(Numbers& numbers, double distance, double reach) {
     const Point aim = reach * std::sqrt(numbers.next()) * across;
     return {.origin = Vec3(origin), .direction = Vec3(glm::normalize(aim - origin))};
 }
+
 /// The ways to intersect that are compared.
 enum Way { printed, glms, robust, in_double, way_count };
 constexpr const char* way_names[] = {"as printed", "glm", "robust", "robust in double"};
@@ -136,36 +133,8 @@ void plot_errors(const std::string& folder, std::size_t count) {
     examples::save_plot(folder, largest);
 }
 
-/// A picture of the unit sphere through a telescope, from `distance` radii away.
-template <Way way>
-ljus::Image telescope(int size, double distance) {
-    const Point eye = distance * glm::normalize(Point{1, 0.7, 0.8});
-    const Point forward = glm::normalize(-eye);
-    const Point right = glm::normalize(glm::cross(forward, Point{0, 0, 1}));
-    const Point up = glm::cross(right, forward);
-    const Vec3 sun{glm::normalize(Point{1, -0.2, 1.2})};
-
-    ljus::Image image = ljus::make_image<float>(size, size);
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) {
-            const double across = 2.4 * ((x + 0.5) / size - 0.5);
-            const double along = 2.4 * (0.5 - (y + 0.5) / size);
-            const Point aim = across * right + along * up; // in the plane of the centre
-            const Ray ray{.origin = Vec3(eye),
-                          .direction = Vec3(glm::normalize(aim - eye))};
-            const float t = hit<way>(ray, Sphere{});
-            if (std::isnan(t)) {
-                ljus::pixel(image, x, y) = {0.05f, 0.06f, 0.08f};
-                continue;
-            }
-            const Vec3 n = ljus::normal(Sphere{}, ljus::point_at(ray, t));
-            const float light = 0.06f + 0.9f * std::max(0.0f, glm::dot(n, sun));
-            ljus::pixel(image, x, y) = light * ljus::Rgb{0.95f, 0.75f, 0.4f};
-        }
-    return image;
-}
-/// Nanoseconds for one intersection in the loop of a small scene: the nearest of eight
-/// spheres; the best of 21 runs, for whatever else runs only adds.
+/// Nanoseconds for one intersection in the loop of a small scene, which looks for the
+/// nearest of eight spheres. The best of 21 runs: other programs can only add time.
 template <Way way>
 double nanoseconds() {
     Numbers numbers;
@@ -214,34 +183,23 @@ void tabulate_trade(const std::string& folder, std::size_t count) {
         table.rows.push_back(row);
     }
     examples::save_table(folder, table);
-    for (const auto& row : table.rows) {
-        for (const auto& cell : row) std::printf("%-14s ", cell.c_str());
-        std::printf("\n");
-    }
+    examples::print_row(table.columns, 16);
+    examples::print_rows(table, 16);
 }
 
 } // namespace
 
-/// Makes the chapter's figures.
-/// \param argc  Number of arguments.
-/// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// Makes the chapter's plots and table.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long cases = 0;
-        line.about("Chapter 6, the sphere: its figures and its table.");
+        line.about("Chapter 6, the sphere: its plots and its table.");
         line.add("--cases", cases, "Rays a distance", 1, 100000000);
-        const examples::Options options = line.parse(
-            {.draft{.width = 400}, .report{.width = 400}, .reference{.width = 800}});
+        line.without({"--width", "--height", "--rays", "--seed", "--threads"});
+        const examples::Options options = line.parse();
         if (!line.given("--cases")) cases = options.pick(100000, 200000, 5000000);
         const auto rays = static_cast<std::size_t>(cases);
         plot_errors(options.out, rays);
-        for (const int distance : {100, 300, 1000, 3000, 10000})
-            ljus::save_png(
-                telescope<printed>(options.width, distance),
-                options.path("sphere-printed-" + std::to_string(distance) + ".png"));
-        ljus::save_png(telescope<robust>(options.width, 1e4),
-                       options.path("sphere-robust-10000.png"));
         tabulate_trade(options.out, rays);
     });
 }

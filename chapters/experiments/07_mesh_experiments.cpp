@@ -1,17 +1,14 @@
-// figures: mesh
 // smoke: --quality draft --photons 3000 --cuts 2 --width 24 --height 16 --rays 1
 /// \file chapters/experiments/07_mesh_experiments.cpp
-/// \brief Chapter 7: flat and smooth triangles, what smooth normals do to light, and
-/// what a mesh costs.
+/// \brief Chapter 7: the experiments behind its other plot and table: what smooth normals do
+/// to light, and what a mesh costs.
 
 #include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
+#include "common/example.hpp"
 #include "ljus/accel/mesh.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/materials/glass.hpp"
@@ -19,7 +16,6 @@
 #include "ljus/materials/mirror.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
-#include "ljus/render/render.hpp"
 #include "ljus/scenes/mesh_formulas.hpp"
 #ifdef LJUS_HAS_TINYOBJLOADER
 #include "ljus/io/load_obj.hpp"
@@ -38,11 +34,6 @@ struct Sizes {
     int cuts = 0;          ///< Of the finest ball of the tables.
 };
 
-MeshData without_normals(MeshData data) {
-    data.normals.clear();
-    return data;
-}
-
 /// A white floor, and a lamp of 0.6 x 0.6 that shines on it from the left.
 Open floor_and_lamp() {
     Open room;
@@ -55,37 +46,6 @@ Open floor_and_lamp() {
     return room;
 }
 
-RenderSettings picture_of(const examples::Options& options) {
-    return {.width = options.width,
-            .height = options.height,
-            .samples = options.samples,
-            .seed = options.seed,
-            .threads = options.threads};
-}
-
-// --- Flat and smooth ------------------------------------------------------------------
-
-void flat_and_smooth(const examples::Options& options) {
-    const MeshData ball = icosphere(Sphere{.center{-1.1f, 0.8f, 0}, .radius = 0.8f}, 2);
-    const MeshData ring = torus(Vec3{0.9f, 0.35f, 0.1f}, 0.75f, 0.34f, 24, 12);
-    for (const bool smooth_normals : {false, true}) {
-        Open room = floor_and_lamp();
-        const auto black = room.add(Lambertian{.albedo = Rgb{0}});
-        room.add(Quad{.corner{1, 3.5f, 5}, .edge_u{2, 0, 1}, .edge_v{0, 1.5f, -0.5f}},
-                 black, Rgb{2.5f});
-        const auto clay = room.add(Lambertian{.albedo{0.75f, 0.42f, 0.25f}});
-        const auto blue = room.add(Lambertian{.albedo{0.25f, 0.4f, 0.7f}});
-        room.add(Mesh(smooth_normals ? ball : without_normals(ball)), clay);
-        room.add(Mesh(smooth_normals ? ring : without_normals(ring)), blue);
-        const Camera camera = look_at(
-            {.position{0, 2.2f, 5}, .target{0.1f, 0.5f, 0}, .vfov_degrees = 30});
-        const World world(std::move(room));
-        const auto image = render(PathTracer(world), camera, picture_of(options));
-        save_png(image.image,
-                 options.path(smooth_normals ? "mesh-smooth.png" : "mesh-flat.png"));
-    }
-}
-
 // --- The adjoint's factor ---------------------------------------------------------------
 
 const Sphere glass_ball{.center{0, 1.1f, 0}, .radius = 0.8f};
@@ -96,9 +56,11 @@ Room glass_room(const MeshData& glass) {
     return World(std::move(room));
 }
 
-/// The photons that a glass mesh sends to the floor, and the share of the flux that met
-/// the glass which they carry. Scattered as radiance, a photon goes the same way, and
-/// has no factor; the n^2 of radiance is left out, too.
+/// The photons that a glass mesh sends to the floor.
+/// \param factor  Whether they are scattered as flux, with the adjoint's factor. Scattered
+///                as radiance they go the same way without it; the n^2 of radiance is
+///                left out, too.
+/// \param share   Becomes their part of the flux that met the glass.
 std::vector<Photon> glass_photons(const Room& room, long long count, bool factor,
                                   std::uint64_t seed, double& share) {
     const LightChoice choice = room.light_choice();
@@ -154,13 +116,13 @@ void caustic_pictures(const examples::Options& options, const Sizes& sizes) {
         mapper.set_caustics(make_photon_map(
             glass_photons(room, sizes.photons, factor, options.seed, share)));
         save_png(
-            render(mapper, camera, picture_of(options)).image,
+            examples::rendered("caustic", mapper, camera, options).image,
             options.path(factor ? "mesh-caustic.png" : "mesh-caustic-without.png"));
     }
     settings.caustics = {
         .photons = sizes.photons, .seed = options.seed, .threads = options.threads};
     const PhotonMapper mapper(fine, settings);
-    save_png(render(mapper, camera, picture_of(options)).image,
+    save_png(examples::rendered("caustic", mapper, camera, options).image,
              options.path("mesh-caustic-fine.png"));
 }
 
@@ -276,7 +238,7 @@ void costs(const examples::Options& options, const Sizes& sizes) {
 
 void body(examples::CommandLine& line) {
     Sizes sizes;
-    line.about("Flat and smooth meshes, their energy, and their costs.");
+    line.about("Chapter 7, meshes: their caustics, their energy, and their costs.");
     line.add("--photons", sizes.photons, "Aimed at the glass", 100, 100'000'000);
     line.add("--cuts", sizes.cuts, "Of the finest ball: 20 * 4^cuts triangles", 1, 8);
     const examples::Options options =
@@ -286,7 +248,6 @@ void body(examples::CommandLine& line) {
     if (!line.given("--photons"))
         sizes.photons = options.pick(60'000LL, 2'000'000LL, 20'000'000LL);
     if (!line.given("--cuts")) sizes.cuts = options.pick(5, 6, 7);
-    flat_and_smooth(options);
     caustic_pictures(options, sizes);
     energy(options, sizes);
     costs(options, sizes);
@@ -294,7 +255,7 @@ void body(examples::CommandLine& line) {
 
 } // namespace
 
-/// Makes the chapter's pictures.
+/// Makes the pictures of caustics, the plot and the table.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, body);
 }

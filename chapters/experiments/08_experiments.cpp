@@ -1,23 +1,21 @@
-// figures: bvh
-// smoke: --quality draft --width 32 --height 32
+// smoke: --quality draft
 /// \file chapters/experiments/08_experiments.cpp
-/// \brief Chapter 8: from how many triangles on a tree is faster than asking them all,
-/// where its work is done, and what the two trees of the house cost.
+/// \brief Chapter 8: the experiments behind its plot and its first table: from how many
+/// triangles on a tree is faster than asking them all, and what the two trees cost.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/plot.hpp"
-#include "drawings/drawing.hpp"
 #include "ljus/accel/triangle_bvh.hpp"
 #include "ljus/geometry/shape.hpp"
-#include "ljus/image/image.hpp"
-#include "ljus/io/png.hpp"
 #include "ljus/math/random.hpp"
 
 using ljus::NearestHit;
@@ -72,8 +70,7 @@ struct Loop {
     static constexpr const char* name = "loop";
     const Mesh& mesh;
     explicit Loop(const Mesh& of) : mesh(of) {}
-    template <typename Watch = ljus::NoTrace>
-    NearestHit first(Ray ray, Watch&& = {}) const {
+    [[nodiscard]] NearestHit first(Ray ray) const {
         NearestHit nearest;
         for (std::uint32_t i = 0; i < mesh.size(); ++i)
             if (const auto hit = ljus::intersect(ray, mesh[i]))
@@ -83,19 +80,16 @@ struct Loop {
     [[nodiscard]] std::size_t bytes() const { return 0; }
 };
 
-/// By a tree: `tree.closest()` is the same for both; `triangle_at(place)` is where the
+/// By a tree: `tree.closest()` is the same for both; `triangle_at(slot)` is where the
 /// triangles are.
 template <typename Tree>
-NearestHit first_in(const Tree& tree, auto triangle_at, const Ray& ray, auto&& watch) {
+NearestHit first_in(const Tree& tree, auto triangle_at, const Ray& ray) {
     NearestHit nearest;
-    tree.closest(
-        ray,
-        [&](std::uint32_t place, Ray& rest) {
-            const Triangle triangle = triangle_at(place);
-            if (const auto hit = ljus::intersect(rest, triangle))
-                nearest.offer(*hit, tree.primitive_ids()[place], rest);
-        },
-        watch);
+    tree.closest(ray, [&](std::uint32_t slot, Ray& rest) {
+        const Triangle triangle = triangle_at(slot);
+        if (const auto hit = ljus::intersect(rest, triangle))
+            nearest.offer(*hit, tree.primitive_ids()[slot], rest);
+    });
     return nearest;
 }
 
@@ -109,12 +103,11 @@ struct Plain {
         for (const Triangle& triangle : mesh) boxes.push_back(ljus::bounds(triangle));
         tree = ljus::Bvh(boxes, {.threads = 1});
     }
-    template <typename Watch = ljus::NoTrace>
-    NearestHit first(const Ray& ray, Watch&& watch = {}) const {
-        const auto triangle_at = [&](std::uint32_t place) {
-            return mesh[tree.primitive_ids()[place]];
+    [[nodiscard]] NearestHit first(const Ray& ray) const {
+        const auto triangle_at = [&](std::uint32_t slot) {
+            return mesh[tree.primitive_ids()[slot]];
         };
-        return first_in(tree, triangle_at, ray, watch);
+        return first_in(tree, triangle_at, ray);
     }
     [[nodiscard]] std::size_t bytes() const {
         return tree.nodes().capacity() * sizeof(tree.nodes()[0]) +
@@ -130,12 +123,11 @@ struct Wide {
         : tree(
               static_cast<std::uint32_t>(of.size()),
               [&](std::uint32_t i) { return of[i]; }, 1) {}
-    template <typename Watch = ljus::NoTrace>
-    NearestHit first(const Ray& ray, Watch&& watch = {}) const {
-        const auto triangle_at = [&](std::uint32_t place) {
-            return tree.triangle(place);
+    [[nodiscard]] NearestHit first(const Ray& ray) const {
+        const auto triangle_at = [&](std::uint32_t slot) {
+            return tree.triangle(slot);
         };
-        return first_in(tree, triangle_at, ray, watch);
+        return first_in(tree, triangle_at, ray);
     }
     [[nodiscard]] std::size_t bytes() const { return tree.bytes(); }
 };
@@ -216,112 +208,19 @@ void tabulate(const examples::Options& options) {
     examples::save_table(options.out, table);
     if (options.quiet) return;
     std::printf("%zu triangles\n", mesh.size());
-    examples::print_rows(table, 12);
-}
-
-/// Drawing: a ray in a plane of balls, and the boxes of the nodes that it visits.
-void draw_walk(const std::string& folder) {
-    using namespace examples;
-    std::vector<ljus::Sphere> spheres;
-    std::vector<ljus::Box> boxes;
-    ljus::RandomStream stream = ljus::random_stream(5, ljus::Pass::user, 0, 0);
-    for (int i = 0; i < 24; ++i) {
-        const ljus::Vec2 at = 92.0f * ljus::next_2d<float>(stream) + 4.0f;
-        const float radius = 1.2f + 2.4f * ljus::next_1d<float>(stream);
-        spheres.push_back({.center = {at, 0}, .radius = radius});
-        boxes.push_back(ljus::bounds(spheres.back()));
-    }
-    const ljus::Bvh tree(boxes, {.leaf_size = 2, .threads = 1});
-    Drawing figure{.name = "bvh-walk",
-                   .description = "Balls in boxes in boxes. A ray passes through some "
-                                  "of the boxes, down to the ball that it hits",
-                   .low = {0, 0},
-                   .high = {100, 100},
-                   .scale = 3.6};
-    const auto circle = [&](std::uint32_t i, const Pen& pen) {
-        const auto& [center, radius] = spheres[i];
-        draw_arc(figure, {center.x, center.y}, radius, 0, 2 * std::numbers::pi, pen);
-    };
-    for (std::uint32_t i = 0; i < spheres.size(); ++i) circle(i, {"currentColor", 1});
-
-    const Vec3 from{2, 20, 0};
-    const Ray ray{.origin = from, .direction = glm::normalize(Vec3{96, 90, 0} - from)};
-    NearestHit nearest;
-    tree.closest(
-        ray,
-        [&](std::uint32_t slot, Ray& rest) {
-            const std::uint32_t i = tree.primitive_ids()[slot];
-            circle(i, {colors::red, 2.5});
-            if (const auto t = ljus::intersect(rest, spheres[i]))
-                nearest.offer({.t = *t}, i, rest);
-        },
-        [&](std::uint32_t i) {
-            const auto& [low, high] = tree.nodes()[i].box;
-            const std::vector<Point> corners{{low.x, low.y},
-                                             {high.x, low.y},
-                                             {high.x, high.y},
-                                             {low.x, high.y},
-                                             {low.x, low.y}};
-            draw_area(figure, corners, colors::blue);
-            draw_line(figure, corners, {colors::blue, 1.5});
-        });
-    circle(nearest.number, {colors::green, 3});
-    const Vec3 hit = point_at(ray, nearest.at.t);
-    draw_arrow(figure, {from.x, from.y}, {hit.x, hit.y}, {.width = 2});
-    save_drawing(folder, figure);
-}
-
-/// From blue over green and yellow to red.
-ljus::Rgb heat(float x) {
-    const auto ramp = [&](float middle) {
-        return glm::clamp(1.5f - std::abs(4 * x - middle), 0.0f, 1.0f);
-    };
-    return {ramp(3), ramp(2), ramp(1)};
-}
-
-/// A picture: how many nodes the ray of each pixel visits; white is the most.
-void heat_map(const examples::Options& options) {
-    const Mesh mesh = balls(10000);
-    const Plain plain(mesh);
-    const Wide wide(mesh);
-    const auto picture = [&](const auto& way, float most, const char* name) {
-        auto image = ljus::make_image<float>(options.width, options.height);
-        double sum = 0;
-        for (int y = 0; y < options.height; ++y)
-            for (int x = 0; x < options.width; ++x) {
-                const Vec3 to{(float(x) + 0.5f) / float(options.width) * 4.0f - 2.0f,
-                              2.0f - (float(y) + 0.5f) / float(options.height) * 4.0f,
-                              0};
-                const Vec3 eye{0, 0, 5};
-                int nodes = 0;
-                (void)way.first({.origin = eye, .direction = glm::normalize(to - eye)},
-                                [&](std::uint32_t) { ++nodes; });
-                sum += nodes;
-                ljus::pixel(image, x, y) = heat(float(nodes) / most);
-            }
-        ljus::save_png(image, options.path(name));
-        if (!options.quiet)
-            std::printf("%s: %.1f nodes per ray\n", name,
-                        sum / (double(options.width) * options.height));
-    };
-    picture(plain, 60, "bvh-nodes-plain.png");
-    picture(wide, 60, "bvh-nodes-wide.png");
+    examples::print_row(table.columns, 18);
+    examples::print_rows(table, 18);
 }
 
 } // namespace
 
-/// Makes the figures of chapter 8.
+/// Makes the plot and the table.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 8, bounding volumes: its figures and its table.");
-        const examples::Options options =
-            line.parse({.draft{.width = 300, .height = 300, .samples = 1},
-                        .report{.width = 400, .height = 400, .samples = 1},
-                        .reference{.width = 800, .height = 800, .samples = 1}});
-        draw_walk(options.out);
+        line.about("Chapter 8, bounding volumes: its plot and its first table.");
+        line.without({"--width", "--height", "--rays", "--seed", "--threads"});
+        const examples::Options options = line.parse();
         plot_crossover(options);
         tabulate(options);
-        heat_map(options);
-        return 0;
     });
 }

@@ -1,24 +1,23 @@
-// figures: metaballs
-// smoke: --quality draft --width 24 --height 18 --rays 1 --cases 200
+// smoke: --quality draft --cases 200
 /// \file chapters/experiments/09_experiments.cpp
-/// \brief Chapter 9: metaballs that merge, and four solvers for the same rays.
+/// \brief Chapter 9: the experiments behind its plots and its table: four solvers for the
+/// same rays.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <ljus/ljus.hpp>
+#include <ljus/geometry/metaballs.hpp>
+#include <ljus/geometry/shape.hpp>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/plot.hpp"
-#include "common/terminal.hpp"
 #include "experiments/numbers.hpp"
 
 namespace {
@@ -27,57 +26,6 @@ using Balls = ljus::MetaballsT<double>;
 using Ray = ljus::RayT<double>;
 using Point = ljus::Vec3T<double>;
 using examples::Numbers;
-
-// --- Pictures ---------------------------------------------------------------------
-
-/// Two blobs of this distance, one of glass beside them, in a lit corner.
-// [scene]
-auto merging(float distance, bool with_glass) {
-    using namespace ljus;
-    Scene<Shapes<Metaballs, Quad, Sphere>, Materials<Lambertian, Glass>> scene;
-    const auto amber = scene.add(Lambertian{.albedo{0.9f, 0.55f, 0.15f}});
-    const auto grey = scene.add(Lambertian{.albedo = Rgb{0.7f}});
-    const auto glass = scene.add(Glass{});
-    const float half = distance / 2;
-    scene.add(Metaballs{.blobs{{.center{-half, 0, -4}}, {.center{half, 0, -4}}}},
-              amber);
-    if (with_glass)
-        scene.add(Metaballs{.blobs{{.center{-0.7f, -0.35f, -2.5f}, .radius = 0.75f},
-                                   {.center{0, -0.15f, -2.6f}, .radius = 0.7f},
-                                   {.center{0.6f, -0.4f, -2.4f}, .radius = 0.7f}}},
-                  glass);
-    scene.add(Quad{.corner{-9, -0.9f, 3}, .edge_u{18, 0, 0}, .edge_v{0, 0, -12}}, grey);
-    scene.add(Quad{.corner{-9, -0.9f, -7}, .edge_u{18, 0, 0}, .edge_v{0, 12, 0}}, grey);
-    scene.add(Sphere{.center{-2.5f, 4.5f, -1.5f}, .radius = 0.4f}, grey, Rgb{90});
-    return World(std::move(scene));
-}
-// [scene]
-
-ljus::Camera camera(float degrees) {
-    return look_at(ljus::View{
-        .position{0, 0.9f, 1}, .target{0, -0.2f, -3.6f}, .vfov_degrees = degrees});
-}
-
-/// The strip: one picture a distance, by path tracing; and one with glass, by photons.
-void pictures(const examples::Options& options) {
-    const ljus::RenderSettings picture{options.width, options.height, options.samples,
-                                       options.seed, options.threads};
-    for (const int hundredths : {200, 170, 145, 120, 80}) {
-        const auto world = merging(float(hundredths) / 100, false);
-        const ljus::PathTracer tracer(world);
-        save_png(render(tracer, camera(30), picture).image,
-                 options.path("metaballs-" + std::to_string(hundredths) + ".png"));
-        examples::stop_if_asked();
-    }
-    ljus::PhotonMappingSettings settings;
-    settings.caustics.photons = options.pick(100000ll, 300000ll, 3000000ll);
-    settings.caustics.seed = options.seed;
-    const auto world = merging(1.2f, true);
-    const ljus::PhotonMapper mapper(world, settings);
-    save_png(render(mapper, camera(38), picture).image,
-             options.path("metaballs-glass.png"));
-    examples::stop_if_asked();
-}
 
 // --- The solvers ------------------------------------------------------------------
 
@@ -139,6 +87,7 @@ Case graze(Numbers& n, double depth) {
     result.ray = {.origin = side * (r * (1 + in)) - 3.0 * way, .direction = way};
     return result;
 }
+
 /// The truth: the same in long double.
 double truth(const Case& c) {
     using Long = long double;
@@ -273,30 +222,24 @@ void tabulate(const examples::Options& options, int count) {
              examples::text(time_graze[w], "%.0f"), percent(in_graze[w].wrong)});
     save_table(options.path(""), table);
     if (options.quiet) return;
-    for (const auto& row : table.rows) {
-        for (const auto& cell : row) std::printf("%-19s", cell.c_str());
-        std::printf("\n");
-    }
+    examples::print_row(table.columns, 20);
+    examples::print_rows(table, 20);
 }
 
 } // namespace
 
-/// Makes the figures of chapter 9.
+/// Makes the plots and the table.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 9: metaballs, and four solvers for the same rays.");
+        line.about("Chapter 9: four solvers for the same rays at metaballs.");
         int cases = 0;
         line.add("--cases", cases, "Rays a family; 0: as the quality says", 0,
                  10000000);
-        const examples::Options options =
-            line.parse({.draft{.width = 320, .height = 200, .samples = 12},
-                        .report{.width = 480, .height = 300, .samples = 256},
-                        .reference{.width = 960, .height = 600, .samples = 1024}});
+        line.without({"--width", "--height", "--rays", "--seed", "--threads"});
+        const examples::Options options = line.parse();
         if (cases == 0) cases = options.pick(3000, 40000, 400000);
-        pictures(options);
         plot_grazing(options, cases);
         plot_time(options, cases);
         tabulate(options, cases);
-        return 0;
     });
 }

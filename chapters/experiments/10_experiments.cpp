@@ -1,8 +1,7 @@
-// figures: fig-9 reflection
-// smoke: --quality draft --width 24 --height 24 --rays 1 --bounces 100
+// smoke: --quality draft --bounces 100
 /// \file chapters/experiments/10_experiments.cpp
-/// \brief Chapter 10: figure 9, a hall of mirrors, and what rounding does to a ray that
-/// is reflected for ever.
+/// \brief Chapter 10: the experiments behind its plots and its table: light between two
+/// mirrors, and what rounding does to a ray that is reflected for ever.
 
 #include <algorithm>
 #include <cmath>
@@ -14,55 +13,15 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
-#include "common/rendered.hpp"
-#include "drawings/drawing.hpp"
+#include "common/plot.hpp"
 
 namespace {
 
-using examples::Point;
 using ljus::Quad;
 using ljus::Rgb;
 using ljus::Vec3;
 using ljus::Vec3T;
 
-/// A vector of the plane of the drawing, seen from a point.
-Point from(const Point& origin, const Vec3& v) {
-    return {origin.x + double(v.x), origin.y + double(v.y)};
-}
-
-/// Figure 9: D, I and R, as reflect() has them.
-void draw_figure_9(const std::string& folder) {
-    const Vec3 normal{0, 1, 0};
-    const Vec3 d = 1.7f * glm::normalize(Vec3{1.0f, -0.75f, 0});
-    const Vec3 along = d - glm::dot(d, normal) * normal;
-    const Vec3 r = ljus::reflect(d, normal);
-
-    examples::Drawing figure{.name = "fig-9",
-                             .description = "A ray D that a mirror reflects along R",
-                             .low{-1.7, -0.5},
-                             .high{3.1, 1.3}};
-    const Point hit{};
-    const Point start = from(hit, -d);
-    const Point end = from(hit, r);
-    draw_area(figure, {{-1.7, 0}, {3.1, 0}, {3.1, -0.5}, {-1.7, -0.5}}, "currentColor");
-    draw_line(figure, {{-1.7, 0}, {3.1, 0}});
-    draw_arrow(figure, start, hit, {examples::colors::blue, 2.5});
-    draw_arrow(figure, hit, end, {examples::colors::orange, 2.5});
-    draw_arrow(figure, hit, from(hit, normal), {.width = 2});
-    draw_arrow(figure, {0, -0.16}, {double(along.x), -0.16},
-               {examples::colors::green, 2});
-    draw_arrow(figure, {double(along.x), -0.16}, {2 * double(along.x), -0.16},
-               {examples::colors::green, 2});
-    // R = 2I - D, head to tail.
-    draw_line(figure, {end, from(end, d)}, {examples::colors::blue, 1.5, true});
-    draw_label(figure, {start.x + 0.45, start.y - 0.1}, "D", examples::colors::blue);
-    draw_label(figure, {end.x - 0.3, end.y + 0.05}, "R", examples::colors::orange);
-    draw_label(figure, {end.x + 0.95, end.y - 0.45}, "D", examples::colors::blue);
-    draw_label(figure, {-0.15, 0.85}, "N");
-    draw_label(figure, {double(along.x) / 2, -0.34}, "I", examples::colors::green);
-    draw_label(figure, {1.5 * double(along.x), -0.34}, "I", examples::colors::green);
-    save_drawing(folder, figure);
-}
 /// Two facing mirrors, `width` apart, under a lamp that spans all of the gap.
 auto corridor(const Rgb& reflectance, float width, float height) {
     const ljus::Mirror mirror{.reflectance = reflectance};
@@ -74,6 +33,7 @@ auto corridor(const Rgb& reflectance, float width, float height) {
         placed(Quad{{0, height, -depth}, {width, 0, 0}, {0, 0, 2 * depth}},
                ljus::Lambertian{.albedo = Rgb{0}}, Rgb{1})));
 }
+
 /// Plot: the lamp after n reflections, traced, beside R to the power of n.
 void plot_powers(const std::string& folder) {
     constexpr float width = 1, height = 1;
@@ -107,32 +67,6 @@ void plot_powers(const std::string& folder) {
     std::printf("reflection-powers: largest error of R^n, n <= 30: %.1e\n", worst);
 }
 
-/// A hall of mirrors: a ball between two of them.
-void hall(const examples::Options& options) {
-    const ljus::Mirror mirror{.reflectance{0.86f, 0.95f, 0.9f}};
-    const ljus::Lambertian grey{.albedo = Rgb{0.6f}};
-    const ljus::World world(ljus::make_scene(
-        placed(Quad{{-2, 0, -3}, {4, 0, 0}, {0, 2.6f, 0}}, mirror),
-        placed(Quad{{-2, 0, 3}, {0, 2.6f, 0}, {4, 0, 0}}, mirror),
-        placed(Quad{{-2, 0, 3}, {4, 0, 0}, {0, 0, -6}}, grey),
-        placed(Quad{{-2, 2.6f, -3}, {4, 0, 0}, {0, 0, 6}}, grey),
-        placed(Quad{{-2, 0, 3}, {0, 0, -6}, {0, 2.6f, 0}},
-               ljus::Lambertian{.albedo{0.7f, 0.35f, 0.2f}}),
-        placed(Quad{{2, 0, 3}, {0, 2.6f, 0}, {0, 0, -6}},
-               ljus::Lambertian{.albedo{0.25f, 0.4f, 0.7f}}),
-        placed(ljus::Sphere{.center{0.5f, 0.5f, -1}, .radius = 0.5f},
-               ljus::Lambertian{.albedo{0.8f, 0.75f, 0.3f}}),
-        placed(Quad{{-0.5f, 2.59f, -0.8f}, {1, 0, 0}, {0, 0, 1.6f}}, grey, Rgb{9})));
-    const auto camera = ljus::look_at(
-        {.position{-1.1f, 1.35f, 2.6f}, .target{0.35f, 1.05f, -3}, .vfov_degrees = 50});
-    const ljus::PhotonMappingSettings settings{
-        .caustics{.photons = options.pick(200000, 1000000, 10000000)},
-        .caustics_estimate{.radius = options.pick(0.15f, 0.1f, 0.05f)}};
-    const ljus::PhotonMapper mapper(world, settings);
-    const auto picture = examples::rendered("reflection-hall", mapper, camera, options);
-    save_png(picture.image, options.path("reflection-hall.png"));
-}
-
 /// The report's form.
 constexpr auto as_report = [](const auto& d, const auto& n) {
     return ljus::reflect(d, n);
@@ -141,12 +75,12 @@ constexpr auto as_report = [](const auto& d, const auto& n) {
 constexpr auto by_textbook = [](const Vec3& d, const Vec3& n) {
     return d - 2 * glm::dot(d, n) * n;
 };
-/// The report's form, and the length made 1 again.
+/// The report's form, normalised.
 constexpr auto made_unit = [](const Vec3& d, const Vec3& n) {
     return glm::normalize(ljus::reflect(d, n));
 };
 
-/// Unit normals in all directions, the same in each precision but for rounding.
+/// Unit normals in all directions, the same in each precision up to rounding.
 template <typename T>
 std::vector<Vec3T<T>> normals(int count) {
     std::vector<Vec3T<T>> result;
@@ -157,7 +91,7 @@ std::vector<Vec3T<T>> normals(int count) {
     return result;
 }
 
-/// | |R| - 1 | after each of so many reflections.
+/// | |R| - 1 | after each reflection.
 template <typename T, typename Reflect>
 std::vector<double> drift(const std::vector<Vec3T<T>>& mirrors, Reflect reflect) {
     Vec3T<T> d{0, 0, 1};
@@ -237,21 +171,17 @@ void tabulate_trade(const std::string& folder) {
 
 } // namespace
 
-/// Makes the chapter's figures.
+/// Makes the plots and the table.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         int bounces = 100000;
-        line.about("Chapter 10, reflection: figure 9 and a hall of mirrors.");
+        line.about("Chapter 10, reflection: many mirrors, and rounding.");
         line.add("--bounces", bounces, "Reflections of the ray in the drift plot", 1,
                  100000000);
-        const examples::Options options =
-            line.parse({.draft{.width = 300, .height = 200, .samples = 16},
-                        .report{.width = 600, .height = 400, .samples = 64},
-                        .reference{.width = 900, .height = 600, .samples = 4096}});
-        draw_figure_9(options.path(""));
+        line.without({"--width", "--height", "--rays", "--seed", "--threads"});
+        const examples::Options options = line.parse();
         plot_powers(options.path(""));
         plot_drift(options.path(""), bounces);
         tabulate_trade(options.path(""));
-        hall(options);
     });
 }

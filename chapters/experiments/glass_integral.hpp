@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file chapters/experiments/glass_integral.hpp
-/// \brief The small integral of chapter 3, and where its random numbers come from.
+/// \brief The small integral of chapter 3, as examples/03_monte_carlo.cpp has it, and
+/// where its random numbers come from.
 
 #include <cmath>
 #include <cstdint>
@@ -10,21 +11,18 @@
 #include "ljus/math/random.hpp"
 #include "ljus/optics/schlick.hpp"
 
-namespace examples::detail {
+namespace examples::glass {
 
 constexpr double r0 = ljus::schlick_r0(1.0, 1.5); ///< Of glass: 0.04.
 constexpr double truth = r0 + (1 - r0) / 21;      ///< The integral of f.
 
 /// What glass under an even sky reflects: the share R of the light from the cosine c,
 /// times how much light comes from there.
-// [integrand]
 inline double f(double c) {
     return 2 * c * ljus::schlick(r0, c);
 }
-// [integrand]
 
 /// Ways to draw a cosine from a number u of [0, 1), each with its density.
-// [ways]
 struct Uniform {
     static double sample(double u) { return u; }
     static double pdf(double) { return 1; }
@@ -37,7 +35,6 @@ struct Grazing {
     static double sample(double u) { return 1 - std::pow(1 - u, 1.0 / 6); }
     static double pdf(double c) { return 6 * std::pow(1 - c, 5); }
 };
-// [ways]
 
 /// Where the numbers of a run come from.
 enum class Points { random, strata, owen };
@@ -55,4 +52,4 @@ inline double number(Points points, int i, int n, std::uint64_t seed,
 }
 // [where numbers come from]
 
-} // namespace examples::detail
+} // namespace examples::glass

@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace examples::detail; // f, its truth, the ways to draw
+using namespace examples::glass; // f, its truth, the ways to draw
 
 constexpr int most_runs = 64;
 std::array<double, 2 * most_runs> results; // mean and standard error of each run
