@@ -19,9 +19,9 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
+#include "common/drawing.hpp"
 #include "common/signals.hpp"
 #include "drawings/dimension.hpp"
-#include "drawings/drawing.hpp"
 
 namespace {
 
