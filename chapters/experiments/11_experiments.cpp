@@ -1,8 +1,7 @@
-// figures: fig-10 refraction
 // smoke: --quality draft --width 24 --height 16 --rays 1 --calls 1000
 /// \file chapters/experiments/11_experiments.cpp
-/// \brief Chapter 11: figure 10, rays through a ball of glass, and how well Snell's law
-/// is kept.
+/// \brief Chapter 11: the experiments behind its table, plots and pictures: rays through
+/// a ball of glass, how well Snell's law is kept, and two mistakes.
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +13,8 @@
 
 #include <ljus/ljus.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/rendered.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
+#include "common/example.hpp"
 
 namespace {
 
@@ -29,46 +26,6 @@ using ljus::Triangle;
 using ljus::Vec3;
 using ljus::Vec3T;
 
-/// A vector of the plane of the drawing, seen from a point.
-Point from(const Point& origin, const Vec3T<double>& v) {
-    return {origin.x + v.x, origin.y + v.y};
-}
-
-/// Figure 10: D, R_1 and the two angles, as refract() has them.
-void draw_figure_10(const std::string& folder) {
-    const double n1 = 1, n2 = 1.5;
-    const Vec3T<double> normal{0, 1, 0};
-    const Vec3T<double> d = glm::normalize(Vec3T<double>{1, -0.9, 0});
-    const Vec3T<double> r = *ljus::refract(d, normal, n1 / n2);
-
-    examples::Drawing figure{.name = "fig-10",
-                             .description = "A ray D that glass refracts along R1",
-                             .low{-2.2, -1.6},
-                             .high{2.2, 1.5}};
-    const Point hit{};
-    const double length = 1.6;
-    draw_area(figure, {{-2.2, 0}, {2.2, 0}, {2.2, -1.6}, {-2.2, -1.6}},
-              examples::colors::blue);
-    draw_line(figure, {{-2.2, 0}, {2.2, 0}});
-    draw_arrow(figure, from(hit, -length * d), hit, {examples::colors::blue, 2.5});
-    draw_arrow(figure, hit, from(hit, length * r), {examples::colors::orange, 2.5});
-    draw_arrow(figure, hit, {0, 1.2}, {.width = 2});
-    draw_arrow(figure, hit, {0, -1.2}, {.width = 2});
-
-    // The angles between -D and N_1, and between R_1 and N_2.
-    const double half_pi = std::numbers::pi / 2;
-    draw_arc(figure, hit, 0.5, half_pi, std::atan2(-d.y, -d.x));
-    draw_arc(figure, hit, 0.5, -half_pi, std::atan2(r.y, r.x));
-    draw_label(figure, {-0.27, 0.62}, "θ_1");
-    draw_label(figure, {0.2, -0.66}, "θ_2");
-    draw_label(figure, {-1.35, 0.85}, "D", examples::colors::blue);
-    draw_label(figure, {0.95, -1.1}, "R_1", examples::colors::orange);
-    draw_label(figure, {0.2, 1.15}, "N_1");
-    draw_label(figure, {-0.2, -1.15}, "N_2");
-    draw_label(figure, {1.7, 0.25}, "n_1 = 1");
-    draw_label(figure, {1.65, -0.25}, "n_2 = 1.5");
-    save_drawing(folder, figure);
-}
 /// The way of a ray through a ball of index n: where it goes in, where out, and where
 /// it is after a length of 4.
 std::vector<Point> way_through_ball(double height, double n) {
@@ -291,18 +248,18 @@ void tabulate_trade(const std::string& folder, int calls) {
 
 } // namespace
 
-/// Makes the chapter's figures.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         int calls = 100000;
-        line.about("Chapter 11, refraction: figure 10, a ball of glass, Snell's law.");
+        line.about(
+            "Chapter 11, refraction: a ball of glass, Snell's law, two mistakes.");
         line.add("--calls", calls, "Rays for each error of the plot", 3, 10000000);
         const examples::Options options =
             line.parse({.draft{.width = 270, .height = 180, .samples = 32},
                         .report{.width = 600, .height = 400, .samples = 64},
                         .reference{.width = 900, .height = 600, .samples = 4096}});
         const std::string folder = options.path("");
-        draw_figure_10(folder);
         draw_ball(folder);
         plot_errors(folder, calls);
         tabulate_trade(folder, calls);
