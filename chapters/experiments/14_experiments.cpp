@@ -1,8 +1,7 @@
-// figures: fig-14 oren_nayar
 // smoke: --quality draft --width 24 --height 24 --rays 1
 /// \file chapters/experiments/14_experiments.cpp
-/// \brief Chapter 14: figure 14 with roughnesses that mean something, six models, and
-/// what they return of a white sky.
+/// \brief Chapter 14: the experiments behind its tables and plots: six models of rough
+/// surfaces, and what they return of a white sky.
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +13,8 @@
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/rendered.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
+#include "common/example.hpp"
 
 namespace {
 
@@ -37,29 +33,23 @@ ljus::RoughDiffuseT<T> rough(RoughModel model, T albedo, T sigma) {
 /// A ball of one material, lit from behind the camera by a lamp and by nothing else.
 template <typename Material>
 Image ball(const examples::Options& options, const std::string& name,
-           const Material& material, bool save = true) {
+           const Material& material) {
     const ljus::World world(
         ljus::make_scene(placed(Sphere{.center{0, 0, 0}, .radius = 1}, material),
                          placed(Sphere{.center{-4, 5, 9}, .radius = 1.2f},
                                 ljus::Lambertian{.albedo = Rgb{0}}, Rgb{60})));
     const auto camera =
         ljus::look_at({.position{0, 0, 6}, .target{0, 0, 0}, .vfov_degrees = 21});
-    const auto result = examples::rendered(
-        name, ljus::PathTracer(world, {.max_depth = 1}), camera, options);
-    if (save) save_png(result.image, options.path(name + ".png"));
-    return result.image;
+    const ljus::PathTracer tracer(world, {.max_depth = 1});
+    return examples::rendered(name, tracer, camera, options).image;
 }
 
-/// Figure 14: the report's roughnesses by its formula, and legal ones by EON.
-void figure_14(const examples::Options& options) {
+/// Table: how little the pictures of figure 14 change with the report's roughnesses.
+void tabulate_saturation(const examples::Options& options) {
     std::vector<Image> report;
-    for (const int sigma : {0, 1, 10, 100})
+    for (const float sigma : {0.0f, 1.0f, 10.0f, 100.0f})
         report.push_back(
-            ball(options, "fig-14-report-" + std::to_string(sigma),
-                 rough(RoughModel::as_printed, 0.8f, static_cast<float>(sigma))));
-    for (const int percent : {0, 20, 40, 70, 100})
-        ball(options, "fig-14-" + std::to_string(percent),
-             ljus::Eon{.albedo = Rgb{0.8f}, .roughness = 0.01f * float(percent)});
+            ball(options, "figure 14", rough(RoughModel::as_printed, 0.8f, sigma)));
 
     examples::Table table{.name = "fig-14-saturation",
                           .columns = {"roughness", "A", "B",
@@ -295,7 +285,7 @@ void tabulate_trade(const examples::Options& options, int size) {
     constexpr float sigma = 0.7f;
     const Rgb grey{0.8f};
     const Image truth = ball(options, "eon for the table",
-                             ljus::Eon{.albedo = grey, .roughness = sigma}, false);
+                             ljus::Eon{.albedo = grey, .roughness = sigma});
     examples::Table table{.name = "oren_nayar-trade",
                           .columns = {"model", "ns", "least and most of a white sky",
                                       "relMSE to EON", "variance at 75°"},
@@ -307,7 +297,7 @@ void tabulate_trade(const examples::Options& options, int size) {
             least = std::min(least, share);
             most = std::max(most, share);
         }
-        const Image image = ball(options, name, material, false);
+        const Image image = ball(options, name, material);
         table.rows.push_back(
             {name, examples::text(nanoseconds(material), "%.1f"),
              examples::text(least, "%.3f") + " to " + examples::text(most, "%.3f"),
@@ -332,10 +322,10 @@ void tabulate_trade(const examples::Options& options, int size) {
 
 } // namespace
 
-/// Makes the chapter's figures.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 14, rough surfaces: figure 14 and six models.");
+        line.about("Chapter 14, rough surfaces: six models compared.");
         const examples::Options options =
             line.parse({.draft{.width = 140, .height = 140, .samples = 9},
                         .report{.width = 400, .height = 400, .samples = 64},
@@ -343,7 +333,7 @@ int main(int argc, char** argv) {
         const std::string folder = options.path("");
         const int size = options.pick(150, 600, 1500);
         draw_lobes(options.out);
-        figure_14(options);
+        tabulate_saturation(options);
         plot_albedo(folder, size);
         plot_retroreflection(folder);
         tabulate_trade(options, size);
