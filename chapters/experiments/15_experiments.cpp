@@ -1,8 +1,7 @@
-// figures: fig-4 materials
 // smoke: --quality draft --width 32 --height 8 --rays 1
 /// \file chapters/experiments/15_experiments.cpp
-/// \brief Chapter 15: figure 4 above two furnaces, gloss from a mirror to satin, what
-/// each material costs, and two mistakes.
+/// \brief Chapter 15: the experiments behind its tables, plots and pictures: furnaces,
+/// gloss from a mirror to satin, what each material costs, and two mistakes.
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +17,8 @@
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/terminal.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
+#include "common/example.hpp"
 
 namespace {
 
@@ -34,22 +30,7 @@ using ljus::Sphere;
 using ljus::Vec3;
 using ljus::Vec3T;
 
-constexpr int balls = 8;
-
-/// The ball at a place of the row, from the left.
-Sphere ball_at(int place) {
-    return {.center{2.4f * (float(place) - 3.5f), 1, 0}, .radius = 1};
-}
-
-/// The camera of the row, whose pictures are four times as wide as high, or that of one
-/// ball, which are half as wide as high.
-/// \param x  Where it stands: 0, or that of the ball.
-ljus::Camera row_camera(float x) {
-    return ljus::look_at(
-        {.position{x, 3.2f, 22}, .target{x, 1.3f, 0}, .vfov_degrees = 12.5});
-}
-
-/// The materials of a row.
+/// The materials of figure 4.
 struct Row {
     ljus::Glass glass;       ///< Coloured by how far light goes in it.
     ljus::ThinGlass pane;    ///< A hollow ball.
@@ -73,7 +54,7 @@ Row colored_row() {
         .metal{},
         .glossy{.reflectance = ljus::copper<float>, .roughness = 0.45f},
         .checker{{.albedo = Rgb{1}},
-                 {.map{.center = ball_at(7).center},
+                 {.map{.center{8.4f, 1, 0}},
                   .even{0.85f, 0.85f, 0.8f},
                   .odd{0.1f, 0.2f, 0.5f},
                   .columns = 16,
@@ -94,111 +75,17 @@ Row white_row() {
     return row;
 }
 
-/// Calls f(place, name, material) for each.
+/// Calls f(name, material) for each.
 template <typename F>
 void for_each(const Row& row, F f) {
-    f(0, "glass", row.glass);
-    f(1, "thin glass", row.pane);
-    f(2, "rough", row.rough);
-    f(3, "mirror", row.mirror);
-    f(4, "Lambert", row.matt);
-    f(5, "metal", row.metal);
-    f(6, "glossy", row.glossy);
-    f(7, "checker", row.checker);
-}
-
-using RowScene =
-    ljus::Scene<ljus::Shapes<Sphere, Quad>,
-                ljus::Materials<ljus::Lambertian, ljus::Glass, ljus::ThinGlass,
-                                ljus::Eon, ljus::Mirror, ljus::Metal, ljus::RoughMetal,
-                                ljus::Textured<ljus::Lambertian, ljus::GlobeChecker>,
-                                ljus::Textured<ljus::Lambertian, ljus::Checker>>>;
-
-/// Adds the balls.
-void add_balls(RowScene& scene, const Row& row) {
-    for_each(row, [&](int place, const char*, const auto& material) {
-        scene.add(ball_at(place), scene.add(material));
-    });
-}
-
-ljus::RenderSettings picture_of(const examples::Options& options,
-                                ljus::Progress progress) {
-    return {.width = options.width,
-            .height = options.height,
-            .samples = options.samples,
-            .seed = options.seed,
-            .threads = options.threads,
-            .progress = std::move(progress)};
-}
-
-/// The row in a room with two lamps, by photon mapping.
-Image row_in_room(const examples::Options& options) {
-    RowScene scene;
-    const auto white = scene.add(ljus::Lambertian{.albedo = Rgb{0.7f}});
-    const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
-    const auto floor = scene.add(ljus::Textured<ljus::Lambertian, ljus::Checker>{
-        {.albedo = Rgb{1}},
-        {.map{.edge_u{4, 0, 0}, .edge_v{0, 0, 4}},
-         .even = Rgb{0.55f},
-         .odd = Rgb{0.35f}}});
-    const auto wall = [&](float r, float g, float b) {
-        return scene.add(ljus::Lambertian{.albedo{r, g, b}});
-    };
-    const float x = 11, z = -3, depth = 27, high = 8;
-    scene.add(Quad{{-x, 0, z}, {0, 0, depth}, {2 * x, 0, 0}}, floor);
-    scene.add(Quad{{-x, high, z}, {2 * x, 0, 0}, {0, 0, depth}}, white);
-    scene.add(Quad{{-x, 0, z}, {2 * x, 0, 0}, {0, high, 0}}, wall(0.45f, 0.5f, 0.6f));
-    scene.add(Quad{{-x, 0, z + depth}, {0, high, 0}, {2 * x, 0, 0}}, white);
-    scene.add(Quad{{-x, 0, z}, {0, high, 0}, {0, 0, depth}}, wall(0.6f, 0.2f, 0.15f));
-    scene.add(Quad{{x, 0, z}, {0, 0, depth}, {0, high, 0}}, wall(0.2f, 0.5f, 0.2f));
-    const auto lamp = [&](const Vec3& corner, const Vec3& size, float radiance) {
-        scene.add(Quad{corner, {size.x, 0, 0}, {0, 0, size.z}}, black, Rgb{radiance});
-    };
-    lamp({-9, high - 0.01f, -0.5f}, {18, 0, 2}, 7);
-    lamp({-3, high - 0.01f, 12}, {6, 0, 3}, 7);
-    add_balls(scene, colored_row());
-
-    ljus::PhotonMappingSettings settings;
-    settings.caustics = {.photons = options.pick(200000LL, 3000000LL, 20000000LL),
-                         .seed = options.seed,
-                         .threads = options.threads};
-    settings.caustics_estimate = {.radius = options.pick(0.08f, 0.05f, 0.03f)};
-    settings.max_depth = 24;
-    const ljus::World world(std::move(scene));
-    const ljus::PhotonMapper mapper(world, settings);
-    examples::ProgressBar bar("figure 4", options.quiet);
-    const auto result = render(mapper, row_camera(0), picture_of(options, bar));
-    examples::stop_if_asked();
-    return result.image;
-}
-
-/// The row under a sky of radiance 1, at half the exposure: what keeps its light is
-/// grey, and cannot be seen.
-Image row_in_furnace(const examples::Options& options, const Row& row) {
-    RowScene scene;
-    const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
-    scene.add(Sphere{.radius = 100}, black, Rgb{1}, true);
-    // One ball at a time: what comes from its neighbour would not be 1.
-    Image whole = ljus::make_image<float>(options.width, options.height);
-    for_each(row, [&](int place, const char* name, const auto& material) {
-        RowScene alone = scene;
-        alone.add(ball_at(place), alone.add(material));
-        const ljus::World world(std::move(alone));
-        const int from = options.width * place / balls;
-        const int to = options.width * (place + 1) / balls;
-        examples::ProgressBar bar(std::string("furnace: ") + name, options.quiet);
-        ljus::RenderSettings picture = picture_of(options, bar);
-        picture.width = to - from;
-        picture.samples =
-            std::max(1, options.samples / 2); // less noise here than in a room
-        const auto result = render(ljus::PathTracer(world),
-                                   row_camera(ball_at(place).center.x), picture);
-        examples::stop_if_asked();
-        for (int y = 0; y < options.height; ++y)
-            for (int x = from; x < to; ++x)
-                pixel(whole, x, y) = 0.5f * pixel(result.image, x - from, y);
-    });
-    return whole;
+    f("glass", row.glass);
+    f("thin glass", row.pane);
+    f("rough", row.rough);
+    f("mirror", row.mirror);
+    f("Lambert", row.matt);
+    f("metal", row.metal);
+    f("glossy", row.glossy);
+    f("checker", row.checker);
 }
 
 /// The mean radiance of a ball under a sky of radiance 1, seen from far away.
@@ -225,31 +112,20 @@ Rgb furnace_albedo(const Material& material, int rays) {
     return sum / float(count);
 }
 
-/// Figure 4: the row, and below it the two furnaces; and what stands below each ball.
-void figure_4(const examples::Options& options) {
-    const Image strips[] = {row_in_room(options),
-                            row_in_furnace(options, colored_row()),
-                            row_in_furnace(options, white_row())};
-    Image all = ljus::make_image<float>(options.width, 3 * options.height);
-    for (std::size_t strip = 0; strip < 3; ++strip)
-        std::copy(strips[strip].pixels.begin(), strips[strip].pixels.end(),
-                  all.pixels.begin() +
-                      std::ptrdiff_t(strip * strips[strip].pixels.size()));
-    save_png(all, options.path("fig-4.png"));
-
+/// Table: what each ball of figure 4 returns of a white sky.
+void tabulate_furnace(const examples::Options& options) {
     examples::Table table{.name = "fig-4-furnace",
                           .columns = {"white sky"},
                           .rows = {{"as above"}, {"white"}}};
     const int rays = options.pick(16, 256, 1024);
-    for_each(colored_row(), [&](int place, const char* name, auto material) {
+    for_each(colored_row(), [&](const char* name, auto material) {
         table.columns.push_back(name);
         if constexpr (requires { material.texture.map.center; })
             material.texture.map.center = Vec3{0};
         const Rgb c = furnace_albedo(material, rays);
         table.rows[0].push_back(examples::text(ljus::luminance(c), "%.3f"));
-        (void)place;
     });
-    for_each(white_row(), [&](int, const char*, const auto& material) {
+    for_each(white_row(), [&](const char*, const auto& material) {
         table.rows[1].push_back(
             examples::text(ljus::luminance(furnace_albedo(material, rays)), "%.3f"));
     });
@@ -621,15 +497,16 @@ void picture_mistakes(const examples::Options& options) {
 
 } // namespace
 
-/// Makes the chapter's figures.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 15, materials: figure 4, and what each material costs.");
+        line.about(
+            "Chapter 15, materials: furnaces, gloss, and what each material costs.");
         const examples::Options options =
             line.parse({.draft{.width = 600, .height = 150, .samples = 25},
                         .report{.width = 1200, .height = 300, .samples = 64},
                         .reference{.width = 1600, .height = 400, .samples = 2048}});
-        figure_4(options);
+        tabulate_furnace(options);
         draw_lobes(options.out);
         sweep_roughness(options);
         plot_gloss(options.path(""), options.pick(20000, 200000, 1000000));
