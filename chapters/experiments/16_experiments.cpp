@@ -1,8 +1,7 @@
-// figures: soap_film
 // smoke: --quality draft --width 24 --height 24 --rays 1
 /// \file chapters/experiments/16_experiments.cpp
-/// \brief Chapter 16: the soap bubble of figure 4, and the colours of thin films by a
-/// spectrum, a table, three wavelengths, and integrals made beforehand.
+/// \brief Chapter 16: the experiments behind its table, plots and pictures: the colours
+/// of thin films by a spectrum, a table, three wavelengths, and in closed form.
 
 #include <algorithm>
 #include <array>
@@ -15,12 +14,8 @@
 
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
-#include <ljus/scenes/report_room.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/rendered.hpp"
+#include "common/example.hpp"
 
 namespace {
 
@@ -270,52 +265,9 @@ void plot_reflectance(const std::string& folder) {
     save_plot(folder, plot);
 }
 
-/// Figure 4: glass, rough, mirror, soap bubble, matt, in the report's room.
-void figure_4(const examples::Options& options, const ljus::FilmTable& table) {
-    using Row = ljus::Scene<ljus::Shapes<ljus::Quad, ljus::Sphere, ljus::Triangle>,
-                            ljus::Materials<ljus::Lambertian, ljus::OrenNayar,
-                                            ljus::Glass, ljus::Mirror, ljus::SoapFilm>>;
-    Row scene;
-    ljus::add_report_room(scene);
-    const Rgb color{0.75f, 0.5f, 0.2f};
-    const auto ball = [&](int place, const auto& material) {
-        scene.add(ljus::Sphere{.center{6, 4.6f - 2.3f * float(place), -3.95f},
-                               .radius = 1.05f},
-                  scene.add(material));
-    };
-    ball(0, ljus::Glass{.index = 1.5f});
-    ball(1, ljus::OrenNayar{.albedo = color, .sigma = 0.7f});
-    ball(2, ljus::Mirror{.reflectance = Rgb{0.98f}});
-    ball(3, ljus::SoapFilm{.thickness = 900,
-                           .scale = 0.8f,
-                           .level{0, 0, -5},
-                           .color = ljus::FilmColor::table,
-                           .table = table});
-    ball(4, ljus::Lambertian{.albedo = color});
-    ljus::add_ceiling_lamp(scene, 5.0f, -1.0f, 2.0f, Rgb{1});
-    const ljus::World world(std::move(scene));
-
-    ljus::PhotonMappingSettings settings;
-    settings.caustics = {.photons = options.pick(30000, 300000, 3000000),
-                         .seed = options.seed,
-                         .threads = options.threads};
-    settings.caustics_estimate.radius = options.pick(0.3f, 0.15f, 0.06f);
-    if (!options.quiet) {
-        const ljus::Plan plan = survey(world, settings);
-        for (const auto* pass : plan.items()) std::printf("%s", to_text(*pass).c_str());
-    }
-    const ljus::PhotonMapper mapper(world, settings);
-    auto picture = examples::picture_settings(options);
-    picture.width *= 2;
-    picture.height *= 2;
-    const auto result =
-        examples::rendered("figure 4", mapper, ljus::report_camera(), picture, options);
-    save_png(result.image, options.path("soap_film-figure-4.png"));
-}
-
 } // namespace
 
-/// Makes the chapter's figures.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         line.about("Chapter 16, the soap bubble: thin films and their colours.");
@@ -341,6 +293,5 @@ int main(int argc, char** argv) {
         save("soap_film-bubble", look);
         save("soap_film-bubble-three", three);
         save("soap_film-bubble-beforehand", beforehand);
-        figure_4(options, table);
     });
 }
