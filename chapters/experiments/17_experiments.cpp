@@ -1,8 +1,7 @@
-// figures: whitted
 // smoke: --quality draft --width 24 --height 16 --rays 1 --photons 1000 --most 4
 /// \file chapters/experiments/17_experiments.cpp
-/// \brief Chapter 17: two balls over a checkered floor, turn by turn; how the tree
-/// grows; both branches or one; and what the tree does not carry.
+/// \brief Chapter 17: the experiments behind its tables and plots: how the tree grows,
+/// both branches or one, and what the tree does not carry.
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +13,7 @@
 
 #include <ljus/ljus.hpp>
 
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/rendered.hpp"
+#include "common/example.hpp"
 
 namespace {
 
@@ -72,8 +69,8 @@ ljus::RenderedT<float> rendered(const std::string& name, const Renderer& rendere
     return examples::rendered(name, renderer, two_balls_camera(), picture, options);
 }
 
-/// Depth 0 to 5, and how many rays the tree of a camera ray has.
-void depths(const TwoBalls& world, const examples::Options& options) {
+/// Plot: how many rays the tree of a camera ray has.
+void plot_rays(const TwoBalls& world, const examples::Options& options) {
     const ljus::RenderSettings picture{options.width, options.height, options.samples,
                                        options.seed};
     examples::Plot plot{.name = "whitted-rays",
@@ -95,9 +92,6 @@ void depths(const TwoBalls& world, const examples::Options& options) {
         const auto one = rendered("one branch",
                                   ljus::WhittedTracer(world, settings_of(depth, false)),
                                   picture, options);
-        if (depth <= 5)
-            save_png(both.image,
-                     options.path("whitted-depth-" + std::to_string(depth) + ".png"));
         plot.rows.push_back({double(depth), std::exp2(depth + 1) - 1, 1.0 + 2 * depth,
                              rays_of(both.counts), rays_of(one.counts)});
         if (!options.quiet)
@@ -186,11 +180,12 @@ void by_photons(const TwoBalls& world, long long photons,
 
 } // namespace
 
-/// Makes the figures of chapter 17.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long photons = 0;
-        line.about("Whitted's ray tracing: the two balls, turn by turn.");
+        line.about(
+            "Chapter 17, Whitted's ray tracing: the tree of rays, and its cost.");
         line.add("--photons", photons, "Of the picture to compare with; 0: by quality",
                  0, 1'000'000'000);
         int most = 0;
@@ -202,10 +197,9 @@ int main(int argc, char** argv) {
                         .reference{.width = 900, .height = 600, .samples = 144}});
         if (photons == 0) photons = options.pick(100000LL, 1000000LL, 10000000LL);
         const TwoBalls world = two_balls();
-        depths(world, options);
+        plot_rays(world, options);
         by_photons(world, photons, options);
         if (most == 0) most = options.pick(64, 256, 1024);
         branches(world, most, options);
-        return 0;
     });
 }
