@@ -1,8 +1,7 @@
-// figures: distributed_rays
 // smoke: --quality draft --width 24 --height 16 --rays 4 --most 4
 /// \file chapters/experiments/18_experiments.cpp
-/// \brief Chapter 18: edges, soft shadows, gloss, depth of field and motion, one picture
-/// each and all together, each with its error against the number of rays.
+/// \brief Chapter 18: the experiments behind its table, plots and pictures: edges, soft
+/// shadows, gloss, a lens and motion, each with its error against the number of rays.
 
 #include <cmath>
 #include <cstdio>
@@ -12,10 +11,7 @@
 
 #include <ljus/ljus.hpp>
 
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/rendered.hpp"
-#include "common/terminal.hpp"
+#include "common/example.hpp"
 
 namespace {
 
@@ -58,10 +54,6 @@ ljus::MaterialId tiles(Stage& scene, const Rgb& even, const Rgb& odd, float size
 
 void add_floor(Stage& scene, ljus::MaterialId material, float size = 60) {
     scene.add(Quad{{-size, 0, size}, {2 * size, 0, 0}, {0, 0, -2 * size}}, material);
-}
-
-void add_sky(Stage& scene, const Rgb& radiance) {
-    scene.add(Sphere{.radius = 90}, matt(scene, 0, 0, 0), radiance, true);
 }
 
 void add_lamp(Stage& scene, const Vec3& middle, float side, float radiance) {
@@ -136,8 +128,8 @@ Shot focus() {
         with_lens(camera, 0.14f, glm::dot(third - camera.position, camera.forward))};
 }
 
-/// A billiard table, dark.
-Stage billiard_table() {
+/// Balls that roll on a billiard table while the shutter is open.
+Shot motion() {
     Stage scene;
     add_floor(scene, matt(scene, 0.06f, 0.35f, 0.16f));
     const auto ball = [&](const Vec3& place, const Vec3& way, const Rgb& color) {
@@ -148,36 +140,10 @@ Stage billiard_table() {
     ball({0.6f, 0.5f, -0.3f}, {0, 0, 0}, {0.8f, 0.6f, 0.05f});
     ball({1.8f, 0.5f, 0.4f}, {0.35f, 0, 0.2f}, {0.65f, 0.08f, 0.07f});
     ball({0.3f, 0.5f, -2.6f}, {-0.3f, 0, -0.7f}, {0.1f, 0.15f, 0.55f});
-    return scene;
-}
-
-/// Where it is seen from.
-LensCamera above_the_table() {
-    return pinhole(
-        {.position{0, 3.2f, 6.5f}, .target{0, 0.3f, -0.4f}, .vfov_degrees = 36});
-}
-
-/// The table while the shutter is open.
-Shot motion() {
-    Stage scene = billiard_table();
     scene.add(ljus::PointLight{.position{-3, 7, 4}, .intensity = Rgb{260}});
-    return {ljus::World(std::move(scene)), above_the_table()};
-}
-
-/// All five: the table again, under two lamps, balls with a gloss, and a lens.
-Shot everything() {
-    Stage scene = billiard_table();
-    add_lamp(scene, {-3, 6, 2}, 2, 20);
-    add_lamp(scene, {4, 6, -3}, 2, 12);
-    scene.add(
-        Sphere{.center{-0.5f, 0.5f, 1.9f}, .radius = 0.5f},
-        scene.add(ljus::Glossy{.reflectance{0.75f, 0.7f, 0.6f}, .roughness = 0.35f}));
-    add_sky(scene, Rgb{0.05f, 0.06f, 0.08f});
-    LensCamera camera = above_the_table();
-    camera.radius = 0.08f;
-    camera.focus = glm::dot(Vec3{0.6f, 0.5f, -0.3f} - camera.pinhole.position,
-                            camera.pinhole.forward);
-    return {ljus::World(std::move(scene)), camera};
+    return {ljus::World(std::move(scene)), pinhole({.position{0, 3.2f, 6.5f},
+                                                    .target{0, 0.3f, -0.4f},
+                                                    .vfov_degrees = 36})};
 }
 
 /// A picture whose rays share out all their numbers by one pattern, and stay in the
@@ -277,16 +243,16 @@ void curves(const std::string& name, const Shot& shot, int most,
                     cells[4].c_str());
 }
 
-/// A picture with few and one with many rays.
-void picture(const std::string& name, const Shot& shot, int few,
+/// A picture with one and one with many rays per pixel.
+void picture(const std::string& name, const Shot& shot,
              const examples::Options& options) {
-    for (const int rays : {few, options.samples}) {
+    for (const int rays : {1, options.samples}) {
         auto picture = examples::picture_settings(options);
         picture.samples = rays;
         const auto result = examples::rendered(
             name, ljus::DistributedTracer(shot.world), shot.camera, picture, options);
         save_png(result.image, options.path("distributed_rays-" + name +
-                                            (rays == few ? "-few.png" : ".png")));
+                                            (rays == 1 ? "-few.png" : ".png")));
     }
 }
 
@@ -299,11 +265,12 @@ void jagged(const Shot& shot, const examples::Options& options) {
 
 } // namespace
 
-/// Makes the figures of chapter 18.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         int most = 0;
-        line.about("Distributed rays: five blurs, and how fast each becomes smooth.");
+        line.about("Chapter 18, distributed rays: how fast each of five blurs becomes "
+                   "smooth.");
         line.add("--most", most, "Most rays per pixel in the curves; 0: by quality", 0,
                  1 << 16);
         const examples::Options options =
@@ -316,7 +283,7 @@ int main(int argc, char** argv) {
                                           "multi-jittered", "Sobol", "error",
                                           "random rays for one"}};
         const auto both = [&](const std::string& name, const Shot& shot) {
-            picture(name, shot, 1, options);
+            picture(name, shot, options);
             curves(name, shot, most, options, table);
         };
         both("pixel", edges());
@@ -325,8 +292,6 @@ int main(int argc, char** argv) {
         both("gloss", gloss());
         both("lens", focus());
         both("time", motion());
-        picture("all", everything(), 4, options);
         save_table(options.path(""), table);
-        return 0;
     });
 }
