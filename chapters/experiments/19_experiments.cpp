@@ -1,8 +1,7 @@
-// figures: path_tracing
 // smoke: --quality draft --width 16 --height 16 --rays 1 --most 4 --runs 3 --paths 50
 /// \file chapters/experiments/19_experiments.cpp
-/// \brief Chapter 19: Kajiya's equation by paths, step by step: by paths alone, with
-/// shadow rays, with both; roulette; and what a fixed depth leaves out.
+/// \brief Chapter 19: the experiments behind its tables, plots and pictures: who finds
+/// the lamp, roulette, and what a fixed depth leaves out.
 
 #include <algorithm>
 #include <array>
@@ -20,11 +19,7 @@
 #include <ljus/scenes/cornell_box.hpp>
 #include <ljus/scenes/furnaces.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/rendered.hpp"
-#include "common/terminal.hpp"
+#include "common/example.hpp"
 #include "experiments/veach_plates.hpp"
 
 namespace {
@@ -123,11 +118,9 @@ const std::array ways{
     Way{"shadow rays alone", "shadow", {.heuristic = MisHeuristic::shadow_rays}},
     Way{"both by balance", "balance"},
     Way{"both by power", "power", {.heuristic = MisHeuristic::power}}};
-/// The diffuse room by each way, and its noise against rays.
+/// The noise of each way in the diffuse room, against rays.
 void in_the_room(const examples::Options& options, const Sizes& sizes) {
     const auto room = matt_room();
-    const ljus::RenderSettings picture{options.width, options.height, options.samples,
-                                       options.seed};
     const int side = options.pick(48, 80, 120);
     examples::Plot plot{.name = "path_tracing-noise",
                         .columns = {"camera rays per pixel", ways[0].name, ways[1].name,
@@ -143,9 +136,6 @@ void in_the_room(const examples::Options& options, const Sizes& sizes) {
     double first_rms = 0, first_by_rays = 0, first_by_time = 0;
     for (std::size_t way = 0; way < 3; ++way) {
         const ljus::PathTracer tracer(room.world, ways[way].settings);
-        save_png(
-            rendered("room", tracer, room.camera, picture, options).image,
-            options.path(std::string("path_tracing-room-") + ways[way].file + ".png"));
         Noise last;
         for (auto& row : plot.rows) {
             last = noise_of(tracer, low_camera(),
@@ -568,7 +558,7 @@ void speed(const examples::Options& options) {
 
 } // namespace
 
-/// Makes the figures of chapter 19.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
