@@ -1,8 +1,7 @@
-// figures: radiosity
 // smoke: --quality draft --width 16 --height 16 --rays 1 --size 0.9 --steps 2
 /// \file chapters/experiments/20_experiments.cpp
-/// \brief Chapter 20: patches, form factors, solvers, leaks, and a light map seen from
-/// many sides.
+/// \brief Chapter 20: the experiments behind its tables, plots and pictures: form
+/// factors, solvers, the size of patches, leaks, and a light map seen from many sides.
 
 #include <algorithm>
 #include <array>
@@ -25,13 +24,8 @@
 #include <ljus/radiosity/radiosity.hpp>
 #include <ljus/radiosity/radiosity_solve.hpp>
 #include <ljus/scenes/cornell_box.hpp>
-#include <ljus/scenes/report_rooms.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/rendered.hpp"
-#include "common/terminal.hpp"
+#include "common/example.hpp"
 
 using namespace ljus;
 
@@ -576,40 +570,13 @@ void leaks(const examples::Options& options, const Sizes& sizes) {
                         row[2].c_str(), row[3].c_str(), row[4].c_str());
 }
 
-/// The report's room: what is carried, and what is left out.
-void report_room(const examples::Options& options, const Sizes& sizes) {
-    const auto room = final_room();
-    const auto all =
-        make_radiosity(room.world, {.patches = {.size = 7 * sizes.patch},
-                                    .factors = {.analytic = false, .rays = 2048}});
-    save_png(
-        rendered("report", LightMapView(room.world, all->map), room.camera, options),
-        options.path("radiosity-report.png"));
-    save_png(rendered("report paths", PathTracer(room.world), room.camera, options,
-                      2 * options.samples),
-             options.path("radiosity-report-path.png"));
-    const auto sum =
-        energy_balance(all->patches, all->factors, all->solution.radiosity);
-    if (!options.quiet) {
-        for (const auto& text : all->patches.left_out)
-            std::printf("left out: %s\n", text.c_str());
-        std::printf("of the report's light, %.1f %% is absorbed by patches, %.1f %% "
-                    "escapes or falls on what is none (%zu patches)\n",
-                    100 * sum.absorbed.y / sum.emitted.y,
-                    100 * sum.escaped.y / sum.emitted.y, all->factors.size());
-    }
-}
-
 } // namespace
 
-/// Makes the figures of chapter 20.
-/// \param argc  Number of arguments.
-/// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 20, radiosity: patches, form factors, solvers, leaks.");
+        line.about("Chapter 20, radiosity: form factors, solvers, patches, leaks.");
         line.add("--size", sizes.patch, "Side of the finest patches of the room", 0.01,
                  10.0);
         line.add("--steps", sizes.steps,
@@ -628,6 +595,5 @@ int main(int argc, char** argv) {
         agreement(options, sizes);
         views(options, sizes);
         leaks(options, sizes);
-        report_room(options, sizes);
     });
 }
