@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 16 --rays 1
 /// \file 13_hemisphere_sampling.cpp
 /// \brief A diffuse material that draws its directions by the cosine, and a ball of it
-/// under a lamp that only these directions find.
+/// under a lamp for which there are no shadow rays.
 
 #include <cmath>
 #include <numbers>
@@ -19,7 +19,7 @@ struct Matt {
     Rgb albedo{0.5f};     ///< In [0, 1].
 };
 
-/// It has no mirror in it.
+/// Its only part is diffuse.
 Lobes lobes(const Matt&) {
     return Lobes::diffuse;
 }

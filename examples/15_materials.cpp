@@ -34,9 +34,9 @@ void for_each_ball(bool white, F f) {
     f(2, Eon{.albedo = color(ochre), .roughness = 1}); // clay
     f(3, Mirror{.reflectance = color(Rgb{0.98f})});
     f(4, Lambertian{.albedo = color(ochre)});
-    f(5, Metal{}); // polished gold
-    const ConductorIndex white_metal{Rgb{0}, Rgb{5}};
-    f(6, RoughMetal{white ? white_metal : copper<float>, 0.45f}); // brushed
+    f(5, Metal{});                                    // polished gold
+    const ConductorIndex white_metal{Rgb{0}, Rgb{5}}; // each facet reflects all light
+    f(6, RoughMetal{white ? white_metal : copper<float>, 0.45f}); // brushed copper
     f(7, Globe{{.albedo = Rgb{1}},
                {.map{.center = ball_at(7).center},
                 .even = color({0.85f, 0.85f, 0.8f}),

@@ -34,7 +34,7 @@ double as_printed(double cos_theta, double n_i, double n_t) {
     return ljus::schlick(ljus::schlick_r0(n_i, n_t), cos_theta);
 }
 
-/// Plot: reflectance of glass against the angle, into it and out of it.
+/// Plot: the reflectance of glass against the angle, from outside and from inside.
 void plot_glass(const std::string& folder) {
     examples::Plot plot{.name = "fresnel-glass",
                         .columns = {"angle in degrees", "exact into glass",
@@ -52,7 +52,8 @@ void plot_glass(const std::string& folder) {
     save_plot(folder, plot);
 }
 
-/// Plot: reflectance of metals in three channels against the angle; dashed, Schlick.
+/// Plot: the reflectance of gold in three channels against the angle, exact and by
+/// Schlick's formula.
 void plot_metals(const std::string& folder) {
     examples::Plot plot{.name = "fresnel-metals",
                         .columns = {"angle in degrees", "gold at 620 nm",
@@ -72,11 +73,11 @@ void plot_metals(const std::string& folder) {
     save_plot(folder, plot);
 }
 
-/// Which direction, and which formula.
+/// The errors of Schlick's formula, by direction and by the angle that it takes.
 struct Errors {
-    double into = 0;    ///< Schlick, into the denser medium.
-    double out = 0;     ///< Out of it, with the thin side's angle.
-    double printed = 0; ///< Out of it, with the incoming angle.
+    double into = 0;    ///< Into the denser medium.
+    double out = 0;     ///< Out of it, by the angle on the thin side.
+    double printed = 0; ///< Out of it, by the incoming angle.
 };
 
 /// The largest errors over all angles for an index.
@@ -111,8 +112,8 @@ void plot_errors(const std::string& folder) {
     save_plot(folder, plot);
 }
 
-/// Glass that reflects the same share at every angle: the report's program, whose half
-/// vector is the normal.
+/// Glass that reflects the same fraction at every angle, as in the report's program,
+/// whose half vector is the normal.
 struct FlatGlass {
     using Scalar = float; ///< The precision.
     float index = 1.5f;   ///< Of refraction.
@@ -165,7 +166,7 @@ ljus::Image picture(const std::string& name, const Material& glass,
     return examples::rendered(name, ljus::PathTracer(world), camera, options).image;
 }
 
-/// Nanoseconds a call, the best of 21 runs over random angles and both directions.
+/// Nanoseconds per call, the best of 21 runs over random angles and both directions.
 template <typename Formula>
 double nanoseconds(Formula formula) {
     std::vector<float> cosines;

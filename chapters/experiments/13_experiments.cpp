@@ -75,7 +75,7 @@ struct Forgotten : Naive {
 
 /// Light from above: everywhere the same, or a bright lobe of 10 degrees.
 struct Sky {
-    double tilt = -1; ///< Of the lobe's axis, degrees from the normal; -1: constant.
+    double tilt = -1; ///< Of the lobe, degrees from the normal; -1: no lobe.
 
     /// The radiance from a direction.
     [[nodiscard]] double operator()(const Direction& d) const {
@@ -92,8 +92,8 @@ struct Moments {
     double variance = 0; ///< Of one sample.
 };
 
-/// By a grid over the unit square, not at random: the lobe covers some hundred of its
-/// rows.
+/// Both by a grid over the unit square, without random numbers: the lobe covers about a
+/// hundred of its rows.
 template <typename Way>
 Moments moments(const Sky& sky, int size) {
     double sum = 0, squares = 0;
@@ -120,7 +120,7 @@ void tabulate_variance(const std::string& folder, int size) {
         std::string means;
         for (const Sky& sky : skies) {
             const Moments found = moments<decltype(way)>(sky, size);
-            // A variance of 0 comes out as what rounding left of it.
+            // Rounding may turn a variance of 0 into -0.00.
             row.push_back(examples::text(std::abs(found.variance), "%.2f"));
             means += (means.empty() ? "" : "  ") + examples::text(found.mean, "%.3f");
         }
@@ -132,7 +132,7 @@ void tabulate_variance(const std::string& folder, int size) {
     save_table(folder, table);
 }
 
-/// A matt surface whose directions come from one of the ways.
+/// A diffuse surface that draws its directions in one of the ways.
 template <typename Way>
 struct Matt {
     using Scalar = float; ///< The precision.
@@ -166,8 +166,8 @@ std::optional<ljus::BsdfSample> sample(const Matt<Way>& matt, const ljus::Vec3& 
 template <typename Way>
 void check(const Matt<Way>&) {}
 
-/// A ball on a floor, under a sky that glows, or with a dark sky and a lamp. Paths find
-/// the light by themselves: what they find depends on the sampler alone.
+/// A ball on a floor, under a sky that glows or under a lamp. There are no shadow rays,
+/// so that the light which paths find depends on the sampler alone.
 template <typename Way>
 ljus::Image picture(const examples::Options& options, const std::string& name,
                     bool lamp, int rays) {

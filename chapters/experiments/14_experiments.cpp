@@ -13,7 +13,6 @@
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 
-#include "common/drawing.hpp"
 #include "common/example.hpp"
 
 namespace {
@@ -30,7 +29,8 @@ ljus::RoughDiffuseT<T> rough(RoughModel model, T albedo, T sigma) {
     return {ljus::RgbT<T>{albedo}, sigma, model};
 }
 
-/// A ball of one material, lit from behind the camera by a lamp and by nothing else.
+/// A ball of one material; the lamp stands behind the camera, and there is no other
+/// light.
 template <typename Material>
 Image ball(const examples::Options& options, const std::string& name,
            const Material& material) {
@@ -82,7 +82,7 @@ void tabulate_saturation(const examples::Options& options) {
     examples::save_table(options.path(""), table);
 }
 
-/// The share of a constant sky that a white surface returns: by a grid.
+/// The fraction of a constant sky that a surface returns, by a grid of directions.
 template <typename Material>
 double albedo(const Material& material, double degrees, int size) {
     const double theta = degrees * std::numbers::pi / 180;
@@ -100,7 +100,7 @@ double albedo(const Material& material, double degrees, int size) {
     return sum * std::numbers::pi / size / size;
 }
 
-/// Plot: that share against the angle, for each model at its roughest sensible.
+/// Plot: that fraction against the angle, for each model at roughness 0.7.
 void plot_albedo(const std::string& folder, int size) {
     examples::Plot plot{.name = "oren_nayar-albedo",
                         .columns = {"angle in degrees", "as the report's program",
@@ -124,7 +124,7 @@ void plot_albedo(const std::string& folder, int size) {
     save_plot(folder, plot);
 }
 
-/// Plot: a ball seen from where the light is: radiance against the angle.
+/// Plot: the radiance of a ball that is seen from the lamp, against the angle.
 void plot_retroreflection(const std::string& folder) {
     examples::Plot plot{.name = "oren_nayar-front",
                         .columns = {"angle in degrees", "Lambert", "qualitative 1994",
@@ -145,45 +145,6 @@ void plot_retroreflection(const std::string& folder) {
     save_plot(folder, plot);
 }
 
-/// Drawing: where two rough surfaces send the light that comes from one side.
-void draw_lobes(const std::string& folder) {
-    using namespace examples;
-    Drawing figure{.name = "oren_nayar-lobes",
-                   .description = "Light comes from the upper left. Lambert's surface "
-                                  "is equally bright from all sides, rough ones are "
-                                  "brightest seen from where the light comes from",
-                   .low = {-2.1, -0.15},
-                   .high = {2.1, 1.75},
-                   .scale = 110};
-    const auto direction = [](double degrees) {
-        const double a = degrees * std::numbers::pi / 180;
-        return Vec3T<double>{std::sin(a), 0, std::cos(a)};
-    };
-    const auto lobe = [&](const auto& material, const Pen& pen) {
-        std::vector<Point> points;
-        for (int angle = -89; angle <= 89; ++angle) {
-            const Vec3T<double> wo = direction(angle);
-            const double r =
-                std::numbers::pi * evaluate(material, wo, direction(-60)).x;
-            points.push_back({r * wo.x, r * wo.z});
-        }
-        draw_area(figure, points, pen.color);
-        draw_line(figure, points, pen);
-    };
-    const ljus::RgbT<double> white{1};
-    lobe(ljus::LambertianT<double>{white}, {"currentColor", 1.5, true});
-    lobe(ljus::OrenNayarT<double>{white, 0.7}, {colors::green, 2.5});
-    lobe(ljus::EonT<double>{white, 0.7}, {colors::red, 2.5});
-    draw_line(figure, {{-2.1, 0}, {2.1, 0}});
-    const Vec3T<double> light = direction(-60);
-    draw_arrow(figure, {1.9 * light.x, 1.9 * light.z}, {0.1 * light.x, 0.1 * light.z},
-               {colors::blue, 2.5});
-    draw_label(figure, {0.4, 1.2}, "EON", colors::red);
-    draw_label(figure, {1.25, 0.5}, "Lambert");
-    draw_label(figure, {-0.35, 0.55}, "1994", colors::green);
-    save_drawing(folder, figure);
-}
-
 /// Nanoseconds to evaluate, the best of 21 runs over random directions.
 template <typename Material>
 double nanoseconds(const Material& material) {
@@ -200,7 +161,7 @@ double nanoseconds(const Material& material) {
     });
 }
 
-/// The weights of many samples, which a path's throughput is multiplied by; 0 for a
+/// The weights of many samples, by which a path's throughput is multiplied; 0 for a
 /// sample that fails.
 template <typename Material>
 std::vector<double> weights(const Material& material, double degrees, int count) {
@@ -238,7 +199,7 @@ double nanoseconds_a_sample(const Material& material, double degrees) {
     });
 }
 
-/// The error of the means of n values, where the truth is 1: root mean square.
+/// The root mean square error of the means of n values each; the truth is 1.
 double error_of_means(const std::vector<double>& values, std::size_t n) {
     double squares = 0;
     std::size_t means = 0;
@@ -250,8 +211,8 @@ double error_of_means(const std::vector<double>& values, std::size_t n) {
     return std::sqrt(squares / double(means));
 }
 
-/// Plot: what a white surface sends back of a white sky at 75 degrees, by few samples
-/// and by many: error against time.
+/// Plot: error against time of what a white surface returns of a white sky at 75
+/// degrees, by 1 to 4096 samples.
 void plot_trade(const examples::Options& options) {
     constexpr float sigma = 0.7f;
     examples::Plot plot{.name = "oren_nayar-error",
@@ -332,7 +293,6 @@ int main(int argc, char** argv) {
                         .reference{.width = 400, .height = 400, .samples = 1024}});
         const std::string folder = options.path("");
         const int size = options.pick(150, 600, 1500);
-        draw_lobes(options.out);
         tabulate_saturation(options);
         plot_albedo(folder, size);
         plot_retroreflection(folder);

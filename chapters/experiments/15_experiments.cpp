@@ -17,7 +17,6 @@
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 
-#include "common/drawing.hpp"
 #include "common/example.hpp"
 
 namespace {
@@ -32,17 +31,17 @@ using ljus::Vec3T;
 
 /// The materials of figure 4.
 struct Row {
-    ljus::Glass glass;       ///< Coloured by how far light goes in it.
+    ljus::Glass glass;       ///< Coloured by absorption.
     ljus::ThinGlass pane;    ///< A hollow ball.
     ljus::Eon rough;         ///< Clay.
-    ljus::Mirror mirror;     ///< Untinted.
-    ljus::Lambertian matt;   ///< Of the rough one's colour.
+    ljus::Mirror mirror;     ///< Without a tint.
+    ljus::Lambertian matt;   ///< Of the colour of the clay.
     ljus::Metal metal;       ///< Polished gold.
     ljus::RoughMetal glossy; ///< Brushed copper.
     ljus::Textured<ljus::Lambertian, ljus::GlobeChecker> checker; ///< Two colours.
 };
 
-/// The materials as one buys them.
+/// The materials in their usual colours.
 Row colored_row() {
     const Rgb ochre{0.75f, 0.5f, 0.2f};
     return {
@@ -61,8 +60,8 @@ Row colored_row() {
                   .rows = 8}}};
 }
 
-/// The same, as white as they can be. Gold cannot; and a metal with a large k, which
-/// reflects all, shows what is lost between facets.
+/// The same, as white as they can be. Gold cannot be white; the brushed metal has so
+/// large a k that each facet reflects all light, and shows what is lost between facets.
 Row white_row() {
     Row row = colored_row();
     row.glass.absorption = Rgb{0};
@@ -133,7 +132,7 @@ void tabulate_furnace(const examples::Options& options) {
     examples::save_table(options.path(""), table);
 }
 
-/// A ball on a floor between two walls, under a lamp, and what is seen of it.
+/// The picture of a ball on a floor between two walls, under a lamp.
 template <typename Material>
 Image ball_picture(int size, int rays, std::uint64_t seed, const Material& material,
                    int threads = 0) {
@@ -160,7 +159,7 @@ Image ball_picture(int size, int rays, std::uint64_t seed, const Material& mater
         .image;
 }
 
-/// Pictures: one gloss after the other.
+/// Pictures: gold from roughness 0 to 1.
 void sweep_roughness(const examples::Options& options) {
     const int size = options.pick(150, 400, 500), rays = options.pick(20, 400, 4000);
     const auto save = [&](const std::string& name, const auto& material) {
@@ -180,10 +179,10 @@ void sweep_roughness(const examples::Options& options) {
 /// The mean and the variance of a sample's weight.
 struct Weights {
     double mean = 0;     ///< The albedo at the angle.
-    double variance = 0; ///< What a path's throughput is multiplied by, in variance.
+    double variance = 0; ///< By which the variance of a path grows.
 };
 
-/// Over many samples at an angle.
+/// Both over many samples at an angle.
 template <typename Sampler>
 Weights weights(double degrees, int count, Sampler sampler) {
     const double theta = degrees * std::numbers::pi / 180;
@@ -208,45 +207,7 @@ auto own_sampler(const Material& material) {
     };
 }
 
-/// Drawing: where gloss of three roughnesses sends the light that comes from one side.
-void draw_lobes(const std::string& folder) {
-    using namespace examples;
-    Drawing figure{.name = "materials-lobes",
-                   .description = "Light comes from the upper left. The rougher the "
-                                  "gloss, the wider the lobe on the other side",
-                   .low = {-3.2, -0.15},
-                   .high = {4.6, 3.2},
-                   .scale = 65};
-    const auto direction = [](double degrees) {
-        const double a = degrees * std::numbers::pi / 180;
-        return Vec3T<double>{std::sin(a), 0, std::cos(a)};
-    };
-    const char* inks[] = {colors::red, colors::green, colors::violet};
-    const double roughnesses[] = {0.6, 0.7, 1};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const ljus::GlossyT<double> gloss{RgbT<double>{1}, roughnesses[i]};
-        std::vector<Point> points;
-        for (int angle = -89; angle <= 89; ++angle) {
-            const Vec3T<double> wo = direction(angle);
-            const double r = std::numbers::pi * evaluate(gloss, wo, direction(-45)).x;
-            points.push_back({r * wo.x, r * wo.z});
-        }
-        draw_area(figure, points, inks[i]);
-        draw_line(figure, points, {inks[i], 2.5});
-        const Point& label = points[130];
-        draw_label(figure, {label.x + 0.3, label.y + 0.2},
-                   (i == 0 ? "roughness " : "") + text(roughnesses[i], "%.1f"),
-                   inks[i]);
-    }
-    draw_line(figure, {{-3.2, 0}, {4.6, 0}});
-    draw_arc(figure, {0, 0}, 1, 0, std::numbers::pi, {"currentColor", 1.5, true});
-    const Vec3T<double> light = direction(-45);
-    draw_arrow(figure, {4 * light.x, 4 * light.z}, {0.1 * light.x, 0.1 * light.z},
-               {colors::blue, 2.5});
-    save_drawing(folder, figure);
-}
-
-/// Plots: what white gloss loses, and what the choice of the sampler is worth.
+/// Plots: how much light white gloss loses, and how much its sampler matters.
 void plot_gloss(const std::string& folder, int count) {
     examples::Plot loss{.name = "materials-loss",
                         .columns = {"roughness", "straight on", "60 degrees",
@@ -277,7 +238,7 @@ void plot_gloss(const std::string& folder, int count) {
     save_plot(folder, noise);
 }
 
-/// Nanoseconds a call of f(wo, u or wi), the best of some runs.
+/// Nanoseconds per call of f(wo, wi, u), the best of 21 runs.
 template <typename F>
 double nanoseconds(F f) {
     std::vector<Vec3> wo, u;
@@ -295,7 +256,7 @@ double nanoseconds(F f) {
     });
 }
 
-/// Table: nanoseconds and noise of each material.
+/// Table: the time and the noise of each material.
 void tabulate_trade(const examples::Options& options) {
     examples::Table table{.name = "materials-trade",
                           .columns = {"material", "evaluate, ns", "sample, ns",
@@ -392,8 +353,8 @@ void compare_full(const examples::Options& options) {
     examples::save_table(options.path(""), table);
 }
 
-/// Plot: error against time for gold of two glosses: the one loses light, and more rays
-/// do not bring it back.
+/// Plot: error against time for gold with both kinds of gloss. One loses light, which
+/// more rays do not bring back.
 void plot_full(const examples::Options& options) {
     const int size = options.pick(48, 100, 200), most = options.pick(64, 256, 256);
     const ljus::RoughMetal gold{.reflectance = ljus::gold<float>, .roughness = 0.7f};
@@ -426,13 +387,13 @@ void plot_full(const examples::Options& options) {
     save_plot(options.path(""), plot);
 }
 
-/// What can go wrong with a matt surface.
+/// What can go wrong with a diffuse surface.
 enum class Mistake { none, missing_pi, doubled_cosine };
 
 /// Lambert's surface with a mistake.
 struct WrongMatt {
     using Scalar = float;            ///< The precision.
-    Rgb albedo{0.5f};                ///< Of the right one.
+    Rgb albedo{0.5f};                ///< Of Lambert's surface.
     Mistake mistake = Mistake::none; ///< Which.
 };
 ljus::Lobes lobes(const WrongMatt&) {
@@ -460,8 +421,8 @@ std::optional<ljus::BsdfSample> sample(const WrongMatt& matt, const Vec3& wo,
 }
 void check(const WrongMatt&) {}
 
-/// The same room with each mistake; three surfaces on a path, for with the first one
-/// light grows from wall to wall.
+/// Pictures: the same room with each mistake. There are three surfaces on a path,
+/// because with the first mistake light grows from wall to wall.
 void picture_mistakes(const examples::Options& options) {
     const int size = options.pick(200, 400, 500), rays = options.pick(16, 256, 2048);
     const auto picture = [&](const std::string& name, Mistake mistake) {
@@ -507,7 +468,6 @@ int main(int argc, char** argv) {
                         .report{.width = 1200, .height = 300, .samples = 64},
                         .reference{.width = 1600, .height = 400, .samples = 2048}});
         tabulate_furnace(options);
-        draw_lobes(options.out);
         sweep_roughness(options);
         plot_gloss(options.path(""), options.pick(20000, 200000, 1000000));
         tabulate_trade(options);

@@ -37,7 +37,7 @@ glm::dvec3 beforehand(double c, double d) {
     return ljus::into_gamut(ljus::film_preintegrated(c, water, d));
 }
 
-/// Waves that are not turned over at the denser side: the sine becomes a cosine.
+/// The mistake: no wave changes its sign, and the sine becomes a cosine.
 glm::dvec3 not_turned(double c, double d) {
     const double g = std::sqrt(ljus::film_cosine2(c, water));
     return ljus::into_gamut(ljus::spectrum_color<double>([&](double wavelength) {
@@ -57,7 +57,7 @@ void strip(const examples::Options& options, const std::string& file, Color colo
             const double d = 1500.0 * (x + 0.5) / width;
             const double angle = 80.0 * (double(y) + 0.5) / height;
             const double c = std::cos(angle * std::numbers::pi / 180);
-            // As bright as the film's mean: what is left are the colours.
+            // Divided by the film's mean reflectance, so that colours are left.
             pixel(image, x, static_cast<int>(y)) =
                 Rgb(color(c, d) * (0.35 / ljus::thick_film(c, water)));
         }
@@ -79,7 +79,7 @@ glm::dvec3 lab(const glm::dvec3& rgb, double cosine) {
             200 * (f(xyz.y) - f(xyz.z))};
 }
 
-/// Nanoseconds of one call, over thicknesses and angles; the best of five.
+/// Nanoseconds per call, over thicknesses and angles; the best of five.
 template <typename Color>
 double nanoseconds(Color color, int calls) {
     return examples::nanoseconds_a_call(
@@ -95,8 +95,8 @@ double nanoseconds(Color color, int calls) {
         5);
 }
 
-/// A bubble before black, among four windows. Both ways are followed at each film, so
-/// that the picture has no noise.
+/// A bubble before a black background, among four windows. Each ray is split at the
+/// film, so that the picture has no noise.
 struct Studio {
     using Room = ljus::Scene<ljus::Shapes<ljus::Sphere, ljus::Quad>,
                              ljus::Materials<ljus::Lambertian, ljus::SoapFilm>>;
@@ -158,7 +158,7 @@ Image bubble(int size, int side, Color color) {
     return image;
 }
 
-/// The colour by the renderer's table, as the other methods give it.
+/// The colour by the renderer's table, with the arguments of the other methods.
 auto by_table(const ljus::FilmTable& table) {
     return [&table](double c, double d) {
         return glm::dvec3(ljus::look_up(table, float(c), float(d)));
@@ -206,7 +206,7 @@ Differences plot_differences(const examples::Options& options,
     return found;
 }
 
-/// What a colour costs by each method, in nanoseconds.
+/// Nanoseconds per colour, by each method.
 std::array<double, 3> times_of(const ljus::FilmTable& table, int calls) {
     constexpr float n = 1.33f;
     return {
@@ -220,7 +220,7 @@ std::array<double, 3> times_of(const ljus::FilmTable& table, int calls) {
                     calls)};
 }
 
-/// The error of a picture by each method, which has no noise: the bubble.
+/// The error of the picture of the bubble by each method; there is no noise in it.
 std::array<double, 3> errors_of_bubble(const ljus::FilmTable& table, int size) {
     const Image right = bubble(size, 1, spectrum);
     return {ljus::rel_mse(bubble(size, 1, three), right),
@@ -251,7 +251,7 @@ void trade(const examples::Options& options, const ljus::FilmTable& table) {
     examples::save_table(options.path(""), numbers);
 }
 
-/// Plot: what each wavelength sees.
+/// Plot: the reflectance of three wavelengths against the thickness.
 void plot_reflectance(const std::string& folder) {
     examples::Plot plot{.name = "soap_film-waves",
                         .columns = {"thickness in nm", "611 nm", "464 nm", "549 nm"},
@@ -276,9 +276,7 @@ int main(int argc, char** argv) {
                         .report{.width = 400, .height = 400, .samples = 36},
                         .reference{.width = 500, .height = 500, .samples = 1000}});
         const auto table = ljus::bake_film_table(1.33f);
-        const auto look = [&](double c, double d) {
-            return glm::dvec3(ljus::look_up(table, float(c), float(d)));
-        };
+        const auto look = by_table(table);
         plot_reflectance(options.path(""));
         trade(options, table);
         strip(options, "soap_film-spectrum", spectrum);

@@ -55,13 +55,13 @@ ljus::Camera two_balls_camera() {
         {.position{0.2f, 2.1f, 8}, .target{-0.1f, 1.1f, 0}, .vfov_degrees = 32});
 }
 
-/// The sky is seen and lights nothing; as much light as it would send comes from
-/// everywhere instead, and no ball shades it.
+/// The sky is seen, but no shadow ray asks for its light. Ambient light takes its
+/// place: the same from everywhere, and no ball shades it.
 ljus::WhittedSettings settings_of(int depth, bool both_ways = true) {
     return {.max_depth = depth, .both_ways = both_ways, .lamps = false, .ambient = sky};
 }
 
-/// Renders a picture with a progress bar; Ctrl-C ends the program.
+/// A picture of the two balls, with a progress bar.
 template <typename Renderer>
 ljus::RenderedT<float> rendered(const std::string& name, const Renderer& renderer,
                                 ljus::RenderSettings picture,
@@ -69,7 +69,7 @@ ljus::RenderedT<float> rendered(const std::string& name, const Renderer& rendere
     return examples::rendered(name, renderer, two_balls_camera(), picture, options);
 }
 
-/// Plot: how many rays the tree of a camera ray has.
+/// Plot: how many rays the tree of a camera ray has, by its depth.
 void plot_rays(const TwoBalls& world, const examples::Options& options) {
     const ljus::RenderSettings picture{options.width, options.height, options.samples,
                                        options.seed};
@@ -104,7 +104,7 @@ void plot_rays(const TwoBalls& world, const examples::Options& options) {
     save_plot(options.path(""), plot);
 }
 
-/// The root mean square of the differences over the pixels of the glass ball.
+/// The root mean square error over the pixels of the glass ball.
 double error_on_glass(const Image& image, const Image& truth) {
     double sum = 0, count = 0;
     const ljus::Camera camera = two_balls_camera();
@@ -122,7 +122,7 @@ double error_on_glass(const Image& image, const Image& truth) {
     return std::sqrt(sum / count);
 }
 
-/// Both branches, or one: error against rays.
+/// Plot and table: error against rays, by both branches and by one.
 void branches(const TwoBalls& world, int most, const examples::Options& options) {
     const int width = options.pick(48, 120, 180), height = width * 2 / 3;
     const int depth = 8;
@@ -161,7 +161,8 @@ void branches(const TwoBalls& world, int most, const examples::Options& options)
     save_table(options.path(""), table);
 }
 
-/// The same scene by the photon map: a sky that lights, and light through the glass.
+/// Picture: the same scene by photon mapping. The sky lights it, and light passes the
+/// glass.
 void by_photons(const TwoBalls& world, long long photons,
                 const examples::Options& options) {
     ljus::PhotonMappingSettings settings;
