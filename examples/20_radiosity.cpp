@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
                         .reference{.width = 400, .height = 400, .samples = 64}});
         if (size == 0) size = 7 * options.pick(0.2, 0.1, 0.0625);
 
+        // [light and view]
         // The light on all patches, once, for all cameras.
         const auto room = final_room();
         const auto solved =
@@ -37,6 +38,7 @@ int main(int argc, char** argv) {
         // A view only looks the light up.
         const LightMapView view(room.world, solved->map);
         const auto seen = examples::rendered("view", view, room.camera, options);
+        // [light and view]
         save_png(seen.image, options.path("radiosity-report.png"));
 
         RenderSettings picture = examples::picture_settings(options);
