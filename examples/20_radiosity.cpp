@@ -32,14 +32,15 @@ int main(int argc, char** argv) {
         const auto solved =
             make_radiosity(room.world, {.patches{.size = size},
                                         .factors{.analytic = false, .rays = 2048}});
-        for (const auto& object : solved->patches.left_out)
-            std::printf("without patches: %s\n", object.c_str());
 
         // A view only looks the light up.
         const LightMapView view(room.world, solved->map);
         const auto seen = examples::rendered("view", view, room.camera, options);
         // [light and view]
         save_png(seen.image, options.path("radiosity-report.png"));
+        if (!options.quiet)
+            for (const auto& object : solved->patches.left_out)
+                std::printf("without patches: %s\n", object.c_str());
 
         RenderSettings picture = examples::picture_settings(options);
         picture.samples *= 2;
