@@ -1,15 +1,18 @@
 // smoke: --quality draft
 /// \file chapters/drawings/11_drawings.cpp
-/// \brief Chapter 11: the parts of the incoming and of the refracted direction.
+/// \brief Chapter 11: the parts of the incoming and of the refracted direction, and
+/// rays through a ball of glass.
 
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
+#include <ljus/geometry/sphere.hpp>
 #include <ljus/optics/refraction.hpp>
 
 #include "common/command_line.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
 
 namespace {
 
@@ -19,8 +22,8 @@ using examples::Point;
 using Vec = ljus::Vec3T<double>;
 namespace colors = examples::colors;
 
-/// D and T as radii of a circle, each with its part along the surface and its part along
-/// the normal.
+/// D and T as radii of a circle, each with its part along the surface and its part
+/// along the normal.
 void draw_parts(const std::string& folder) {
     Drawing drawing{.name = "refraction-parts",
                     .description =
@@ -65,13 +68,53 @@ void draw_parts(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
+/// The way of a ray through a ball of index n: where it goes in, where out, and where
+/// it is after a length of 4.
+std::vector<Point> way_through_ball(double height, double n) {
+    using Ray = ljus::RayT<double>;
+    const ljus::SphereT<double> ball{};
+    const Ray before{.origin{-2.2, height, 0}, .direction{1, 0, 0}};
+    const auto in = point_at(before, *intersect(before, ball));
+    const auto inside = *ljus::refract(before.direction, normal(ball, in), 1 / n);
+    const Ray within{.origin = in, .direction = inside, .t_min = 1e-9};
+    const auto out = point_at(within, *intersect(within, ball));
+    const auto beyond = *ljus::refract(inside, normal(ball, out), n);
+    const auto end = out + 4.0 * beyond;
+    return {{-2.2, height}, {in.x, in.y}, {out.x, out.y}, {end.x, end.y}};
+}
+
+/// Parallel rays through a ball of glass, and where theory has their focus.
+void draw_ball(const std::string& folder) {
+    const double n = 1.5;
+    Drawing figure{.name = "refraction-ball",
+                   .description = "Parallel rays through a ball of glass",
+                   .low{-2.2, -1.25},
+                   .high{3.4, 1.25},
+                   .scale = 125};
+    std::vector<Point> circle;
+    for (int i = 0; i < 120; ++i) {
+        const double angle = 2 * std::numbers::pi * i / 120;
+        circle.push_back({std::cos(angle), std::sin(angle)});
+    }
+    draw_area(figure, circle, colors::blue);
+    for (int i = -24; i <= 24; ++i) {
+        const double height = 0.98 * i / 24;
+        draw_line(figure, way_through_ball(height, n), {colors::orange, 0.7});
+    }
+    const double focus = n / (2 * (n - 1)); // from the centre, for R = 1
+    draw_line(figure, {{focus, -0.35}, {focus, 0.35}}, {.dashed = true});
+    draw_label(figure, {focus, 0.5}, "n R / 2(n - 1)");
+    save_drawing(folder, figure);
+}
+
 } // namespace
 
-/// Makes the chapter's drawing.
+/// Makes the chapter's drawings.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 11, refraction: a drawing.");
+        line.about("Chapter 11, refraction: drawings.");
         const examples::Options options = line.parse({});
         draw_parts(options.path(""));
+        draw_ball(options.path(""));
     });
 }

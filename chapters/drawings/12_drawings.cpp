@@ -10,7 +10,7 @@
 #include <ljus/optics/refraction.hpp>
 
 #include "common/command_line.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
 
 namespace {
 

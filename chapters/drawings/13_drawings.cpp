@@ -11,7 +11,7 @@
 #include <ljus/math/sampling.hpp>
 
 #include "common/command_line.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
 
 namespace {
 

@@ -1,14 +1,20 @@
 // smoke: --quality draft
 /// \file chapters/drawings/14_drawings.cpp
-/// \brief Chapter 14: the valleys of a rough surface, and the angles of the formula.
+/// \brief Chapter 14: the valleys of a rough surface, the angles of the formula, and
+/// how bright rough surfaces are from each side.
 
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include <ljus/materials/eon.hpp>
+#include <ljus/materials/lambertian.hpp>
+#include <ljus/materials/oren_nayar.hpp>
+
 #include "common/command_line.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
+#include "drawings/lobes.hpp"
 
 namespace {
 
@@ -16,8 +22,8 @@ using examples::Drawing;
 using examples::Point;
 namespace colors = examples::colors;
 
-/// V-shaped valleys: lit facets, facets in the shade, and what one sees of them from the
-/// lamp's side and from the other one.
+/// V-shaped valleys: lit facets, facets in the shade, and what one sees of them from
+/// the lamp's side and from the other side.
 void draw_valleys(const std::string& folder) {
     Drawing drawing{.name = "oren_nayar-valleys",
                     .description =
@@ -32,7 +38,8 @@ void draw_valleys(const std::string& folder) {
     for (int i = 0; i < 7; ++i) {
         const double x = width * i;
         const Point left{x, 0}, bottom{x + width / 2, -depth}, right{x + width, 0};
-        // The light comes from the left at 45 degrees: it meets what rises to the right.
+        // The light comes from the left at 45 degrees, and meets facets that rise to the
+        // right.
         draw_line(drawing, {left, bottom}, {.color = "#808080", .width = 5});
         draw_line(drawing, {bottom, right}, {.color = colors::orange, .width = 5});
         ground.insert(ground.end(), {left, bottom});
@@ -96,6 +103,35 @@ void draw_angles(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
+/// Where two rough surfaces send the light that comes from one side.
+void draw_lobes(const std::string& folder) {
+    using namespace examples;
+    Drawing figure{.name = "oren_nayar-lobes",
+                   .description = "Light comes from the upper left. Lambert's surface "
+                                  "is equally bright from all sides, rough ones are "
+                                  "brightest seen from where the light comes from",
+                   .low = {-2.1, -0.15},
+                   .high = {2.1, 1.75},
+                   .scale = 110};
+    const auto add = [&](const auto& material, const Pen& pen) {
+        const std::vector<Point> points = lobe(material, -60);
+        draw_area(figure, points, pen.color);
+        draw_line(figure, points, pen);
+    };
+    const ljus::RgbT<double> white{1};
+    add(ljus::LambertianT<double>{white}, {"currentColor", 1.5, true});
+    add(ljus::OrenNayarT<double>{white, 0.7}, {colors::green, 2.5});
+    add(ljus::EonT<double>{white, 0.7}, {colors::red, 2.5});
+    draw_line(figure, {{-2.1, 0}, {2.1, 0}});
+    const ljus::Vec3T<double> light = tilted(-60);
+    draw_arrow(figure, {1.9 * light.x, 1.9 * light.z}, {0.1 * light.x, 0.1 * light.z},
+               {colors::blue, 2.5});
+    draw_label(figure, {0.4, 1.2}, "EON", colors::red);
+    draw_label(figure, {1.25, 0.5}, "Lambert");
+    draw_label(figure, {-0.35, 0.55}, "1994", colors::green);
+    save_drawing(folder, figure);
+}
+
 } // namespace
 
 /// Makes the chapter's drawings.
@@ -105,5 +141,6 @@ int main(int argc, char** argv) {
         const examples::Options options = line.parse({});
         draw_valleys(options.path(""));
         draw_angles(options.path(""));
+        draw_lobes(options.path(""));
     });
 }

@@ -1,18 +1,21 @@
 // smoke: --quality draft
 /// \file chapters/drawings/15_drawings.cpp
-/// \brief Chapter 15: the half vector of a facet, its lobes, and a mixture of materials.
+/// \brief Chapter 15: the half vector of a facet, lobes of gloss, and a mixture of
+/// materials.
 
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include <ljus/materials/glossy.hpp>
 #include <ljus/math/random.hpp>
 #include <ljus/optics/microfacet.hpp>
 #include <ljus/optics/reflection.hpp>
 
 #include "common/command_line.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
+#include "drawings/lobes.hpp"
 
 namespace {
 
@@ -106,7 +109,7 @@ void draw_distribution(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
-/// The light as a bar, of which each part of the mixture takes a piece.
+/// The light as a bar; each part of the mixture takes a piece of it.
 void draw_mixture(const std::string& folder) {
     Drawing drawing{.name = "materials-mixture",
                     .description = "A bar of all light. The mirror takes the share r, "
@@ -142,6 +145,35 @@ void draw_mixture(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
+/// Where gloss of three roughnesses sends the light that comes from one side.
+void draw_lobes(const std::string& folder) {
+    using namespace examples;
+    Drawing figure{.name = "materials-lobes",
+                   .description = "Light comes from the upper left. The rougher the "
+                                  "gloss, the wider the lobe on the other side",
+                   .low = {-3.2, -0.15},
+                   .high = {4.6, 3.2},
+                   .scale = 65};
+    const char* inks[] = {colors::red, colors::green, colors::violet};
+    const double roughnesses[] = {0.6, 0.7, 1};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const ljus::GlossyT<double> gloss{ljus::RgbT<double>{1}, roughnesses[i]};
+        const std::vector<Point> points = lobe(gloss, -45);
+        draw_area(figure, points, inks[i]);
+        draw_line(figure, points, {inks[i], 2.5});
+        const Point& label = points[130];
+        draw_label(figure, {label.x + 0.3, label.y + 0.2},
+                   (i == 0 ? "roughness " : "") + text(roughnesses[i], "%.1f"),
+                   inks[i]);
+    }
+    draw_line(figure, {{-3.2, 0}, {4.6, 0}});
+    draw_arc(figure, {0, 0}, 1, 0, std::numbers::pi, {"currentColor", 1.5, true});
+    const ljus::Vec3T<double> light = tilted(-45);
+    draw_arrow(figure, {4 * light.x, 4 * light.z}, {0.1 * light.x, 0.1 * light.z},
+               {colors::blue, 2.5});
+    save_drawing(folder, figure);
+}
+
 } // namespace
 
 /// Makes the chapter's drawings.
@@ -151,6 +183,7 @@ int main(int argc, char** argv) {
         const examples::Options options = line.parse({});
         draw_half_vector(options.path(""));
         draw_distribution(options.path(""));
+        draw_lobes(options.path(""));
         draw_mixture(options.path(""));
     });
 }

@@ -1,27 +1,14 @@
-// smoke: --quality draft --width 12 --height 8 --rays 4
+// smoke: --quality draft
 /// \file chapters/drawings/18_drawings.cpp
-/// \brief Chapter 18: a lamp with an area, a lens with an area, and the cost of a ray
-/// whose numbers are spread evenly.
+/// \brief Chapter 18: a lamp with an area, and a lens with an area.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <string>
-#include <type_traits>
-#include <utility>
-#include <vector>
 
-#include <ljus/inspect/metrics.hpp>
-#include <ljus/ljus.hpp>
+#include <ljus/scene/lens_camera.hpp>
 
-#include "common/clock.hpp"
 #include "common/command_line.hpp"
-#include "common/signals.hpp"
+#include "common/drawing.hpp"
 #include "drawings/dimension.hpp"
-#include "drawings/drawing.hpp"
 
 namespace {
 
@@ -178,157 +165,14 @@ void draw_lens(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
-// --- The trade -----------------------------------------------------------------------
-
-using ljus::Sampling;
-using MovingBall = ljus::Moving<ljus::Sphere>;
-template <typename Ball>
-using Balls =
-    ljus::Scene<ljus::Shapes<Ball, ljus::Quad>, ljus::Materials<ljus::Lambertian>,
-                ljus::Lights<ljus::PointLight>>;
-
-/// Nine balls on a floor, without a light.
-template <typename Ball>
-Balls<Ball> nine_balls(const ljus::Vec3& way = ljus::Vec3{0}) {
-    Balls<Ball> scene;
-    const auto grey = scene.add(ljus::Lambertian{.albedo = ljus::Rgb{0.6f}});
-    scene.add(ljus::Quad{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}}, grey);
-    for (int i = 0; i < 9; ++i) {
-        const ljus::Sphere ball{
-            .center{float(2 * (i % 3) - 2), 0.6f, float(2 * (i / 3) - 2)},
-            .radius = 0.6f};
-        if constexpr (std::is_same_v<Ball, MovingBall>)
-            scene.add(MovingBall{ball, way}, grey);
-        else
-            scene.add(ball, grey);
-    }
-    return scene;
-}
-
-constexpr std::array patterns{Sampling::random, Sampling::jittered,
-                              Sampling::multi_jittered, Sampling::sobol};
-
-/// A picture, and what it has cost.
-struct Timed {
-    ljus::Image image;
-    double seconds = 0; ///< Of the processor.
-};
-template <ljus::AnyWorld W, typename AnyCamera>
-Timed timed(const W& world, const AnyCamera& camera, Sampling sampling, int rays,
-            const examples::Options& options, std::uint64_t seed = 1) {
-    const double start = examples::processor_seconds();
-    auto picture = render(ljus::DistributedTracer(world), camera,
-                          {.width = options.width,
-                           .height = options.height,
-                           .samples = rays,
-                           .seed = seed,
-                           .threads = 1,
-                           .sampling = sampling});
-    return {std::move(picture.image), examples::processor_seconds() - start};
-}
-
-/// Nanoseconds of a camera ray by each pattern, through a lens, and with moving balls.
-void table_costs(const examples::Options& options) {
-    const ljus::PointLight light{.position{3, 6, 4}, .intensity = ljus::Rgb{100}};
-    const auto lit = [&](auto scene) {
-        scene.add(light);
-        return ljus::World(std::move(scene));
-    };
-    const auto still = lit(nine_balls<ljus::Sphere>());
-    const auto resting = lit(nine_balls<MovingBall>());
-    const auto moving = lit(nine_balls<MovingBall>({0.5f, 0, 0}));
-    const ljus::Camera pinhole =
-        look_at(ljus::View{.position{0, 5, 8}, .target{0, 0.4f, 0}});
-    const ljus::LensCamera lens = with_lens(pinhole, 0.1f, 9.0f);
-
-    std::array<double, 7> least;
-    least.fill(std::numeric_limits<double>::infinity());
-    for (int round = 0; round < options.pick(7, 15, 31); ++round) {
-        const auto seconds = [&](const auto& world, const auto& camera,
-                                 Sampling sampling) {
-            return timed(world, camera, sampling, 16, options).seconds;
-        };
-        const std::array now{seconds(still, pinhole, Sampling::random),
-                             seconds(still, pinhole, Sampling::jittered),
-                             seconds(still, pinhole, Sampling::multi_jittered),
-                             seconds(still, pinhole, Sampling::sobol),
-                             seconds(still, lens, Sampling::random),
-                             seconds(resting, pinhole, Sampling::random),
-                             seconds(moving, pinhole, Sampling::random)};
-        for (std::size_t i = 0; i < now.size(); ++i)
-            least[i] = std::min(least[i], now[i]);
-        examples::stop_if_asked();
-    }
-    const std::array names{"random, a pinhole, nothing moves",
-                           "jittered",
-                           "multi-jittered",
-                           "Sobol",
-                           "random, and a lens",
-                           "random, balls of a moving type that stand still",
-                           "random, balls that move"};
-    examples::Table table{
-        .name = "distributed_rays-costs",
-        .columns = {"camera rays", "ns per camera ray", "over the first row"}};
-    const double rays = 16.0 * options.width * options.height;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        table.rows.push_back({names[i], examples::text(1e9 * least[i] / rays, "%.0f"),
-                              examples::text(least[i] / least[0], "%.2f")});
-    save_table(options.path(""), table);
-}
-
-/// The error of a picture with soft shadows against time.
-void plot_trade(const examples::Options& options) {
-    auto scene = nine_balls<ljus::Sphere>();
-    scene.add(ljus::Quad{{2, 6, 3}, {2, 0, 0}, {0, 0, 2}},
-              scene.add(ljus::Lambertian{.albedo = ljus::Rgb{0}}), ljus::Rgb{25});
-    const ljus::World world(std::move(scene));
-    const ljus::Camera camera =
-        look_at(ljus::View{.position{0, 5, 8}, .target{0, 0.4f, 0}});
-    const ljus::Image truth =
-        timed(world, camera, Sampling::sobol, 16 * options.samples, options, 99).image;
-
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    examples::Plot plot{.name = "distributed_rays-trade",
-                        .columns = {"microseconds per pixel", "random", "jittered",
-                                    "multi-jittered", "Sobol"},
-                        .y_label = "RMS error of the picture",
-                        .rows = {},
-                        .log_x = true,
-                        .log_y = true};
-    const double pixels = double(options.width) * options.height;
-    for (std::size_t kind = 0; kind < patterns.size(); ++kind)
-        for (int rays = 1; rays <= options.samples; rays *= 4) {
-            double square = 0, seconds = std::numeric_limits<double>::infinity();
-            const int seeds = options.pick(4, 8, 16);
-            for (int seed = 1; seed <= seeds; ++seed) {
-                const Timed one = timed(world, camera, patterns[kind], rays, options,
-                                        std::uint64_t(seed));
-                const double error = double(ljus::rmse(one.image, truth));
-                square += error * error / seeds;
-                seconds = std::min(seconds, one.seconds);
-                examples::stop_if_asked();
-            }
-            examples::Row row(patterns.size() + 1, none);
-            row[0] = 1e6 * seconds / pixels;
-            row[kind + 1] = std::sqrt(square);
-            plot.rows.push_back(row);
-        }
-    save_plot(options.path(""), plot);
-}
-
 } // namespace
 
-/// Makes the chapter's drawings, and measures what its rays cost.
+/// Makes the chapter's drawings.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 18, distributed rays: drawings, and the cost of a ray.");
-        const examples::Options options =
-            line.parse({.draft{.width = 48, .height = 32, .samples = 64},
-                        .report{.width = 72, .height = 48, .samples = 256},
-                        .reference{.width = 96, .height = 64, .samples = 1024}});
+        line.about("Chapter 18, distributed rays: drawings.");
+        const examples::Options options = line.parse({});
         draw_penumbra(options.path(""));
         draw_lens(options.path(""));
-        table_costs(options);
-        plot_trade(options);
     });
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/command_line.hpp"
+#include "common/drawing.hpp"
 #include "common/plot.hpp"
-#include "drawings/drawing.hpp"
 
 namespace {
 

@@ -1,8 +1,7 @@
-// figures: fig-10 refraction
 // smoke: --quality draft --width 24 --height 16 --rays 1 --calls 1000
 /// \file chapters/experiments/11_experiments.cpp
-/// \brief Chapter 11: figure 10, rays through a ball of glass, and how well Snell's law
-/// is kept.
+/// \brief Chapter 11: the experiments behind its table, plot and pictures: how well
+/// Snell's law is kept, and two mistakes.
 
 #include <algorithm>
 #include <cmath>
@@ -14,14 +13,10 @@
 
 #include <ljus/ljus.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/rendered.hpp"
-#include "drawings/drawing.hpp"
+#include "common/example.hpp"
 
 namespace {
 
-using examples::Point;
 using ljus::Quad;
 using ljus::Rgb;
 using ljus::Sphere;
@@ -29,88 +24,10 @@ using ljus::Triangle;
 using ljus::Vec3;
 using ljus::Vec3T;
 
-/// A vector of the plane of the drawing, seen from a point.
-Point from(const Point& origin, const Vec3T<double>& v) {
-    return {origin.x + v.x, origin.y + v.y};
-}
-
-/// Figure 10: D, R_1 and the two angles, as refract() has them.
-void draw_figure_10(const std::string& folder) {
-    const double n1 = 1, n2 = 1.5;
-    const Vec3T<double> normal{0, 1, 0};
-    const Vec3T<double> d = glm::normalize(Vec3T<double>{1, -0.9, 0});
-    const Vec3T<double> r = *ljus::refract(d, normal, n1 / n2);
-
-    examples::Drawing figure{.name = "fig-10",
-                             .description = "A ray D that glass refracts along R1",
-                             .low{-2.2, -1.6},
-                             .high{2.2, 1.5}};
-    const Point hit{};
-    const double length = 1.6;
-    draw_area(figure, {{-2.2, 0}, {2.2, 0}, {2.2, -1.6}, {-2.2, -1.6}},
-              examples::colors::blue);
-    draw_line(figure, {{-2.2, 0}, {2.2, 0}});
-    draw_arrow(figure, from(hit, -length * d), hit, {examples::colors::blue, 2.5});
-    draw_arrow(figure, hit, from(hit, length * r), {examples::colors::orange, 2.5});
-    draw_arrow(figure, hit, {0, 1.2}, {.width = 2});
-    draw_arrow(figure, hit, {0, -1.2}, {.width = 2});
-
-    // The angles between -D and N_1, and between R_1 and N_2.
-    const double half_pi = std::numbers::pi / 2;
-    draw_arc(figure, hit, 0.5, half_pi, std::atan2(-d.y, -d.x));
-    draw_arc(figure, hit, 0.5, -half_pi, std::atan2(r.y, r.x));
-    draw_label(figure, {-0.27, 0.62}, "θ_1");
-    draw_label(figure, {0.2, -0.66}, "θ_2");
-    draw_label(figure, {-1.35, 0.85}, "D", examples::colors::blue);
-    draw_label(figure, {0.95, -1.1}, "R_1", examples::colors::orange);
-    draw_label(figure, {0.2, 1.15}, "N_1");
-    draw_label(figure, {-0.2, -1.15}, "N_2");
-    draw_label(figure, {1.7, 0.25}, "n_1 = 1");
-    draw_label(figure, {1.65, -0.25}, "n_2 = 1.5");
-    save_drawing(folder, figure);
-}
-/// The way of a ray through a ball of index n: where it goes in, where out, and where
-/// it is after a length of 4.
-std::vector<Point> way_through_ball(double height, double n) {
-    using Ray = ljus::RayT<double>;
-    const ljus::SphereT<double> ball{};
-    const Ray before{.origin{-2.2, height, 0}, .direction{1, 0, 0}};
-    const auto in = point_at(before, *intersect(before, ball));
-    const auto inside = *ljus::refract(before.direction, normal(ball, in), 1 / n);
-    const Ray within{.origin = in, .direction = inside, .t_min = 1e-9};
-    const auto out = point_at(within, *intersect(within, ball));
-    const auto beyond = *ljus::refract(inside, normal(ball, out), n);
-    const auto end = out + 4.0 * beyond;
-    return {{-2.2, height}, {in.x, in.y}, {out.x, out.y}, {end.x, end.y}};
-}
-/// Parallel rays through a ball of glass, and where theory has their focus.
-void draw_ball(const std::string& folder) {
-    const double n = 1.5;
-    examples::Drawing figure{.name = "refraction-ball",
-                             .description = "Parallel rays through a ball of glass",
-                             .low{-2.2, -1.25},
-                             .high{3.4, 1.25},
-                             .scale = 125};
-    std::vector<Point> circle;
-    for (int i = 0; i < 120; ++i) {
-        const double angle = 2 * std::numbers::pi * i / 120;
-        circle.push_back({std::cos(angle), std::sin(angle)});
-    }
-    draw_area(figure, circle, examples::colors::blue);
-    for (int i = -24; i <= 24; ++i) {
-        const double height = 0.98 * i / 24;
-        draw_line(figure, way_through_ball(height, n), {examples::colors::orange, 0.7});
-    }
-    const double focus = n / (2 * (n - 1)); // from the centre, for R = 1
-    draw_line(figure, {{focus, -0.35}, {focus, 0.35}}, {.dashed = true});
-    draw_label(figure, {focus, 0.5}, "n R / 2(n - 1)");
-    save_drawing(folder, figure);
-}
-
-/// What is wrong with a glass.
+/// What can be wrong with glass.
 enum class Error { none, total_reflection_ignored, index_swapped };
 
-/// Glass with a mistake that is easily made.
+/// Glass with a mistake that is easy to make.
 struct MistakenGlass {
     using Scalar = float; ///< The precision.
     ljus::Glass glass;    ///< The glass as it should be.
@@ -129,7 +46,7 @@ float pdf(const MistakenGlass&, const Vec3&, const Vec3&,
 void check(const MistakenGlass& mistaken) {
     check(mistaken.glass);
 }
-/// The glass's own sample; but where its mistake shows, something else.
+/// The sample of the right glass, except where the mistake shows.
 std::optional<ljus::BsdfSample> sample(const MistakenGlass& mistaken, const Vec3& wo,
                                        const Vec3& u, ljus::Transport transport,
                                        ljus::Lobes which = ljus::Lobes::all) {
@@ -203,8 +120,8 @@ constexpr auto in_frame = [](const Vec3& d, float eta) {
     return ljus::refract(-d, eta);
 };
 
-/// Directions that pass a boundary of index ratio eta, a third of them within a
-/// thousandth of the critical angle, a third close to straight.
+/// Directions that pass a boundary of index ratio eta: a third of them within a
+/// thousandth of the critical angle, a third close to the normal.
 std::vector<Vec3> passing(double eta, int count) {
     std::vector<Vec3> result;
     ljus::RandomStream stream = ljus::random_stream(9, ljus::Pass::camera, 0, 0);
@@ -221,8 +138,8 @@ std::vector<Vec3> passing(double eta, int count) {
     return result;
 }
 
-/// The largest | |T| - 1 | and residual of Snell's law, in units of roundoff; NaN if
-/// any direction was said not to pass though it does by far.
+/// The larger of | |T| - 1 | and the residual of Snell's law, over all directions, in
+/// units of roundoff.
 template <typename Refract>
 double largest_error(double eta, int count, Refract refract) {
     double largest = 0;
@@ -256,7 +173,7 @@ void plot_errors(const std::string& folder, int calls) {
     save_plot(folder, plot);
 }
 
-/// Nanoseconds a call, the best of 21 runs; half of the rays go in, half out.
+/// Nanoseconds per call, the best of 21 runs; half of the rays go in, half go out.
 template <typename Refract>
 double nanoseconds(Refract refract) {
     const std::vector<Vec3> into = passing(1 / 1.5, 2048), out = passing(1.5, 2048);
@@ -291,19 +208,17 @@ void tabulate_trade(const std::string& folder, int calls) {
 
 } // namespace
 
-/// Makes the chapter's figures.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         int calls = 100000;
-        line.about("Chapter 11, refraction: figure 10, a ball of glass, Snell's law.");
+        line.about("Chapter 11, refraction: Snell's law, and two mistakes.");
         line.add("--calls", calls, "Rays for each error of the plot", 3, 10000000);
         const examples::Options options =
             line.parse({.draft{.width = 270, .height = 180, .samples = 32},
                         .report{.width = 600, .height = 400, .samples = 64},
                         .reference{.width = 900, .height = 600, .samples = 4096}});
         const std::string folder = options.path("");
-        draw_figure_10(folder);
-        draw_ball(folder);
         plot_errors(folder, calls);
         tabulate_trade(folder, calls);
         picture(options, "refraction", Error::none);

@@ -1,8 +1,7 @@
-// figures: fresnel
 // smoke: --quality draft --width 24 --height 16 --rays 1
 /// \file chapters/experiments/12_experiments.cpp
-/// \brief Chapter 12: how much glass and metal reflect, exactly and by Schlick's
-/// formula, and whether a picture shows the difference.
+/// \brief Chapter 12: the experiments behind its tables and plots: Schlick's formula
+/// beside the exact one, and whether a picture shows the difference.
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +15,7 @@
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/rendered.hpp"
+#include "common/example.hpp"
 
 namespace {
 
@@ -38,7 +34,7 @@ double as_printed(double cos_theta, double n_i, double n_t) {
     return ljus::schlick(ljus::schlick_r0(n_i, n_t), cos_theta);
 }
 
-/// Plot: reflectance of glass against the angle, into it and out of it.
+/// Plot: the reflectance of glass against the angle, from outside and from inside.
 void plot_glass(const std::string& folder) {
     examples::Plot plot{.name = "fresnel-glass",
                         .columns = {"angle in degrees", "exact into glass",
@@ -56,7 +52,8 @@ void plot_glass(const std::string& folder) {
     save_plot(folder, plot);
 }
 
-/// Plot: reflectance of metals in three channels against the angle; dashed, Schlick.
+/// Plot: the reflectance of gold in three channels against the angle, exact and by
+/// Schlick's formula.
 void plot_metals(const std::string& folder) {
     examples::Plot plot{.name = "fresnel-metals",
                         .columns = {"angle in degrees", "gold at 620 nm",
@@ -76,11 +73,11 @@ void plot_metals(const std::string& folder) {
     save_plot(folder, plot);
 }
 
-/// Which direction, and which formula.
+/// The errors of Schlick's formula, by direction and by the angle that it takes.
 struct Errors {
-    double into = 0;    ///< Schlick, into the denser medium.
-    double out = 0;     ///< Out of it, with the thin side's angle.
-    double printed = 0; ///< Out of it, with the incoming angle.
+    double into = 0;    ///< Into the denser medium.
+    double out = 0;     ///< Out of it, by the angle on the thin side.
+    double printed = 0; ///< Out of it, by the incoming angle.
 };
 
 /// The largest errors over all angles for an index.
@@ -115,8 +112,8 @@ void plot_errors(const std::string& folder) {
     save_plot(folder, plot);
 }
 
-/// Glass that reflects the same share at every angle: the report's program, whose half
-/// vector is the normal.
+/// Glass that reflects the same fraction at every angle, as in the report's program,
+/// whose half vector is the normal.
 struct FlatGlass {
     using Scalar = float; ///< The precision.
     float index = 1.5f;   ///< Of refraction.
@@ -147,10 +144,10 @@ std::optional<ljus::BsdfSample> sample(const FlatGlass& glass, const Vec3& wo,
 }
 // [flat glass]
 
-/// A gold, a copper and a silver ball, or three of glass, between two bright walls.
-template <typename Left, typename Middle, typename Right>
-ljus::Image picture(const examples::Options& options, const std::string& name,
-                    const Left& left, const Middle& middle, const Right& right) {
+/// Three balls of glass between two bright walls.
+template <typename Material>
+ljus::Image picture(const std::string& name, const Material& glass,
+                    const examples::Options& options) {
     const auto matt = [](float r, float g, float b) {
         return ljus::Lambertian{.albedo{r, g, b}};
     };
@@ -161,18 +158,15 @@ ljus::Image picture(const examples::Options& options, const std::string& name,
         placed(Quad{{4, 0, 4}, {0, 5, 0}, {0, 0, -8}}, matt(0, 0, 0), Rgb{1}),
         placed(Quad{{-4, 0, 4}, {0, 5, 0}, {8, 0, 0}}, matt(0.2f, 0.2f, 0.2f)),
         placed(Quad{{-4, 5, -4}, {8, 0, 0}, {0, 0, 8}}, matt(0.3f, 0.3f, 0.3f)),
-        placed(Sphere{.center{-1.7f, 0.8f, 0}, .radius = 0.8f}, left),
-        placed(Sphere{.center{0, 0.8f, -0.4f}, .radius = 0.8f}, middle),
-        placed(Sphere{.center{1.7f, 0.8f, 0}, .radius = 0.8f}, right)));
+        placed(Sphere{.center{-1.7f, 0.8f, 0}, .radius = 0.8f}, glass),
+        placed(Sphere{.center{0, 0.8f, -0.4f}, .radius = 0.8f}, glass),
+        placed(Sphere{.center{1.7f, 0.8f, 0}, .radius = 0.8f}, glass)));
     const auto camera = ljus::look_at(
         {.position{0, 1.5f, 3.9f}, .target{0, 0.85f, 0}, .vfov_degrees = 42});
-    const auto result =
-        examples::rendered(name, ljus::PathTracer(world), camera, options);
-    save_png(result.image, options.path(name + ".png"));
-    return result.image;
+    return examples::rendered(name, ljus::PathTracer(world), camera, options).image;
 }
 
-/// Nanoseconds a call, the best of 21 runs over random angles and both directions.
+/// Nanoseconds per call, the best of 21 runs over random angles and both directions.
 template <typename Formula>
 double nanoseconds(Formula formula) {
     std::vector<float> cosines;
@@ -193,18 +187,15 @@ void tabulate_trade(const examples::Options& options) {
     const auto glass = [](FresnelModel model) {
         return ljus::Glass{.index = 1.5f, .fresnel = model};
     };
-    const auto three = [&](const examples::Options& as, const std::string& name,
-                           const auto& ball) {
-        return picture(as, name, ball, ball, ball);
-    };
-    const ljus::Image exact =
-        three(options, "fresnel-exact", glass(FresnelModel::exact));
+    const ljus::Image exact = picture("exact", glass(FresnelModel::exact), options);
     examples::Options other = options; // the noise of exact against exact
     other.seed = options.seed + 1;
-    const ljus::Image again = three(other, "fresnel-again", glass(FresnelModel::exact));
+    const ljus::Image again = picture("again", glass(FresnelModel::exact), other);
     const ljus::Image schlick =
-        three(options, "fresnel-schlick", glass(FresnelModel::schlick));
-    const ljus::Image flat = three(options, "fresnel-flat", FlatGlass{});
+        picture("Schlick", glass(FresnelModel::schlick), options);
+    const ljus::Image flat = picture("flat", FlatGlass{}, options);
+    save_png(exact, options.path("fresnel-exact.png"));
+    save_png(flat, options.path("fresnel-flat.png"));
 
     const auto row = [&](const char* name, double time, double into, double out,
                          const ljus::Image& image) {
@@ -241,10 +232,11 @@ void tabulate_trade(const examples::Options& options) {
 
 } // namespace
 
-/// Makes the chapter's figures.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 12, Fresnel: what glass and metal reflect.");
+        line.about(
+            "Chapter 12, Fresnel: the formulas compared, on paper and in a picture.");
         const examples::Options options =
             line.parse({.draft{.width = 300, .height = 150, .samples = 36},
                         .report{.width = 600, .height = 300, .samples = 100},
@@ -254,8 +246,5 @@ int main(int argc, char** argv) {
         plot_metals(folder);
         plot_errors(folder);
         tabulate_trade(options);
-        picture(options, "fresnel-metal-balls", ljus::Metal{},
-                ljus::Metal{.index = ljus::copper<float>},
-                ljus::Metal{.index = ljus::silver<float>});
     });
 }

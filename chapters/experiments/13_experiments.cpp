@@ -1,8 +1,7 @@
-// figures: hemisphere_sampling
 // smoke: --quality draft --width 24 --height 16 --rays 1 --directions 20000
 /// \file chapters/experiments/13_experiments.cpp
-/// \brief Chapter 13: three ways to choose a direction, what each costs, and what a
-/// forgotten pdf does.
+/// \brief Chapter 13: the experiments behind its tables and plots: three ways to draw a
+/// direction, what each costs, and what a forgotten pdf does.
 
 #include <algorithm>
 #include <cmath>
@@ -10,15 +9,14 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/rendered.hpp"
+#include "common/example.hpp"
 #include "experiments/sampler_plot.hpp"
 
 namespace {
@@ -77,7 +75,7 @@ struct Forgotten : Naive {
 
 /// Light from above: everywhere the same, or a bright lobe of 10 degrees.
 struct Sky {
-    double tilt = -1; ///< Of the lobe's axis, degrees from the normal; -1: constant.
+    double tilt = -1; ///< Of the lobe, degrees from the normal; -1: no lobe.
 
     /// The radiance from a direction.
     [[nodiscard]] double operator()(const Direction& d) const {
@@ -94,8 +92,8 @@ struct Moments {
     double variance = 0; ///< Of one sample.
 };
 
-/// By a grid over the unit square, not at random: the lobe covers some hundred of its
-/// rows.
+/// Both by a grid over the unit square, without random numbers: the lobe covers about a
+/// hundred of its rows.
 template <typename Way>
 Moments moments(const Sky& sky, int size) {
     double sum = 0, squares = 0;
@@ -122,7 +120,7 @@ void tabulate_variance(const std::string& folder, int size) {
         std::string means;
         for (const Sky& sky : skies) {
             const Moments found = moments<decltype(way)>(sky, size);
-            // A variance of 0 comes out as what rounding left of it.
+            // Rounding may turn a variance of 0 into -0.00.
             row.push_back(examples::text(std::abs(found.variance), "%.2f"));
             means += (means.empty() ? "" : "  ") + examples::text(found.mean, "%.3f");
         }
@@ -134,7 +132,7 @@ void tabulate_variance(const std::string& folder, int size) {
     save_table(folder, table);
 }
 
-/// A matt surface whose directions come from one of the ways.
+/// A diffuse surface that draws its directions in one of the ways.
 template <typename Way>
 struct Matt {
     using Scalar = float; ///< The precision.
@@ -168,11 +166,11 @@ std::optional<ljus::BsdfSample> sample(const Matt<Way>& matt, const ljus::Vec3& 
 template <typename Way>
 void check(const Matt<Way>&) {}
 
-/// A ball on a floor, under a sky that glows, or with a dark sky and a lamp. Paths find
-/// the light by themselves: what they find depends on the sampler alone.
+/// A ball on a floor, under a sky that glows or under a lamp. There are no shadow rays,
+/// so that the light which paths find depends on the sampler alone.
 template <typename Way>
 ljus::Image picture(const examples::Options& options, const std::string& name,
-                    bool lamp, int rays, bool save) {
+                    bool lamp, int rays) {
     using Scene = ljus::Scene<ljus::Shapes<Sphere, ljus::Quad>,
                               ljus::Materials<Matt<Way>, ljus::Lambertian>>;
     Scene scene;
@@ -191,9 +189,7 @@ ljus::Image picture(const examples::Options& options, const std::string& name,
     const ljus::PathTracer tracer(world, {.sample_lights = false});
     auto picture = examples::picture_settings(options);
     picture.samples = rays;
-    const auto result = examples::rendered(name, tracer, camera, picture, options);
-    if (save) save_png(result.image, options.path(name + ".png"));
-    return result.image;
+    return examples::rendered(name, tracer, camera, picture, options).image;
 }
 
 /// Nanoseconds for a direction and its density, the best of 21 runs.
@@ -218,16 +214,18 @@ void tabulate_pictures(const examples::Options& options) {
     other.seed = options.seed + 1000;
     const int many = 16 * options.samples;
     const ljus::Image sky =
-        picture<Cosine>(other, "reference under the sky", false, many, false);
+        picture<Cosine>(other, "reference under the sky", false, many);
     const ljus::Image lamp =
-        picture<Cosine>(other, "reference under the lamp", true, many, false);
+        picture<Cosine>(other, "reference under the lamp", true, many);
     examples::Table table{.name = "hemisphere-pictures",
                           .columns = {"", "ns", "relMSE, sky", "relMSE, lamp",
                                       "block error, sky", "block error, lamp"}};
-    const auto add = [&](auto way, const std::string& file) {
+    const auto add = [&](auto way) {
         using W = decltype(way);
-        const auto a = picture<W>(options, file + "-sky", false, options.samples, true);
-        const auto b = picture<W>(options, file + "-lamp", true, options.samples, true);
+        const auto a = picture<W>(options, "sky", false, options.samples);
+        const auto b = picture<W>(options, "lamp", true, options.samples);
+        if constexpr (std::is_same_v<W, Forgotten>)
+            save_png(b, options.path("hemisphere-forgotten-lamp.png"));
         std::vector<std::string> row{
             W::name,
             examples::text(nanoseconds<W>(), "%.1f"),
@@ -238,10 +236,10 @@ void tabulate_pictures(const examples::Options& options) {
         examples::print_row(row, 22);
         table.rows.push_back(row);
     };
-    add(Cosine{}, "hemisphere-cosine");
-    add(Uniform{}, "hemisphere-uniform");
-    add(Naive{}, "hemisphere-naive");
-    add(Forgotten{}, "hemisphere-forgotten");
+    add(Cosine{});
+    add(Uniform{});
+    add(Naive{});
+    add(Forgotten{});
     examples::save_table(options.path(""), table);
 }
 
@@ -265,7 +263,7 @@ void check_all(const std::string& folder, int directions) {
 
 } // namespace
 
-/// Makes the chapter's figures.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         int directions = 100000;

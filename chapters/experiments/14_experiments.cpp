@@ -1,8 +1,7 @@
-// figures: fig-14 oren_nayar
 // smoke: --quality draft --width 24 --height 24 --rays 1
 /// \file chapters/experiments/14_experiments.cpp
-/// \brief Chapter 14: figure 14 with roughnesses that mean something, six models, and
-/// what they return of a white sky.
+/// \brief Chapter 14: the experiments behind its tables and plots: six models of rough
+/// surfaces, and what they return of a white sky.
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +13,7 @@
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/rendered.hpp"
-#include "drawings/drawing.hpp"
+#include "common/example.hpp"
 
 namespace {
 
@@ -34,32 +29,27 @@ ljus::RoughDiffuseT<T> rough(RoughModel model, T albedo, T sigma) {
     return {ljus::RgbT<T>{albedo}, sigma, model};
 }
 
-/// A ball of one material, lit from behind the camera by a lamp and by nothing else.
+/// A ball of one material; the lamp stands behind the camera, and there is no other
+/// light.
 template <typename Material>
 Image ball(const examples::Options& options, const std::string& name,
-           const Material& material, bool save = true) {
+           const Material& material) {
     const ljus::World world(
         ljus::make_scene(placed(Sphere{.center{0, 0, 0}, .radius = 1}, material),
                          placed(Sphere{.center{-4, 5, 9}, .radius = 1.2f},
                                 ljus::Lambertian{.albedo = Rgb{0}}, Rgb{60})));
     const auto camera =
         ljus::look_at({.position{0, 0, 6}, .target{0, 0, 0}, .vfov_degrees = 21});
-    const auto result = examples::rendered(
-        name, ljus::PathTracer(world, {.max_depth = 1}), camera, options);
-    if (save) save_png(result.image, options.path(name + ".png"));
-    return result.image;
+    const ljus::PathTracer tracer(world, {.max_depth = 1});
+    return examples::rendered(name, tracer, camera, options).image;
 }
 
-/// Figure 14: the report's roughnesses by its formula, and legal ones by EON.
-void figure_14(const examples::Options& options) {
+/// Table: how little the pictures of figure 14 change with the report's roughnesses.
+void tabulate_saturation(const examples::Options& options) {
     std::vector<Image> report;
-    for (const int sigma : {0, 1, 10, 100})
+    for (const float sigma : {0.0f, 1.0f, 10.0f, 100.0f})
         report.push_back(
-            ball(options, "fig-14-report-" + std::to_string(sigma),
-                 rough(RoughModel::as_printed, 0.8f, static_cast<float>(sigma))));
-    for (const int percent : {0, 20, 40, 70, 100})
-        ball(options, "fig-14-" + std::to_string(percent),
-             ljus::Eon{.albedo = Rgb{0.8f}, .roughness = 0.01f * float(percent)});
+            ball(options, "figure 14", rough(RoughModel::as_printed, 0.8f, sigma)));
 
     examples::Table table{.name = "fig-14-saturation",
                           .columns = {"roughness", "A", "B",
@@ -92,7 +82,7 @@ void figure_14(const examples::Options& options) {
     examples::save_table(options.path(""), table);
 }
 
-/// The share of a constant sky that a white surface returns: by a grid.
+/// The fraction of a constant sky that a surface returns, by a grid of directions.
 template <typename Material>
 double albedo(const Material& material, double degrees, int size) {
     const double theta = degrees * std::numbers::pi / 180;
@@ -110,7 +100,7 @@ double albedo(const Material& material, double degrees, int size) {
     return sum * std::numbers::pi / size / size;
 }
 
-/// Plot: that share against the angle, for each model at its roughest sensible.
+/// Plot: that fraction against the angle, for each model at roughness 0.7.
 void plot_albedo(const std::string& folder, int size) {
     examples::Plot plot{.name = "oren_nayar-albedo",
                         .columns = {"angle in degrees", "as the report's program",
@@ -134,7 +124,7 @@ void plot_albedo(const std::string& folder, int size) {
     save_plot(folder, plot);
 }
 
-/// Plot: a ball seen from where the light is: radiance against the angle.
+/// Plot: the radiance of a ball that is seen from the lamp, against the angle.
 void plot_retroreflection(const std::string& folder) {
     examples::Plot plot{.name = "oren_nayar-front",
                         .columns = {"angle in degrees", "Lambert", "qualitative 1994",
@@ -155,45 +145,6 @@ void plot_retroreflection(const std::string& folder) {
     save_plot(folder, plot);
 }
 
-/// Drawing: where two rough surfaces send the light that comes from one side.
-void draw_lobes(const std::string& folder) {
-    using namespace examples;
-    Drawing figure{.name = "oren_nayar-lobes",
-                   .description = "Light comes from the upper left. Lambert's surface "
-                                  "is equally bright from all sides, rough ones are "
-                                  "brightest seen from where the light comes from",
-                   .low = {-2.1, -0.15},
-                   .high = {2.1, 1.75},
-                   .scale = 110};
-    const auto direction = [](double degrees) {
-        const double a = degrees * std::numbers::pi / 180;
-        return Vec3T<double>{std::sin(a), 0, std::cos(a)};
-    };
-    const auto lobe = [&](const auto& material, const Pen& pen) {
-        std::vector<Point> points;
-        for (int angle = -89; angle <= 89; ++angle) {
-            const Vec3T<double> wo = direction(angle);
-            const double r =
-                std::numbers::pi * evaluate(material, wo, direction(-60)).x;
-            points.push_back({r * wo.x, r * wo.z});
-        }
-        draw_area(figure, points, pen.color);
-        draw_line(figure, points, pen);
-    };
-    const ljus::RgbT<double> white{1};
-    lobe(ljus::LambertianT<double>{white}, {"currentColor", 1.5, true});
-    lobe(ljus::OrenNayarT<double>{white, 0.7}, {colors::green, 2.5});
-    lobe(ljus::EonT<double>{white, 0.7}, {colors::red, 2.5});
-    draw_line(figure, {{-2.1, 0}, {2.1, 0}});
-    const Vec3T<double> light = direction(-60);
-    draw_arrow(figure, {1.9 * light.x, 1.9 * light.z}, {0.1 * light.x, 0.1 * light.z},
-               {colors::blue, 2.5});
-    draw_label(figure, {0.4, 1.2}, "EON", colors::red);
-    draw_label(figure, {1.25, 0.5}, "Lambert");
-    draw_label(figure, {-0.35, 0.55}, "1994", colors::green);
-    save_drawing(folder, figure);
-}
-
 /// Nanoseconds to evaluate, the best of 21 runs over random directions.
 template <typename Material>
 double nanoseconds(const Material& material) {
@@ -210,7 +161,7 @@ double nanoseconds(const Material& material) {
     });
 }
 
-/// The weights of many samples, which a path's throughput is multiplied by; 0 for a
+/// The weights of many samples, by which a path's throughput is multiplied; 0 for a
 /// sample that fails.
 template <typename Material>
 std::vector<double> weights(const Material& material, double degrees, int count) {
@@ -248,7 +199,7 @@ double nanoseconds_a_sample(const Material& material, double degrees) {
     });
 }
 
-/// The error of the means of n values, where the truth is 1: root mean square.
+/// The root mean square error of the means of n values each; the truth is 1.
 double error_of_means(const std::vector<double>& values, std::size_t n) {
     double squares = 0;
     std::size_t means = 0;
@@ -260,8 +211,8 @@ double error_of_means(const std::vector<double>& values, std::size_t n) {
     return std::sqrt(squares / double(means));
 }
 
-/// Plot: what a white surface sends back of a white sky at 75 degrees, by few samples
-/// and by many: error against time.
+/// Plot: error against time of what a white surface returns of a white sky at 75
+/// degrees, by 1 to 4096 samples.
 void plot_trade(const examples::Options& options) {
     constexpr float sigma = 0.7f;
     examples::Plot plot{.name = "oren_nayar-error",
@@ -295,7 +246,7 @@ void tabulate_trade(const examples::Options& options, int size) {
     constexpr float sigma = 0.7f;
     const Rgb grey{0.8f};
     const Image truth = ball(options, "eon for the table",
-                             ljus::Eon{.albedo = grey, .roughness = sigma}, false);
+                             ljus::Eon{.albedo = grey, .roughness = sigma});
     examples::Table table{.name = "oren_nayar-trade",
                           .columns = {"model", "ns", "least and most of a white sky",
                                       "relMSE to EON", "variance at 75°"},
@@ -307,7 +258,7 @@ void tabulate_trade(const examples::Options& options, int size) {
             least = std::min(least, share);
             most = std::max(most, share);
         }
-        const Image image = ball(options, name, material, false);
+        const Image image = ball(options, name, material);
         table.rows.push_back(
             {name, examples::text(nanoseconds(material), "%.1f"),
              examples::text(least, "%.3f") + " to " + examples::text(most, "%.3f"),
@@ -332,18 +283,17 @@ void tabulate_trade(const examples::Options& options, int size) {
 
 } // namespace
 
-/// Makes the chapter's figures.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 14, rough surfaces: figure 14 and six models.");
+        line.about("Chapter 14, rough surfaces: six models compared.");
         const examples::Options options =
             line.parse({.draft{.width = 140, .height = 140, .samples = 9},
                         .report{.width = 400, .height = 400, .samples = 64},
                         .reference{.width = 400, .height = 400, .samples = 1024}});
         const std::string folder = options.path("");
         const int size = options.pick(150, 600, 1500);
-        draw_lobes(options.out);
-        figure_14(options);
+        tabulate_saturation(options);
         plot_albedo(folder, size);
         plot_retroreflection(folder);
         tabulate_trade(options, size);

@@ -1,8 +1,7 @@
-// figures: fig-4 materials
 // smoke: --quality draft --width 32 --height 8 --rays 1
 /// \file chapters/experiments/15_experiments.cpp
-/// \brief Chapter 15: figure 4 above two furnaces, gloss from a mirror to satin, what
-/// each material costs, and two mistakes.
+/// \brief Chapter 15: the experiments behind its tables, plots and pictures: furnaces,
+/// gloss from a mirror to satin, what each material costs, and two mistakes.
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +17,7 @@
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/terminal.hpp"
-#include "drawings/drawing.hpp"
+#include "common/example.hpp"
 
 namespace {
 
@@ -34,34 +29,19 @@ using ljus::Sphere;
 using ljus::Vec3;
 using ljus::Vec3T;
 
-constexpr int balls = 8;
-
-/// The ball at a place of the row, from the left.
-Sphere ball_at(int place) {
-    return {.center{2.4f * (float(place) - 3.5f), 1, 0}, .radius = 1};
-}
-
-/// The camera of the row, whose pictures are four times as wide as high, or that of one
-/// ball, which are half as wide as high.
-/// \param x  Where it stands: 0, or that of the ball.
-ljus::Camera row_camera(float x) {
-    return ljus::look_at(
-        {.position{x, 3.2f, 22}, .target{x, 1.3f, 0}, .vfov_degrees = 12.5});
-}
-
-/// The materials of a row.
+/// The materials of figure 4.
 struct Row {
-    ljus::Glass glass;       ///< Coloured by how far light goes in it.
+    ljus::Glass glass;       ///< Coloured by absorption.
     ljus::ThinGlass pane;    ///< A hollow ball.
     ljus::Eon rough;         ///< Clay.
-    ljus::Mirror mirror;     ///< Untinted.
-    ljus::Lambertian matt;   ///< Of the rough one's colour.
+    ljus::Mirror mirror;     ///< Without a tint.
+    ljus::Lambertian matt;   ///< Of the colour of the clay.
     ljus::Metal metal;       ///< Polished gold.
     ljus::RoughMetal glossy; ///< Brushed copper.
     ljus::Textured<ljus::Lambertian, ljus::GlobeChecker> checker; ///< Two colours.
 };
 
-/// The materials as one buys them.
+/// The materials in their usual colours.
 Row colored_row() {
     const Rgb ochre{0.75f, 0.5f, 0.2f};
     return {
@@ -73,15 +53,15 @@ Row colored_row() {
         .metal{},
         .glossy{.reflectance = ljus::copper<float>, .roughness = 0.45f},
         .checker{{.albedo = Rgb{1}},
-                 {.map{.center = ball_at(7).center},
+                 {.map{.center{8.4f, 1, 0}},
                   .even{0.85f, 0.85f, 0.8f},
                   .odd{0.1f, 0.2f, 0.5f},
                   .columns = 16,
                   .rows = 8}}};
 }
 
-/// The same, as white as they can be. Gold cannot; and a metal with a large k, which
-/// reflects all, shows what is lost between facets.
+/// The same, as white as they can be. Gold cannot be white; the brushed metal has so
+/// large a k that each facet reflects all light, and shows what is lost between facets.
 Row white_row() {
     Row row = colored_row();
     row.glass.absorption = Rgb{0};
@@ -94,111 +74,17 @@ Row white_row() {
     return row;
 }
 
-/// Calls f(place, name, material) for each.
+/// Calls f(name, material) for each.
 template <typename F>
 void for_each(const Row& row, F f) {
-    f(0, "glass", row.glass);
-    f(1, "thin glass", row.pane);
-    f(2, "rough", row.rough);
-    f(3, "mirror", row.mirror);
-    f(4, "Lambert", row.matt);
-    f(5, "metal", row.metal);
-    f(6, "glossy", row.glossy);
-    f(7, "checker", row.checker);
-}
-
-using RowScene =
-    ljus::Scene<ljus::Shapes<Sphere, Quad>,
-                ljus::Materials<ljus::Lambertian, ljus::Glass, ljus::ThinGlass,
-                                ljus::Eon, ljus::Mirror, ljus::Metal, ljus::RoughMetal,
-                                ljus::Textured<ljus::Lambertian, ljus::GlobeChecker>,
-                                ljus::Textured<ljus::Lambertian, ljus::Checker>>>;
-
-/// Adds the balls.
-void add_balls(RowScene& scene, const Row& row) {
-    for_each(row, [&](int place, const char*, const auto& material) {
-        scene.add(ball_at(place), scene.add(material));
-    });
-}
-
-ljus::RenderSettings picture_of(const examples::Options& options,
-                                ljus::Progress progress) {
-    return {.width = options.width,
-            .height = options.height,
-            .samples = options.samples,
-            .seed = options.seed,
-            .threads = options.threads,
-            .progress = std::move(progress)};
-}
-
-/// The row in a room with two lamps, by photon mapping.
-Image row_in_room(const examples::Options& options) {
-    RowScene scene;
-    const auto white = scene.add(ljus::Lambertian{.albedo = Rgb{0.7f}});
-    const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
-    const auto floor = scene.add(ljus::Textured<ljus::Lambertian, ljus::Checker>{
-        {.albedo = Rgb{1}},
-        {.map{.edge_u{4, 0, 0}, .edge_v{0, 0, 4}},
-         .even = Rgb{0.55f},
-         .odd = Rgb{0.35f}}});
-    const auto wall = [&](float r, float g, float b) {
-        return scene.add(ljus::Lambertian{.albedo{r, g, b}});
-    };
-    const float x = 11, z = -3, depth = 27, high = 8;
-    scene.add(Quad{{-x, 0, z}, {0, 0, depth}, {2 * x, 0, 0}}, floor);
-    scene.add(Quad{{-x, high, z}, {2 * x, 0, 0}, {0, 0, depth}}, white);
-    scene.add(Quad{{-x, 0, z}, {2 * x, 0, 0}, {0, high, 0}}, wall(0.45f, 0.5f, 0.6f));
-    scene.add(Quad{{-x, 0, z + depth}, {0, high, 0}, {2 * x, 0, 0}}, white);
-    scene.add(Quad{{-x, 0, z}, {0, high, 0}, {0, 0, depth}}, wall(0.6f, 0.2f, 0.15f));
-    scene.add(Quad{{x, 0, z}, {0, 0, depth}, {0, high, 0}}, wall(0.2f, 0.5f, 0.2f));
-    const auto lamp = [&](const Vec3& corner, const Vec3& size, float radiance) {
-        scene.add(Quad{corner, {size.x, 0, 0}, {0, 0, size.z}}, black, Rgb{radiance});
-    };
-    lamp({-9, high - 0.01f, -0.5f}, {18, 0, 2}, 7);
-    lamp({-3, high - 0.01f, 12}, {6, 0, 3}, 7);
-    add_balls(scene, colored_row());
-
-    ljus::PhotonMappingSettings settings;
-    settings.caustics = {.photons = options.pick(200000LL, 3000000LL, 20000000LL),
-                         .seed = options.seed,
-                         .threads = options.threads};
-    settings.caustics_estimate = {.radius = options.pick(0.08f, 0.05f, 0.03f)};
-    settings.max_depth = 24;
-    const ljus::World world(std::move(scene));
-    const ljus::PhotonMapper mapper(world, settings);
-    examples::ProgressBar bar("figure 4", options.quiet);
-    const auto result = render(mapper, row_camera(0), picture_of(options, bar));
-    examples::stop_if_asked();
-    return result.image;
-}
-
-/// The row under a sky of radiance 1, at half the exposure: what keeps its light is
-/// grey, and cannot be seen.
-Image row_in_furnace(const examples::Options& options, const Row& row) {
-    RowScene scene;
-    const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
-    scene.add(Sphere{.radius = 100}, black, Rgb{1}, true);
-    // One ball at a time: what comes from its neighbour would not be 1.
-    Image whole = ljus::make_image<float>(options.width, options.height);
-    for_each(row, [&](int place, const char* name, const auto& material) {
-        RowScene alone = scene;
-        alone.add(ball_at(place), alone.add(material));
-        const ljus::World world(std::move(alone));
-        const int from = options.width * place / balls;
-        const int to = options.width * (place + 1) / balls;
-        examples::ProgressBar bar(std::string("furnace: ") + name, options.quiet);
-        ljus::RenderSettings picture = picture_of(options, bar);
-        picture.width = to - from;
-        picture.samples =
-            std::max(1, options.samples / 2); // less noise here than in a room
-        const auto result = render(ljus::PathTracer(world),
-                                   row_camera(ball_at(place).center.x), picture);
-        examples::stop_if_asked();
-        for (int y = 0; y < options.height; ++y)
-            for (int x = from; x < to; ++x)
-                pixel(whole, x, y) = 0.5f * pixel(result.image, x - from, y);
-    });
-    return whole;
+    f("glass", row.glass);
+    f("thin glass", row.pane);
+    f("rough", row.rough);
+    f("mirror", row.mirror);
+    f("Lambert", row.matt);
+    f("metal", row.metal);
+    f("glossy", row.glossy);
+    f("checker", row.checker);
 }
 
 /// The mean radiance of a ball under a sky of radiance 1, seen from far away.
@@ -225,31 +111,20 @@ Rgb furnace_albedo(const Material& material, int rays) {
     return sum / float(count);
 }
 
-/// Figure 4: the row, and below it the two furnaces; and what stands below each ball.
-void figure_4(const examples::Options& options) {
-    const Image strips[] = {row_in_room(options),
-                            row_in_furnace(options, colored_row()),
-                            row_in_furnace(options, white_row())};
-    Image all = ljus::make_image<float>(options.width, 3 * options.height);
-    for (std::size_t strip = 0; strip < 3; ++strip)
-        std::copy(strips[strip].pixels.begin(), strips[strip].pixels.end(),
-                  all.pixels.begin() +
-                      std::ptrdiff_t(strip * strips[strip].pixels.size()));
-    save_png(all, options.path("fig-4.png"));
-
+/// Table: what each ball of figure 4 returns of a white sky.
+void tabulate_furnace(const examples::Options& options) {
     examples::Table table{.name = "fig-4-furnace",
                           .columns = {"white sky"},
                           .rows = {{"as above"}, {"white"}}};
     const int rays = options.pick(16, 256, 1024);
-    for_each(colored_row(), [&](int place, const char* name, auto material) {
+    for_each(colored_row(), [&](const char* name, auto material) {
         table.columns.push_back(name);
         if constexpr (requires { material.texture.map.center; })
             material.texture.map.center = Vec3{0};
         const Rgb c = furnace_albedo(material, rays);
         table.rows[0].push_back(examples::text(ljus::luminance(c), "%.3f"));
-        (void)place;
     });
-    for_each(white_row(), [&](int, const char*, const auto& material) {
+    for_each(white_row(), [&](const char*, const auto& material) {
         table.rows[1].push_back(
             examples::text(ljus::luminance(furnace_albedo(material, rays)), "%.3f"));
     });
@@ -257,7 +132,7 @@ void figure_4(const examples::Options& options) {
     examples::save_table(options.path(""), table);
 }
 
-/// A ball on a floor between two walls, under a lamp, and what is seen of it.
+/// The picture of a ball on a floor between two walls, under a lamp.
 template <typename Material>
 Image ball_picture(int size, int rays, std::uint64_t seed, const Material& material,
                    int threads = 0) {
@@ -284,7 +159,7 @@ Image ball_picture(int size, int rays, std::uint64_t seed, const Material& mater
         .image;
 }
 
-/// Pictures: one gloss after the other.
+/// Pictures: gold from roughness 0 to 1.
 void sweep_roughness(const examples::Options& options) {
     const int size = options.pick(150, 400, 500), rays = options.pick(20, 400, 4000);
     const auto save = [&](const std::string& name, const auto& material) {
@@ -304,10 +179,10 @@ void sweep_roughness(const examples::Options& options) {
 /// The mean and the variance of a sample's weight.
 struct Weights {
     double mean = 0;     ///< The albedo at the angle.
-    double variance = 0; ///< What a path's throughput is multiplied by, in variance.
+    double variance = 0; ///< By which the variance of a path grows.
 };
 
-/// Over many samples at an angle.
+/// Both over many samples at an angle.
 template <typename Sampler>
 Weights weights(double degrees, int count, Sampler sampler) {
     const double theta = degrees * std::numbers::pi / 180;
@@ -332,45 +207,7 @@ auto own_sampler(const Material& material) {
     };
 }
 
-/// Drawing: where gloss of three roughnesses sends the light that comes from one side.
-void draw_lobes(const std::string& folder) {
-    using namespace examples;
-    Drawing figure{.name = "materials-lobes",
-                   .description = "Light comes from the upper left. The rougher the "
-                                  "gloss, the wider the lobe on the other side",
-                   .low = {-3.2, -0.15},
-                   .high = {4.6, 3.2},
-                   .scale = 65};
-    const auto direction = [](double degrees) {
-        const double a = degrees * std::numbers::pi / 180;
-        return Vec3T<double>{std::sin(a), 0, std::cos(a)};
-    };
-    const char* inks[] = {colors::red, colors::green, colors::violet};
-    const double roughnesses[] = {0.6, 0.7, 1};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const ljus::GlossyT<double> gloss{RgbT<double>{1}, roughnesses[i]};
-        std::vector<Point> points;
-        for (int angle = -89; angle <= 89; ++angle) {
-            const Vec3T<double> wo = direction(angle);
-            const double r = std::numbers::pi * evaluate(gloss, wo, direction(-45)).x;
-            points.push_back({r * wo.x, r * wo.z});
-        }
-        draw_area(figure, points, inks[i]);
-        draw_line(figure, points, {inks[i], 2.5});
-        const Point& label = points[130];
-        draw_label(figure, {label.x + 0.3, label.y + 0.2},
-                   (i == 0 ? "roughness " : "") + text(roughnesses[i], "%.1f"),
-                   inks[i]);
-    }
-    draw_line(figure, {{-3.2, 0}, {4.6, 0}});
-    draw_arc(figure, {0, 0}, 1, 0, std::numbers::pi, {"currentColor", 1.5, true});
-    const Vec3T<double> light = direction(-45);
-    draw_arrow(figure, {4 * light.x, 4 * light.z}, {0.1 * light.x, 0.1 * light.z},
-               {colors::blue, 2.5});
-    save_drawing(folder, figure);
-}
-
-/// Plots: what white gloss loses, and what the choice of the sampler is worth.
+/// Plots: how much light white gloss loses, and how much its sampler matters.
 void plot_gloss(const std::string& folder, int count) {
     examples::Plot loss{.name = "materials-loss",
                         .columns = {"roughness", "straight on", "60 degrees",
@@ -401,7 +238,7 @@ void plot_gloss(const std::string& folder, int count) {
     save_plot(folder, noise);
 }
 
-/// Nanoseconds a call of f(wo, u or wi), the best of some runs.
+/// Nanoseconds per call of f(wo, wi, u), the best of 21 runs.
 template <typename F>
 double nanoseconds(F f) {
     std::vector<Vec3> wo, u;
@@ -419,7 +256,7 @@ double nanoseconds(F f) {
     });
 }
 
-/// Table: nanoseconds and noise of each material.
+/// Table: the time and the noise of each material.
 void tabulate_trade(const examples::Options& options) {
     examples::Table table{.name = "materials-trade",
                           .columns = {"material", "evaluate, ns", "sample, ns",
@@ -516,8 +353,8 @@ void compare_full(const examples::Options& options) {
     examples::save_table(options.path(""), table);
 }
 
-/// Plot: error against time for gold of two glosses: the one loses light, and more rays
-/// do not bring it back.
+/// Plot: error against time for gold with both kinds of gloss. One loses light, which
+/// more rays do not bring back.
 void plot_full(const examples::Options& options) {
     const int size = options.pick(48, 100, 200), most = options.pick(64, 256, 256);
     const ljus::RoughMetal gold{.reflectance = ljus::gold<float>, .roughness = 0.7f};
@@ -550,13 +387,13 @@ void plot_full(const examples::Options& options) {
     save_plot(options.path(""), plot);
 }
 
-/// What can go wrong with a matt surface.
+/// What can go wrong with a diffuse surface.
 enum class Mistake { none, missing_pi, doubled_cosine };
 
 /// Lambert's surface with a mistake.
 struct WrongMatt {
     using Scalar = float;            ///< The precision.
-    Rgb albedo{0.5f};                ///< Of the right one.
+    Rgb albedo{0.5f};                ///< Of Lambert's surface.
     Mistake mistake = Mistake::none; ///< Which.
 };
 ljus::Lobes lobes(const WrongMatt&) {
@@ -584,8 +421,8 @@ std::optional<ljus::BsdfSample> sample(const WrongMatt& matt, const Vec3& wo,
 }
 void check(const WrongMatt&) {}
 
-/// The same room with each mistake; three surfaces on a path, for with the first one
-/// light grows from wall to wall.
+/// Pictures: the same room with each mistake. There are three surfaces on a path,
+/// because with the first mistake light grows from wall to wall.
 void picture_mistakes(const examples::Options& options) {
     const int size = options.pick(200, 400, 500), rays = options.pick(16, 256, 2048);
     const auto picture = [&](const std::string& name, Mistake mistake) {
@@ -621,16 +458,16 @@ void picture_mistakes(const examples::Options& options) {
 
 } // namespace
 
-/// Makes the chapter's figures.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 15, materials: figure 4, and what each material costs.");
+        line.about(
+            "Chapter 15, materials: furnaces, gloss, and what each material costs.");
         const examples::Options options =
             line.parse({.draft{.width = 600, .height = 150, .samples = 25},
                         .report{.width = 1200, .height = 300, .samples = 64},
                         .reference{.width = 1600, .height = 400, .samples = 2048}});
-        figure_4(options);
-        draw_lobes(options.out);
+        tabulate_furnace(options);
         sweep_roughness(options);
         plot_gloss(options.path(""), options.pick(20000, 200000, 1000000));
         tabulate_trade(options);

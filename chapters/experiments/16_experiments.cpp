@@ -1,8 +1,7 @@
-// figures: soap_film
 // smoke: --quality draft --width 24 --height 24 --rays 1
 /// \file chapters/experiments/16_experiments.cpp
-/// \brief Chapter 16: the soap bubble of figure 4, and the colours of thin films by a
-/// spectrum, a table, three wavelengths, and integrals made beforehand.
+/// \brief Chapter 16: the experiments behind its table, plots and pictures: the colours
+/// of thin films by a spectrum, a table, three wavelengths, and in closed form.
 
 #include <algorithm>
 #include <array>
@@ -15,12 +14,8 @@
 
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
-#include <ljus/scenes/report_room.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/rendered.hpp"
+#include "common/example.hpp"
 
 namespace {
 
@@ -42,7 +37,7 @@ glm::dvec3 beforehand(double c, double d) {
     return ljus::into_gamut(ljus::film_preintegrated(c, water, d));
 }
 
-/// Waves that are not turned over at the denser side: the sine becomes a cosine.
+/// The mistake: no wave changes its sign, and the sine becomes a cosine.
 glm::dvec3 not_turned(double c, double d) {
     const double g = std::sqrt(ljus::film_cosine2(c, water));
     return ljus::into_gamut(ljus::spectrum_color<double>([&](double wavelength) {
@@ -62,7 +57,7 @@ void strip(const examples::Options& options, const std::string& file, Color colo
             const double d = 1500.0 * (x + 0.5) / width;
             const double angle = 80.0 * (double(y) + 0.5) / height;
             const double c = std::cos(angle * std::numbers::pi / 180);
-            // As bright as the film's mean: what is left are the colours.
+            // Divided by the film's mean reflectance, so that colours are left.
             pixel(image, x, static_cast<int>(y)) =
                 Rgb(color(c, d) * (0.35 / ljus::thick_film(c, water)));
         }
@@ -84,7 +79,7 @@ glm::dvec3 lab(const glm::dvec3& rgb, double cosine) {
             200 * (f(xyz.y) - f(xyz.z))};
 }
 
-/// Nanoseconds of one call, over thicknesses and angles; the best of five.
+/// Nanoseconds per call, over thicknesses and angles; the best of five.
 template <typename Color>
 double nanoseconds(Color color, int calls) {
     return examples::nanoseconds_a_call(
@@ -100,8 +95,8 @@ double nanoseconds(Color color, int calls) {
         5);
 }
 
-/// A bubble before black, among four windows. Both ways are followed at each film, so
-/// that the picture has no noise.
+/// A bubble before a black background, among four windows. Each ray is split at the
+/// film, so that the picture has no noise.
 struct Studio {
     using Room = ljus::Scene<ljus::Shapes<ljus::Sphere, ljus::Quad>,
                              ljus::Materials<ljus::Lambertian, ljus::SoapFilm>>;
@@ -163,7 +158,7 @@ Image bubble(int size, int side, Color color) {
     return image;
 }
 
-/// The colour by the renderer's table, as the other methods give it.
+/// The colour by the renderer's table, with the arguments of the other methods.
 auto by_table(const ljus::FilmTable& table) {
     return [&table](double c, double d) {
         return glm::dvec3(ljus::look_up(table, float(c), float(d)));
@@ -211,7 +206,7 @@ Differences plot_differences(const examples::Options& options,
     return found;
 }
 
-/// What a colour costs by each method, in nanoseconds.
+/// Nanoseconds per colour, by each method.
 std::array<double, 3> times_of(const ljus::FilmTable& table, int calls) {
     constexpr float n = 1.33f;
     return {
@@ -225,7 +220,7 @@ std::array<double, 3> times_of(const ljus::FilmTable& table, int calls) {
                     calls)};
 }
 
-/// The error of a picture by each method, which has no noise: the bubble.
+/// The error of the picture of the bubble by each method; there is no noise in it.
 std::array<double, 3> errors_of_bubble(const ljus::FilmTable& table, int size) {
     const Image right = bubble(size, 1, spectrum);
     return {ljus::rel_mse(bubble(size, 1, three), right),
@@ -256,7 +251,7 @@ void trade(const examples::Options& options, const ljus::FilmTable& table) {
     examples::save_table(options.path(""), numbers);
 }
 
-/// Plot: what each wavelength sees.
+/// Plot: the reflectance of three wavelengths against the thickness.
 void plot_reflectance(const std::string& folder) {
     examples::Plot plot{.name = "soap_film-waves",
                         .columns = {"thickness in nm", "611 nm", "464 nm", "549 nm"},
@@ -270,52 +265,9 @@ void plot_reflectance(const std::string& folder) {
     save_plot(folder, plot);
 }
 
-/// Figure 4: glass, rough, mirror, soap bubble, matt, in the report's room.
-void figure_4(const examples::Options& options, const ljus::FilmTable& table) {
-    using Row = ljus::Scene<ljus::Shapes<ljus::Quad, ljus::Sphere, ljus::Triangle>,
-                            ljus::Materials<ljus::Lambertian, ljus::OrenNayar,
-                                            ljus::Glass, ljus::Mirror, ljus::SoapFilm>>;
-    Row scene;
-    ljus::add_report_room(scene);
-    const Rgb color{0.75f, 0.5f, 0.2f};
-    const auto ball = [&](int place, const auto& material) {
-        scene.add(ljus::Sphere{.center{6, 4.6f - 2.3f * float(place), -3.95f},
-                               .radius = 1.05f},
-                  scene.add(material));
-    };
-    ball(0, ljus::Glass{.index = 1.5f});
-    ball(1, ljus::OrenNayar{.albedo = color, .sigma = 0.7f});
-    ball(2, ljus::Mirror{.reflectance = Rgb{0.98f}});
-    ball(3, ljus::SoapFilm{.thickness = 900,
-                           .scale = 0.8f,
-                           .level{0, 0, -5},
-                           .color = ljus::FilmColor::table,
-                           .table = table});
-    ball(4, ljus::Lambertian{.albedo = color});
-    ljus::add_ceiling_lamp(scene, 5.0f, -1.0f, 2.0f, Rgb{1});
-    const ljus::World world(std::move(scene));
-
-    ljus::PhotonMappingSettings settings;
-    settings.caustics = {.photons = options.pick(30000, 300000, 3000000),
-                         .seed = options.seed,
-                         .threads = options.threads};
-    settings.caustics_estimate.radius = options.pick(0.3f, 0.15f, 0.06f);
-    if (!options.quiet) {
-        const ljus::Plan plan = survey(world, settings);
-        for (const auto* pass : plan.items()) std::printf("%s", to_text(*pass).c_str());
-    }
-    const ljus::PhotonMapper mapper(world, settings);
-    auto picture = examples::picture_settings(options);
-    picture.width *= 2;
-    picture.height *= 2;
-    const auto result =
-        examples::rendered("figure 4", mapper, ljus::report_camera(), picture, options);
-    save_png(result.image, options.path("soap_film-figure-4.png"));
-}
-
 } // namespace
 
-/// Makes the chapter's figures.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         line.about("Chapter 16, the soap bubble: thin films and their colours.");
@@ -324,9 +276,7 @@ int main(int argc, char** argv) {
                         .report{.width = 400, .height = 400, .samples = 36},
                         .reference{.width = 500, .height = 500, .samples = 1000}});
         const auto table = ljus::bake_film_table(1.33f);
-        const auto look = [&](double c, double d) {
-            return glm::dvec3(ljus::look_up(table, float(c), float(d)));
-        };
+        const auto look = by_table(table);
         plot_reflectance(options.path(""));
         trade(options, table);
         strip(options, "soap_film-spectrum", spectrum);
@@ -341,6 +291,5 @@ int main(int argc, char** argv) {
         save("soap_film-bubble", look);
         save("soap_film-bubble-three", three);
         save("soap_film-bubble-beforehand", beforehand);
-        figure_4(options, table);
     });
 }

@@ -1,8 +1,7 @@
-// figures: whitted
 // smoke: --quality draft --width 24 --height 16 --rays 1 --photons 1000 --most 4
 /// \file chapters/experiments/17_experiments.cpp
-/// \brief Chapter 17: two balls over a checkered floor, turn by turn; how the tree
-/// grows; both branches or one; and what the tree does not carry.
+/// \brief Chapter 17: the experiments behind its tables and plots: how the tree grows,
+/// both branches or one, and what the tree does not carry.
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +13,7 @@
 
 #include <ljus/ljus.hpp>
 
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/rendered.hpp"
+#include "common/example.hpp"
 
 namespace {
 
@@ -58,13 +55,13 @@ ljus::Camera two_balls_camera() {
         {.position{0.2f, 2.1f, 8}, .target{-0.1f, 1.1f, 0}, .vfov_degrees = 32});
 }
 
-/// The sky is seen and lights nothing; as much light as it would send comes from
-/// everywhere instead, and no ball shades it.
+/// The sky is seen, but no shadow ray asks for its light. Ambient light takes its
+/// place: the same from everywhere, and no ball shades it.
 ljus::WhittedSettings settings_of(int depth, bool both_ways = true) {
     return {.max_depth = depth, .both_ways = both_ways, .lamps = false, .ambient = sky};
 }
 
-/// Renders a picture with a progress bar; Ctrl-C ends the program.
+/// A picture of the two balls, with a progress bar.
 template <typename Renderer>
 ljus::RenderedT<float> rendered(const std::string& name, const Renderer& renderer,
                                 ljus::RenderSettings picture,
@@ -72,8 +69,8 @@ ljus::RenderedT<float> rendered(const std::string& name, const Renderer& rendere
     return examples::rendered(name, renderer, two_balls_camera(), picture, options);
 }
 
-/// Depth 0 to 5, and how many rays the tree of a camera ray has.
-void depths(const TwoBalls& world, const examples::Options& options) {
+/// Plot: how many rays the tree of a camera ray has, by its depth.
+void plot_rays(const TwoBalls& world, const examples::Options& options) {
     const ljus::RenderSettings picture{options.width, options.height, options.samples,
                                        options.seed};
     examples::Plot plot{.name = "whitted-rays",
@@ -95,9 +92,6 @@ void depths(const TwoBalls& world, const examples::Options& options) {
         const auto one = rendered("one branch",
                                   ljus::WhittedTracer(world, settings_of(depth, false)),
                                   picture, options);
-        if (depth <= 5)
-            save_png(both.image,
-                     options.path("whitted-depth-" + std::to_string(depth) + ".png"));
         plot.rows.push_back({double(depth), std::exp2(depth + 1) - 1, 1.0 + 2 * depth,
                              rays_of(both.counts), rays_of(one.counts)});
         if (!options.quiet)
@@ -110,7 +104,7 @@ void depths(const TwoBalls& world, const examples::Options& options) {
     save_plot(options.path(""), plot);
 }
 
-/// The root mean square of the differences over the pixels of the glass ball.
+/// The root mean square error over the pixels of the glass ball.
 double error_on_glass(const Image& image, const Image& truth) {
     double sum = 0, count = 0;
     const ljus::Camera camera = two_balls_camera();
@@ -128,7 +122,7 @@ double error_on_glass(const Image& image, const Image& truth) {
     return std::sqrt(sum / count);
 }
 
-/// Both branches, or one: error against rays.
+/// Plot and table: error against rays, by both branches and by one.
 void branches(const TwoBalls& world, int most, const examples::Options& options) {
     const int width = options.pick(48, 120, 180), height = width * 2 / 3;
     const int depth = 8;
@@ -167,7 +161,8 @@ void branches(const TwoBalls& world, int most, const examples::Options& options)
     save_table(options.path(""), table);
 }
 
-/// The same scene by the photon map: a sky that lights, and light through the glass.
+/// Picture: the same scene by photon mapping. The sky lights it, and light passes the
+/// glass.
 void by_photons(const TwoBalls& world, long long photons,
                 const examples::Options& options) {
     ljus::PhotonMappingSettings settings;
@@ -186,11 +181,12 @@ void by_photons(const TwoBalls& world, long long photons,
 
 } // namespace
 
-/// Makes the figures of chapter 17.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long photons = 0;
-        line.about("Whitted's ray tracing: the two balls, turn by turn.");
+        line.about(
+            "Chapter 17, Whitted's ray tracing: the tree of rays, and its cost.");
         line.add("--photons", photons, "Of the picture to compare with; 0: by quality",
                  0, 1'000'000'000);
         int most = 0;
@@ -202,10 +198,9 @@ int main(int argc, char** argv) {
                         .reference{.width = 900, .height = 600, .samples = 144}});
         if (photons == 0) photons = options.pick(100000LL, 1000000LL, 10000000LL);
         const TwoBalls world = two_balls();
-        depths(world, options);
+        plot_rays(world, options);
         by_photons(world, photons, options);
         if (most == 0) most = options.pick(64, 256, 1024);
         branches(world, most, options);
-        return 0;
     });
 }

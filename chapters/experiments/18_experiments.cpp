@@ -1,21 +1,22 @@
-// figures: distributed_rays
 // smoke: --quality draft --width 24 --height 16 --rays 4 --most 4
 /// \file chapters/experiments/18_experiments.cpp
-/// \brief Chapter 18: edges, soft shadows, gloss, depth of field and motion, one picture
-/// each and all together, each with its error against the number of rays.
+/// \brief Chapter 18: the experiments behind its tables, plots and pictures: edges,
+/// soft shadows, gloss, a lens and motion, and what evenly spread numbers cost.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/rendered.hpp"
-#include "common/terminal.hpp"
+#include "common/example.hpp"
 
 namespace {
 
@@ -34,7 +35,7 @@ using Stage =
                 ljus::Materials<ljus::Lambertian, Tiles, ljus::Mirror, ljus::Glossy>,
                 ljus::Lights<ljus::PointLight>>;
 
-/// A closed scene and who looks at it.
+/// A closed scene and its camera.
 struct Shot {
     ljus::World<Stage> world;
     LensCamera camera{};
@@ -58,10 +59,6 @@ ljus::MaterialId tiles(Stage& scene, const Rgb& even, const Rgb& odd, float size
 
 void add_floor(Stage& scene, ljus::MaterialId material, float size = 60) {
     scene.add(Quad{{-size, 0, size}, {2 * size, 0, 0}, {0, 0, -2 * size}}, material);
-}
-
-void add_sky(Stage& scene, const Rgb& radiance) {
-    scene.add(Sphere{.radius = 90}, matt(scene, 0, 0, 0), radiance, true);
 }
 
 void add_lamp(Stage& scene, const Vec3& middle, float side, float radiance) {
@@ -136,8 +133,8 @@ Shot focus() {
         with_lens(camera, 0.14f, glm::dot(third - camera.position, camera.forward))};
 }
 
-/// A billiard table, dark.
-Stage billiard_table() {
+/// Balls that roll on a billiard table while the shutter is open.
+Shot motion() {
     Stage scene;
     add_floor(scene, matt(scene, 0.06f, 0.35f, 0.16f));
     const auto ball = [&](const Vec3& place, const Vec3& way, const Rgb& color) {
@@ -148,40 +145,14 @@ Stage billiard_table() {
     ball({0.6f, 0.5f, -0.3f}, {0, 0, 0}, {0.8f, 0.6f, 0.05f});
     ball({1.8f, 0.5f, 0.4f}, {0.35f, 0, 0.2f}, {0.65f, 0.08f, 0.07f});
     ball({0.3f, 0.5f, -2.6f}, {-0.3f, 0, -0.7f}, {0.1f, 0.15f, 0.55f});
-    return scene;
-}
-
-/// Where it is seen from.
-LensCamera above_the_table() {
-    return pinhole(
-        {.position{0, 3.2f, 6.5f}, .target{0, 0.3f, -0.4f}, .vfov_degrees = 36});
-}
-
-/// The table while the shutter is open.
-Shot motion() {
-    Stage scene = billiard_table();
     scene.add(ljus::PointLight{.position{-3, 7, 4}, .intensity = Rgb{260}});
-    return {ljus::World(std::move(scene)), above_the_table()};
+    return {ljus::World(std::move(scene)), pinhole({.position{0, 3.2f, 6.5f},
+                                                    .target{0, 0.3f, -0.4f},
+                                                    .vfov_degrees = 36})};
 }
 
-/// All five: the table again, under two lamps, balls with a gloss, and a lens.
-Shot everything() {
-    Stage scene = billiard_table();
-    add_lamp(scene, {-3, 6, 2}, 2, 20);
-    add_lamp(scene, {4, 6, -3}, 2, 12);
-    scene.add(
-        Sphere{.center{-0.5f, 0.5f, 1.9f}, .radius = 0.5f},
-        scene.add(ljus::Glossy{.reflectance{0.75f, 0.7f, 0.6f}, .roughness = 0.35f}));
-    add_sky(scene, Rgb{0.05f, 0.06f, 0.08f});
-    LensCamera camera = above_the_table();
-    camera.radius = 0.08f;
-    camera.focus = glm::dot(Vec3{0.6f, 0.5f, -0.3f} - camera.pinhole.position,
-                            camera.pinhole.forward);
-    return {ljus::World(std::move(scene)), camera};
-}
-
-/// A picture whose rays share out all their numbers by one pattern, and stay in the
-/// middle of the pixel if told to.
+/// A picture whose rays draw all their numbers by one pattern.
+/// \param pixel  Whether the rays are spread over the pixel; else they pass its middle.
 Image picture_by(const Shot& shot, int width, int height, int rays,
                  ljus::Sampling sampling, std::uint64_t seed, bool pixel, int threads) {
     const ljus::DistributedTracer tracer(shot.world);
@@ -265,7 +236,7 @@ void curves(const std::string& name, const Shot& shot, int most,
     std::vector<std::string> cells{name};
     for (const auto& curve : error)
         cells.push_back(examples::text(slope(n, curve), "%.2f"));
-    // How many more random rays have the same error, by the law n^-1/2.
+    // The number of random rays that have the error of one: it falls as n^-1/2.
     const double ratio = error[0].back() / error[2].back();
     cells.push_back(examples::text(error[2].back(), "%.2g"));
     cells.push_back(examples::text(ratio * ratio, "%.1f"));
@@ -277,16 +248,16 @@ void curves(const std::string& name, const Shot& shot, int most,
                     cells[4].c_str());
 }
 
-/// A picture with few and one with many rays.
-void picture(const std::string& name, const Shot& shot, int few,
+/// Pictures with one ray and with many rays per pixel.
+void picture(const std::string& name, const Shot& shot,
              const examples::Options& options) {
-    for (const int rays : {few, options.samples}) {
+    for (const int rays : {1, options.samples}) {
         auto picture = examples::picture_settings(options);
         picture.samples = rays;
         const auto result = examples::rendered(
             name, ljus::DistributedTracer(shot.world), shot.camera, picture, options);
         save_png(result.image, options.path("distributed_rays-" + name +
-                                            (rays == few ? "-few.png" : ".png")));
+                                            (rays == 1 ? "-few.png" : ".png")));
     }
 }
 
@@ -297,13 +268,153 @@ void jagged(const Shot& shot, const examples::Options& options) {
              options.path("distributed_rays-pixel-few.png"));
 }
 
+// What evenly spread numbers cost.
+
+template <typename Ball>
+using Balls = ljus::Scene<ljus::Shapes<Ball, Quad>, ljus::Materials<ljus::Lambertian>,
+                          ljus::Lights<ljus::PointLight>>;
+
+/// Nine balls on a floor, without a light.
+template <typename Ball>
+Balls<Ball> nine_balls(const Vec3& way = Vec3{0}) {
+    Balls<Ball> scene;
+    const auto grey = scene.add(ljus::Lambertian{.albedo = Rgb{0.6f}});
+    scene.add(Quad{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}}, grey);
+    for (int i = 0; i < 9; ++i) {
+        const Sphere ball{.center{float(2 * (i % 3) - 2), 0.6f, float(2 * (i / 3) - 2)},
+                          .radius = 0.6f};
+        if constexpr (std::is_same_v<Ball, MovingBall>)
+            scene.add(MovingBall{ball, way}, grey);
+        else
+            scene.add(ball, grey);
+    }
+    return scene;
+}
+
+constexpr std::array patterns{ljus::Sampling::random, ljus::Sampling::jittered,
+                              ljus::Sampling::multi_jittered, ljus::Sampling::sobol};
+
+/// A picture, and its processor time.
+struct Timed {
+    Image image;
+    double seconds = 0; ///< Of processor time.
+};
+struct Size {
+    int width = 0, height = 0; ///< In pixels.
+};
+template <ljus::AnyWorld W, typename AnyCamera>
+Timed timed(const W& world, const AnyCamera& camera, ljus::Sampling sampling, int rays,
+            const Size& size, std::uint64_t seed = 1) {
+    const double start = examples::processor_seconds();
+    auto picture = render(ljus::DistributedTracer(world), camera,
+                          {.width = size.width,
+                           .height = size.height,
+                           .samples = rays,
+                           .seed = seed,
+                           .threads = 1,
+                           .sampling = sampling});
+    return {std::move(picture.image), examples::processor_seconds() - start};
+}
+
+/// Table: nanoseconds of a camera ray by each pattern, through a lens, and with balls
+/// that move.
+void tabulate_costs(const Size& size, const examples::Options& options) {
+    const ljus::PointLight light{.position{3, 6, 4}, .intensity = Rgb{100}};
+    const auto lit = [&](auto scene) {
+        scene.add(light);
+        return ljus::World(std::move(scene));
+    };
+    const auto still = lit(nine_balls<Sphere>());
+    const auto resting = lit(nine_balls<MovingBall>());
+    const auto moving = lit(nine_balls<MovingBall>({0.5f, 0, 0}));
+    const ljus::Camera pinhole =
+        look_at(ljus::View{.position{0, 5, 8}, .target{0, 0.4f, 0}});
+    const LensCamera lens = with_lens(pinhole, 0.1f, 9.0f);
+
+    std::array<double, 7> least;
+    least.fill(std::numeric_limits<double>::infinity());
+    for (int round = 0; round < options.pick(7, 15, 31); ++round) {
+        const auto seconds = [&](const auto& world, const auto& camera,
+                                 ljus::Sampling sampling) {
+            return timed(world, camera, sampling, 16, size).seconds;
+        };
+        const std::array now{seconds(still, pinhole, ljus::Sampling::random),
+                             seconds(still, pinhole, ljus::Sampling::jittered),
+                             seconds(still, pinhole, ljus::Sampling::multi_jittered),
+                             seconds(still, pinhole, ljus::Sampling::sobol),
+                             seconds(still, lens, ljus::Sampling::random),
+                             seconds(resting, pinhole, ljus::Sampling::random),
+                             seconds(moving, pinhole, ljus::Sampling::random)};
+        for (std::size_t i = 0; i < now.size(); ++i)
+            least[i] = std::min(least[i], now[i]);
+        examples::stop_if_asked();
+    }
+    const std::array names{"random, a pinhole, nothing moves",
+                           "jittered",
+                           "multi-jittered",
+                           "Sobol",
+                           "random, and a lens",
+                           "random, balls of a moving type that stand still",
+                           "random, balls that move"};
+    examples::Table table{
+        .name = "distributed_rays-costs",
+        .columns = {"camera rays", "ns per camera ray", "over the first row"}};
+    const double rays = 16.0 * size.width * size.height;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        table.rows.push_back({names[i], examples::text(1e9 * least[i] / rays, "%.0f"),
+                              examples::text(least[i] / least[0], "%.2f")});
+    save_table(options.path(""), table);
+}
+
+/// Plot: the error of a picture with soft shadows against time.
+void plot_trade(const Size& size, int most, const examples::Options& options) {
+    auto scene = nine_balls<Sphere>();
+    scene.add(Quad{{2, 6, 3}, {2, 0, 0}, {0, 0, 2}},
+              scene.add(ljus::Lambertian{.albedo = Rgb{0}}), Rgb{25});
+    const ljus::World world(std::move(scene));
+    const ljus::Camera camera =
+        look_at(ljus::View{.position{0, 5, 8}, .target{0, 0.4f, 0}});
+    const Image truth =
+        timed(world, camera, ljus::Sampling::sobol, 16 * most, size, 99).image;
+
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    examples::Plot plot{.name = "distributed_rays-trade",
+                        .columns = {"microseconds per pixel", "random", "jittered",
+                                    "multi-jittered", "Sobol"},
+                        .y_label = "RMS error of the picture",
+                        .rows = {},
+                        .log_x = true,
+                        .log_y = true};
+    const double pixels = double(size.width) * size.height;
+    for (std::size_t kind = 0; kind < patterns.size(); ++kind)
+        for (int rays = 1; rays <= most; rays *= 4) {
+            double square = 0, seconds = std::numeric_limits<double>::infinity();
+            const int seeds = options.pick(4, 8, 16);
+            for (int seed = 1; seed <= seeds; ++seed) {
+                const Timed one = timed(world, camera, patterns[kind], rays, size,
+                                        std::uint64_t(seed));
+                const double error = double(ljus::rmse(one.image, truth));
+                square += error * error / seeds;
+                seconds = std::min(seconds, one.seconds);
+                examples::stop_if_asked();
+            }
+            examples::Row row(patterns.size() + 1, none);
+            row[0] = 1e6 * seconds / pixels;
+            row[kind + 1] = std::sqrt(square);
+            plot.rows.push_back(row);
+        }
+    save_plot(options.path(""), plot);
+}
+
 } // namespace
 
-/// Makes the figures of chapter 18.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         int most = 0;
-        line.about("Distributed rays: five blurs, and how fast each becomes smooth.");
+        line.about(
+            "Chapter 18, distributed rays: how fast five blurs become smooth, and "
+            "what it costs.");
         line.add("--most", most, "Most rays per pixel in the curves; 0: by quality", 0,
                  1 << 16);
         const examples::Options options =
@@ -316,7 +427,7 @@ int main(int argc, char** argv) {
                                           "multi-jittered", "Sobol", "error",
                                           "random rays for one"}};
         const auto both = [&](const std::string& name, const Shot& shot) {
-            picture(name, shot, 1, options);
+            picture(name, shot, options);
             curves(name, shot, most, options, table);
         };
         both("pixel", edges());
@@ -325,8 +436,10 @@ int main(int argc, char** argv) {
         both("gloss", gloss());
         both("lens", focus());
         both("time", motion());
-        picture("all", everything(), 4, options);
         save_table(options.path(""), table);
-        return 0;
+        const int width = std::min(options.width, options.pick(48, 72, 96));
+        const Size small{.width = width, .height = 2 * width / 3};
+        tabulate_costs(small, options);
+        plot_trade(small, most, options);
     });
 }

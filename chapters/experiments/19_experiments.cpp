@@ -1,8 +1,7 @@
-// figures: path_tracing
 // smoke: --quality draft --width 16 --height 16 --rays 1 --most 4 --runs 3 --paths 50
 /// \file chapters/experiments/19_experiments.cpp
-/// \brief Chapter 19: Kajiya's equation by paths, step by step: by paths alone, with
-/// shadow rays, with both; roulette; and what a fixed depth leaves out.
+/// \brief Chapter 19: the experiments behind its tables, plots and pictures: who finds
+/// the lamp, roulette, and what a fixed depth leaves out.
 
 #include <algorithm>
 #include <array>
@@ -20,11 +19,7 @@
 #include <ljus/scenes/cornell_box.hpp>
 #include <ljus/scenes/furnaces.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/rendered.hpp"
-#include "common/terminal.hpp"
+#include "common/example.hpp"
 #include "experiments/veach_plates.hpp"
 
 namespace {
@@ -44,8 +39,8 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 /// What the user may set besides the common options.
 struct Sizes {
     int most = 0;  ///< Most rays per pixel in the curves of noise.
-    int runs = 0;  ///< Of roulette with a constant chance.
-    int paths = 0; ///< A run.
+    int runs = 0;  ///< Of roulette with a constant probability.
+    int paths = 0; ///< Per run.
 };
 
 // --- Scenes ---------------------------------------------------------------------------
@@ -65,7 +60,8 @@ ljus::Room<Matt> matt_room() {
     return {ljus::World(std::move(scene)), ljus::cornell_box().camera};
 }
 
-/// Where noise is measured: below the lamp, whose own edge would drown the rest.
+/// The camera of all measurements of noise: it does not see the lamp, whose edge is
+/// noisier than all the rest.
 ljus::Camera low_camera() {
     return ljus::look_at(
         {.position{0, 1, 4.4f}, .target{0, 0.6f, 0}, .vfov_degrees = 22});
@@ -73,8 +69,8 @@ ljus::Camera low_camera() {
 
 // --- Noise ----------------------------------------------------------------------------
 
-/// What is known of a way to render without knowing the truth: from two pictures that
-/// differ in their seeds.
+/// The noise of a renderer, from two pictures with different seeds: it needs no
+/// reference.
 struct Noise {
     double rms = 0;     ///< Of one picture.
     double rays = 0;    ///< Of all kinds, per camera ray.
@@ -123,11 +119,9 @@ const std::array ways{
     Way{"shadow rays alone", "shadow", {.heuristic = MisHeuristic::shadow_rays}},
     Way{"both by balance", "balance"},
     Way{"both by power", "power", {.heuristic = MisHeuristic::power}}};
-/// The diffuse room by each way, and its noise against rays.
+/// Plot and table: the noise of each way in the diffuse room, against rays.
 void in_the_room(const examples::Options& options, const Sizes& sizes) {
     const auto room = matt_room();
-    const ljus::RenderSettings picture{options.width, options.height, options.samples,
-                                       options.seed};
     const int side = options.pick(48, 80, 120);
     examples::Plot plot{.name = "path_tracing-noise",
                         .columns = {"camera rays per pixel", ways[0].name, ways[1].name,
@@ -143,9 +137,6 @@ void in_the_room(const examples::Options& options, const Sizes& sizes) {
     double first_rms = 0, first_by_rays = 0, first_by_time = 0;
     for (std::size_t way = 0; way < 3; ++way) {
         const ljus::PathTracer tracer(room.world, ways[way].settings);
-        save_png(
-            rendered("room", tracer, room.camera, picture, options).image,
-            options.path(std::string("path_tracing-room-") + ways[way].file + ".png"));
         Noise last;
         for (auto& row : plot.rows) {
             last = noise_of(tracer, low_camera(),
@@ -171,7 +162,8 @@ void in_the_room(const examples::Options& options, const Sizes& sizes) {
     print(table, options);
 }
 
-/// A box whose walls shine: two walls at an edge are infinitely close.
+/// Table and pictures: a box whose walls all shine, so that lamps are infinitely close
+/// to its edges.
 void in_the_box(const examples::Options& options) {
     const auto room = ljus::box_furnace(Rgb{0.25f}, Rgb{0.5f});
     examples::Table table{
@@ -193,7 +185,7 @@ void in_the_box(const examples::Options& options) {
     print(table, options);
 }
 
-/// A log that keeps what one owner brings.
+/// A path log that adds up the light that one owner carries.
 struct OwnerLog {
     std::string_view owner;
     Rgb sum{0};
@@ -251,7 +243,8 @@ noise_on_plates(const World& world, const ljus::Camera& camera, const Noise& noi
     return squares;
 }
 
-/// Veach's plates by each way, and what each of the two brings.
+/// Table and pictures: Veach's plates by each way, and the two parts of the weighted
+/// sum.
 void on_the_plates(const examples::Options& options) {
     const auto room = examples::veach_plates();
     const ljus::RenderSettings picture{options.width,
@@ -296,14 +289,14 @@ ljus::Ray in_furnace(ljus::RandomStream& stream) {
             .direction = ljus::sample_uniform_sphere(next_2d(stream))};
 }
 
-/// What paths bring, and what they cost.
+/// The mean of many paths, and their cost.
 struct Mean {
     double mean = 0;
     double variance = 0; ///< Of one path.
-    double surfaces = 0; ///< A path meets.
+    double surfaces = 0; ///< That a path meets.
 };
 
-/// The radiance in a furnace by some paths.
+/// The radiance in a furnace, by paths.
 Mean furnace_mean(float albedo, const PathTracingSettings& settings, int paths,
                   std::uint64_t seed) {
     const auto room = ljus::sphere_furnace(Rgb{1}, Rgb{albedo});
@@ -324,7 +317,7 @@ Mean furnace_mean(float albedo, const PathTracingSettings& settings, int paths,
             1 + double(counts.bounce_rays) / paths};
 }
 
-/// What a fixed depth leaves out: in furnaces, and in the room.
+/// Plot: what a fixed depth leaves out, in furnaces and in the room.
 void depths(const examples::Options& options, const Sizes& sizes) {
     const std::array albedos{0.5f, 0.75f, 0.9f};
     examples::Plot plot{.name = "path_tracing-depth",
@@ -378,7 +371,8 @@ void depths(const examples::Options& options, const Sizes& sizes) {
     }
 }
 
-/// The variance of a path in a furnace of emission 1 that goes on with a constant chance.
+/// The variance of a path in a furnace of emission 1, if it goes on with a constant
+/// probability p.
 double furnace_variance(double rho, double p) {
     const double r = rho / p, s = rho * rho / p, mean = 1 / (1 - rho);
     if (s > 1 - 1e-6) return nothing;
@@ -393,7 +387,8 @@ PathTracingSettings constant_chance(double p) {
             .roulette_max = p};
 }
 
-/// A constant chance: where the noise has a closed form, and where it has no end.
+/// Plot and table: a constant probability, for which the variance has a closed form or
+/// is infinite.
 void constant_chances(const examples::Options& options, const Sizes& sizes) {
     examples::Plot plot{.name = "path_tracing-chance",
                         .columns = {"chance p to go on", "albedo 0.9: closed form",
@@ -455,7 +450,7 @@ void constant_chances(const examples::Options& options, const Sizes& sizes) {
 struct RouletteCase {
     std::string name;
     double threshold, most;
-    int from = 1; ///< From which surface on.
+    int from = 1; ///< The first surface with roulette.
     [[nodiscard]] PathTracingSettings settings() const {
         return {.roulette_depth = from,
                 .roulette_threshold = threshold,
@@ -481,8 +476,8 @@ double efficiency_by_time(const Noise& n) {
     return 1 / (n.rms * n.rms * std::max(n.seconds, 1e-6));
 }
 
-/// The efficiency of each roulette, against the threshold and in a table.
-/// \param usual  That of the threshold 1, which the others are compared with.
+/// Plot and table: the efficiency of each roulette.
+/// \param usual  The noise of the threshold 1, with which the others are compared.
 void save_roulettes(const std::vector<RouletteCase>& cases,
                     const std::vector<Noise>& noises, const Noise& usual,
                     const examples::Options& options) {
@@ -509,7 +504,7 @@ void save_roulettes(const std::vector<RouletteCase>& cases,
     print(table, options);
 }
 
-/// Roulette in the room: efficiency against the threshold, and pictures.
+/// Roulette in the room: its efficiency, and two pictures.
 void roulette(const examples::Options& options, const Sizes& sizes) {
     const auto room = matt_room();
     const int side = options.pick(48, 80, 120);
@@ -520,10 +515,10 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
                                   low_camera(), {side, side, sizes.most, options.seed},
                                   options));
     const Noise& usual = noises[6];                // threshold 1
-    const Noise& rash = noises[noises.size() - 2]; // a chance of 0.1
+    const Noise& rash = noises[noises.size() - 2]; // a probability of 0.1
     save_roulettes(cases, noises, usual, options);
 
-    // The same number of rays of all kinds for both pictures.
+    // Both pictures take the same number of rays of all kinds.
     const double rays = usual.rays / rash.rays * options.samples;
     const auto save = [&](const char* file, const PathTracingSettings& settings,
                           int count) {
@@ -539,7 +534,7 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
          std::max(1, int(std::lround(rays))));
 }
 
-/// Rays per second, by one thread and by two.
+/// Table: rays per second, by one thread and by two.
 void speed(const examples::Options& options) {
     const auto matt = matt_room();
     const auto cornell = ljus::cornell_box();
@@ -568,7 +563,7 @@ void speed(const examples::Options& options) {
 
 } // namespace
 
-/// Makes the figures of chapter 19.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;

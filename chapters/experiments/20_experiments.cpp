@@ -1,8 +1,7 @@
-// figures: radiosity
 // smoke: --quality draft --width 16 --height 16 --rays 1 --size 0.9 --steps 2
 /// \file chapters/experiments/20_experiments.cpp
-/// \brief Chapter 20: patches, form factors, solvers, leaks, and a light map seen from
-/// many sides.
+/// \brief Chapter 20: the experiments behind its tables, plots and pictures: form
+/// factors, solvers, the size of patches, leaks, and a light map seen from many sides.
 
 #include <algorithm>
 #include <array>
@@ -25,13 +24,8 @@
 #include <ljus/radiosity/radiosity.hpp>
 #include <ljus/radiosity/radiosity_solve.hpp>
 #include <ljus/scenes/cornell_box.hpp>
-#include <ljus/scenes/report_rooms.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "common/rendered.hpp"
-#include "common/terminal.hpp"
+#include "common/example.hpp"
 
 using namespace ljus;
 
@@ -44,7 +38,7 @@ using Stage = Scene<Shapes<Quad>, Materials<Lambertian>>;
 
 /// What the user may set besides the common options.
 struct Sizes {
-    double patch = 0; ///< Of the finest patches of the room.
+    double patch = 0; ///< Side of the finest patches of the room.
     int steps = 0;    ///< How many sizes of patches.
 };
 
@@ -86,7 +80,7 @@ void add_block(Stage& scene, MaterialId matt, const Vec3& middle, const Vec3& si
     scene.add(Quad{low + x, y, z}, matt);
 }
 
-/// The Cornell box with two matt blocks: all that radiosity was made for.
+/// The Cornell box with two diffuse blocks.
 Room<Stage> block_room() {
     Stage scene;
     add_cornell_walls(scene);
@@ -116,7 +110,8 @@ Room<Stage> two_rooms(double wall) {
     return {World(std::move(scene)), camera};
 }
 
-/// A closed cube of which the ceiling emits: no shadow, and all in closed form.
+/// A closed cube whose ceiling emits: there are no shadows, and all form factors have a
+/// closed form.
 auto shining_cube() {
     Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>>> cube;
     using V = Vec3T<double>;
@@ -135,7 +130,8 @@ auto shining_cube() {
 
 // --- Form factors ---------------------------------------------------------------------
 
-/// Two unit squares on a common edge: points on both, and rays by the cosine.
+/// Table: the form factor of two unit squares on a common edge, by random points of
+/// both, and by rays drawn by the cosine.
 void factors_by_chance(const examples::Options& options) {
     const int count = options.pick(1000000, 2000000, 10000000);
     examples::Table table{.name = "radiosity-chance",
@@ -166,7 +162,7 @@ void factors_by_chance(const examples::Options& options) {
 
 // --- Solvers --------------------------------------------------------------------------
 
-/// What is left after each sweep.
+/// Plot: the flux that is still unsent after each sweep, by each solver.
 void residuals(const examples::Options& options, const Sizes& sizes) {
     const auto room = block_room();
     const auto all = make_radiosity(room.world, {.patches = {.size = 3 * sizes.patch}});
@@ -200,7 +196,7 @@ void residuals(const examples::Options& options, const Sizes& sizes) {
                     std::log(1e-14) / std::log(0.75), all->factors.size());
 }
 
-/// The room after a few shots: what has been sent, and what waits.
+/// Pictures: the room after a few shots.
 void progress(const examples::Options& options) {
     const auto room = block_room();
     // Four patches of the lamp, in every quality, so that four shots are direct light.
@@ -223,13 +219,13 @@ void progress(const examples::Options& options) {
 
 // --- The size of patches --------------------------------------------------------------
 
-/// Error of the light on the floor against the size of patches.
+/// Plot: the error of the light on the floor against the size of patches.
 void error_of_size(const examples::Options& options, const Sizes& sizes) {
     const auto cube = shining_cube();
     const auto solved = [&](int n) {
         return *make_radiosity(cube, {.patches = {.size = 1.0 / n}});
     };
-    // The light at a point, from all patches of a solution: Lambert's formula.
+    // The light that all patches send to a point, by Lambert's formula.
     const auto gathered = [](const Radiosity& all, const glm::dvec3& at) {
         double sum = 0;
         for (std::size_t i = 0; i < all.patches.patches.size(); ++i)
@@ -286,7 +282,7 @@ std::string error_text(const Image& image, const Image& truth) {
     return examples::text(100 * std::sqrt(block_error(image, truth)), "%.1f %%");
 }
 
-/// The room by patches of one size: its row of the table, and its pictures.
+/// The room by patches of one size: a row of the table, and two pictures.
 /// \param file  Name of the pictures; empty: none are saved.
 std::vector<std::string> by_patches(const Room<Stage>& room, double size, bool analytic,
                                     const Image& truth, const std::string& file,
@@ -323,7 +319,7 @@ std::vector<std::string> by_patches(const Room<Stage>& room, double size, bool a
             error_text(smooth, truth)};
 }
 
-/// The room at several sizes of patches, beside path tracing: pictures, time and error.
+/// Table and pictures: the room by patches of several sizes, and by path tracing.
 void room_pictures(const examples::Options& options, const Sizes& sizes) {
     const auto room = block_room();
     const PathTracer tracer(room.world);
@@ -394,8 +390,8 @@ Estimate traced_light(const Tracer& tracer, std::uint32_t wall, std::uint32_t qu
 
 /// The mean irradiance that a solution gives to each quarter of a wall.
 std::array<double, 4> quarters_of(const LightMap& map, std::uint32_t wall) {
-    // Which part of a row or column of patches lies in a half of the wall: one across
-    // the middle belongs to both halves.
+    // Which part of a row or column of patches lies in one half of the wall; a row
+    // across the middle belongs to both halves.
     const auto part = [](std::uint32_t i, std::uint32_t n, bool high) {
         const double from = high ? 0.5 : 0, to = from + 0.5;
         return std::max(0.0,
@@ -435,7 +431,7 @@ Difference difference(const LightMap& map, const Quarters<Estimate>& traced) {
     return found;
 }
 
-/// The light on each quarter of each wall: by radiosity, and by paths that begin there.
+/// Table: the light on each quarter of each wall, by radiosity beside path tracing.
 void agreement(const examples::Options& options, const Sizes& sizes) {
     const auto room = block_room();
     const PathTracer tracer(room.world);
@@ -470,7 +466,7 @@ void agreement(const examples::Options& options, const Sizes& sizes) {
                         row[4].c_str());
 }
 
-/// One solution, many views: the first, each further one, and one from a file.
+/// Table and pictures: one solution, seen from five sides, and read from a file.
 void views(const examples::Options& options, const Sizes& sizes) {
     const auto room = block_room();
     Lap lap;
@@ -529,7 +525,8 @@ void views(const examples::Options& options, const Sizes& sizes) {
 
 // --- Leaks ----------------------------------------------------------------------------
 
-/// Two rooms, one lamp: what patches that lie under the wall do.
+/// Table and pictures: two rooms and one lamp; light leaks through patches that lie
+/// under the wall.
 void leaks(const examples::Options& options, const Sizes& sizes) {
     examples::Table table{.name = "radiosity-leaks",
                           .columns = {"side of a patch", "wall across patches: flat",
@@ -543,7 +540,7 @@ void leaks(const examples::Options& options, const Sizes& sizes) {
             const auto all = make_radiosity(room.world, {.patches = {.size = size}});
             for (const bool smooth : {false, true}) {
                 const LightMapView view(room.world, all->map, {.smooth = smooth});
-                // The dark floor next to the wall, and its like in the lit room.
+                // The floor next to the wall, on its dark or on its lit side.
                 RandomStream none;
                 Counts counts;
                 auto context = context_of(none, counts);
@@ -576,40 +573,13 @@ void leaks(const examples::Options& options, const Sizes& sizes) {
                         row[2].c_str(), row[3].c_str(), row[4].c_str());
 }
 
-/// The report's room: what is carried, and what is left out.
-void report_room(const examples::Options& options, const Sizes& sizes) {
-    const auto room = final_room();
-    const auto all =
-        make_radiosity(room.world, {.patches = {.size = 7 * sizes.patch},
-                                    .factors = {.analytic = false, .rays = 2048}});
-    save_png(
-        rendered("report", LightMapView(room.world, all->map), room.camera, options),
-        options.path("radiosity-report.png"));
-    save_png(rendered("report paths", PathTracer(room.world), room.camera, options,
-                      2 * options.samples),
-             options.path("radiosity-report-path.png"));
-    const auto sum =
-        energy_balance(all->patches, all->factors, all->solution.radiosity);
-    if (!options.quiet) {
-        for (const auto& text : all->patches.left_out)
-            std::printf("left out: %s\n", text.c_str());
-        std::printf("of the report's light, %.1f %% is absorbed by patches, %.1f %% "
-                    "escapes or falls on what is none (%zu patches)\n",
-                    100 * sum.absorbed.y / sum.emitted.y,
-                    100 * sum.escaped.y / sum.emitted.y, all->factors.size());
-    }
-}
-
 } // namespace
 
-/// Makes the figures of chapter 20.
-/// \param argc  Number of arguments.
-/// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 20, radiosity: patches, form factors, solvers, leaks.");
+        line.about("Chapter 20, radiosity: form factors, solvers, patches, leaks.");
         line.add("--size", sizes.patch, "Side of the finest patches of the room", 0.01,
                  10.0);
         line.add("--steps", sizes.steps,
@@ -628,6 +598,5 @@ int main(int argc, char** argv) {
         agreement(options, sizes);
         views(options, sizes);
         leaks(options, sizes);
-        report_room(options, sizes);
     });
 }

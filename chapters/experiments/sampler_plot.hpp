@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
 #include "experiments/hemisphere_cells.hpp"
 #include "ljus/math/random.hpp"
 
