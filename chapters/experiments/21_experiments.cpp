@@ -1,4 +1,3 @@
-// figures: side_by_side
 // smoke: --quality draft --width 16 --height 16 --rungs 2 --seeds 2 --truth 16
 /// \file chapters/experiments/21_experiments.cpp
 /// \brief Chapter 21: two rooms by all renderers: error against time, the same time, the
@@ -29,6 +28,7 @@
 #include "common/convergence.hpp"
 #include "common/plot.hpp"
 #include "common/terminal.hpp"
+#include "experiments/show_table.hpp"
 
 using namespace ljus;
 
@@ -420,7 +420,7 @@ void split_table(const Study& study, const std::vector<Method>& all,
                               examples::text(best.blocks.bias_squared, "%.6f"),
                               examples::text(best.blocks.variance, "%.6f")});
     }
-    save_table(options.out, table);
+    examples::show_table(options, table);
     // Every point, for whoever wants to draw it otherwise.
     examples::Table points{.name = "side_by_side-" + study.name + "-points",
                            .columns = {"renderer", "effort", "seconds", "rays",
@@ -487,7 +487,8 @@ void equal_time(const Study& study, const std::vector<Method>& all,
         for (std::size_t k = 0; k < all.size(); ++k) {
             const double effort = std::min(effort_for(study.runs[k], budgets[b]), 1e6);
             const Shot shot = panel(study, all[k], effort, options);
-            if (b == 0)
+            // The example of the chapter makes those of the matt room.
+            if (b == 0 && study.name == "glass")
                 save_png(panel(study, larger[k], effort, options).image,
                          options.path("side_by_side-" + study.name + "-time-" +
                                       all[k].file + ".png"));
@@ -503,7 +504,7 @@ void equal_time(const Study& study, const std::vector<Method>& all,
                      block_error(shot.image, study.truth) - study.block_noise, "%.6f"),
                  examples::text(flip(shot.image, study.truth), "%.3f")});
         }
-    save_table(options.out, table);
+    examples::show_table(options, table);
 }
 
 /// Time and rays that each needs for an error, and pictures by the effort for one of them.
@@ -537,6 +538,7 @@ void equal_error(const Study& study, const std::vector<Method>& all,
                                     examples::text(rays / 1000, "%.0f") + "k rays");
         }
         table.rows.push_back(row);
+        if (study.name != "matt") continue;
         // The panel: where it has the first error, or as near to it as it came.
         const double effort =
             examples::reach(column(rungs, [](const Rung& r) { return r.effort; }),
@@ -547,7 +549,7 @@ void equal_error(const Study& study, const std::vector<Method>& all,
         save_png(shot.image, options.path("side_by_side-" + study.name + "-error-" +
                                           all[k].file + ".png"));
     }
-    save_table(options.out, table);
+    examples::show_table(options, table);
 }
 
 // --- Who carries what -----------------------------------------------------------------
@@ -680,8 +682,7 @@ void class_table(const Study& study, const examples::Options& options,
             row.push_back(class_ratio(sums[k], truth[k], of.seeds));
         table.rows.push_back(row);
     }
-    save_table(options.out, table);
-    if (!options.quiet) examples::print_rows(table, 18);
+    examples::show_table(options, table);
 }
 
 // --- One solution, many views ---------------------------------------------------------
@@ -730,27 +731,20 @@ void views(const Study& study, const std::vector<Method>& all,
                          options.path("side_by_side-" + study.name + "-view-" +
                                       method.file + "-" + std::to_string(i) + ".png"));
         }
-        if (!options.quiet)
-            std::printf("%s, views, %s: solution %s s, view %s s, ratio %s, kept %s, "
-                        "working %s\n",
-                        study.name.c_str(), method.name.c_str(),
-                        table.rows.back()[1].c_str(), table.rows.back()[2].c_str(),
-                        table.rows.back()[3].c_str(), table.rows.back()[4].c_str(),
-                        table.rows.back()[5].c_str());
     }
-    save_table(options.out, table);
+    examples::show_table(options, table);
 }
 
 } // namespace
 
-/// Makes the figures of chapter 21.
+/// Makes the plots, tables and further pictures of chapter 21.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; 2 with one sentence for anything that is wrong.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 21, side by side: two rooms by all renderers.");
+        line.about("Chapter 21, side by side: the experiments in two rooms.");
         line.add("--rungs", sizes.rungs,
                  "Efforts tried, each four times the one before", 2, 8);
         line.add("--seeds", sizes.seeds, "Runs of each effort", 2, 1000);
@@ -778,7 +772,7 @@ int main(int argc, char** argv) {
             equal_time(study, all, larger, options);
             equal_error(study, all, larger, options);
             class_table(study, options, sizes);
-            views(study, all, larger, options, sizes);
+            if (matt) views(study, all, larger, options, sizes);
         }
     });
 }
