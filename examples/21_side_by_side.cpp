@@ -53,21 +53,21 @@ int main(int argc, char** argv) {
                  .analytic = false, .rays = 512, .seed = seed, .threads = threads}});
         save("radiosity", LightMapView(room.world, solved->map), 17);
 
-        // The photon map one bounce away from the camera: a ray to each diffuse surface
-        // that the next ray meets.
+        // Two passes: one more ray leaves each diffuse surface, and the photons are
+        // looked up where it ends.
         PhotonMappingSettings settings{.indirect = IndirectLight::map,
                                        .general{.photons = 16516,
                                                 .seed = seed,
                                                 .shadow_photons = false,
                                                 .threads = threads},
-                                       .general_estimate{.radius = 0.279f}};
+                                       .general_estimate{.radius = 0.27913f}};
         save("photons", PhotonMapper(room.world, settings), 33);
 
         // The photon map seen directly, with more photons in smaller discs.
         settings.shadow_rays = 4;
         settings.indirect = IndirectLight::photons;
         settings.general.photons = 239788;
-        settings.general_estimate.radius = 0.177f;
+        settings.general_estimate.radius = 0.17692f;
         save("seen", PhotonMapper(room.world, settings), 15);
     });
 }

@@ -1,6 +1,7 @@
 // smoke: --quality draft --photons 500 --width 60
 /// \file 23_kd_tree.cpp
-/// \brief Chapter 23: what a search in a k-d tree looks at, photons on a floor from above.
+/// \brief Chapter 23: what a search in a k-d tree looks at, photons on a floor from
+/// above.
 
 #include <algorithm>
 #include <cstdio>

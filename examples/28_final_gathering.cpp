@@ -49,7 +49,8 @@ int main(int argc, char** argv) {
         settings.general.seed = settings.caustics.seed = options.seed;
         settings.general.threads = settings.caustics.threads = options.threads;
         settings.general.shadow_photons = false;
-        // 0: as wide as a typical 64 photons of the general map lie, or 32 of the other.
+        // 0: as wide as a typical 64 photons of the general map lie, or 32 of the
+        // other.
         settings.general_estimate.radius = settings.caustics_estimate.radius = 0;
 
         const auto save = [&](const std::string& name, const auto& renderer,

@@ -1,7 +1,7 @@
 // smoke: --quality draft
 /// \file chapters/drawings/25_drawings.cpp
-/// \brief Chapter 25: photons and shadow photons of a lamp over a ball, and discs in the
-/// light, in the penumbra and in the shadow.
+/// \brief Chapter 25: photons and shadow photons of a lamp over a ball, and discs in
+/// the light, in the penumbra and in the shadow.
 
 #include <array>
 #include <cmath>

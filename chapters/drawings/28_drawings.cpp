@@ -1,7 +1,7 @@
 // smoke: --quality draft
 /// \file chapters/drawings/28_drawings.cpp
-/// \brief Chapter 28: the disc of an estimate at the edge of a wall, and gather rays that look
-/// up points.
+/// \brief Chapter 28: the disc of an estimate at the edge of a wall, and gather rays
+/// that look up points.
 
 #include <algorithm>
 #include <cmath>

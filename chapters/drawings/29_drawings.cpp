@@ -1,7 +1,7 @@
 // smoke: --quality draft
 /// \file chapters/drawings/29_drawings.cpp
-/// \brief Chapter 29: the gather rays of two points, how far points count, and which of them
-/// answer.
+/// \brief Chapter 29: the gather rays of two points, how far points count, and which of
+/// them answer.
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // smoke: --quality draft --photons 500 --paths 2000 --width 40 --height 40
 /// \file chapters/experiments/22_experiments.cpp
-/// \brief Chapter 22: what roulette may not lose, and what aiming saves; spots and suns,
-/// and photons that are spread evenly.
+/// \brief Chapter 22: what roulette may not lose, and what aiming saves; spots and
+/// suns, and photons that are spread evenly.
 
 #include <algorithm>
 #include <array>
@@ -97,7 +97,8 @@ void count_photons(const examples::Options& options, long long count) {
 
 // --- Roulette -------------------------------------------------------------------------
 
-/// The roulette of the report's program: who survives is not divided by the probability.
+/// The roulette of the report's program: who survives is not divided by the
+/// probability.
 // [uncompensated]
 std::optional<Rgb> play_uncompensated(Rgb flux, Rgb weight, float u) {
     const Rgb reflected = flux * weight;
@@ -110,8 +111,8 @@ std::optional<Rgb> play_uncompensated(Rgb flux, Rgb weight, float u) {
 /// How a photon's life ends.
 enum class End { roulette, uncompensated, faint };
 
-/// The flux that arrives at each surface of a photon's way, in units of the light's, and
-/// how many surfaces a photon met.
+/// The flux that arrives at each surface of a photon's way, in units of the light's,
+/// and how many surfaces a photon met.
 struct Arrivals {
     std::array<double, 16> at{}; ///< At the first surface, the second, ...
     double total = 0;            ///< All together.
@@ -203,7 +204,7 @@ void compare_roulettes(const examples::Options& options, long long paths) {
 
 // --- Aiming ---------------------------------------------------------------------------
 
-/// The flux that one way of sending photons brings to the glass, one photon at a time.
+/// The flux to the glass, photon by photon, for one way of sending them.
 struct Brought {
     double mean = 0, squares = 0; ///< Of the flux of a photon sent, W.
     long long met = 0;            ///< Photons that met the glass first.
@@ -231,7 +232,7 @@ Brought send(const examples::Options& options, long long paths, OnePhoton one_ph
     return brought;
 }
 
-/// Table: what each way brings, and what an error of one percent costs.
+/// The table: the flux to the glass by either way, and the cost of an error of 1 %.
 void tabulate_aims(const examples::Options& options, const Brought& everywhere,
                    const Brought& aimed) {
     examples::Table table{.name = "emission-aim",
@@ -363,8 +364,8 @@ auto small_room(bool lamp_only) {
     return World(std::move(room));
 }
 
-/// What a photon brings to a patch of the floor, by the number of its surface: direct,
-/// after one bounce, after three.
+/// The flux that a photon carries to a patch of the floor: direct, after one bounce,
+/// and after three.
 constexpr std::size_t orders = 3;
 using Orders = std::array<double, orders>;
 
@@ -523,8 +524,8 @@ void compare_numbers(const examples::Options& options) {
 
 // --- Roulette with another probability ------------------------------------------------
 
-/// What arrives of one photon at all surfaces, if it survives each with probability p
-/// and then carries rho / p of what it had.
+/// The flux of one photon that arrives at all surfaces together, if it survives each
+/// with the probability p and then carries rho / p of what it had.
 void compare_probabilities(const examples::Options& options, long long paths) {
     const double rho = 0.75;
     examples::Table table{.name = "emission-probability",

@@ -1,7 +1,7 @@
 // smoke: --quality draft --photons 500 --width 40 --height 40
 /// \file chapters/experiments/24_experiments.cpp
-/// \brief Chapter 24: how many photons there are of each kind, the map as a picture, where
-/// it fails, and its error by number and radius.
+/// \brief Chapter 24: how many photons there are of each kind, the map as a picture,
+/// where it fails, and its error by number and radius.
 
 #include <algorithm>
 #include <array>

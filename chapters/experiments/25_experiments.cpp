@@ -110,7 +110,7 @@ Hall three_balls(float radius) {
 struct Probes {
     std::vector<Vec3> points{}; ///< On the floor.
     std::vector<double> seen{}; ///< In [0, 1].
-    std::size_t everywhere = 0; ///< The first so many are spread over all the floor.
+    std::size_t everywhere = 0; ///< How many of the first lie all over the floor.
 };
 // [probe]
 double part_seen(const Hall& hall, const Vec3& at, int n) {
@@ -161,7 +161,7 @@ VerdictGrid verdicts_of(const Hall& hall, const SkipSettings& skip, long long ph
     return make_verdict_grid(traced.photons, 1, skip, options.threads);
 }
 
-/// What a rule does, in shares.
+/// How often a rule skips rays, and how often it is wrong; parts of 1.
 struct Outcome {
     double skipped = 0; ///< Points with a verdict, of all.
     double wrong = 0;   ///< Points with one that is more than 5 % of the lamp off.
@@ -351,7 +351,8 @@ void wire(const examples::Options& options, long long photons) {
 
 // --- What it saves -------------------------------------------------------------------
 
-/// A hall with walls, a lamp, and nine balls of so many triangles each; spheres for 0.
+/// A hall with walls, lamps, and nine balls: meshes of 20 * 4^cuts triangles each, or
+/// spheres if cuts is 0.
 Hall hall_of_meshes(int cuts, int lamps) {
     HallScene hall;
     const auto grey = hall.add(Lambertian{.albedo = Rgb{0.6f}});
@@ -467,9 +468,9 @@ void rooms(const examples::Options& options, long long photons) {
     examples::show_table(options, table);
 }
 
-/// Nanoseconds of a shadow ray, of a verdict from the grid, and of one by the plain
-/// twin, which asks the map: at the same points, for the first lamp. And of a photon,
-/// from the lamp into the grid.
+/// Nanoseconds of a shadow ray, of a verdict from the grid, and of a verdict by the
+/// plain twin, which asks the map, all at the same points and for the first lamp; and
+/// of a photon, from the lamp into the grid.
 template <AnyWorld W>
 std::array<double, 4> cost_of(const W& world, const Camera& camera, long long photons,
                               const examples::Options& options) {

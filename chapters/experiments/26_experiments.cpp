@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 24 --rays 1 --photons 300 --seeds 2
 /// \file chapters/experiments/26_experiments.cpp
-/// \brief Chapter 26: a caustic on paper, and the error of estimates by radius, number of
-/// photons and kernel; the errors of figure 11.
+/// \brief Chapter 26: a caustic on paper, and the error of estimates by radius, number
+/// of photons and kernel; the errors of figure 11.
 
 #include <algorithm>
 #include <array>
@@ -283,8 +283,8 @@ void error_by_kernel(const examples::Options& options, const Sizes& sizes) {
 // --- The errors of figure 11 ----------------------------------------------------------
 
 /// The caustics without a radius: each photon is joined to the pinhole, and counted in
-/// the pixel that sees it. A pixel's radiance is the mean over its solid angle, of which
-/// the surface around the photon covers cos dA / d^2.
+/// the pixel that sees it. A pixel's radiance is the mean over its solid angle. An area
+/// dA around the photon covers cos dA / d^2 of that angle.
 // [light image]
 template <typename S>
 Image light_image(const Room<S>& room, const RenderSettings& picture,
@@ -359,7 +359,7 @@ bool sees_matt(const Room<S>& room, const examples::Options& options, int x, int
     return true;
 }
 
-/// The light of the caustics as it is, and where it is to be seen.
+/// The true light of the caustics, and the pixels in which it is bright.
 struct CausticTruth {
     Image light = {};              ///< The mean of two halves.
     std::vector<bool> region = {}; ///< Pixels with more of it than the mean.
@@ -368,8 +368,8 @@ struct CausticTruth {
     double pixels = 0;             ///< Of the region.
 };
 
-/// Pixels that see one matt surface with all of their area, and in which, with their
-/// neighbours, there is more light than the mean.
+/// Pixels whose whole area sees one matt surface, and that are brighter than the mean
+/// together with their neighbours.
 template <typename S>
 std::vector<bool> caustic_region(const Room<S>& room, const Image& light,
                                  const examples::Options& options) {
@@ -390,7 +390,7 @@ std::vector<bool> caustic_region(const Room<S>& room, const Image& light,
     return region;
 }
 
-/// The truth in two halves, which tell its own error.
+/// The truth as the mean of two pictures; how they differ tells its error.
 template <typename S>
 CausticTruth caustic_truth(const Room<S>& room, const examples::Options& options,
                            long long photons) {

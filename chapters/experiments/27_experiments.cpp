@@ -1,6 +1,7 @@
 // smoke: --quality draft --width 24 --height 24 --rays 1 --photons 1000
 /// \file chapters/experiments/27_experiments.cpp
-/// \brief Chapter 27: figure 1 taken apart, and error against time for photons and paths.
+/// \brief Chapter 27: figure 1 taken apart, and error against time for photons and
+/// paths.
 
 #include <limits>
 #include <string>

@@ -337,7 +337,7 @@ std::vector<Runs> compare(const Room& room,
     return runs;
 }
 
-/// What one way does with so many photons and rays.
+/// The result of one way to gather, for some number of photons and of rays.
 struct Setting {
     std::size_t way;             ///< 0: photons, 1: map, 2: gather.
     double seconds, error, seen; ///< Processor seconds, relMSE, FLIP.

@@ -100,13 +100,13 @@ IrradianceCacheT<double> exact_cache(int run, std::uint64_t seed) {
     return cache;
 }
 
-/// What interpolation with one reach brings at the places, means over the runs.
+/// The errors of interpolation with one reach at all places, as means over the runs.
 struct AtCorner {
     std::array<double, corner_places> squares{};  ///< Of the relative error.
     std::array<double, corner_places> gathered{}; ///< How often nothing is near enough.
 };
 
-/// Adds what one cache says, as one of so many runs.
+/// Adds the errors of one cache, which is one of `runs`.
 void add_run(AtCorner& corner, const IrradianceCacheT<double>& cache, double reach,
              int runs) {
     for (int i = 0; i < corner_places; ++i) {
@@ -144,7 +144,7 @@ void plot_corner(const Corner& corner, const examples::Options& options) {
     save_plot(options.out, plot);
 }
 
-/// Near the wall and farther out, in means.
+/// The mean errors near the wall and farther away.
 void table_of_corner(const Corner& corner, const examples::Options& options) {
     examples::Table table{.name = "irradiance_cache-corner-table",
                           .columns = {"reach", "error within a step of the wall",
@@ -214,7 +214,7 @@ double mean_error(const ImageT<T>& image, const ImageT<U>& truth) {
     return sum / all - 1;
 }
 
-/// A picture that is believed, by eight independent pieces, and its own noise.
+/// A reference from eight independent pictures, which tell its noise.
 examples::Oracle oracle_of(const std::function<Image(int, std::uint64_t)>& shot,
                            int rays, int side) {
     constexpr int pieces = 8;
@@ -294,7 +294,7 @@ std::vector<Knob> all_knobs() {
     return all;
 }
 
-/// What a knob brings, over several seeds.
+/// The result of one setting, over several seeds.
 struct Turned {
     double seconds = 0, mean = 0, flip = 0;
     std::size_t points = 0;
@@ -381,7 +381,7 @@ struct Method {
     std::function<Image(int, std::uint64_t)> shoot;
 };
 
-/// What a method brought, over several seeds.
+/// The result of a method, over several seeds.
 struct Result {
     double seconds = 0; ///< Of a processor, both passes.
     BiasVariance pixels{}, blocks{};
@@ -594,8 +594,8 @@ World<Stage> penumbra_stage(const Lamp& lamp) {
 
 constexpr std::array shadow_rays{1, 2, 4, 9};
 
-/// What the closed form with its shadow rays brings at one place, in parts of the whole
-/// lamp's light; one number for each number of shadow rays.
+/// The light that the closed form finds at one place, as a part of the whole lamp's;
+/// one value for each number of shadow rays.
 struct InPenumbra {
     double x = 0; ///< Of the place; the penumbra is -1 to 1.
     std::array<double, shadow_rays.size()> bias{}, noise{}, sampled{};

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file chapters/experiments/white_floor.hpp
-/// \brief Irradiance on a white floor: what a rectangular lamp gives it, exactly, and what
-/// photons say of it.
+/// \brief Irradiance on a white floor: what a rectangular lamp gives it, exactly, and
+/// what photons say of it.
 
 #include <array>
 #include <cmath>
