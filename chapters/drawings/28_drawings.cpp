@@ -1,8 +1,10 @@
 // smoke: --quality draft
 /// \file chapters/drawings/28_drawings.cpp
-/// \brief Chapter 28: the disc of an estimate at the edge of a wall.
+/// \brief Chapter 28: the disc of an estimate at the edge of a wall, and gather rays
+/// that look up points.
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -63,13 +65,69 @@ void draw_discs_at_edge(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
+/// A room cut open: photons, the points chosen from them, and rays that look those up.
+void draw_idea(const std::string& folder) {
+    Drawing figure{.name = "final-gathering-idea",
+                   .description =
+                       "Rays from x end on walls and take what the nearest point knows",
+                   .low{-0.35, -0.35},
+                   .high{4.35, 2.35},
+                   .scale = 150};
+    const double width = 4, height = 2;
+    draw_line(figure, {{0, height}, {0, 0}, {width, 0}, {width, height}, {0, height}});
+    // Along the walls but the floor: a photon every so often, irregularly.
+    struct Dot {
+        Point at, normal;
+    };
+    std::vector<Dot> points;
+    auto stream = ljus::random_stream(1, ljus::Pass::user, 0, 0);
+    const double way = 2 * height + width;
+    int number = 0;
+    for (double s = 0.05; s < way; s += 0.04 + 0.08 * double(next_1d(stream))) {
+        const Dot dot = s < height           ? Dot{{0, s}, {1, 0}}
+                        : s < height + width ? Dot{{s - height, height}, {0, -1}}
+                                             : Dot{{width, way - s}, {-1, 0}};
+        if (number++ % 6 == 3)
+            points.push_back(dot);
+        else
+            draw_dot(figure, dot.at, 2.2, colors::blue);
+    }
+    const Point x{1.7, 0};
+    for (int i = 0; i < 9; ++i) {
+        // Evenly over the cosine: seen from the side, the sine has equal steps.
+        const double sine = -1 + 2 * (i + 0.5) / 9, cosine = std::sqrt(1 - sine * sine);
+        double t = height / cosine;
+        if (sine > 0) t = std::min(t, (width - x.x) / sine);
+        if (sine < 0) t = std::min(t, x.x / -sine);
+        const Point end{x.x + t * sine, t * cosine};
+        draw_arrow(figure, x, end, {"currentColor", 1});
+        const auto distance = [&](const Dot& dot) {
+            return std::hypot(dot.at.x - end.x, dot.at.y - end.y);
+        };
+        const Dot& nearest = *std::min_element(
+            points.begin(), points.end(),
+            [&](const Dot& a, const Dot& b) { return distance(a) < distance(b); });
+        draw_line(figure, {end, nearest.at}, {colors::orange, 4});
+    }
+    for (const Dot& dot : points) {
+        draw_arrow(figure, dot.at,
+                   {dot.at.x + 0.22 * dot.normal.x, dot.at.y + 0.22 * dot.normal.y},
+                   {colors::orange, 1.5});
+        draw_dot(figure, dot.at, 5, colors::orange);
+    }
+    draw_dot(figure, x, 5, "currentColor");
+    draw_label(figure, {x.x, -0.18}, "x");
+    save_drawing(folder, figure);
+}
+
 } // namespace
 
-/// Makes the chapter's drawing.
+/// Makes the chapter's drawings.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 28, final gathering: a drawing.");
+        line.about("Chapter 28, final gathering: drawings.");
         const examples::Options options = line.parse({});
         draw_discs_at_edge(options.path(""));
+        draw_idea(options.path(""));
     });
 }

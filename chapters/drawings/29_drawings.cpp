@@ -1,8 +1,12 @@
 // smoke: --quality draft
 /// \file chapters/drawings/29_drawings.cpp
-/// \brief Chapter 29: the gather rays of two points, and how far each point counts.
+/// \brief Chapter 29: the gather rays of two points, how far points count, and which of
+/// them answer.
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -71,13 +75,63 @@ void draw_reach(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
+/// A room in the plane: how far a point of its floor sees, as a harmonic mean.
+double distance_on_floor(double x, double width, double height) {
+    double inverse = 0;
+    constexpr int rays = 4000;
+    for (int i = 0; i < rays; ++i) {
+        const double along = (2 * i + 1.0) / rays - 1; // the cosine law in the plane
+        const double up = std::sqrt(1 - along * along);
+        const double wall = along < 0 ? x / -along : (width - x) / along;
+        inverse += 1 / std::min(wall, height / up) / rays;
+    }
+    return 1 / inverse;
+}
+
+/// Points on a floor, how far each of them counts, and a place that asks.
+void draw_idea(const std::string& folder) {
+    constexpr double width = 9, height = 2.4, reach = 0.5;
+    constexpr std::array places{0.12, 0.45, 0.8, 1.35, 1.9, 2.4, 3.0, 3.5, 4.2, 4.75};
+    Drawing figure{.name = "irradiance_cache-idea",
+                   .description =
+                       "Points on a floor beside a wall; those near the wall count for "
+                       "a short distance",
+                   .low{-0.2, -0.5},
+                   .high{5.3, 1.75},
+                   .scale = 130};
+    draw_area(figure, {{-0.2, -0.1}, {5.3, -0.1}, {5.3, 0}, {-0.2, 0}}, "currentColor");
+    draw_area(figure, {{-0.2, 0}, {0, 0}, {0, 1.75}, {-0.2, 1.75}}, "currentColor");
+    draw_line(figure, {{0, 1.75}, {0, 0}, {5.3, 0}});
+    for (const double x : places) {
+        const double r = reach * distance_on_floor(x, width, height);
+        draw_arc(figure, {x, 0}, r, 0, std::numbers::pi, {colors::blue, 1, true});
+    }
+    // Six points take part, the nearest says how far they may lie.
+    constexpr double asked = 2.6, around = 1.25;
+    for (const double x : places) {
+        const double share = (x - asked) * (x - asked) / (around * around);
+        const double r = reach * distance_on_floor(x, width, height);
+        if (share < 1 && std::abs(x - asked) < r)
+            draw_line(figure, {{asked, 0.42}, {x, 0}},
+                      {colors::orange, 0.5 + 5 * (1 - share)});
+        draw_dot(figure, {x, 0}, 5, colors::blue);
+    }
+    draw_dot(figure, {asked, 0.42}, 6, colors::orange);
+    draw_line(figure, {{asked, 0.42}, {asked, 0}}, {"currentColor", 1, true});
+    draw_label(figure, {asked, 0.62}, "E ?", colors::orange);
+    draw_label(figure, {2.6, -0.3},
+               "points that have gathered, and how far each counts", colors::blue);
+    save_drawing(folder, figure);
+}
+
 } // namespace
 
-/// Makes the chapter's drawing.
+/// Makes the chapter's drawings.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 29, the irradiance cache: a drawing.");
+        line.about("Chapter 29, the irradiance cache: drawings.");
         const examples::Options options = line.parse({});
         draw_reach(options.path(""));
+        draw_idea(options.path(""));
     });
 }

@@ -1,8 +1,7 @@
-// figures: side_by_side
 // smoke: --quality draft --width 16 --height 16 --rungs 2 --seeds 2 --truth 16
 /// \file chapters/experiments/21_experiments.cpp
-/// \brief Chapter 21: two rooms by all renderers: error against time, the same time, the
-/// same error, bias and noise, and which light paths each carries.
+/// \brief Chapter 21: two rooms by all renderers: error against time, the same time,
+/// the same error, bias and noise, and which light paths each carries.
 
 #include <algorithm>
 #include <array>
@@ -29,6 +28,7 @@
 #include "common/convergence.hpp"
 #include "common/plot.hpp"
 #include "common/terminal.hpp"
+#include "experiments/show_table.hpp"
 
 using namespace ljus;
 
@@ -63,8 +63,8 @@ struct Shot {
 struct Method {
     std::string name; ///< As in plots.
     std::string file; ///< As in names of files.
-    /// Renders a room. `effort` is a number of rays per pixel, or as much work; cameras:
-    /// one picture each from one solution.
+    /// Renders a room. `effort` is a number of rays per pixel, or as much work;
+    /// cameras: one picture each from one solution.
     std::function<std::vector<Shot>(const Cornell&, const std::vector<Camera>&,
                                     double effort, std::uint64_t seed)>
         shoot{};
@@ -204,7 +204,7 @@ std::vector<Method> methods(const examples::Options& options) {
 
 // --- Error against time ---------------------------------------------------------------
 
-/// What one effort of one method brought.
+/// The result of one method with one effort.
 struct Rung {
     double effort = 0;     ///< The effort.
     double seconds = 0;    ///< Median over the seeds.
@@ -230,8 +230,8 @@ struct Study {
     std::vector<std::vector<Rung>> runs{}; ///< One list per method.
 };
 
-/// Paths of which every number, at every surface, is shared out evenly among the rays of
-/// a pixel, and photons for caustics.
+/// A path tracer for the reference: at every surface the random numbers of a pixel's
+/// rays are stratified, and caustics come from photons.
 struct Judge {
     using Stream = StratifiedStream; ///< What render() gives it to draw from.
     const Cornell& world;            ///< Of a room.
@@ -239,7 +239,7 @@ struct Judge {
     DensityEstimateSettings gather;  ///< In discs smaller than a pixel.
 };
 
-/// What a matt surface sends on of each lamp's light, and of the caustics map's.
+/// What a matt surface reflects of the light of all lamps and of the caustics map.
 template <typename Material>
 Rgb lamps_and_caustics(const Judge& judge, const VertexT<float>& at,
                        const Material& material, auto& context) {
@@ -420,8 +420,8 @@ void split_table(const Study& study, const std::vector<Method>& all,
                               examples::text(best.blocks.bias_squared, "%.6f"),
                               examples::text(best.blocks.variance, "%.6f")});
     }
-    save_table(options.out, table);
-    // Every point, for whoever wants to draw it otherwise.
+    examples::show_table(options, table);
+    // Every point, to draw other plots from.
     examples::Table points{.name = "side_by_side-" + study.name + "-points",
                            .columns = {"renderer", "effort", "seconds", "rays",
                                        "photons", "bias2", "variance", "block bias2",
@@ -454,8 +454,8 @@ Shot panel(const Study& study, const Method& method, double effort,
                         options.seed + 77)[0];
 }
 
-/// The effort that takes a time: between rungs a straight line, beyond them the power law
-/// of the last two, or in proportion if that is less. At least 1 ray per pixel.
+/// The effort that takes a time: between rungs a straight line, beyond them the power
+/// law of the last two, or in proportion if that is less. At least 1 ray per pixel.
 double effort_for(const std::vector<Rung>& rungs, double seconds) {
     const Rung &last = rungs.back(), &before = rungs[rungs.size() - 2];
     if (seconds >= last.seconds) {
@@ -473,8 +473,8 @@ double effort_for(const std::vector<Rung>& rungs, double seconds) {
     return 1;
 }
 
-/// All renderers, each as good as it gets in the same time; `larger`: what is shown of the
-/// first of the times, in more pixels by the same effort.
+/// All renderers, each as good as it gets in the same time; `larger`: what is shown of
+/// the first of the times, in more pixels by the same effort.
 void equal_time(const Study& study, const std::vector<Method>& all,
                 const std::vector<Method>& larger, const examples::Options& options) {
     examples::Table table{
@@ -487,7 +487,8 @@ void equal_time(const Study& study, const std::vector<Method>& all,
         for (std::size_t k = 0; k < all.size(); ++k) {
             const double effort = std::min(effort_for(study.runs[k], budgets[b]), 1e6);
             const Shot shot = panel(study, all[k], effort, options);
-            if (b == 0)
+            // The example of the chapter makes those of the matt room.
+            if (b == 0 && study.name == "glass")
                 save_png(panel(study, larger[k], effort, options).image,
                          options.path("side_by_side-" + study.name + "-time-" +
                                       all[k].file + ".png"));
@@ -503,10 +504,11 @@ void equal_time(const Study& study, const std::vector<Method>& all,
                      block_error(shot.image, study.truth) - study.block_noise, "%.6f"),
                  examples::text(flip(shot.image, study.truth), "%.3f")});
         }
-    save_table(options.out, table);
+    examples::show_table(options, table);
 }
 
-/// Time and rays that each needs for an error, and pictures by the effort for one of them.
+/// Time and rays that each needs for an error, and pictures by the effort for one of
+/// them.
 void equal_error(const Study& study, const std::vector<Method>& all,
                  const std::vector<Method>& larger, const examples::Options& options) {
     examples::Table table{.name = "side_by_side-" + study.name + "-error",
@@ -537,6 +539,7 @@ void equal_error(const Study& study, const std::vector<Method>& all,
                                     examples::text(rays / 1000, "%.0f") + "k rays");
         }
         table.rows.push_back(row);
+        if (study.name != "matt") continue;
         // The panel: where it has the first error, or as near to it as it came.
         const double effort =
             examples::reach(column(rungs, [](const Rung& r) { return r.effort; }),
@@ -547,7 +550,7 @@ void equal_error(const Study& study, const std::vector<Method>& all,
         save_png(shot.image, options.path("side_by_side-" + study.name + "-error-" +
                                           all[k].file + ".png"));
     }
-    save_table(options.out, table);
+    examples::show_table(options, table);
 }
 
 // --- Who carries what -----------------------------------------------------------------
@@ -556,7 +559,7 @@ void equal_error(const Study& study, const std::vector<Method>& all,
 constexpr std::array class_names{"EL",      "ES+L",       "EDL", "ES+DL",
                                  "ES*DS+L", "E.*D.*D.*L", "E.*L"};
 
-/// What a renderer brings of one class, over several seeds.
+/// How much light of one class a renderer finds, over several seeds.
 struct ClassSum {
     double mean = 0, squares = 0;
 
@@ -568,7 +571,7 @@ struct ClassSum {
 };
 using ClassSums = std::array<ClassSum, class_names.size()>;
 
-/// What all renderers have in common when their classes are measured.
+/// What is the same for all renderers when their classes are measured.
 struct ClassStudy {
     const Study& study;
     const examples::Options& options;
@@ -576,7 +579,7 @@ struct ClassStudy {
     std::vector<LightPathExpression> classes{};
 };
 
-/// The means over the seeds of what `make` finds in a picture.
+/// The means over the seeds of what `make` finds.
 template <typename Make>
 ClassSums over_seeds(const ClassStudy& of, Make make) {
     ClassSums sums{};
@@ -651,7 +654,7 @@ std::string class_ratio(const ClassSum& its, const ClassSum& right, int seeds) {
            ")";
 }
 
-/// Each class of paths: what a renderer brings of it, over what path tracing brings.
+/// For each class of paths, the light that a renderer finds over that of path tracing.
 void class_table(const Study& study, const examples::Options& options,
                  const Sizes& sizes) {
     const Cornell& world = study.room.world;
@@ -680,13 +683,12 @@ void class_table(const Study& study, const examples::Options& options,
             row.push_back(class_ratio(sums[k], truth[k], of.seeds));
         table.rows.push_back(row);
     }
-    save_table(options.out, table);
-    if (!options.quiet) examples::print_rows(table, 18);
+    examples::show_table(options, table);
 }
 
 // --- One solution, many views ---------------------------------------------------------
 
-/// What the first view costs, what each further one does, and what is kept for it.
+/// The cost of the first view and of each further one, and what is kept in memory.
 void views(const Study& study, const std::vector<Method>& all,
            const std::vector<Method>& larger, const examples::Options& options,
            const Sizes& sizes) {
@@ -730,27 +732,20 @@ void views(const Study& study, const std::vector<Method>& all,
                          options.path("side_by_side-" + study.name + "-view-" +
                                       method.file + "-" + std::to_string(i) + ".png"));
         }
-        if (!options.quiet)
-            std::printf("%s, views, %s: solution %s s, view %s s, ratio %s, kept %s, "
-                        "working %s\n",
-                        study.name.c_str(), method.name.c_str(),
-                        table.rows.back()[1].c_str(), table.rows.back()[2].c_str(),
-                        table.rows.back()[3].c_str(), table.rows.back()[4].c_str(),
-                        table.rows.back()[5].c_str());
     }
-    save_table(options.out, table);
+    examples::show_table(options, table);
 }
 
 } // namespace
 
-/// Makes the figures of chapter 21.
+/// Makes the plots, tables and further pictures of chapter 21.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; 2 with one sentence for anything that is wrong.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 21, side by side: two rooms by all renderers.");
+        line.about("Chapter 21, side by side: the experiments in two rooms.");
         line.add("--rungs", sizes.rungs,
                  "Efforts tried, each four times the one before", 2, 8);
         line.add("--seeds", sizes.seeds, "Runs of each effort", 2, 1000);
@@ -778,7 +773,7 @@ int main(int argc, char** argv) {
             equal_time(study, all, larger, options);
             equal_error(study, all, larger, options);
             class_table(study, options, sizes);
-            views(study, all, larger, options, sizes);
+            if (matt) views(study, all, larger, options, sizes);
         }
     });
 }

@@ -1,14 +1,12 @@
-// figures: photon_emission
 // smoke: --quality draft --photons 500 --paths 2000 --width 40 --height 40
 /// \file chapters/experiments/22_experiments.cpp
-/// \brief Chapter 22: where photons go, what roulette may not lose, and what aiming
-/// saves; spots and suns, and photons that are spread evenly.
+/// \brief Chapter 22: what roulette may not lose, and what aiming saves; spots and
+/// suns, and photons that are spread evenly.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -17,14 +15,17 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
+#include "common/convergence.hpp"
 #include "common/plot.hpp"
+#include "experiments/show_table.hpp"
+#include "experiments/white_floor.hpp"
 #include "ljus/geometry/shape.hpp"
 #include "ljus/inspect/census.hpp"
+#include "ljus/inspect/photon_dots.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/lights/spot_light.hpp"
 #include "ljus/lights/sun_light.hpp"
 #include "ljus/materials/lambertian.hpp"
-#include "ljus/photons/density_estimate.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/scenes/report_rooms.hpp"
 
@@ -36,49 +37,15 @@ constexpr double pi = std::numbers::pi;
 
 /// What the user may set besides the common options.
 struct Sizes {
-    long long photons = 0; ///< Dots in the picture.
+    long long photons = 0; ///< Dots in the pictures.
     long long paths = 0;   ///< Photons behind each number of the tables.
 };
 
 // --- Photons as dots ------------------------------------------------------------------
 
-/// The pixel in which a camera sees a point; nothing if it lies behind the camera.
-std::optional<Vec2> project(const Camera& camera, const Vec3& point, int width,
-                            int height) {
-    const Vec3 way = point - camera.position;
-    const float depth = glm::dot(way, camera.forward);
-    if (!(depth > 0)) return std::nullopt;
-    const float scale = float(height) / (2 * camera.half_height * depth);
-    return Vec2{float(width) / 2 + scale * glm::dot(way, camera.right),
-                float(height) / 2 - scale * glm::dot(way, camera.up)};
-}
-/// A drawing of the room, no rendering: the colour of what the pixel sees, darker where
-/// it is seen at a low angle.
-template <typename S>
-Image draw(const Room<S>& room, int width, int height) {
-    Image image = make_image(width, height);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const Ray ray = primary_ray(
-                room.camera, Vec2{float(x) + 0.5f, float(y) + 0.5f}, width, height);
-            const auto hit = closest_hit(room.world, ray);
-            if (!hit) continue;
-            const auto surface = vertex_at(room.world, ray, *hit);
-            const Vec3 wo = to_local(surface.frame, -ray.direction);
-            const Rgb albedo =
-                room.world.visit_material(surface.object.material, [&](const auto& m) {
-                    return has(lobes(m), Lobes::specular)
-                               ? Rgb{0.25f}
-                               : Rgb(evaluate(m, wo, wo) * float(pi));
-                });
-            pixel(image, x, y) = 0.16f * (0.3f + 0.7f * std::abs(wo.z)) * albedo;
-            if (!is_black(surface.object.emission)) pixel(image, x, y) = Rgb{0.5f};
-        }
-    return image;
-}
-
 /// Adds the photons of one kind that the camera can see, each as a dot in the colour of
 /// its flux.
+/// \return How many they are.
 template <typename S>
 long long add_dots(Image& image, const Room<S>& room,
                    const std::vector<Photon>& photons, PhotonKind kind) {
@@ -102,9 +69,10 @@ long long add_dots(Image& image, const Room<S>& room,
     }
     return seen;
 }
-void picture_of_photons(const examples::Options& options, long long count) {
+
+/// How many photons of either kind there are, and what they carry.
+void count_photons(const examples::Options& options, long long count) {
     const auto room = final_room<float>();
-    const Image drawing = draw(room, options.width, options.height);
     const auto traced = trace_photons(
         room.world, MapType::general,
         {.photons = count, .seed = options.seed, .shadow_photons = false});
@@ -116,27 +84,21 @@ void picture_of_photons(const examples::Options& options, long long count) {
                           .rows = {}};
     const double emitted = traced.audit.emitted.y;
     for (const PhotonKind kind : {PhotonKind::direct, PhotonKind::indirect}) {
-        Image image = drawing;
+        Image image = make_image(options.width, options.height);
         const long long seen = add_dots(image, room, traced.photons, kind);
-        const std::string name = name_of(kind);
-        save_png(image, options.path("emission-" + name + ".png"));
         const PhotonCount& of_kind = found[kind];
-        table.rows.push_back({name, std::to_string(of_kind.photons),
+        table.rows.push_back({name_of(kind), std::to_string(of_kind.photons),
                               std::to_string(seen),
                               examples::text(of_kind.flux.y, "%.1f"),
                               examples::text(of_kind.flux.y / emitted, "%.3f")});
     }
-    examples::save_table(options.out, table);
-    if (!options.quiet)
-        for (const auto& row : table.rows)
-            std::printf("%-9s %9s stored %9s seen %9s W, %s of the emitted\n",
-                        row[0].c_str(), row[1].c_str(), row[2].c_str(), row[3].c_str(),
-                        row[4].c_str());
+    examples::show_table(options, table);
 }
 
 // --- Roulette -------------------------------------------------------------------------
 
-/// The roulette of the report's program: who survives is not divided by the probability.
+/// The roulette of the report's program: who survives is not divided by the
+/// probability.
 // [uncompensated]
 std::optional<Rgb> play_uncompensated(Rgb flux, Rgb weight, float u) {
     const Rgb reflected = flux * weight;
@@ -149,8 +111,8 @@ std::optional<Rgb> play_uncompensated(Rgb flux, Rgb weight, float u) {
 /// How a photon's life ends.
 enum class End { roulette, uncompensated, faint };
 
-/// The flux that arrives at each surface of a photon's way, in units of the light's, and
-/// how many surfaces a photon met.
+/// The flux that arrives at each surface of a photon's way, in units of the light's,
+/// and how many surfaces a photon met.
 struct Arrivals {
     std::array<double, 16> at{}; ///< At the first surface, the second, ...
     double total = 0;            ///< All together.
@@ -237,16 +199,12 @@ void compare_roulettes(const examples::Options& options, long long paths) {
     row("by roulette, not divided (the report's program)", unfair);
     row("when it carries less than a hundredth", none);
     table.rows.push_back({"never (exact)", "", examples::text(exact, "%.3f"), ""});
-    examples::save_table(options.out, table);
-    if (!options.quiet)
-        for (const auto& cells : table.rows)
-            std::printf("%-48s %6s surfaces, flux %s %s\n", cells[0].c_str(),
-                        cells[1].c_str(), cells[2].c_str(), cells[3].c_str());
+    examples::show_table(options, table);
 }
 
 // --- Aiming ---------------------------------------------------------------------------
 
-/// The flux that one way of sending photons brings to the glass, one photon at a time.
+/// The flux to the glass, photon by photon, for one way of sending them.
 struct Brought {
     double mean = 0, squares = 0; ///< Of the flux of a photon sent, W.
     long long met = 0;            ///< Photons that met the glass first.
@@ -274,7 +232,7 @@ Brought send(const examples::Options& options, long long paths, OnePhoton one_ph
     return brought;
 }
 
-/// Table: what each way brings, and what an error of one percent costs.
+/// The table: the flux to the glass by either way, and the cost of an error of 1 %.
 void tabulate_aims(const examples::Options& options, const Brought& everywhere,
                    const Brought& aimed) {
     examples::Table table{.name = "emission-aim",
@@ -295,8 +253,7 @@ void tabulate_aims(const examples::Options& options, const Brought& everywhere,
     };
     row("everywhere", everywhere);
     row("at the glass", aimed);
-    examples::save_table(options.out, table);
-    if (!options.quiet) examples::print_rows(table, 14);
+    examples::show_table(options, table);
 }
 
 /// How far the means of n photons are from the mean of all: relative, root mean square.
@@ -380,7 +337,7 @@ void picture_of_light(const examples::Options& options, long long photons,
     const auto traced = trace_photons(
         room.world, MapType::general,
         {.photons = photons, .seed = options.seed, .shadow_photons = false});
-    Image image = draw(room, options.width, options.height);
+    Image image = scene_drawing(room.world, room.camera, options.width, options.height);
     add_dots(image, room, traced.photons, PhotonKind::direct);
     save_png(image, options.path("emission-" + name + ".png"));
 }
@@ -407,8 +364,8 @@ auto small_room(bool lamp_only) {
     return World(std::move(room));
 }
 
-/// What a photon brings to a patch of the floor, by the number of its surface: direct,
-/// after one bounce, after three.
+/// The flux that a photon carries to a patch of the floor: direct, after one bounce,
+/// and after three.
 constexpr std::size_t orders = 3;
 using Orders = std::array<double, orders>;
 
@@ -499,12 +456,7 @@ void compare_choices(const examples::Options& options) {
     };
     row("by power", room.light_choice());
     row("each equally often", {.cumulative = {1, 2, 3}});
-    examples::save_table(options.out, table);
-    if (!options.quiet)
-        for (const auto& cells : table.rows)
-            std::printf("%-14s mean %s W, variance %s %% direct, %s %% indirect\n",
-                        cells[0].c_str(), cells[1].c_str(), cells[2].c_str(),
-                        cells[3].c_str());
+    examples::show_table(options, table);
 }
 
 // --- Evenly spread photons ------------------------------------------------------------
@@ -545,17 +497,6 @@ examples::Plot plot_numbers(const examples::Options& options) {
     return plot;
 }
 
-/// The slope of a curve between logarithms, by least squares.
-double slope_of(const examples::Plot& plot, std::size_t column) {
-    double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-    for (const auto& row : plot.rows) {
-        if (std::isnan(row[column])) continue;
-        const double x = std::log(row[0]), y = std::log(row[column]);
-        n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
-    }
-    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
-}
-
 /// Random numbers beside Sobol's, after none, one and three bounces.
 void compare_numbers(const examples::Options& options) {
     const examples::Plot plot = plot_numbers(options);
@@ -563,26 +504,28 @@ void compare_numbers(const examples::Options& options) {
                           .columns = {"photons", "slope, random", "slope, Sobol",
                                       "variance, random over Sobol"},
                           .rows = {}};
+    const auto slope = [&](std::size_t column) {
+        std::vector<double> x, y;
+        for (const examples::Row& row : plot.rows) {
+            x.push_back(row[0]);
+            y.push_back(row[column]);
+        }
+        return examples::text(examples::fit_power(x, y).slope, "%.2f");
+    };
     const char* const names[] = {"direct", "after one bounce", "after three bounces"};
     for (std::size_t k = 0; k < orders; ++k) {
         const auto& end = plot.rows.back();
         table.rows.push_back(
-            {names[k], examples::text(slope_of(plot, 1 + 2 * k), "%.2f"),
-             examples::text(slope_of(plot, 2 + 2 * k), "%.2f"),
+            {names[k], slope(1 + 2 * k), slope(2 + 2 * k),
              examples::text(std::pow(end[1 + 2 * k] / end[2 + 2 * k], 2), "%.2g")});
     }
-    examples::save_table(options.out, table);
-    if (!options.quiet)
-        for (const auto& cells : table.rows)
-            std::printf("%-20s slopes %s random, %s Sobol; variance ratio %s\n",
-                        cells[0].c_str(), cells[1].c_str(), cells[2].c_str(),
-                        cells[3].c_str());
+    examples::show_table(options, table);
 }
 
 // --- Roulette with another probability ------------------------------------------------
 
-/// What arrives of one photon at all surfaces, if it survives each with probability p
-/// and then carries rho / p of what it had.
+/// The flux of one photon that arrives at all surfaces together, if it survives each
+/// with the probability p and then carries rho / p of what it had.
 void compare_probabilities(const examples::Options& options, long long paths) {
     const double rho = 0.75;
     examples::Table table{.name = "emission-probability",
@@ -613,29 +556,10 @@ void compare_probabilities(const examples::Options& options, long long paths) {
              variance > 0 ? examples::text(efficiency(p) / efficiency(rho), "%.2f")
                           : "0"});
     }
-    examples::save_table(options.out, table);
-    if (!options.quiet)
-        for (const auto& cells : table.rows)
-            std::printf("p = %s: %s surfaces, mean %s, deviation %s (%s)\n",
-                        cells[0].c_str(), cells[1].c_str(), cells[2].c_str(),
-                        cells[3].c_str(), cells[4].c_str());
+    examples::show_table(options, table);
 }
 
 // --- Error against number -------------------------------------------------------------
-
-/// Irradiance on the floor z = 0 from a rectangular lamp (Lambert's formula).
-double irradiance_from(const Quad& lamp, double x, double y) {
-    using Point = Vec3T<double>;
-    const Point at{x, y, 0}, c{lamp.corner}, u{lamp.edge_u}, v{lamp.edge_v};
-    const std::array corners{c, c + u, c + u + v, c + v};
-    double sum = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const Point a = glm::normalize(corners[i] - at);
-        const Point b = glm::normalize(corners[(i + 1) % 4] - at);
-        sum += std::acos(glm::dot(a, b)) * glm::normalize(glm::cross(a, b)).z;
-    }
-    return std::abs(sum) / 2;
-}
 
 /// Error of the irradiance under a lamp against the number of photons.
 void plot_error(const examples::Options& options) {
@@ -645,7 +569,6 @@ void plot_error(const examples::Options& options) {
     scene.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, white);
     scene.add(lamp, scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{1});
     const World world(std::move(scene));
-    const Lambertian material{.albedo = Rgb{1}};
 
     const int last = options.pick(8, 10, 12); // N = 10^(last/2)
     const int seeds = options.pick(4, 16, 32);
@@ -671,17 +594,14 @@ void plot_error(const examples::Options& options) {
                 for (int j = 0; j < 8; ++j) {
                     const double x = (i + 0.5) / 4 - 1, y = (j + 0.5) / 4 - 1;
                     ++places;
-                    VertexT<float> floor{
-                        .point{.position{float(x), float(y), 0}}, .frame{}, .object{}};
+                    const Vec3 at{float(x), float(y), 0};
                     for (std::size_t k = 0; k < radii.size(); ++k) {
-                        std::uint64_t gathered = 0;
-                        // A white surface sends E/pi.
-                        const Rgb radiance =
-                            estimate_radiance(map, floor, material, Vec3{0, 0, 1},
-                                              {.radius = float(radii[k])},
-                                              one_kind(PhotonKind::direct), gathered);
-                        const double error =
-                            double(radiance.x) * pi / irradiance_from(lamp, x, y) - 1;
+                        const double read = examples::irradiance_read(
+                            map, at, Vec3{0, 0, 1}, {.radius = float(radii[k])},
+                            one_kind(PhotonKind::direct));
+                        const double error = read / examples::irradiance_from(
+                                                        lamp, {x, y, 0}, {0, 0, 1}) -
+                                             1;
                         squares[k] += error * error;
                     }
                 }
@@ -691,23 +611,20 @@ void plot_error(const examples::Options& options) {
         plot.rows.push_back(row);
     }
     examples::save_plot(options.out, plot);
-    if (!options.quiet)
-        for (const auto& row : plot.rows)
-            std::printf("N = %8.0f  rms error %.4f %.4f %.4f\n", row[0], row[1], row[2],
-                        row[3]);
 }
 
 } // namespace
 
-/// Makes the chapter's pictures, plots and tables.
+/// Makes the pictures, plots and tables behind chapter 22.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; 2 with one sentence for anything that is wrong.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 22, photons: where they go, roulette, aiming.");
-        line.add("--photons", sizes.photons, "Photons emitted for the picture", 1,
+        line.about(
+            "Chapter 22, photons: roulette, aiming, lights, evenly spread numbers.");
+        line.add("--photons", sizes.photons, "Photons emitted for the pictures", 1,
                  100000000);
         line.add("--paths", sizes.paths, "Photons behind each number of the tables", 1,
                  100000000);
@@ -717,7 +634,7 @@ int main(int argc, char** argv) {
             sizes.photons = options.pick(20000LL, 60000LL, 200000LL);
         if (!line.given("--paths"))
             sizes.paths = options.pick(20000LL, 500000LL, 5000000LL);
-        picture_of_photons(options, sizes.photons);
+        count_photons(options, sizes.photons);
         compare_roulettes(options, sizes.paths);
         compare_aims(options, sizes.paths);
         picture_of_light(options, sizes.photons,

@@ -1,14 +1,12 @@
-// figures: kd_tree
 // smoke: --quality draft --points 3000 --photons 500 --width 60
 /// \file chapters/experiments/23_experiments.cpp
-/// \brief Chapter 23: the boxes of a k-d tree, what a search touches, and what it costs
-/// beside other structures.
+/// \brief Chapter 23: the boxes of a k-d tree, and what a search costs beside other
+/// structures.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -16,6 +14,7 @@
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/plot.hpp"
+#include "experiments/show_table.hpp"
 #include "ljus/accel/kd_tree.hpp"
 #include "ljus/accel/kd_tree8.hpp"
 #include "ljus/io/png.hpp"
@@ -108,33 +107,6 @@ void draw_boxes(const examples::Options& options, const std::vector<Vec3>& point
     if (!options.quiet)
         std::printf("%zu photons on the floor, %d halvings\n", points.size(),
                     shape.halvings);
-}
-
-/// What a search for the 400 nearest touches.
-void draw_search(const examples::Options& options, const std::vector<Vec3>& points) {
-    const KdTree tree{std::span<const Vec3>(points)};
-    Plan plan(points, options.width);
-    for (const Vec3& p : points) plan.dot(p, Rgb{0.15f});
-    const Vec3 center = plan.low + Vec3(float(plan.image.width) * 0.4f,
-                                        float(plan.image.height) * 0.55f, 0) /
-                                       plan.scale;
-    std::vector<Neighbor> room(std::min<std::size_t>(400, points.size()));
-    Nearest best{.found = room, .limit2 = 1e30};
-    std::size_t touched = 0;
-    tree.walk(
-        center,
-        [&](std::uint32_t index, double distance2) {
-            ++touched;
-            plan.dot(tree.points()[index], Rgb{0.7f, 0.25f, 0.02f});
-            if (best.reaches(distance2)) best.take({distance2, index});
-        },
-        [&](double distance2) { return best.reaches(distance2); });
-    for (const Neighbor& found : room)
-        plan.dot(tree.points()[found.index], Rgb{0.4f, 0.8f, 1.0f});
-    save_png(plan.image, options.path("kd_tree-search.png"));
-    if (!options.quiet)
-        std::printf("a search for %zu of %zu touches %zu\n", room.size(), points.size(),
-                    touched);
 }
 
 // --- Times ----------------------------------------------------------------------------
@@ -243,12 +215,7 @@ void compare_structures(const examples::Options& options, int count) {
         add("plain k-d tree", calls,
             [&] { return KdTree{std::span<const Vec3>(points)}; });
         add("wide k-d tree", calls, [&] { return KdTree8(points, 1); });
-        examples::save_table(options.out, table);
-        if (!options.quiet)
-            for (const auto& row : table.rows)
-                std::printf("%-16s build %5s  ball %8s  nearest %8s  bytes %5s\n",
-                            row[0].c_str(), row[1].c_str(), row[2].c_str(),
-                            row[3].c_str(), row[4].c_str());
+        examples::show_table(options, table);
     }
 }
 
@@ -290,14 +257,14 @@ void plot_time(const examples::Options& options) {
 
 } // namespace
 
-/// Makes the chapter's pictures, plot and tables.
+/// Makes the pictures of boxes, the plot and the tables of chapter 23.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; 2 with one sentence for anything that is wrong.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long points = 0, photons = 0;
-        line.about("Chapter 23, the k-d tree: its boxes, its searches, its time.");
+        line.about("Chapter 23, the k-d tree: its boxes, and the time of searches.");
         line.add("--points", points, "Points of the tables", 100, 100000000);
         line.add("--photons", photons, "Photons emitted for the pictures", 1,
                  100000000);
@@ -307,10 +274,7 @@ int main(int argc, char** argv) {
             points = options.pick(100000LL, 1000000LL, 4000000LL);
         if (!line.given("--photons")) photons = options.pick(6000LL, 12000LL, 20000LL);
         const auto floor = on_floor(options, photons);
-        if (!floor.empty()) {
-            draw_boxes(options, floor);
-            draw_search(options, floor);
-        }
+        if (!floor.empty()) draw_boxes(options, floor);
         compare_structures(options, int(points));
         plot_time(options);
         if (std::isnan(sink)) std::printf("no number\n");

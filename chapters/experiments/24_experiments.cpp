@@ -1,21 +1,23 @@
-// figures: fig-5 fig-6 fig-7
 // smoke: --quality draft --photons 500 --width 40 --height 40
 /// \file chapters/experiments/24_experiments.cpp
-/// \brief Chapter 24: the three kinds of photons, and what they say on their own.
+/// \brief Chapter 24: how many photons there are of each kind, the map as a picture,
+/// where it fails, and its error by number and radius.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
+#include "common/convergence.hpp"
 #include "common/plot.hpp"
+#include "experiments/show_table.hpp"
 #include "experiments/two_rooms.hpp"
+#include "experiments/white_floor.hpp"
 #include "ljus/inspect/census.hpp"
 #include "ljus/inspect/photon_dots.hpp"
 #include "ljus/io/png.hpp"
@@ -28,31 +30,12 @@ using namespace ljus;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 using Point = glm::dvec3;
 
-void save(const examples::Options& options, const examples::Table& table) {
-    examples::save_table(options.out, table);
-    if (!options.quiet) examples::print_rows(table, 14);
-}
+// --- The photons of figures 5, 6 and 7 ------------------------------------------------
 
-// --- Figures 5, 6 and 7 ---------------------------------------------------------------
-
-/// The photons of one kind, as the report shows them.
-template <typename Scene>
-long long save_figure(const std::string& path, const Image& drawing,
-                      const Room<Scene>& room, const std::vector<Photon>& photons,
-                      PhotonKind kind) {
-    Image image = drawing;
-    const long long seen = add_photon_dots(
-        image, room.world, room.camera, photons, {.radius = 1.2f, .brightness = 0.9f},
-        [&](const Photon& photon) {
-            return photon.kind == kind ? dot_color(photon) : Rgb{0};
-        });
-    save_png(image, path);
-    return seen;
-}
-void figures(const examples::Options& options, long long count) {
+/// Counts the photons of each kind, and draws the shadow photons lamp by lamp.
+void census_of_figures(const examples::Options& options, long long count) {
     const auto room = final_room<float>();
     const Image drawing =
         scene_drawing(room.world, room.camera, options.width, options.height);
@@ -61,18 +44,22 @@ void figures(const examples::Options& options, long long count) {
         {.photons = count, .seed = options.seed, .threads = options.threads});
     const PhotonCensus found = census(traced.photons);
     const double emitted = traced.audit.emitted.y;
+    const auto dots = [&](Image& image, auto color) {
+        return add_photon_dots(image, room.world, room.camera, traced.photons,
+                               {.radius = 1.2f, .brightness = 0.9f}, color);
+    };
 
     examples::Table table{.name = "general-census",
                           .columns = {"photons", "stored", "in the picture", "power, W",
                                       "of the emitted", "large + small lamp, W",
                                       "inside of objects"},
                           .rows = {}};
-    const std::array figure{std::pair{PhotonKind::indirect, "general-indirect.png"},
-                            std::pair{PhotonKind::shadow, "general-shadow.png"},
-                            std::pair{PhotonKind::direct, "general-direct.png"}};
-    for (const auto& [kind, name] : figure) {
-        const long long seen =
-            save_figure(options.path(name), drawing, room, traced.photons, kind);
+    for (const PhotonKind kind :
+         {PhotonKind::indirect, PhotonKind::shadow, PhotonKind::direct}) {
+        Image image = drawing;
+        const long long seen = dots(image, [kind](const Photon& photon) {
+            return photon.kind == kind ? Rgb{1} : Rgb{0};
+        });
         std::array<double, 2> lamp{};
         long long behind = 0; // on the inner side of a matt ball, where nobody looks
         for (const Photon& photon : traced.photons) {
@@ -88,16 +75,14 @@ void figures(const examples::Options& options, long long count) {
              examples::text(lamp[0], "%.1f + ") + examples::text(lamp[1], "%.1f"),
              std::to_string(behind)});
     }
-    save(options, table);
+    examples::show_table(options, table);
 
     // Each photon knows its lamp: what either would light, and does not.
     Image image = drawing;
-    (void)add_photon_dots(
-        image, room.world, room.camera, traced.photons,
-        {.radius = 1.2f, .brightness = 0.9f}, [](const Photon& photon) {
-            if (photon.kind != PhotonKind::shadow) return Rgb{0};
-            return photon.light == 0 ? Rgb{0.1f, 0.5f, 1} : Rgb{1, 0.4f, 0.05f};
-        });
+    (void)dots(image, [](const Photon& photon) {
+        if (photon.kind != PhotonKind::shadow) return Rgb{0};
+        return photon.light == 0 ? Rgb{0.1f, 0.5f, 1} : Rgb{1, 0.4f, 0.05f};
+    });
     save_png(image, options.path("general-shadow-lamps.png"));
 }
 
@@ -161,30 +146,16 @@ void map_as_picture(const examples::Options& options) {
 
 // --- Irradiance -----------------------------------------------------------------------
 
-/// What a white surface would send, times pi, at a point of the floor y = 0.
+/// What direct photons say of the irradiance at a point of the floor y = 0.
 double irradiance(const PhotonMap& map, const Point& at, double radius) {
-    const Vec3 up{0, 1, 0};
-    const VertexT<float> floor{.point{.position = Vec3(at), .normal = up},
-                               .frame = frame_around(up),
-                               .object = {}};
-    std::uint64_t gathered = 0;
-    const Rgb sent = estimate_radiance(map, floor, Lambertian{.albedo = Rgb{1}},
-                                       Vec3{0, 0, 1}, {.radius = float(radius)},
-                                       one_kind(PhotonKind::direct), gathered);
-    return double(sent.x) * pi;
+    return examples::irradiance_read(map, Vec3(at), Vec3{0, 1, 0},
+                                     {.radius = float(radius)},
+                                     one_kind(PhotonKind::direct));
 }
 
-/// From a rectangular lamp of radiance 1 to a point of a floor below it (Lambert).
+/// What a rectangular lamp above it gives that point.
 double irradiance_from(const Quad& lamp, const Point& at) {
-    const Point c{lamp.corner}, u{lamp.edge_u}, v{lamp.edge_v};
-    const std::array corners{c, c + u, c + u + v, c + v};
-    double sum = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const Point a = glm::normalize(corners[i] - at);
-        const Point b = glm::normalize(corners[(i + 1) % 4] - at);
-        sum += std::acos(glm::dot(a, b)) * glm::normalize(glm::cross(a, b)).y;
-    }
-    return std::abs(sum) / 2;
+    return examples::irradiance_from(lamp, at, {0, 1, 0});
 }
 
 using examples::Boxes;
@@ -270,7 +241,7 @@ void table_of_floor(const examples::TwoRooms& rooms, const FloorEstimates& found
              examples::text(estimate, "%.4f"),
              right > 0 ? examples::text(estimate / right, "%.3f") : std::string("-")});
     }
-    save(options, table);
+    examples::show_table(options, table);
 }
 
 /// The two rooms as pictures, light that has bounced included: by the map, and by path
@@ -344,19 +315,10 @@ struct Slope {
 template <typename Y>
 Slope slope_of(const std::vector<double>& x, int seeds, Y y) {
     const auto fit = [&](int left_out) {
-        double mx = 0, my = 0, xy = 0, xx = 0;
-        const double n = double(x.size());
         std::vector<double> values;
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            values.push_back(std::log(std::max(y(i, left_out), 1e-30)));
-            mx += std::log(x[i]) / n;
-            my += values.back() / n;
-        }
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            xy += (std::log(x[i]) - mx) * (values[i] - my);
-            xx += (std::log(x[i]) - mx) * (std::log(x[i]) - mx);
-        }
-        return xy / xx;
+        for (std::size_t i = 0; i < x.size(); ++i)
+            values.push_back(std::max(y(i, left_out), 1e-30));
+        return examples::fit_power(x, values).slope;
     };
     double mean = 0, squares = 0;
     std::vector<double> fits;
@@ -513,7 +475,7 @@ void save_slopes(const Experiment& all, const examples::Options& options) {
     add("variance, r to 0.25", "r", "-2", with_radius);
     add("bias squared, r from 0.25 to 0.63", "r", "4", of_bias);
     add("mean square error at the best r", "N", "-2/3", of_best);
-    save(options, table);
+    examples::show_table(options, table);
 }
 
 /// What a smaller error costs.
@@ -551,7 +513,7 @@ void save_trade(const Experiment& all, const examples::Options& options) {
              examples::text(1e6 * cost.megabytes / cost.stored, "%.1f")});
     }
     examples::save_plot(options.out, plot);
-    save(options, table);
+    examples::show_table(options, table);
 }
 
 /// How the error goes down with the number of photons, and with the radius.
@@ -564,19 +526,19 @@ void laws(const examples::Options& options) {
 
 } // namespace
 
-/// Makes the chapter's pictures, plots and tables.
+/// Makes the pictures, plots and tables of chapter 24 that are not the report's.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; 2 with one sentence for anything that is wrong.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long photons = 0;
-        line.about("Chapter 24, the general map: figures 5, 6 and 7.");
-        line.add("--photons", photons, "Photons emitted for the figures", 1, 100000000);
+        line.about("Chapter 24, the general map: the experiments behind its tables.");
+        line.add("--photons", photons, "Photons emitted for the census", 1, 100000000);
         const examples::Options options =
             line.parse({.draft{.width = 300, .height = 300, .samples = 1}});
         if (!line.given("--photons")) photons = options.pick(15000LL, 30000LL, 60000LL);
-        figures(options, photons);
+        census_of_figures(options, photons);
         map_as_picture(options);
         failures(options);
         laws(options);

@@ -1,13 +1,10 @@
-// figures: shadow_photons
 // smoke: --quality draft --photons 1000 --width 24 --height 24 --cuts 1
 /// \file chapters/experiments/25_experiments.cpp
-/// \brief Chapter 25: which rays photons make needless, what that saves, what is lost.
+/// \brief Chapter 25: what is saved where photons make rays needless, and what is lost.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -16,11 +13,10 @@
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/plot.hpp"
-#include "drawings/drawing.hpp"
 #include "experiments/numbers.hpp"
+#include "experiments/show_table.hpp"
 #include "ljus/accel/mesh.hpp"
 #include "ljus/inspect/metrics.hpp"
-#include "ljus/inspect/photon_dots.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/render/photon_mapping.hpp"
@@ -39,72 +35,6 @@ using Hall = World<HallScene>;
 constexpr std::array rules{SkipRule::report, SkipRule::any, SkipRule::enough};
 constexpr std::array rule_names{"the report's", "that of 1995", "enough photons"};
 
-void save(const examples::Options& options, const examples::Table& table) {
-    examples::save_table(options.out, table);
-    if (options.quiet) return;
-    examples::print_row(table.columns, 16);
-    examples::print_rows(table, 16);
-}
-
-// --- The idea, drawn -----------------------------------------------------------------
-
-/// Rays from a lamp past a disc to a floor, and the photons that they leave.
-void draw_idea(const examples::Options& options) {
-    using examples::Point;
-    examples::Drawing drawing{
-        .name = "shadow-idea",
-        .description = "A lamp above a floor, a ball between them. Rays of photons end "
-                       "on the floor as direct photons; those that meet the ball leave "
-                       "a shadow photon on the floor behind it.",
-        .low{-3.3, -0.75},
-        .high{3.3, 2.5},
-        .scale = 100};
-    const Point ball{-0.2, 0.9};
-    const double radius = 0.55;
-    examples::draw_area(drawing, {{-3.2, 0}, {3.2, 0}, {3.2, -0.06}, {-3.2, -0.06}},
-                        "currentColor");
-    examples::draw_line(drawing, {{-3.2, 0}, {3.2, 0}});
-    examples::draw_line(drawing, {{-0.4, 2.3}, {0.4, 2.3}}, {.width = 4});
-    examples::draw_label(drawing, {0.75, 2.3}, "lamp");
-    examples::draw_arc(drawing, ball, radius, 0, 2 * std::numbers::pi);
-    examples::Numbers numbers{options.seed + 3};
-    for (int i = 0; i < 110; ++i) {
-        const Point from{numbers.between(-0.4, 0.4), 2.3};
-        const double sine = numbers.between(-1, 1);
-        const Point way{sine, -std::sqrt(1 - sine * sine)};
-        const Point to{from.x - way.x / way.y * from.y, 0};
-        if (std::abs(to.x) > 3.1) continue;
-        const double along = (ball.x - from.x) * way.x + (ball.y - from.y) * way.y;
-        const double across = std::hypot(ball.x - from.x - along * way.x,
-                                         ball.y - from.y - along * way.y);
-        const bool hidden = across < radius;
-        if (i % 8 == 0) {
-            const double end =
-                along - std::sqrt(std::max(0.0, radius * radius - across * across));
-            const Point stop{from.x + end * way.x, from.y + end * way.y};
-            const std::string color =
-                hidden ? examples::colors::orange : examples::colors::blue;
-            examples::draw_line(drawing, {from, hidden ? stop : to},
-                                {.color = examples::colors::blue, .width = 0.7});
-            if (hidden)
-                examples::draw_line(drawing, {stop, to},
-                                    {.color = color, .width = 0.7, .dashed = true});
-            if (hidden) examples::draw_dot(drawing, stop, 3.5, examples::colors::blue);
-        }
-        examples::draw_dot(drawing, to, 3.5,
-                           hidden ? examples::colors::orange : examples::colors::blue);
-    }
-    const std::array circles{std::pair{Point{1.9, 0}, "lit"},
-                             std::pair{Point{0.66, 0}, "unknown"},
-                             std::pair{Point{-0.45, 0}, "in shadow"}};
-    for (const auto& [at, name] : circles) {
-        examples::draw_arc(drawing, at, 0.3, 0, 2 * std::numbers::pi,
-                           {.color = examples::colors::green, .width = 1.5});
-        examples::draw_label(drawing, {at.x, -0.5}, name);
-    }
-    examples::save_drawing(options.out, drawing);
-}
-
 // --- Pictures of the report's room ---------------------------------------------------
 
 PhotonMappingSettings settings_of(const examples::Options& options, SkipRule rule,
@@ -119,56 +49,8 @@ PhotonMappingSettings settings_of(const examples::Options& options, SkipRule rul
     return settings;
 }
 
-/// Whether some of a lamp could shine on a surface.
-template <AnyWorld W>
-bool faces(const W& world, const Vertex& vertex, std::uint32_t lamp) {
-    for (int i = 0; i < 4; ++i) {
-        const Vec2 u{i % 2 == 0 ? 0.1f : 0.9f, i < 2 ? 0.1f : 0.9f};
-        const auto sampled = sample_light(world, lamp, vertex.point.position, u);
-        if (sampled && to_local(vertex.frame, sampled->wi).z * vertex.wo.z > 0)
-            return true;
-    }
-    return false;
-}
-
-/// What is known of a lamp where each pixel looks: yellow for lit, blue for shadow, red
-/// where a ray must tell, and no colour where no ray is asked.
-template <typename Mapper>
-Image verdict_map(const Mapper& mapper, const Camera& camera, std::uint32_t lamp,
-                  const examples::Options& options) {
-    const auto& world = mapper.world();
-    Image image = scene_drawing(world, camera, options.width, options.height);
-    for (int y = 0; y < options.height; ++y)
-        for (int x = 0; x < options.width; ++x) {
-            const Ray ray = primary_ray(camera, Vec2{float(x) + 0.5f, float(y) + 0.5f},
-                                        options.width, options.height);
-            const auto hit = closest_hit(world, ray);
-            if (!hit) continue;
-            const Vertex vertex = vertex_at(world, ray, *hit);
-            const bool matt = visit_material_at(world, vertex, [](const auto& m) {
-                return has(lobes(m), Lobes::non_specular);
-            });
-            if (!matt || vertex.emits() || !faces(world, vertex, lamp)) continue;
-            const Verdict verdict = verdicts_of(mapper, vertex)(lamp);
-            const Rgb color = verdict == Verdict::lit      ? Rgb{0.85f, 0.6f, 0.1f}
-                              : verdict == Verdict::shadow ? Rgb{0.02f, 0.07f, 0.35f}
-                                                           : Rgb{0.55f, 0.02f, 0.02f};
-            pixel(image, x, y) = color * (0.35f + 0.65f * std::abs(vertex.wo.z));
-        }
-    return image;
-}
-
 void pictures(const examples::Options& options, long long photons) {
     const auto room = final_room<float>();
-    for (const SkipRule rule : rules) {
-        const PhotonMapper mapper(room.world, settings_of(options, rule, photons),
-                                  abilities<Skipping>);
-        for (const std::uint32_t lamp : {0u, 1u})
-            save_png(verdict_map(mapper, room.camera, lamp, options),
-                     options.path("shadow-verdicts-" + std::to_string(int(rule)) + "-" +
-                                  std::to_string(lamp) + ".png"));
-    }
-
     // The same random numbers in all pictures: they differ by wrong verdicts only.
     const RenderSettings picture{.width = options.width,
                                  .height = options.height,
@@ -190,9 +72,10 @@ void pictures(const examples::Options& options, long long photons) {
         for (const long long count : {photons / 10, photons}) {
             const auto some = shot(rules[r], count);
             const bool few = count < photons;
-            save_png(some.image,
-                     options.path("shadow-rule-" + std::to_string(int(rules[r])) +
-                                  (few ? "-few.png" : ".png")));
+            if (!few || rules[r] != SkipRule::report)
+                save_png(some.image,
+                         options.path("shadow-rule-" + std::to_string(int(rules[r])) +
+                                      (few ? "-few.png" : ".png")));
             const auto blocks = block_means(some.image), right = block_means(all.image);
             double largest = 0;
             for (std::size_t i = 0; i < right.pixels.size(); ++i)
@@ -206,7 +89,7 @@ void pictures(const examples::Options& options, long long photons) {
                  examples::text(rel_mse(some.image, all.image), "%.2g"),
                  examples::text(100 * largest, "%.1f %%")});
         }
-    save(options, table);
+    examples::show_table(options, table);
 }
 
 // --- Skipped and wrong, over photons, radius and the size of what throws the shadow --
@@ -227,7 +110,7 @@ Hall three_balls(float radius) {
 struct Probes {
     std::vector<Vec3> points{}; ///< On the floor.
     std::vector<double> seen{}; ///< In [0, 1].
-    std::size_t everywhere = 0; ///< The first so many are spread over all the floor.
+    std::size_t everywhere = 0; ///< How many of the first lie all over the floor.
 };
 // [probe]
 double part_seen(const Hall& hall, const Vec3& at, int n) {
@@ -278,7 +161,7 @@ VerdictGrid verdicts_of(const Hall& hall, const SkipSettings& skip, long long ph
     return make_verdict_grid(traced.photons, 1, skip, options.threads);
 }
 
-/// What a rule does, in shares.
+/// How often a rule skips rays, and how often it is wrong; parts of 1.
 struct Outcome {
     double skipped = 0; ///< Points with a verdict, of all.
     double wrong = 0;   ///< Points with one that is more than 5 % of the lamp off.
@@ -359,7 +242,7 @@ void over_photons(const examples::Options& options, long long most) {
     }
     examples::save_plot(options.out, skipped);
     examples::save_plot(options.out, lost);
-    save(options, table);
+    examples::show_table(options, table);
 }
 
 void over_radius(const examples::Options& options, long long photons) {
@@ -468,7 +351,8 @@ void wire(const examples::Options& options, long long photons) {
 
 // --- What it saves -------------------------------------------------------------------
 
-/// A hall with walls, a lamp, and nine balls of so many triangles each; spheres for 0.
+/// A hall with walls, lamps, and nine balls: meshes of 20 * 4^cuts triangles each, or
+/// spheres if cuts is 0.
 Hall hall_of_meshes(int cuts, int lamps) {
     HallScene hall;
     const auto grey = hall.add(Lambertian{.albedo = Rgb{0.6f}});
@@ -581,12 +465,12 @@ void rooms(const examples::Options& options, long long photons) {
         judge_room(table, "figure 1, two lamps", final.world, final.camera, count,
                    options);
     }
-    save(options, table);
+    examples::show_table(options, table);
 }
 
-/// Nanoseconds of a shadow ray, of a verdict from the grid, and of one by the plain
-/// twin, which asks the map: at the same points, for the first lamp. And of a photon,
-/// from the lamp into the grid.
+/// Nanoseconds of a shadow ray, of a verdict from the grid, and of a verdict by the
+/// plain twin, which asks the map, all at the same points and for the first lamp; and
+/// of a photon, from the lamp into the grid.
 template <AnyWorld W>
 std::array<double, 4> cost_of(const W& world, const Camera& camera, long long photons,
                               const examples::Options& options) {
@@ -739,8 +623,8 @@ void savings(const examples::Options& options, long long photons, int cuts) {
         size.rows.push_back(row);
     }
     examples::save_plot(options.out, size);
-    save(options, costs);
-    save(options, table);
+    examples::show_table(options, costs);
+    examples::show_table(options, table);
 }
 
 // --- Indirect rays -------------------------------------------------------------------
@@ -818,12 +702,12 @@ void indirect(const examples::Options& options) {
              examples::text(100 * right_half(some.image) / right_half(all.image),
                             "%.2f %%")});
     }
-    save(options, table);
+    examples::show_table(options, table);
 }
 
 } // namespace
 
-/// Makes the chapter's pictures, plots and tables.
+/// Makes the pictures, plots and tables behind chapter 25.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; 2 with one sentence for anything that is wrong.
@@ -841,7 +725,6 @@ int main(int argc, char** argv) {
                         .report{.width = 400, .height = 400, .samples = 16},
                         .reference{.width = 400, .height = 400, .samples = 256}});
         if (!line.given("--cuts")) cuts = options.pick(2, 6, 6);
-        draw_idea(options);
         pictures(options, photons);
         over_photons(options, options.pick(photons, 10 * photons, 10 * photons));
         over_radius(options, photons);

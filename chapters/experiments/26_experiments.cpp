@@ -1,12 +1,13 @@
-// figures: fig-8 fig-11 table-2
 // smoke: --quality draft --width 24 --height 24 --rays 1 --photons 300 --seeds 2
 /// \file chapters/experiments/26_experiments.cpp
-/// \brief Chapter 26: caustics. Figures 8 and 11, table 2, and a caustic on paper.
+/// \brief Chapter 26: a caustic on paper, and the error of estimates by radius, number
+/// of photons and kernel; the errors of figure 11.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -15,21 +16,21 @@
 
 #include <ljus/inspect/photon_dots.hpp>
 #include <ljus/ljus.hpp>
+#include <ljus/path/light_transport.hpp>
 #include <ljus/scenes/report_rooms.hpp>
 
-#include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/convergence.hpp"
 #include "common/plot.hpp"
 #include "common/rendered.hpp"
-#include "common/terminal.hpp"
+#include "experiments/show_table.hpp"
+#include "experiments/white_floor.hpp"
 #include "experiments/window.hpp"
 
 using namespace ljus;
 
 namespace {
 
-using examples::rendered;
 constexpr double pi = std::numbers::pi;
 
 /// What the user may set besides the common options.
@@ -91,15 +92,10 @@ double irradiance(const Setup& setup, double rho) {
 using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror>,
                     Lights<PointLight>>;
 
-/// The irradiance that an estimate reads on a floor: a white one sends E/pi.
+/// The irradiance that an estimate reads on the floor.
 double read(const PhotonMap& map, const Vec3& at,
             const DensityEstimateSettings& gather) {
-    VertexT<float> floor{.point{.position = at, .normal{0, 1, 0}}};
-    floor.frame = frame_around(floor.point.normal);
-    std::uint64_t gathered = 0;
-    return pi * double(estimate_radiance(map, floor, Lambertian{.albedo = Rgb{1}},
-                                         Vec3{0, 0, 1}, gather, all_kinds, gathered)
-                           .x);
+    return examples::irradiance_read(map, at, Vec3{0, 1, 0}, gather);
 }
 
 PhotonMap map_of(const World<Stage>& stage, long long photons, std::uint64_t seed) {
@@ -252,15 +248,11 @@ void error_by_number(const examples::Options& options, const Sizes& sizes) {
 
     const double in_middle = examples::fit_power(numbers, smooth).slope;
     const double at_edge = examples::fit_power(numbers, sharp).slope;
-    save_table(
-        options.out,
-        examples::Table{.name = "caustics-slopes",
-                        .columns = {"where", "law", "measured"},
-                        .rows = {{"middle", "-0.67", examples::text(in_middle, "%.2f")},
-                                 {"edge", "-0.33", examples::text(at_edge, "%.2f")}}});
-    if (!options.quiet)
-        std::printf("slopes of the best error: middle %.3f, edge %.3f\n", in_middle,
-                    at_edge);
+    examples::show_table(
+        options, {.name = "caustics-slopes",
+                  .columns = {"where", "law", "measured"},
+                  .rows = {{"middle", "-0.67", examples::text(in_middle, "%.2f")},
+                           {"edge", "-0.33", examples::text(at_edge, "%.2f")}}});
 }
 
 /// The error of each kernel, at one radius and at its best one.
@@ -285,29 +277,14 @@ void error_by_kernel(const examples::Options& options, const Sizes& sizes) {
         }
         table.rows.push_back(row);
     }
-    save_table(options.out, table);
+    examples::show_table(options, table);
 }
 
-// --- Figure 8 -------------------------------------------------------------------------
-
-/// The caustic photons as dots.
-void figure_8(const examples::Options& options) {
-    const auto room = four_glass_room();
-    const auto traced = trace_photons(room.world, MapType::caustics,
-                                      {.photons = 20000, .seed = options.seed});
-    const int size = std::max(300, options.width);
-    Image image = scene_drawing(room.world, room.camera, size, size);
-    const auto color = [](const Photon& photon) { return dot_color(photon); };
-    (void)add_photon_dots(image, room.world, room.camera, traced.photons,
-                          {.radius = 1.2f, .brightness = 0.7f}, color);
-    save_png(image, options.path("fig-8.png"));
-}
-
-// --- Figure 11 and table 2 ------------------------------------------------------------
+// --- The errors of figure 11 ----------------------------------------------------------
 
 /// The caustics without a radius: each photon is joined to the pinhole, and counted in
-/// the pixel that sees it. A pixel's radiance is the mean over its solid angle, of which
-/// the surface around the photon covers cos dA / d^2.
+/// the pixel that sees it. A pixel's radiance is the mean over its solid angle. An area
+/// dA around the photon covers cos dA / d^2 of that angle.
 // [light image]
 template <typename S>
 Image light_image(const Room<S>& room, const RenderSettings& picture,
@@ -350,35 +327,6 @@ Image light_image(const Room<S>& room, const RenderSettings& picture,
 }
 // [light image]
 
-/// A log that keeps the light of E D S+ L: what the caustics map adds at the first
-/// surface, seen with nothing between.
-struct CausticLog {
-    Rgb sum{0};
-    bool first = true;
-
-    void begin() { first = true; }
-    void vertex(char, const Vec3&, const Rgb&, float) { first = false; }
-    void term(std::string_view owner, std::string_view, const Rgb& value) {
-        if (first && owner == "caustics map") sum += value;
-    }
-};
-
-/// A photon mapper of which the picture shows the caustics alone.
-template <typename Renderer>
-struct CausticsOf {
-    using Stream = typename Renderer::Stream;
-    const Renderer& renderer; ///< The whole.
-};
-
-/// The caustics' share of what radiance() finds for the whole.
-template <typename Renderer>
-Rgb radiance(const CausticsOf<Renderer>& part, const Ray& ray, auto& context) {
-    CausticLog log;
-    auto told = context_of(context.stream, context.counts, log);
-    (void)radiance(part.renderer, ray, told);
-    return log.sum;
-}
-
 /// The squared error of a picture in some of its pixels, mean over channels.
 double squared_error(const Image& image, const Image& truth,
                      const std::vector<bool>& region) {
@@ -411,7 +359,7 @@ bool sees_matt(const Room<S>& room, const examples::Options& options, int x, int
     return true;
 }
 
-/// The light of the caustics as it is, and where it is to be seen.
+/// The true light of the caustics, and the pixels in which it is bright.
 struct CausticTruth {
     Image light = {};              ///< The mean of two halves.
     std::vector<bool> region = {}; ///< Pixels with more of it than the mean.
@@ -420,8 +368,8 @@ struct CausticTruth {
     double pixels = 0;             ///< Of the region.
 };
 
-/// Pixels that see one matt surface with all of their area, and in which, with their
-/// neighbours, there is more light than the mean.
+/// Pixels whose whole area sees one matt surface, and that are brighter than the mean
+/// together with their neighbours.
 template <typename S>
 std::vector<bool> caustic_region(const Room<S>& room, const Image& light,
                                  const examples::Options& options) {
@@ -442,7 +390,7 @@ std::vector<bool> caustic_region(const Room<S>& room, const Image& light,
     return region;
 }
 
-/// The truth in two halves, which tell its own error.
+/// The truth as the mean of two pictures; how they differ tells its error.
 template <typename S>
 CausticTruth caustic_truth(const Room<S>& room, const examples::Options& options,
                            long long photons) {
@@ -468,120 +416,60 @@ CausticTruth caustic_truth(const Room<S>& room, const examples::Options& options
     return truth;
 }
 
-/// Pictures of one size side by side.
-Image in_a_row(const std::vector<Image>& pictures) {
-    const int width = pictures[0].width, height = pictures[0].height;
-    const int gap = std::max(1, width / 50);
-    const int count = static_cast<int>(pictures.size());
-    Image all = make_image(count * width + (count - 1) * gap, height, Rgb{1});
-    for (int i = 0; i < count; ++i)
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-                pixel(all, i * (width + gap) + x, y) =
-                    pixel(pictures[static_cast<std::size_t>(i)], x, y);
-    return all;
+/// How far the caustics of figure 11 are off where a camera ray meets them first: root
+/// mean square.
+template <typename S>
+double error_of_caustics(const Room<S>& room, const CausticTruth& truth,
+                         long long photons, const examples::Options& options) {
+    const PhotonMapper mapper(room.world,
+                              {.max_depth = 4,
+                               .roulette_depth = 5,
+                               .indirect = IndirectLight::none,
+                               .caustics{.photons = photons,
+                                         .seed = options.seed,
+                                         .threads = options.threads},
+                               .caustics_estimate{.radius = 0.05f}}); // the report's
+    const OnlyPaths caustics(mapper, "EDS+L");
+    const Image image = examples::rendered(std::to_string(photons) + " photons",
+                                           caustics, room.camera, options)
+                            .image;
+    return std::sqrt(
+        std::max(0.0, squared_error(image, truth.light, truth.region) - truth.noise));
 }
 
-/// One picture of figure 11: what it cost, and how far its caustics are off.
-struct Figure11 {
-    Image image{};
-    double first_pass = 0, second_pass = 0; ///< Processor seconds.
-    double error = 0;                       ///< Root mean square, of the caustics.
-    double found = 0;                       ///< Photons per query.
-    std::size_t stored = 0;                 ///< Photons in the map.
-};
-
-/// The report's settings with some photons.
-/// \param name  Of the picture, for the progress bar.
-template <typename R>
-Figure11 shoot_figure_11(const std::string& name, const R& room,
-                         const CausticTruth& truth, long long photons,
-                         const examples::Options& options) {
-    PhotonMappingSettings settings{.max_depth = 4, .roulette_depth = 5};
-    settings.caustics.photons = photons;
-    settings.caustics.seed = options.seed;
-    settings.caustics.threads = options.threads;
-    settings.caustics_estimate.radius = 0.05f; // the report's
-    Figure11 figure;
-    const double start = examples::processor_seconds();
-    const PhotonMapper mapper(room.world, settings);
-    figure.first_pass = examples::processor_seconds() - start;
-    figure.stored = mapper.maps().caustics.records.size();
-    const RenderSettings picture{options.width, options.height, options.samples,
-                                 options.seed};
-    const auto result = rendered(name, mapper, room.camera, picture, options);
-    figure.second_pass = examples::processor_seconds() - start - figure.first_pass;
-    figure.image = result.image;
-    const double queries = double(result.counts.map_queries);
-    figure.found = queries == 0 ? 0 : double(result.counts.map_photons) / queries;
-
-    settings.indirect = IndirectLight::none;         // for the caustics at D alone
-    const PhotonMapper direct(room.world, settings); // the same photons
-    const Image part =
-        rendered(name + " caustics", CausticsOf<decltype(direct)>{direct}, room.camera,
-                 picture, options)
-            .image;
-    figure.error = std::sqrt(
-        std::max(0.0, squared_error(part, truth.light, truth.region) - truth.noise));
-    return figure;
-}
-
-/// Figure 11 and table 2: the report's settings, and beside the time the error of the
-/// caustics.
-void table_2(const examples::Options& options, const Sizes& sizes) {
+/// The errors of figure 11, in W/(m^2 sr) and of a picture without caustics.
+void errors_of_figure_11(const examples::Options& options, const Sizes& sizes) {
     const auto room = four_glass_room();
     const CausticTruth truth =
         caustic_truth(room, options, options.pick(1, 10, 100) * sizes.photons);
-    examples::Table table{.name = "table-2",
-                          .columns = {"photons", "the report's time", "photons, s",
-                                      "picture, s", "RMSE of the caustics", "of all",
-                                      "stored", "found per query"}};
-    examples::Table strip{.name = "fig-11-errors", .columns = {"photons"}, .rows = {}};
-    std::vector<std::string> errors_row{"RMSE"}, relative_row{"of all"};
-    std::vector<Image> pictures;
+    examples::Table table{.name = "fig-11-errors",
+                          .columns = {"photons"},
+                          .rows = {{"RMSE"}, {"of all"}}};
     double none = 1;
-    const std::array counts{0LL, 1000LL, 10000LL, 100000LL, 1000000LL};
-    constexpr std::array report{"26 s", "37 s", "44 s", "53 s", ""};
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        const std::string name = "fig-11-" + std::to_string(counts[i]);
-        const Figure11 figure = shoot_figure_11(
-            name, room, truth, std::min(counts[i], sizes.photons), options);
-        save_png(figure.image, options.path(name + ".png"));
-        pictures.push_back(figure.image);
-        if (i == 0) none = figure.error; // all of the caustics' light is missing
-        const std::string error = examples::text(figure.error, "%.3f");
-        const std::string relative =
-            examples::text(100 * figure.error / none, "%.1f %%");
-        table.rows.push_back({std::to_string(counts[i]), report[i],
-                              examples::text(figure.first_pass, "%.2f"),
-                              examples::text(figure.second_pass, "%.2f"), error,
-                              relative, std::to_string(figure.stored),
-                              examples::text(figure.found, "%.1f")});
-        strip.columns.push_back(std::to_string(counts[i]));
-        errors_row.push_back(error);
-        relative_row.push_back(relative);
+    for (const long long count : {0, 1000, 10000, 100000, 1000000}) {
+        const double error =
+            error_of_caustics(room, truth, std::min(count, sizes.photons), options);
+        if (count == 0) none = error; // all of the caustics' light is missing
+        table.columns.push_back(std::to_string(count));
+        table.rows[0].push_back(examples::text(error, "%.3f"));
+        table.rows[1].push_back(examples::text(100 * error / none, "%.1f %%"));
     }
-    strip.rows = {errors_row, relative_row};
-    save_table(options.out, table);
-    save_table(options.out, strip);
-    save_png(in_a_row(pictures), options.path("fig-11.png"));
-    if (!options.quiet) {
+    examples::show_table(options, table);
+    if (!options.quiet)
         std::printf("reference: noise %.3f of a level of %.3f, %.0f pixels\n",
                     std::sqrt(truth.noise), truth.level, truth.pixels);
-        examples::print_rows(table, 10);
-    }
 }
 
 } // namespace
 
-/// Makes the figures of chapter 26.
+/// Makes the plots, tables and pictures of chapter 26 that are not the report's.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; 2 with one sentence for anything that is wrong.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 26, caustics: figures 8 and 11, table 2.");
+        line.about("Chapter 26, caustics: the experiments behind plots and tables.");
         line.add("--photons", sizes.photons, "The largest number of photons", 1,
                  100000000);
         line.add("--seeds", sizes.seeds, "Maps behind each error", 1, 1000);
@@ -595,7 +483,6 @@ int main(int argc, char** argv) {
         error_by_radius(options, sizes);
         error_by_number(options, sizes);
         error_by_kernel(options, sizes);
-        figure_8(options);
-        table_2(options, sizes);
+        errors_of_figure_11(options, sizes);
     });
 }

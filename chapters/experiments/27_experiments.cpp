@@ -1,14 +1,11 @@
-// figures: fig-1 fig-15
-// takes --only
 // smoke: --quality draft --width 24 --height 24 --rays 1 --photons 1000
 /// \file chapters/experiments/27_experiments.cpp
-/// \brief Chapter 27: the report's renderer, whole. Figures 1 and 15.
+/// \brief Chapter 27: figure 1 taken apart, and error against time for photons and
+/// paths.
 
-#include <cstdio>
-#include <stdexcept>
+#include <limits>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
@@ -19,6 +16,7 @@
 #include "common/command_line.hpp"
 #include "common/plot.hpp"
 #include "common/rendered.hpp"
+#include "experiments/show_table.hpp"
 
 namespace {
 
@@ -27,32 +25,6 @@ using ljus::Image;
 using ljus::PhotonMappingSettings;
 using ljus::RenderSettings;
 
-/// What a figure cost, for the terminal.
-void report(const std::string& file, double first_pass, double second_pass,
-            const ljus::Counts& counts, std::size_t photons) {
-    std::printf("%s: photons %.2f s (%zu stored), picture %.2f s, %.2f rays per "
-                "camera ray, %.2f million rays/s\n",
-                file.c_str(), first_pass, photons, second_pass,
-                double(counts.rays()) / double(counts.camera_rays),
-                double(counts.rays()) / second_pass / 1e6);
-}
-
-/// One figure of the report, by the report's two passes.
-template <typename Scene>
-void figure(const std::string& name, const ljus::Room<Scene>& room,
-            const PhotonMappingSettings& settings, const examples::Options& options) {
-    const examples::StopWatch watch;
-    const ljus::PhotonMapper mapper(room.world, settings);
-    const double first_pass = watch.seconds();
-    const RenderSettings picture{options.width, options.height, options.samples,
-                                 options.seed};
-    const auto result = rendered(name, mapper, room.camera, picture, options);
-    const std::string file = options.path(name + ".png");
-    save_png(result.image, file);
-    if (!options.quiet)
-        report(file, first_pass, watch.seconds() - first_pass, result.counts,
-               mapper.maps().caustics.records.size());
-}
 /// Figure 1 taken apart: the three parts whose sum it is.
 template <typename Scene>
 void parts(const ljus::Room<Scene>& room, const PhotonMappingSettings& settings,
@@ -123,46 +95,27 @@ void trade(const ljus::Room<Scene>& room, const PhotonMappingSettings& settings,
         row(rays, "photon mapping", first_pass + seconds, by_photons.image);
         row(rays, "path tracing", watch.seconds() - seconds, by_paths.image);
     }
-    save_plot(options.path(""), plot);
-    save_table(options.path(""), table);
+    save_plot(options.out, plot);
+    examples::show_table(options, table);
 }
 
 } // namespace
 
-/// Makes the figures of chapter 27.
+/// Makes the pictures, the plot and the table of chapter 27 that are not the report's.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        PhotonMappingSettings settings;
-        double radius = 0.1;
-        line.about("Figures 1 and 15 of the report: its renderer, whole.");
-        std::string only;
-        line.add("--only", only, "Make only this figure", {"fig-1", "fig-15"});
+        PhotonMappingSettings settings{.caustics_estimate{.radius = 0.1f}};
+        line.about("Chapter 27, two passes: the experiments behind plot and table.");
         line.add("--photons", settings.caustics.photons,
                  "Photons aimed at mirrors and glass", 0, 1'000'000'000);
-        line.add("--radius", radius, "Radius of the caustic estimate, in scene units",
-                 1e-6, 1e6);
-        line.add("--depth", settings.max_depth, "Surfaces on a camera path", 1,
-                 1000000);
         const examples::Options options =
             line.parse({.draft{.width = 200, .height = 200, .samples = 16},
                         .report{.width = 400, .height = 400, .samples = 256},
                         .reference{.width = 500, .height = 500, .samples = 800}});
-        settings.caustics_estimate.radius = static_cast<float>(radius);
         settings.caustics.seed = options.seed;
         settings.caustics.threads = options.threads;
-
         const auto room = ljus::final_room();
-        if (!options.quiet) {
-            const ljus::Plan plan = survey(room.world, settings);
-            for (const auto* pass : plan.items())
-                std::printf("%s", to_text(*pass).c_str());
-        }
-        if (only != "fig-15") figure("fig-1", room, settings, options);
-        if (only != "fig-1")
-            figure("fig-15", ljus::all_materials_room(), settings, options);
-        if (!only.empty()) return 0;
         parts(room, settings, options);
         trade(room, settings, options);
-        return 0;
     });
 }

@@ -1,11 +1,11 @@
 // smoke: --quality draft --width 16 --height 16 --rays 4 --photons 2000 --seeds 2
 /// \file chapters/experiments/28_experiments.cpp
-/// \brief Chapter 28: photons seen directly, gathered, and precomputed.
+/// \brief Chapter 28: estimates at edges and at photons; error against time for photons
+/// seen directly, gathered, and precomputed.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -18,10 +18,10 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
-#include "common/rendered.hpp"
-#include "common/terminal.hpp"
-#include "drawings/drawing.hpp"
+#include "common/convergence.hpp"
+#include "common/plot.hpp"
 #include "experiments/oracle.hpp"
+#include "experiments/show_table.hpp"
 
 using namespace ljus;
 
@@ -190,16 +190,7 @@ void borders(const examples::Options& options) {
     table.rows.push_back(
         {"near a corner, at worst", "product of two", "",
          "off by " + examples::text(100 * worst_product(), "%.1f %%")});
-    save_table(options.out, table);
-    if (!options.quiet)
-        for (const auto& row : table.rows)
-            std::printf("%-26s %-16s %-16s %s\n", row[0].c_str(), row[1].c_str(),
-                        row[2].c_str(), row[3].c_str());
-}
-
-void print(const examples::Table& table, const examples::Options& options) {
-    if (options.quiet) return;
-    examples::print_rows(table, 10);
+    examples::show_table(options, table);
 }
 
 /// By how many percent the points of one map are too bright under an even light.
@@ -288,83 +279,10 @@ void own_photon(const examples::Options& options) {
                               percent(counted), percent(own), percent(own_surface),
                               percent(free_surface)});
     }
-    print(table, options);
-    save_table(options.out, table);
+    examples::show_table(options, table);
 }
 
-// --- The idea ------------------------------------------------------------------------
-
-/// A room cut open: photons, the points chosen from them, and rays that look those up.
-void draw_idea(const examples::Options& options) {
-    examples::Drawing figure{
-        .name = "final-gathering-idea",
-        .description = "Rays from x end on walls and take what the nearest point knows",
-        .low{-0.35, -0.35},
-        .high{4.35, 2.35},
-        .scale = 150};
-    const double width = 4, height = 2;
-    draw_line(figure, {{0, height}, {0, 0}, {width, 0}, {width, height}, {0, height}});
-    // Along the walls but the floor: a photon every so often, irregularly.
-    struct Dot {
-        examples::Point at, normal;
-    };
-    std::vector<Dot> points;
-    auto stream = random_stream(options.seed, Pass::user, 0, 0);
-    const double way = 2 * height + width;
-    int number = 0;
-    for (double s = 0.05; s < way; s += 0.04 + 0.08 * double(next_1d(stream))) {
-        const Dot dot = s < height           ? Dot{{0, s}, {1, 0}}
-                        : s < height + width ? Dot{{s - height, height}, {0, -1}}
-                                             : Dot{{width, way - s}, {-1, 0}};
-        if (number++ % 6 == 3)
-            points.push_back(dot);
-        else
-            draw_dot(figure, dot.at, 2.2, examples::colors::blue);
-    }
-    const examples::Point x{1.7, 0};
-    for (int i = 0; i < 9; ++i) {
-        // Evenly over the cosine: seen from the side, the sine has equal steps.
-        const double sine = -1 + 2 * (i + 0.5) / 9, cosine = std::sqrt(1 - sine * sine);
-        double t = height / cosine;
-        if (sine > 0) t = std::min(t, (width - x.x) / sine);
-        if (sine < 0) t = std::min(t, x.x / -sine);
-        const examples::Point end{x.x + t * sine, t * cosine};
-        draw_arrow(figure, x, end, {"currentColor", 1});
-        const auto distance = [&](const Dot& dot) {
-            return std::hypot(dot.at.x - end.x, dot.at.y - end.y);
-        };
-        const Dot& nearest = *std::min_element(
-            points.begin(), points.end(),
-            [&](const Dot& a, const Dot& b) { return distance(a) < distance(b); });
-        draw_line(figure, {end, nearest.at}, {examples::colors::orange, 4});
-    }
-    for (const Dot& dot : points) {
-        draw_arrow(figure, dot.at,
-                   {dot.at.x + 0.22 * dot.normal.x, dot.at.y + 0.22 * dot.normal.y},
-                   {examples::colors::orange, 1.5});
-        draw_dot(figure, dot.at, 5, examples::colors::orange);
-    }
-    draw_dot(figure, x, 5, "currentColor");
-    draw_label(figure, {x.x, -0.18}, "x");
-    save_drawing(options.out, figure);
-}
-
-// --- Pictures ------------------------------------------------------------------------
-
-/// A renderer that shows what a gather ray would bring, if the camera cast it.
-template <typename Mapper>
-struct PointsSeen {
-    using Stream = RandomStream;
-    const Mapper& mapper;
-};
-
-template <typename Mapper>
-Rgb radiance(const PointsSeen<Mapper>& seen, const Ray& ray, auto& context) {
-    const auto& world = seen.mapper.world();
-    const auto& points = seen.mapper.template state<Gathering>().points;
-    const auto path = camera_path(world, ray, context.stream);
-    return gather_ray(world, points, path, 20, context).radiance;
-}
+// --- The trade -----------------------------------------------------------------------
 
 /// The settings that all pictures share.
 PhotonMappingSettings gather_settings(IndirectLight indirect, long long photons,
@@ -380,55 +298,6 @@ PhotonMappingSettings gather_settings(IndirectLight indirect, long long photons,
     settings.caustics_estimate.radius = settings.general_estimate.radius = 0;
     return settings;
 }
-
-template <typename Room>
-Image photographed(const Room& room, const PhotonMappingSettings& settings, int samples,
-                   std::uint64_t seed, const examples::Options& options) {
-    const PhotonMapper mapper(room.world, settings, abilities<Gathering>);
-    auto picture = examples::picture_settings(options);
-    picture.samples = samples;
-    picture.seed = seed;
-    return examples::rendered("picture", mapper, room.camera, picture, options).image;
-}
-
-/// The box by each of the ways, and what gather rays see of it.
-void pictures(examples::Options options, const Sizes& sizes) {
-    const auto room = cornell_box();
-    const long long photons = std::min(sizes.photons, 20000LL);
-    const int rays = options.samples;
-    const int larger = options.pick(3, 7, 7); // than those whose errors are measured
-    options.width *= larger;
-    options.height *= larger;
-    const auto take = [&](const std::string& name, IndirectLight indirect,
-                          int samples) {
-        const auto settings = gather_settings(indirect, photons, options.seed, options);
-        save_png(photographed(room, settings, samples, options.seed, options),
-                 options.path("final-gathering-" + name + ".png"));
-    };
-    take("photons", IndirectLight::photons, rays);
-    take("map", IndirectLight::map, rays);
-    take("gather-1", IndirectLight::gather, 1);
-    take("gather-few", IndirectLight::gather, std::max(2, rays / 4));
-    take("gather-many", IndirectLight::gather, rays);
-    for (const bool edges : {false, true}) {
-        auto settings =
-            gather_settings(IndirectLight::gather, photons, options.seed, options);
-        settings.irradiance.edges = edges;
-        const PhotonMapper mapper(room.world, settings, abilities<Gathering>);
-        const PointsSeen<decltype(mapper)> seen{mapper};
-        save_png(render(seen, room.camera,
-                        {.width = options.width,
-                         .height = options.height,
-                         .samples = std::min(rays, 16),
-                         .seed = options.seed,
-                         .threads = options.threads})
-                     .image,
-                 options.path(edges ? "final-gathering-points.png"
-                                    : "final-gathering-points-dark.png"));
-    }
-}
-
-// --- The trade -----------------------------------------------------------------------
 
 /// The pictures of all seeds, and what one of them costs.
 struct Runs {
@@ -468,7 +337,7 @@ std::vector<Runs> compare(const Room& room,
     return runs;
 }
 
-/// What one way does with so many photons and rays.
+/// The result of one way to gather, for some number of photons and of rays.
 struct Setting {
     std::size_t way;             ///< 0: photons, 1: map, 2: gather.
     double seconds, error, seen; ///< Processor seconds, relMSE, FLIP.
@@ -573,8 +442,7 @@ void trade(const examples::Options& options, const Sizes& sizes) {
     save_plot(options.out, frontier("final-gathering-flip", "FLIP", tried,
                                     [](const Setting& s) { return s.seen; }));
     save_plot(options.out, split);
-    save_table(options.out, table);
-    print(table, options);
+    examples::show_table(options, table);
 }
 
 /// Processor seconds in which the points of precomputed irradiance are made.
@@ -619,8 +487,7 @@ void table_of_ratios(const Room& room, const examples::Oracle& oracle,
              examples::text(100 * extra / (slow - fast), "%.0f %%"), error(runs[0]),
              error(runs[1])});
     }
-    save_table(options.out, table);
-    print(table, options);
+    examples::show_table(options, table);
 }
 
 /// Points at every second photon, every fourth, and so on.
@@ -650,8 +517,7 @@ void table_of_every(const Room& room, const examples::Oracle& oracle,
              examples::text(split.bias_squared + split.variance, "%.2g"),
              examples::text(split.bias_squared, "%.2g")});
     }
-    save_table(options.out, every);
-    print(every, options);
+    examples::show_table(options, every);
 }
 
 /// Precomputed irradiance: what it saves, and how many points it takes.
@@ -665,14 +531,14 @@ void ratio(const examples::Options& options, const Sizes& sizes) {
 
 } // namespace
 
-/// Makes the figures of chapter 28.
+/// Makes the plots and tables of chapter 28.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; 2 with one sentence for anything that is wrong.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 28, final gathering: blotches, rays, and a lookup.");
+        line.about("Chapter 28, final gathering: the experiments behind its tables.");
         line.add("--photons", sizes.photons, "The largest number of photons", 1,
                  100000000);
         line.add("--seeds", sizes.seeds, "Runs behind bias and variance", 2, 1000);
@@ -685,10 +551,8 @@ int main(int argc, char** argv) {
             sizes.photons = options.pick(20000LL, 200000LL, 1000000LL);
         if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
         if (!line.given("--truth")) sizes.truth = options.pick(512, 4096, 65536);
-        draw_idea(options);
         borders(options);
         own_photon(options);
-        pictures(options, sizes);
         trade(options, sizes);
         ratio(options, sizes);
     });

@@ -1,20 +1,17 @@
 // smoke: --quality draft --width 24 --height 24 --seeds 2 --truth 16
 /// \file chapters/experiments/29_experiments.cpp
-/// \brief Chapter 29: the irradiance cache. What interpolating costs and what it buys.
+/// \brief Chapter 29: what interpolating irradiance costs and what it buys.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <ljus/image/flip.hpp>
-#include <ljus/inspect/photon_dots.hpp>
 #include <ljus/ljus.hpp>
 #include <ljus/math/stratified_stream.hpp>
 #include <ljus/path/light_transport.hpp>
@@ -26,8 +23,8 @@
 #include "common/command_line.hpp"
 #include "common/convergence.hpp"
 #include "common/plot.hpp"
-#include "drawings/drawing.hpp"
 #include "experiments/oracle.hpp"
+#include "experiments/show_table.hpp"
 
 using namespace ljus;
 
@@ -45,67 +42,6 @@ struct Sizes {
     int truth = 0; ///< Rays per pixel of the references.
     int side = 0;  ///< Of the pictures whose errors are measured, in pixels.
 };
-
-/// Prints a table as it is saved.
-void show(const examples::Options& options, const examples::Table& table) {
-    save_table(options.out, table);
-    if (options.quiet) return;
-    std::printf("%s\n", table.name.c_str());
-    examples::print_rows(table, 12);
-}
-
-// --- The idea ------------------------------------------------------------------------
-
-/// A room in the plane: how far a point of its floor sees, as a harmonic mean.
-double distance_on_floor(double x, double width, double height) {
-    double inverse = 0;
-    constexpr int rays = 4000;
-    for (int i = 0; i < rays; ++i) {
-        const double along = (2 * i + 1.0) / rays - 1; // the cosine law in the plane
-        const double up = std::sqrt(1 - along * along);
-        const double wall = along < 0 ? x / -along : (width - x) / along;
-        inverse += 1 / std::min(wall, height / up) / rays;
-    }
-    return 1 / inverse;
-}
-
-/// Points on a floor, how far each of them counts, and a place that asks.
-void draw_idea(const examples::Options& options) {
-    constexpr double width = 9, height = 2.4, reach = 0.5;
-    constexpr std::array places{0.12, 0.45, 0.8, 1.35, 1.9, 2.4, 3.0, 3.5, 4.2, 4.75};
-    examples::Drawing figure{
-        .name = "irradiance_cache-idea",
-        .description = "Points on a floor beside a wall; those near the wall count for "
-                       "a short distance",
-        .low{-0.2, -0.5},
-        .high{5.3, 1.75},
-        .scale = 130};
-    draw_area(figure, {{-0.2, -0.1}, {5.3, -0.1}, {5.3, 0}, {-0.2, 0}}, "currentColor");
-    draw_area(figure, {{-0.2, 0}, {0, 0}, {0, 1.75}, {-0.2, 1.75}}, "currentColor");
-    draw_line(figure, {{0, 1.75}, {0, 0}, {5.3, 0}});
-    for (const double x : places) {
-        const double r = reach * distance_on_floor(x, width, height);
-        draw_arc(figure, {x, 0}, r, 0, std::numbers::pi,
-                 {examples::colors::blue, 1, true});
-    }
-    // Six points take part, the nearest says how far they may lie.
-    constexpr double asked = 2.6, around = 1.25;
-    for (const double x : places) {
-        const double share = (x - asked) * (x - asked) / (around * around);
-        const double r = reach * distance_on_floor(x, width, height);
-        if (share < 1 && std::abs(x - asked) < r)
-            draw_line(figure, {{asked, 0.42}, {x, 0}},
-                      {examples::colors::orange, 0.5 + 5 * (1 - share)});
-        draw_dot(figure, {x, 0}, 5, examples::colors::blue);
-    }
-    draw_dot(figure, {asked, 0.42}, 6, examples::colors::orange);
-    draw_line(figure, {{asked, 0.42}, {asked, 0}}, {"currentColor", 1, true});
-    draw_label(figure, {asked, 0.62}, "E ?", examples::colors::orange);
-    draw_label(figure, {2.6, -0.3},
-               "points that have gathered, and how far each counts",
-               examples::colors::blue);
-    save_drawing(options.out, figure);
-}
 
 // --- A corner where irradiance is known ----------------------------------------------
 
@@ -164,13 +100,13 @@ IrradianceCacheT<double> exact_cache(int run, std::uint64_t seed) {
     return cache;
 }
 
-/// What interpolation with one reach brings at the places, means over the runs.
+/// The errors of interpolation with one reach at all places, as means over the runs.
 struct AtCorner {
     std::array<double, corner_places> squares{};  ///< Of the relative error.
     std::array<double, corner_places> gathered{}; ///< How often nothing is near enough.
 };
 
-/// Adds what one cache says, as one of so many runs.
+/// Adds the errors of one cache, which is one of `runs`.
 void add_run(AtCorner& corner, const IrradianceCacheT<double>& cache, double reach,
              int runs) {
     for (int i = 0; i < corner_places; ++i) {
@@ -208,7 +144,7 @@ void plot_corner(const Corner& corner, const examples::Options& options) {
     save_plot(options.out, plot);
 }
 
-/// Near the wall and farther out, in means.
+/// The mean errors near the wall and farther away.
 void table_of_corner(const Corner& corner, const examples::Options& options) {
     examples::Table table{.name = "irradiance_cache-corner-table",
                           .columns = {"reach", "error within a step of the wall",
@@ -230,7 +166,7 @@ void table_of_corner(const Corner& corner, const examples::Options& options) {
             table.rows.back().push_back(
                 text(100 * anew[part] / count[part], "%.1f %%"));
     }
-    show(options, table);
+    examples::show_table(options, table);
 }
 
 /// Exact records, no noise: what is wrong then is the interpolation alone.
@@ -246,32 +182,7 @@ void corner(const examples::Options& options) {
     table_of_corner(found, options);
 }
 
-// --- The pictures --------------------------------------------------------------------
-
-/// A renderer whose gathered light alone is seen.
-template <typename R>
-struct GatheredOnly {
-    using Stream = typename R::Stream;
-    const R& renderer;
-};
-
-/// Adds up what was gathered or interpolated, and drops all else.
-struct GatheredLog {
-    Rgb sum{0};
-    void begin() const {}
-    void vertex(char, const Vec3&, const Rgb&, float) const {}
-    void term(std::string_view owner, std::string_view, const Rgb& value) {
-        if (owner == "irradiance cache" || owner == "irradiance points") sum += value;
-    }
-};
-
-template <typename R>
-Rgb radiance(const GatheredOnly<R>& only, const Ray& ray, auto& context) {
-    GatheredLog log;
-    auto told = context_of(context.stream, context.counts, log);
-    (void)radiance(only.renderer, ray, told);
-    return log.sum;
-}
+// --- Each knob -----------------------------------------------------------------------
 
 /// The preset `fast` for one seed.
 PhotonMappingSettings fast(int side, std::uint64_t seed, int threads) {
@@ -281,54 +192,15 @@ PhotonMappingSettings fast(int side, std::uint64_t seed, int threads) {
     return settings;
 }
 
-/// Indirect light alone.
-Image gathered_light(const Box& room, const Mapper& mapper,
+/// Indirect light alone, by a renderer of the whole.
+template <typename Renderer>
+Image indirect_light(const Box& room, const Renderer& renderer,
                      const RenderSettings& picture) {
-    auto image = render(GatheredOnly<Mapper>{mapper}, room.camera, picture).image;
+    const OnlyPaths indirect(renderer, "E.*D.*D.*L");
+    auto image = render(indirect, room.camera, picture).image;
     examples::stop_if_asked();
     return image;
 }
-
-void pictures(const examples::Options& options) {
-    const Box room = cornell_box();
-    auto settings = fast(options.width, options.seed, options.threads);
-    settings.gather.rays = 100; // as many for both, so that both can be looked at
-    const RenderSettings picture{.width = options.width,
-                                 .height = options.height,
-                                 .samples = 4,
-                                 .seed = options.seed,
-                                 .threads = options.threads};
-    Mapper mapper(room.world, settings);
-    save_png(gathered_light(room, mapper, picture),
-             options.path("irradiance_cache-everywhere.png"),
-             {.exposure = 2}); // no cache yet
-    mapper.fill_cache(room.camera, picture);
-    save_png(gathered_light(room, mapper, picture),
-             options.path("irradiance_cache-interpolated.png"), {.exposure = 2});
-
-    // The points as dots: as photons that have come to them from the side that is seen.
-    std::vector<Photon> dots;
-    const IrradianceCache& cache = mapper.state<Gathering>().cache;
-    for (std::size_t i = 0; i < cache.records.size(); ++i)
-        dots.push_back({.position = cache.tree.point(i),
-                        .direction = -cache.records[i].normal,
-                        .flux = cache.records[i].irradiance});
-    Image drawing =
-        scene_drawing(room.world, room.camera, options.width, options.height);
-    const auto seen = add_photon_dots(
-        drawing, room.world, room.camera, dots,
-        {.radius = std::max(0.8f, float(options.width) / 250), .brightness = 1},
-        [](const Photon& dot) { return dot_color(dot); });
-    save_png(drawing, options.path("irradiance_cache-points.png"));
-    show(options, {.name = "irradiance_cache-points-table",
-                   .columns = {"pixels", "points", "of which in sight", "gather rays"},
-                   .rows = {{std::to_string(options.width) + " x " +
-                                 std::to_string(options.height),
-                             std::to_string(dots.size()), std::to_string(seen),
-                             std::to_string(cache.counts.bounce_rays)}}});
-}
-
-// --- Each knob -----------------------------------------------------------------------
 
 /// The mean of a picture over that of another, less 1.
 template <typename T, typename U>
@@ -342,7 +214,7 @@ double mean_error(const ImageT<T>& image, const ImageT<U>& truth) {
     return sum / all - 1;
 }
 
-/// A picture that is believed, by eight independent pieces, and its own noise.
+/// A reference from eight independent pictures, which tell its noise.
 examples::Oracle oracle_of(const std::function<Image(int, std::uint64_t)>& shot,
                            int rays, int side) {
     constexpr int pieces = 8;
@@ -388,17 +260,13 @@ void add_oracles(Bench& bench) {
     const Mapper mapper(bench.room.world, one_by_one);
     bench.twin = oracle_of(
         [&](int rays, std::uint64_t seed) {
-            return gathered_light(bench.room, mapper, bench.picture(rays, seed));
+            return indirect_light(bench.room, mapper, bench.picture(rays, seed));
         },
         4 * truth, side);
     const PathTracer tracer(bench.room.world);
-    const OnlyPaths indirect(tracer, "E.*D.*D.*L");
     bench.traced = oracle_of(
         [&](int rays, std::uint64_t seed) {
-            auto image =
-                render(indirect, bench.room.camera, bench.picture(rays, seed)).image;
-            examples::stop_if_asked();
-            return image;
+            return indirect_light(bench.room, tracer, bench.picture(rays, seed));
         },
         truth, side);
 }
@@ -426,7 +294,7 @@ std::vector<Knob> all_knobs() {
     return all;
 }
 
-/// What a knob brings, over several seeds.
+/// The result of one setting, over several seeds.
 struct Turned {
     double seconds = 0, mean = 0, flip = 0;
     std::size_t points = 0;
@@ -446,7 +314,7 @@ Turned turn(const Bench& bench, const Knob& knob) {
         const double start = examples::processor_seconds();
         if (knob.cached) mapper.fill_cache(bench.room.camera, picture);
         found.points = mapper.state<Gathering>().cache.records.size();
-        runs.push_back(gathered_light(bench.room, mapper, picture));
+        runs.push_back(indirect_light(bench.room, mapper, picture));
         found.seconds += (examples::processor_seconds() - start) / seeds;
         found.flip += flip(runs.back(), bench.traced.truth) / seeds;
         found.mean += mean_error(runs.back(), bench.traced.truth) / seeds;
@@ -460,13 +328,14 @@ Turned turn(const Bench& bench, const Knob& knob) {
 
 /// Which references there are, and how good they are.
 void table_of_oracles(const Bench& bench) {
-    show(bench.options,
-         {.name = "irradiance_cache-truth",
-          .columns = {"reference", "rays per pixel", "its own relMSE"},
-          .rows = {{"gathered at every vertex, the same photons",
-                    std::to_string(bench.twin.rays), text(bench.twin.noise, "%.2g")},
-                   {"path tracing", std::to_string(bench.traced.rays),
-                    text(bench.traced.noise, "%.2g")}}});
+    examples::show_table(
+        bench.options,
+        {.name = "irradiance_cache-truth",
+         .columns = {"reference", "rays per pixel", "its own relMSE"},
+         .rows = {{"gathered at every vertex, the same photons",
+                   std::to_string(bench.twin.rays), text(bench.twin.noise, "%.2g")},
+                  {"path tracing", std::to_string(bench.traced.rays),
+                   text(bench.traced.noise, "%.2g")}}});
 }
 
 /// Indirect light alone, one knob after the other.
@@ -499,7 +368,7 @@ void knobs(const examples::Options& options, const Sizes& sizes) {
         row[knob.curve] = std::max(bias + noise, 1e-9);
         plot.rows.push_back(row);
     }
-    show(options, table);
+    examples::show_table(options, table);
     save_plot(options.out, plot);
     table_of_oracles(bench);
 }
@@ -512,7 +381,7 @@ struct Method {
     std::function<Image(int, std::uint64_t)> shoot;
 };
 
-/// What a method brought, over several seeds.
+/// The result of a method, over several seeds.
 struct Result {
     double seconds = 0; ///< Of a processor, both passes.
     BiasVariance pixels{}, blocks{};
@@ -615,7 +484,7 @@ void methods(const examples::Options& options, const Sizes& sizes,
                  text(100 * r.mean, "%+.2f %%"), text(r.flip, "%.3f")});
         }
     save_plot(options.out, plot);
-    show(options, table);
+    examples::show_table(options, table);
 }
 
 /// One idea more than the rung before.
@@ -674,7 +543,7 @@ void ladder(const examples::Options& options, const Sizes& sizes,
                               text(r.block_error(), "%.2g"),
                               text(100 * r.mean, "%+.2f %%"), text(r.flip, "%.3f")});
     }
-    show(options, table);
+    examples::show_table(options, table);
 }
 
 /// What "three seconds" looks like.
@@ -689,11 +558,12 @@ void fast_picture(const examples::Options& options) {
          .seed = options.seed,
          .threads = options.threads},
         8);
-    show(options, {.name = "irradiance_cache-fast-table",
-                   .columns = {"pixels", "processor seconds of both passes"},
-                   .rows = {{std::to_string(options.width) + " x " +
-                                 std::to_string(options.height),
-                             text(examples::processor_seconds() - start, "%.2f")}}});
+    examples::show_table(
+        options, {.name = "irradiance_cache-fast-table",
+                  .columns = {"pixels", "processor seconds of both passes"},
+                  .rows = {{std::to_string(options.width) + " x " +
+                                std::to_string(options.height),
+                            text(examples::processor_seconds() - start, "%.2f")}}});
     save_png(image, options.path("irradiance_cache-fast.png"));
 }
 
@@ -724,8 +594,8 @@ World<Stage> penumbra_stage(const Lamp& lamp) {
 
 constexpr std::array shadow_rays{1, 2, 4, 9};
 
-/// What the closed form with its shadow rays brings at one place, in parts of the whole
-/// lamp's light; one number for each number of shadow rays.
+/// The light that the closed form finds at one place, as a part of the whole lamp's;
+/// one value for each number of shadow rays.
 struct InPenumbra {
     double x = 0; ///< Of the place; the penumbra is -1 to 1.
     std::array<double, shadow_rays.size()> bias{}, noise{}, sampled{};
@@ -822,19 +692,19 @@ void penumbra(const examples::Options& options) {
         }
     }
     save_plot(options.out, plot);
-    show(options, table);
+    examples::show_table(options, table);
 }
 
 } // namespace
 
-/// Makes the figures of chapter 29.
+/// Makes the plots and tables of chapter 29, and the picture by the preset `fast`.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; 2 with one sentence for anything that is wrong.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 29, the irradiance cache: points, knobs, trades.");
+        line.about("Chapter 29, the irradiance cache: corners, knobs, trades.");
         line.add("--seeds", sizes.seeds, "Runs behind each error", 2, 1000);
         line.add("--truth", sizes.truth, "Rays per pixel of the references", 8,
                  100000000);
@@ -845,10 +715,8 @@ int main(int argc, char** argv) {
         if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
         if (!line.given("--truth")) sizes.truth = options.pick(256, 1024, 16384);
         sizes.side = std::min(options.pick(40, 120, 200), options.width);
-        draw_idea(options);
         corner(options);
         penumbra(options);
-        pictures(options);
         knobs(options, sizes);
         const auto oracle = examples::find_oracle("cornell", cornell_box(), sizes.side,
                                                   2 * sizes.truth, options);
