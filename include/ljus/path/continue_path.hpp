@@ -4,8 +4,8 @@
 /// \brief How a path goes on from a vertex, be it radiance or flux.
 
 #include "ljus/math/random.hpp"
-#include "ljus/path/path_state.hpp"
 #include "ljus/path/next_vertex.hpp"
+#include "ljus/path/path_state.hpp"
 
 namespace ljus {
 
