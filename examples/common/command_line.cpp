@@ -98,38 +98,49 @@ void require_threads(int wanted) {
                                  " threads: " + why + "; --threads 1 needs none");
 }
 
+// What is wrong with a value, as a sentence that begins with its option.
+std::string refusal(const std::string& right, const std::string& text) {
+    return "it must be " + right + ", and not '" + text + "'";
+}
+
 // Digits, and a sign: the parser's own conversion takes 010 for 8.
-std::string check_whole(const std::string& text, long long least, long long most) {
-    long long value = 0;
+bool to_number(const std::string& text, long long& value) {
     const char* const end = text.data() + text.size();
     const auto [rest, error] = std::from_chars(text.data(), end, value);
     const std::size_t first = text.find_first_not_of('-');
     const bool octal = first + 1 < text.size() && text[first] == '0';
-    if (rest != end || text.empty() || octal || error == std::errc::invalid_argument)
-        return "Value " + text + " is no whole number";
-    if (error == std::errc() && value >= least && value <= most) return "";
-    return "Value " + text + " not in range " + std::to_string(least) + " to " +
-           std::to_string(most);
+    return rest == end && !text.empty() && !octal && error == std::errc();
 }
 
-auto whole(long long least, long long most) {
-    return [least, most](const std::string& text) {
-        return check_whole(text, least, most);
-    };
+bool to_number(const std::string& text, double& value) {
+    return CLI::detail::lexical_cast(text, value);
 }
+
+// The numbers that an option takes.
+template <typename Number>
+struct Range {
+    Number least, most;
+    bool or_zero;
+    std::string name; // as "a number from 1 to 2"
+
+    std::optional<Number> number(const std::string& text) const {
+        Number value{}; // NaN is in no range
+        if (to_number(text, value) &&
+            ((value >= least && value <= most) || (or_zero && value == 0)))
+            return value;
+        return std::nullopt;
+    }
+};
 
 // All digits, and below 2^64: the parser's own conversion takes -1 for the largest seed.
-std::optional<std::uint64_t> to_seed(const std::string& text) {
-    std::uint64_t seed = 0;
+std::string take_seed(const std::string& text, std::uint64_t& seed) {
     const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, seed);
-    if (error != std::errc() || rest != end) return std::nullopt;
-    return seed;
-}
-
-std::string check_seed(const std::string& text) {
-    if (to_seed(text)) return "";
-    return "Value " + text + " not in range 0 to 18446744073709551615";
+    std::uint64_t given = 0;
+    const auto [rest, error] = std::from_chars(text.data(), end, given);
+    if (error != std::errc() || rest != end)
+        return refusal("a whole number from 0 to 18446744073709551615", text);
+    seed = given;
+    return "";
 }
 
 } // namespace
@@ -150,8 +161,42 @@ struct CommandLine::Parser {
     std::vector<std::string> arguments;
     std::vector<std::string> file_types;
     Options options;
-    std::string quality = "report";
-    std::string seed = "1";
+    // What each option is now, as JSON.
+    std::vector<std::pair<CLI::Option*, std::function<std::string()>>> settings;
+
+    // An option: `read` tells its value as JSON, `take` sets it or says what is wrong.
+    void add_setting(const std::string& name, const std::string& kind,
+                     const std::string& help, std::function<std::string()> read,
+                     std::function<std::string(const std::string&)> take) {
+        std::string value = read();
+        std::erase(value, '"');
+        CLI::Option* const option = app.add_option_function<std::string>(
+            name,
+            [take, first = name.substr(0, name.find(','))](const std::string& text) {
+                const std::string wrong = take(text);
+                if (!wrong.empty()) throw CLI::ValidationError(first, wrong);
+            },
+            value.empty() ? help : help + " [" + value + "]");
+        option->option_text(kind);
+        settings.emplace_back(option, std::move(read));
+    }
+
+    template <typename Number>
+    void add_number(const std::string& name, const std::string& kind,
+                    const std::string& help, const Range<Number>& range,
+                    std::function<std::string()> read,
+                    std::function<void(Number)> take) {
+        add_setting(
+            name, kind, help,
+            [range, read] { return range.number(read()) ? read() : std::string(); },
+            [range, take](const std::string& text) {
+                const auto number = range.number(text);
+                if (number) take(*number);
+                return number
+                           ? ""
+                           : refusal((range.or_zero ? "0 or " : "") + range.name, text);
+            });
+    }
 };
 
 CommandLine::CommandLine(std::vector<std::string> arguments)
@@ -170,26 +215,20 @@ CommandLine::CommandLine(std::vector<std::string> arguments)
     app.add_option("--out", options.out,
                    "Folder for the files, made if it is missing [.]")
         ->option_text("DIR");
-    app.add_option("--quality", parser_->quality,
-                   "draft, report or reference: size and rays [report]")
-        ->check(CLI::IsMember({"draft", "report", "reference"}).description(""))
-        ->option_text("WORD");
-    app.add_option("--seed", parser_->seed, "Another seed, other noise [1]")
-        ->check(check_seed)
-        ->option_text("N");
-    app.add_option("--threads", options.threads, "0 for all processors [0]")
-        ->check(whole(0, ljus::max_threads_allowed))
-        ->option_text("N");
-    app.add_option("--width", options.width, "Width of the picture in pixels")
-        ->check(whole(1, 65536))
-        ->option_text("N");
-    app.add_option("--height", options.height, "Height of the picture in pixels")
-        ->check(whole(1, 65536))
-        ->option_text("N");
-    app.add_option("--rays,--spp", options.samples, "Rays per pixel")
-        ->check(whole(1, 100'000'000))
-        ->option_text("N");
-    app.add_flag("--quiet", options.quiet, "No progress bar and no text");
+    add("--quality", options.quality, "Size of the pictures and rays per pixel",
+        {{"draft", Quality::draft},
+         {"report", Quality::report},
+         {"reference", Quality::reference}});
+    parser_->add_setting(
+        "--seed", "N", "Another seed, other noise",
+        [&options] { return std::to_string(options.seed); },
+        [&options](const std::string& text) { return take_seed(text, options.seed); });
+    add("--threads", options.threads, "0 for all processors", 0,
+        ljus::max_threads_allowed);
+    add("--width", options.width, "Width of the picture in pixels", 1, 65536);
+    add("--height", options.height, "Height of the picture in pixels", 1, 65536);
+    add("--rays,--spp", options.samples, "Rays per pixel", 1, 100'000'000);
+    add("--quiet", options.quiet, "No progress bar and no text");
 }
 
 CommandLine::~CommandLine() = default;
@@ -198,44 +237,68 @@ void CommandLine::about(const std::string& text) {
     parser_->app.description(text);
 }
 
-void CommandLine::add(const std::string& name, int& value, const std::string& help,
-                      int least, int most) {
-    parser_->app.add_option(name, value, help + " [" + std::to_string(value) + "]")
-        ->check(whole(least, most))
-        ->option_text("N");
+void CommandLine::group(const std::string& heading,
+                        const std::vector<std::string>& shared) {
+    parser_->app.option_defaults()->group(heading);
+    for (const std::string& name : shared)
+        parser_->app.get_option(name)->group(heading);
 }
 
-void CommandLine::add(const std::string& name, long long& value,
-                      const std::string& help, long long least, long long most) {
-    parser_->app.add_option(name, value, help + " [" + std::to_string(value) + "]")
-        ->check(whole(least, most))
-        ->option_text("N");
+void CommandLine::add_number(const std::string& name, const std::string& help,
+                             long long least, long long most, bool or_zero,
+                             std::function<std::string()> read,
+                             std::function<void(long long)> take) {
+    const std::string range =
+        "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+    parser_->add_number(name, "N", help, Range{least, most, or_zero, range},
+                        std::move(read), std::move(take));
 }
 
-void CommandLine::add(const std::string& name, double& value, const std::string& help,
-                      double least, double most) {
-    char text[32];
-    const auto show = [&text](double number) {
-        std::snprintf(text, sizeof text, "%g", number);
-        return std::string(text);
-    };
-    const std::string range = show(least) + " to " + show(most);
-    parser_->app.add_option(name, value, help + " [" + show(value) + "]")
-        ->check([least, most, range](const std::string& given) {
-            double number = 0.0;
-            const bool ok = CLI::detail::lexical_cast(given, number) &&
-                            number >= least && number <= most; // NaN is not
-            return ok ? std::string() : "Value " + given + " not in range " + range;
-        })
-        ->option_text("X");
+void CommandLine::add_number(const std::string& name, const std::string& help,
+                             double least, double most, bool or_zero,
+                             std::function<std::string()> read,
+                             std::function<void(double)> take) {
+    char range[80];
+    std::snprintf(range, sizeof range, "a number from %g to %g", least, most);
+    parser_->add_number(name, "X", help, Range{least, most, or_zero, range},
+                        std::move(read), std::move(take));
+}
+
+void CommandLine::add_words(const std::string& name, const std::string& help,
+                            const std::vector<std::string>& words,
+                            std::function<std::size_t()> read,
+                            std::function<void(std::size_t)> take) {
+    std::string all;
+    for (const std::string& word : words) all += (all.empty() ? "" : "|") + word;
+    parser_->add_setting(
+        name, all, help,
+        [words, read] {
+            const std::size_t i = read();
+            return i < words.size() ? "\"" + words[i] + "\"" : std::string();
+        },
+        [words, take](const std::string& text) {
+            const auto found = std::find(words.begin(), words.end(), text);
+            if (found == words.end()) return refusal(list_of(words), text);
+            take(std::size_t(found - words.begin()));
+            return std::string();
+        });
 }
 
 void CommandLine::add(const std::string& name, std::string& value,
                       const std::string& help, const std::vector<std::string>& words) {
-    CLI::Option* const option =
-        parser_->app.add_option(name, value, help + " [" + value + "]");
-    option->option_text("WORD");
-    if (!words.empty()) option->check(CLI::IsMember(words).description(""));
+    if (!words.empty()) {
+        const auto read = [&value, words] {
+            return std::size_t(std::find(words.begin(), words.end(), value) -
+                               words.begin());
+        };
+        return add_words(name, help, words, read,
+                         [&value, words](std::size_t i) { value = words[i]; });
+    }
+    const std::size_t space = std::min(name.find(' '), name.size());
+    parser_->app
+        .add_option(name.substr(0, space), value,
+                    value.empty() ? help : help + " [" + value + "]")
+        ->option_text(space < name.size() ? name.substr(space + 1) : "TEXT");
 }
 
 void CommandLine::add(const std::string& name, std::vector<std::string>& values,
@@ -246,7 +309,9 @@ void CommandLine::add(const std::string& name, std::vector<std::string>& values,
 }
 
 void CommandLine::add(const std::string& name, bool& value, const std::string& help) {
-    parser_->app.add_flag(name, value, help);
+    CLI::Option* const option = parser_->app.add_flag(name, value, help);
+    parser_->settings.emplace_back(option,
+                                   [&value] { return value ? "true" : "false"; });
 }
 
 void CommandLine::add_positional(const std::string& name, std::string& value,
@@ -262,8 +327,13 @@ void CommandLine::file_types(const std::vector<std::string>& types) {
 }
 
 void CommandLine::without(const std::vector<std::string>& names) {
-    for (const std::string& name : names)
-        parser_->app.remove_option(parser_->app.get_option(name));
+    for (const std::string& name : names) {
+        CLI::Option* const option = parser_->app.get_option(name);
+        std::erase_if(parser_->settings, [option](const auto& setting) {
+            return setting.first == option;
+        });
+        parser_->app.remove_option(option);
+    }
 }
 
 bool CommandLine::given(const std::string& name) const {
@@ -279,9 +349,41 @@ std::vector<std::string> CommandLine::all_given() const {
     return names;
 }
 
+std::vector<std::pair<std::string, std::string>>
+CommandLine::values(const std::string& heading) const {
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const auto& [option, read] : parser_->settings)
+        if (std::string value = read();
+            option->get_group() == heading && !value.empty())
+            all.emplace_back(option->get_lnames().front(), std::move(value));
+    return all;
+}
+
+Options CommandLine::fill(const Frame& frame) {
+    Options& options = parser_->options;
+    if (!given("--width")) options.width = frame.width;
+    if (!given("--height")) options.height = frame.height;
+    if (!given("--rays")) options.samples = frame.samples;
+    return options;
+}
+
+void CommandLine::give_again() {
+    for (const CLI::Option* const option : parser_->app.get_options())
+        if (option->count() > 0)
+            parser_->app.get_option(option->get_name())->run_callback();
+}
+
 Options CommandLine::parse(const Presets& presets) {
     CLI::App& app = parser_->app;
     Options& options = parser_->options;
+    const Frame& usual = presets.report;
+    for (const auto& [name, number] : {std::pair{"--width", usual.width},
+                                       {"--height", usual.height},
+                                       {"--rays", usual.samples}})
+        if (CLI::Option* const option = app.get_option_no_throw(name);
+            number > 0 && option)
+            option->description(option->get_description() + " [" +
+                                std::to_string(number) + "]");
     std::vector<const char*> words;
     for (const std::string& word : parser_->arguments) words.push_back(word.c_str());
     try {
@@ -289,16 +391,13 @@ Options CommandLine::parse(const Presets& presets) {
     } catch (const CLI::ParseError& error) {
         // --help and --version arrive here as well: those are no errors.
         if (error.get_exit_code() == 0) throw Exit{app.exit(error)};
+        if (const auto rest = app.remaining(); !rest.empty())
+            throw std::invalid_argument("there is no option or argument '" +
+                                        without_end(rest.front(), 800) +
+                                        "' (see --help)");
         throw std::invalid_argument(without_end(error.what(), 800) + " (see --help)");
     }
-    options.quality = parser_->quality == "draft"    ? Quality::draft
-                      : parser_->quality == "report" ? Quality::report
-                                                     : Quality::reference;
-    options.seed = to_seed(parser_->seed).value();
-    const Frame frame = options.pick(presets.draft, presets.report, presets.reference);
-    if (!given("--width")) options.width = frame.width;
-    if (!given("--height")) options.height = frame.height;
-    if (!given("--rays")) options.samples = frame.samples;
+    fill(options.pick(presets.draft, presets.report, presets.reference));
     const std::vector<std::string>& types = parser_->file_types;
     const std::filesystem::path out = options.out;
     std::error_code error; // such a name may be no name at all, and then no folder

@@ -6,10 +6,13 @@
 /// The work is done by CLI11 in command_line.cpp, which is compiled once: its header
 /// takes longer to compile than a whole chapter.
 
+#include <charconv>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "signals.hpp"
@@ -63,7 +66,28 @@ struct Options {
     }
 };
 
+/// Words, and the value that each stands for.
+template <typename Value>
+using Words = std::vector<std::pair<std::string, Value>>;
+
+/// A number, and no switch.
+template <typename T>
+concept ANumber = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
+
+/// What has to be told from a text.
+template <typename T>
+concept NoText = !std::is_same_v<T, std::string>;
+
+/// The type in which a number is read and checked: all whole numbers alike, and all
+/// numbers with a fraction.
+template <ANumber Number>
+using Wide = std::conditional_t<std::is_integral_v<Number>, long long, double>;
+
 /// The command line of one program: first its own options, then parse().
+///
+/// An option is a setting that stands in one line of the program: its name, the member
+/// that holds its value, one line of help, and the values it takes. --help shows all
+/// that, and values() tells what each setting is in the end.
 class CommandLine {
 public:
     /// \param arguments  The program's name and what follows it.
@@ -75,22 +99,48 @@ public:
     /// One sentence at the top of --help.
     void about(const std::string& text);
 
+    /// Begins a group of --help: options that are added from here on stand in it.
+    /// \param heading  As "Photons".
+    /// \param shared   Options of all programs that stand in it, too, as "--seed".
+    void group(const std::string& heading, const std::vector<std::string>& shared = {});
+
     /// An option of the program with a number; `value` holds the default, and must live
-    /// until parse() has been called.
-    /// \param name   As "--radius".
-    /// \param value  The default, and then what the user gave.
-    /// \param help   One line.
-    /// \param least  The least value that is allowed.
-    /// \param most   The largest value that is allowed.
-    void add(const std::string& name, int& value, const std::string& help, int least,
-             int most);
-    /// The same for large whole numbers.
-    void add(const std::string& name, long long& value, const std::string& help,
-             long long least, long long most);
-    /// The same for numbers with a fraction; NaN is refused.
-    void add(const std::string& name, double& value, const std::string& help,
-             double least, double most);
-    /// A word out of a list; any text if the list is empty.
+    /// as long as the command line. One that is not allowed stands for none.
+    /// \param name     As "--radius".
+    /// \param value    The default, and then what the user gave.
+    /// \param help     One line.
+    /// \param least    The least value that is allowed.
+    /// \param most     The largest value that is allowed.
+    /// \param or_zero  Whether 0 is allowed as well.
+    template <ANumber Number>
+    void add(const std::string& name, Number& value, const std::string& help,
+             Wide<Number> least, Wide<Number> most, bool or_zero = false) {
+        const auto read = [&value] {
+            char text[32];
+            return std::string(&text[0],
+                               std::to_chars(text, text + sizeof text, value).ptr);
+        };
+        add_number(
+            name, help, least, most, or_zero, read,
+            [&value](Wide<Number> given) { value = static_cast<Number>(given); });
+    }
+    /// One of several values, each of which has a word; a value without a word may be
+    /// the default, but cannot be asked for.
+    template <NoText Value>
+    void add(const std::string& name, Value& value, const std::string& help,
+             const Words<Value>& words) {
+        std::vector<std::string> names;
+        for (const auto& word : words) names.push_back(word.first);
+        const auto read = [&value, words] {
+            std::size_t i = 0;
+            while (i < words.size() && !(words[i].second == value)) ++i;
+            return i;
+        };
+        add_words(name, help, names, read,
+                  [&value, words](std::size_t i) { value = words[i].second; });
+    }
+    /// A word out of a list; any text if the list is empty, and then the name may say
+    /// what kind of text, as "--checkpoint FILE".
     void add(const std::string& name, std::string& value, const std::string& help,
              const std::vector<std::string>& words = {});
     /// One or more words: all that follow up to the next option.
@@ -121,6 +171,12 @@ public:
     /// The names of all options that were given, as "--seed".
     [[nodiscard]] std::vector<std::string> all_given() const;
 
+    /// All settings of a group as they are now, whoever has set them: their names, as
+    /// "seed", and their values as JSON. Texts that are no words, such as names of
+    /// files, are left out, and so is a word that nobody has chosen.
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>>
+    values(const std::string& heading) const;
+
     /// Reads the command line, and makes the folder for the files and tries it, before
     /// any work is done in vain.
     /// \param presets  What the qualities stand for.
@@ -129,8 +185,29 @@ public:
     /// \throws std::runtime_error     for a folder that cannot be used.
     [[nodiscard]] Options parse(const Presets& presets = {});
 
+    /// Takes the size and the rays that were not given from a file, or from what was
+    /// chosen after parse().
+    /// \param frame  Size and rays.
+    /// \return All options.
+    Options fill(const Frame& frame);
+
+    /// Writes once more what the user gave: after a preset that has set everything.
+    void give_again();
+
 private:
     struct Parser;
+    // What the templates come to: `read` tells the value, and `take` sets it.
+    void add_number(const std::string& name, const std::string& help, long long least,
+                    long long most, bool or_zero, std::function<std::string()> read,
+                    std::function<void(long long)> take);
+    void add_number(const std::string& name, const std::string& help, double least,
+                    double most, bool or_zero, std::function<std::string()> read,
+                    std::function<void(double)> take);
+    // Words have numbers; beyond the last one for none of them.
+    void add_words(const std::string& name, const std::string& help,
+                   const std::vector<std::string>& words,
+                   std::function<std::size_t()> read,
+                   std::function<void(std::size_t)> take);
     std::unique_ptr<Parser> parser_;
 };
 
