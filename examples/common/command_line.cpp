@@ -145,10 +145,31 @@ std::string take_seed(const std::string& text, std::uint64_t& seed) {
 
 } // namespace
 
+std::string detail::word_in(const std::string& spelled) {
+    // "(ljus::Sampling)9" is no enumerator; of other compilers "...<...>(void)".
+    const std::size_t end = spelled.find_last_of(spelled.back() == ']' ? ']' : '>');
+    const std::size_t begin = spelled.rfind(':', end) + 1;
+    std::string word = spelled.substr(begin, end - begin);
+    if (word.find_first_of(")(") != std::string::npos) return "";
+    std::replace(word.begin(), word.end(), '_', '-');
+    return word;
+}
+
 void require_writable(const std::string& path) {
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     require_folder(folder.empty() ? "." : folder.string());
     ljus::require_writable(path);
+}
+
+std::optional<std::pair<int, int>> two_numbers(const std::string& text, char between) {
+    std::pair<int, int> numbers;
+    const char* const end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, numbers.first);
+    if (first.ec != std::errc() || first.ptr == end || *first.ptr != between)
+        return std::nullopt;
+    const auto second = std::from_chars(first.ptr + 1, end, numbers.second);
+    if (second.ec != std::errc() || second.ptr != end) return std::nullopt;
+    return numbers;
 }
 
 std::string Options::path(const std::string& name) const {
@@ -160,6 +181,7 @@ struct CommandLine::Parser {
     CLI::App app;
     std::vector<std::string> arguments;
     std::vector<std::string> file_types;
+    std::string out = "."; // a folder, or a file
     Options options;
     // What each option is now, as JSON.
     std::vector<std::pair<CLI::Option*, std::function<std::string()>>> settings;
@@ -212,13 +234,10 @@ CommandLine::CommandLine(std::vector<std::string> arguments)
 
     // Given twice, the last one counts: a script's options can be followed by one's own.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    app.add_option("--out", options.out,
+    app.add_option("--out", parser_->out,
                    "Folder for the files, made if it is missing [.]")
         ->option_text("DIR");
-    add("--quality", options.quality, "Size of the pictures and rays per pixel",
-        {{"draft", Quality::draft},
-         {"report", Quality::report},
-         {"reference", Quality::reference}});
+    add("--quality", options.quality, "Size of the pictures and rays per pixel");
     parser_->add_setting(
         "--seed", "N", "Another seed, other noise",
         [&options] { return std::to_string(options.seed); },
@@ -250,7 +269,7 @@ void CommandLine::add_number(const std::string& name, const std::string& help,
                              std::function<void(long long)> take) {
     const std::string range =
         "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
-    parser_->add_number(name, "N", help, Range{least, most, or_zero, range},
+    parser_->add_number(name, "N", help, Range<long long>{least, most, or_zero, range},
                         std::move(read), std::move(take));
 }
 
@@ -260,7 +279,7 @@ void CommandLine::add_number(const std::string& name, const std::string& help,
                              std::function<void(double)> take) {
     char range[80];
     std::snprintf(range, sizeof range, "a number from %g to %g", least, most);
-    parser_->add_number(name, "X", help, Range{least, most, or_zero, range},
+    parser_->add_number(name, "X", help, Range<double>{least, most, or_zero, range},
                         std::move(read), std::move(take));
 }
 
@@ -399,7 +418,7 @@ Options CommandLine::parse(const Presets& presets) {
     }
     fill(options.pick(presets.draft, presets.report, presets.reference));
     const std::vector<std::string>& types = parser_->file_types;
-    const std::filesystem::path out = options.out;
+    const std::filesystem::path out = options.out = parser_->out;
     std::error_code error; // such a name may be no name at all, and then no folder
     const bool folder = std::filesystem::is_directory(out, error);
     if (std::find(types.begin(), types.end(), out.extension()) != types.end() &&
@@ -429,6 +448,11 @@ int run_main(int argc, const char* const* argv,
                      without_end(what, 1500).c_str());
         return 2;
     };
+    const auto stopped = [&name] {
+        std::fprintf(stderr, "%s: stopped%s.\n", name.c_str(),
+                     detail::last_words_text());
+        return 128 + stop_signal();
+    };
     try {
         name = std::filesystem::path(name).filename().string();
         handle_signals();
@@ -445,12 +469,12 @@ int run_main(int argc, const char* const* argv,
     } catch (const Exit& exit) {
         return exit.code;
     } catch (const Interrupted&) {
-        return 128 + stop_signal();
+        return stopped();
     } catch (const std::bad_alloc&) {
         return complain("there is not enough memory");
     } catch (const std::exception& error) {
         // An error in the wake of Ctrl-C is no news.
-        if (stop_signal() != 0) return 128 + stop_signal();
+        if (stop_signal() != 0) return stopped();
         return complain(error.what());
     } catch (...) {
         return complain("something unknown went wrong");

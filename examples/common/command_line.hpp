@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -70,9 +71,48 @@ struct Options {
 template <typename Value>
 using Words = std::vector<std::pair<std::string, Value>>;
 
+namespace detail {
+
+// A sentence of the compiler with the enumerator's name in it, or a number if there is
+// none.
+template <auto value>
+[[nodiscard]] const char* spelled() {
+#ifdef _MSC_VER
+    return __FUNCSIG__;
+#else
+    return __PRETTY_FUNCTION__;
+#endif
+}
+
+// "multi-jittered" of "... value = ljus::Sampling::multi_jittered]"; nothing of a number.
+[[nodiscard]] std::string word_in(const std::string& spelled);
+
+} // namespace detail
+
+/// The words of an enum: its enumerators, with a - for each _. A list by hand would have
+/// to be kept in step.
+/// \tparam Enum   An enum class with enumerators from 0 on, at most 16.
+/// \tparam Value  It, or a std::optional of it.
+template <typename Enum, typename Value = Enum>
+[[nodiscard]] Words<Value> words_of() {
+    Words<Value> words;
+    [&words]<int... i>(std::integer_sequence<int, i...>) {
+        (words.emplace_back(detail::word_in(detail::spelled<static_cast<Enum>(i)>()),
+                            static_cast<Enum>(i)),
+         ...);
+    }
+    (std::make_integer_sequence<int, 16>{});
+    std::erase_if(words, [](const auto& word) { return word.first.empty(); });
+    return words;
+}
+
 /// A number, and no switch.
 template <typename T>
 concept ANumber = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
+
+/// An enum.
+template <typename T>
+concept AnEnum = std::is_enum_v<T>;
 
 /// What has to be told from a text.
 template <typename T>
@@ -138,6 +178,17 @@ public:
         };
         add_words(name, help, names, read,
                   [&value, words](std::size_t i) { value = words[i].second; });
+    }
+    /// One of the enumerators of an enum.
+    template <AnEnum Enum>
+    void add(const std::string& name, Enum& value, const std::string& help) {
+        add(name, value, help, words_of<Enum>());
+    }
+    /// The same, or none of them unless one is asked for.
+    template <typename Enum>
+    void add(const std::string& name, std::optional<Enum>& value,
+             const std::string& help) {
+        add(name, value, help, words_of<Enum, std::optional<Enum>>());
     }
     /// A word out of a list; any text if the list is empty, and then the name may say
     /// what kind of text, as "--checkpoint FILE".
@@ -216,6 +267,13 @@ private:
 /// \param path  The file; an older one is left as it is.
 /// \throws std::runtime_error  with the path and the reason.
 void require_writable(const std::string& path);
+
+/// The two numbers of "120,80" or "3/16".
+/// \param text     What the user gave.
+/// \param between  The character between them.
+/// \return Two whole numbers, or nothing if the text is anything else.
+[[nodiscard]] std::optional<std::pair<int, int>> two_numbers(const std::string& text,
+                                                             char between);
 
 /// Ends a program with this code; run_main() returns it.
 struct Exit {

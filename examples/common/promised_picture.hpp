@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "pilot.hpp"
 
@@ -17,7 +20,8 @@ struct Kept {
     ljus::RenderedT<T> rendered{}; ///< The mean of all pictures, and what all cost.
     Recipe recipe{};               ///< By which each was made.
     std::vector<Forecast> found{}; ///< What the pilot said.
-    Choice choice{};               ///< What was chosen then.
+    Choice choice{};               ///< What was chosen then,
+    std::string why{};             ///< and why, in sentences.
     long long pictures = 0;        ///< How many there are.
     double seconds = 0;            ///< Since the clock began, the pilot's included.
     double noise = 0;              ///< Of the mean, by the scatter of the pictures.
@@ -49,7 +53,9 @@ keep(const W& world, const C& camera, ljus::RenderSettings picture,
     picture.progress = go_on;
     kept.found = pilot(world, camera, picture, promise, now);
     kept.choice = choose(kept.found, promise, promise.seconds - now());
-    kept.recipe = recipes(picture.width, picture.height)[kept.choice.recipe];
+    const auto ways = recipes(picture.width, picture.height);
+    kept.recipe = ways[kept.choice.recipe];
+    kept.why = reason(kept.found, ways, promise, kept.choice);
     const Forecast found = kept.forecast();
     if (promise.error > 0 && found.bias >= promise.error)
         throw std::invalid_argument("--error is " + two_digits(promise.error) +
@@ -87,6 +93,24 @@ keep(const W& world, const C& camera, ljus::RenderSettings picture,
     // [keep]
     kept.rendered.image = ljus::mean_image<T>(state);
     return kept;
+}
+
+/// How a promise was kept, for the file beside the picture.
+/// \param kept     The picture.
+/// \param promise  Seconds, or an error.
+template <std::floating_point T>
+[[nodiscard]] nlohmann::ordered_json to_json(const Kept<T>& kept,
+                                             const Promise& promise) {
+    nlohmann::ordered_json json{{"why", kept.why}};
+    if (promise.seconds > 0) json["seconds"] = promise.seconds;
+    if (promise.error > 0) json["error"] = promise.error;
+    json["pictures"] = kept.pictures;
+    json["took"] = kept.seconds;
+    json["estimate"] = {{"relMSE", kept.error()},
+                        {"noise", kept.noise},
+                        {"bias", kept.forecast().bias},
+                        {"error_of_bias", kept.forecast().unsure}};
+    return json;
 }
 
 } // namespace examples
