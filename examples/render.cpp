@@ -12,6 +12,7 @@
 /// Each setting stands in common/render_settings.hpp, once: --help and the JSON file
 /// beside the picture follow from there.
 
+#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
@@ -180,7 +181,16 @@ RenderedT<typename S::Scalar> render_promised(const Room<S>& room, Request& r) {
     r.photon = kept.recipe.settings;
     r.picture.samples = kept.recipe.rays;
     r.preset = static_cast<Preset>(kept.choice.recipe); // a recipe each, in their order
-    r.kept = to_json(kept, r.promise);
+    r.kept = {{"why", kept.why},
+              {r.promise.seconds > 0 ? "seconds" : "error",
+               std::max(r.promise.seconds, r.promise.error)},
+              {"pictures", kept.pictures},
+              {"took", kept.seconds},
+              {"estimate",
+               {{"relMSE", kept.error()},
+                {"noise", kept.noise},
+                {"bias", kept.forecast().bias},
+                {"error_of_bias", kept.forecast().unsure}}}};
     if (!r.quiet) {
         examples::print_cost(kept.rendered.counts, kept.seconds);
         std::printf("  %-16s %10s  relMSE %.3g, by estimate: noise %.3g, bias %s; mean "
@@ -250,8 +260,8 @@ std::string path_of(const Request& r, const examples::Options& options) {
                         std::to_string(r.part.count) + ".slice");
 }
 
-/// Saves a picture and beside it all that tells how it was made; or a slice of one, with
-/// the same in it.
+/// Saves a picture, and beside it all that tells how it was made; or a slice of one,
+/// with the same in it.
 template <std::floating_point T>
 void save_result(const std::string& path, const Request& r, nlohmann::ordered_json json,
                  const RenderedT<T>& rendered, double seconds) {
@@ -311,9 +321,9 @@ void print_plan(const W& world, const Request& r) {
 template <std::floating_point T>
 void run_request(examples::CommandLine& line, Request& r,
                  const examples::Options& options) {
+    check_options(line, r, options.file);
     auto loaded = load_scene<T>(r);
     const Room room{World(std::move(loaded.scene)), loaded.camera};
-    check_options(line, r, options.file);
     choose_settings(line, r, loaded.width, loaded.height);
     const std::string path = path_of(r, options);
     if (!r.quiet || r.plan) print_heading(room.world, loaded.name, r);

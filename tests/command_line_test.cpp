@@ -287,6 +287,44 @@ TEST_CASE("command_line: a setting is its option, its line of help and its value
           "--kernel: it must be box or cone, and not 'hat' (see --help)");
 }
 
+TEST_CASE("command_line: the words of an enum are its enumerators") {
+    enum class Sampling { random, multi_jittered, sobol };
+    const auto words = examples::words_of<Sampling>();
+    CHECK(words ==
+          examples::Words<Sampling>{{"random", Sampling::random},
+                                    {"multi-jittered", Sampling::multi_jittered},
+                                    {"sobol", Sampling::sobol}});
+    Sampling sampling = Sampling::random;
+    std::optional<Quality> preset;
+    CommandLine line({"program", "--sampling", "multi-jittered"});
+    line.group("Picture");
+    line.add("--sampling", sampling, "Where");
+    line.add("--preset", preset, "What");
+    (void)line.parse();
+    CHECK(sampling == Sampling::multi_jittered);
+    CHECK_FALSE(preset.has_value());
+    CHECK(line.values("Picture").size() == 1); // no preset was chosen
+    preset = Quality::reference;
+    CHECK(line.values("Picture").back().second == "\"reference\"");
+}
+
+TEST_CASE("command_line: two numbers with a character between them") {
+    using Two = std::pair<int, int>;
+    CHECK(examples::two_numbers("120,80", ',') == Two{120, 80});
+    CHECK(examples::two_numbers("-3/16", '/') == Two{-3, 16});
+    for (const char* text :
+         {"", "3", "3,", ",4", "3/4", "3,4x", "3.0,4", "3,,4", "a,b"})
+        CHECK_FALSE(examples::two_numbers(text, ',').has_value());
+}
+
+TEST_CASE("command_line: what is said of a program that is stopped") {
+    const std::string long_text(5000, 'x');
+    examples::when_stopped_say(long_text);
+    CHECK(examples::detail::last_words_text() == ": " + long_text.substr(0, 997));
+    examples::when_stopped_say("two passes are saved");
+    CHECK(examples::detail::last_words_text() == std::string(": two passes are saved"));
+}
+
 TEST_CASE("command_line: the name of a picture is no folder") {
     const ScratchFolder folder;
     CHECK(answer({"--out", folder.file("a.png").c_str()}) ==

@@ -13,7 +13,7 @@
 #include <iterator>
 #include <mutex>
 #include <new>
-#include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
@@ -104,33 +104,11 @@ std::string refusal(const std::string& right, const std::string& text) {
 }
 
 // Digits, and a sign: the parser's own conversion takes 010 for 8.
-bool to_number(const std::string& text, long long& value) {
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, value);
+bool is_whole(const std::string& text) {
     const std::size_t first = text.find_first_not_of('-');
-    const bool octal = first + 1 < text.size() && text[first] == '0';
-    return rest == end && !text.empty() && !octal && error == std::errc();
+    return first <= 1 && text.find_first_not_of("0123456789", first) == text.npos &&
+           (text[first] != '0' || first + 1 == text.size());
 }
-
-bool to_number(const std::string& text, double& value) {
-    return CLI::detail::lexical_cast(text, value);
-}
-
-// The numbers that an option takes.
-template <typename Number>
-struct Range {
-    Number least, most;
-    bool or_zero;
-    std::string name; // as "a number from 1 to 2"
-
-    std::optional<Number> number(const std::string& text) const {
-        Number value{}; // NaN is in no range
-        if (to_number(text, value) &&
-            ((value >= least && value <= most) || (or_zero && value == 0)))
-            return value;
-        return std::nullopt;
-    }
-};
 
 // All digits, and below 2^64: the parser's own conversion takes -1 for the largest seed.
 std::string take_seed(const std::string& text, std::uint64_t& seed) {
@@ -192,6 +170,7 @@ struct CommandLine::Parser {
                      std::function<std::string(const std::string&)> take) {
         std::string value = read();
         std::erase(value, '"');
+        if (kind == "X" && value.size() > 8) value.resize(5); // 0.666
         CLI::Option* const option = app.add_option_function<std::string>(
             name,
             [take, first = name.substr(0, name.find(','))](const std::string& text) {
@@ -201,23 +180,6 @@ struct CommandLine::Parser {
             value.empty() ? help : help + " [" + value + "]");
         option->option_text(kind);
         settings.emplace_back(option, std::move(read));
-    }
-
-    template <typename Number>
-    void add_number(const std::string& name, const std::string& kind,
-                    const std::string& help, const Range<Number>& range,
-                    std::function<std::string()> read,
-                    std::function<void(Number)> take) {
-        add_setting(
-            name, kind, help,
-            [range, read] { return range.number(read()) ? read() : std::string(); },
-            [range, take](const std::string& text) {
-                const auto number = range.number(text);
-                if (number) take(*number);
-                return number
-                           ? ""
-                           : refusal((range.or_zero ? "0 or " : "") + range.name, text);
-            });
     }
 };
 
@@ -229,7 +191,8 @@ CommandLine::CommandLine(std::vector<std::string> arguments)
     const std::string program =
         parser_->arguments.empty() ? "example" : parser_->arguments.front();
     app.name(std::filesystem::path(program).filename().string());
-    app.set_version_flag("--version", version_text());
+    app.set_help_flag("-h,--help", "Print this text");
+    app.set_version_flag("--version", version_text(), "Print the version");
     app.get_formatter()->column_width(32);
 
     // Given twice, the last one counts: a script's options can be followed by one's own.
@@ -264,23 +227,30 @@ void CommandLine::group(const std::string& heading,
 }
 
 void CommandLine::add_number(const std::string& name, const std::string& help,
-                             long long least, long long most, bool or_zero,
-                             std::function<std::string()> read,
-                             std::function<void(long long)> take) {
-    const std::string range =
-        "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
-    parser_->add_number(name, "N", help, Range<long long>{least, most, or_zero, range},
-                        std::move(read), std::move(take));
-}
-
-void CommandLine::add_number(const std::string& name, const std::string& help,
-                             double least, double most, bool or_zero,
+                             bool whole, double least, double most, bool or_zero,
                              std::function<std::string()> read,
                              std::function<void(double)> take) {
-    char range[80];
-    std::snprintf(range, sizeof range, "a number from %g to %g", least, most);
-    parser_->add_number(name, "X", help, Range<double>{least, most, or_zero, range},
-                        std::move(read), std::move(take));
+    char range[100];
+    std::snprintf(range, sizeof range,
+                  whole ? "%sa whole number from %.0f to %.0f"
+                        : "%sa number from %g to %g",
+                  or_zero ? "0 or " : "", least, most);
+    const auto good = [=](const std::string& text, double& number) { // NaN is not
+        return (!whole || is_whole(text)) && CLI::detail::lexical_cast(text, number) &&
+               ((number >= least && number <= most) || (or_zero && number == 0));
+    };
+    parser_->add_setting(
+        name, whole ? "N" : "X", help,
+        [good, read] {
+            double number = 0;
+            return good(read(), number) ? read() : "";
+        },
+        [good, take, right = std::string(range)](const std::string& text) {
+            double number = 0;
+            if (!good(text, number)) return refusal(right, text);
+            take(number);
+            return std::string();
+        });
 }
 
 void CommandLine::add_words(const std::string& name, const std::string& help,
@@ -399,17 +369,24 @@ Options CommandLine::parse(const Presets& presets) {
     for (const auto& [name, number] : {std::pair{"--width", usual.width},
                                        {"--height", usual.height},
                                        {"--rays", usual.samples}})
-        if (CLI::Option* const option = app.get_option_no_throw(name);
-            number > 0 && option)
+        if (CLI::Option* const option = app.get_option_no_throw(name))
             option->description(option->get_description() + " [" +
-                                std::to_string(number) + "]");
+                                (number > 0 ? std::to_string(number) : "by the scene") +
+                                "]");
     std::vector<const char*> words;
     for (const std::string& word : parser_->arguments) words.push_back(word.c_str());
     try {
         app.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::ParseError& error) {
         // --help and --version arrive here as well: those are no errors.
-        if (error.get_exit_code() == 0) throw Exit{app.exit(error)};
+        if (error.get_exit_code() == 0) {
+            std::ostringstream text;
+            (void)app.exit(error, text);
+            std::fputs(
+                CLI::detail::find_and_replace(text.str(), "\n\n\n", "\n\n").c_str(),
+                stdout);
+            throw Exit{0};
+        }
         if (const auto rest = app.remaining(); !rest.empty())
             throw std::invalid_argument("there is no option or argument '" +
                                         without_end(rest.front(), 800) +

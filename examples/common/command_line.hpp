@@ -29,8 +29,8 @@ enum class Quality {
 
 /// The size of a picture and the rays per pixel.
 struct Frame {
-    int width = 400;  ///< In pixels.
-    int height = 400; ///< In pixels.
+    int width = 400;  ///< In pixels; 0: a file says it, and fill() takes it.
+    int height = 400; ///< In pixels; 0 as well.
     int samples = 64; ///< Rays per pixel.
 };
 
@@ -84,13 +84,14 @@ template <auto value>
 #endif
 }
 
-// "multi-jittered" of "... value = ljus::Sampling::multi_jittered]"; nothing of a number.
+// "multi-jittered" of "... value = ljus::Sampling::multi_jittered]"; nothing of a
+// number.
 [[nodiscard]] std::string word_in(const std::string& spelled);
 
 } // namespace detail
 
-/// The words of an enum: its enumerators, with a - for each _. A list by hand would have
-/// to be kept in step.
+/// The words of an enum: its enumerators, with a - for each _. A list by hand would
+/// have to be kept in step.
 /// \tparam Enum   An enum class with enumerators from 0 on, at most 16.
 /// \tparam Value  It, or a std::optional of it.
 template <typename Enum, typename Value = Enum>
@@ -118,11 +119,6 @@ concept AnEnum = std::is_enum_v<T>;
 template <typename T>
 concept NoText = !std::is_same_v<T, std::string>;
 
-/// The type in which a number is read and checked: all whole numbers alike, and all
-/// numbers with a fraction.
-template <ANumber Number>
-using Wide = std::conditional_t<std::is_integral_v<Number>, long long, double>;
-
 /// The command line of one program: first its own options, then parse().
 ///
 /// An option is a setting that stands in one line of the program: its name, the member
@@ -144,8 +140,9 @@ public:
     /// \param shared   Options of all programs that stand in it, too, as "--seed".
     void group(const std::string& heading, const std::vector<std::string>& shared = {});
 
-    /// An option of the program with a number; `value` holds the default, and must live
-    /// as long as the command line. One that is not allowed stands for none.
+    /// An option of the program with a number, or a whole number below 2^53; `value`
+    /// holds the default, and must live as long as the command line. A default that is
+    /// not allowed stands for none.
     /// \param name     As "--radius".
     /// \param value    The default, and then what the user gave.
     /// \param help     One line.
@@ -154,15 +151,14 @@ public:
     /// \param or_zero  Whether 0 is allowed as well.
     template <ANumber Number>
     void add(const std::string& name, Number& value, const std::string& help,
-             Wide<Number> least, Wide<Number> most, bool or_zero = false) {
+             double least, double most, bool or_zero = false) {
         const auto read = [&value] {
             char text[32];
             return std::string(&text[0],
                                std::to_chars(text, text + sizeof text, value).ptr);
         };
-        add_number(
-            name, help, least, most, or_zero, read,
-            [&value](Wide<Number> given) { value = static_cast<Number>(given); });
+        add_number(name, help, std::is_integral_v<Number>, least, most, or_zero, read,
+                   [&value](double given) { value = static_cast<Number>(given); });
     }
     /// One of several values, each of which has a word; a value without a word may be
     /// the default, but cannot be asked for.
@@ -248,11 +244,9 @@ public:
 private:
     struct Parser;
     // What the templates come to: `read` tells the value, and `take` sets it.
-    void add_number(const std::string& name, const std::string& help, long long least,
-                    long long most, bool or_zero, std::function<std::string()> read,
-                    std::function<void(long long)> take);
-    void add_number(const std::string& name, const std::string& help, double least,
-                    double most, bool or_zero, std::function<std::string()> read,
+    void add_number(const std::string& name, const std::string& help, bool whole,
+                    double least, double most, bool or_zero,
+                    std::function<std::string()> read,
                     std::function<void(double)> take);
     // Words have numbers; beyond the last one for none of them.
     void add_words(const std::string& name, const std::string& help,

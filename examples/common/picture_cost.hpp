@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file examples/common/picture_cost.hpp
-/// \brief What a picture cost and what was made for it: for the terminal and for the file
-/// beside the picture.
+/// \brief What a picture cost and what was made for it: for the terminal and for the
+/// file beside the picture.
 
 #include <algorithm>
 #include <cinttypes>

@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "pilot.hpp"
 
 namespace examples {
@@ -93,24 +91,6 @@ keep(const W& world, const C& camera, ljus::RenderSettings picture,
     // [keep]
     kept.rendered.image = ljus::mean_image<T>(state);
     return kept;
-}
-
-/// How a promise was kept, for the file beside the picture.
-/// \param kept     The picture.
-/// \param promise  Seconds, or an error.
-template <std::floating_point T>
-[[nodiscard]] nlohmann::ordered_json to_json(const Kept<T>& kept,
-                                             const Promise& promise) {
-    nlohmann::ordered_json json{{"why", kept.why}};
-    if (promise.seconds > 0) json["seconds"] = promise.seconds;
-    if (promise.error > 0) json["error"] = promise.error;
-    json["pictures"] = kept.pictures;
-    json["took"] = kept.seconds;
-    json["estimate"] = {{"relMSE", kept.error()},
-                        {"noise", kept.noise},
-                        {"bias", kept.forecast().bias},
-                        {"error_of_bias", kept.forecast().unsure}};
-    return json;
 }
 
 } // namespace examples

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file examples/common/render_settings.hpp
-/// \brief Every setting of the program `render`, in one table: its option, the values it
-/// takes, its line of --help and its name in the file beside the picture.
+/// \brief Every setting of the program `render`, in one table: its option, the values
+/// that it takes, its line of --help and its name in the file beside the picture.
 
 #include <cmath>
 #include <filesystem>
@@ -59,8 +59,8 @@ struct RenderRequest {
     bool quiet = false;            ///< No progress bar and no text.
 };
 
-/// Every setting: its name, the member that holds it, a line of help, and its range. What
-/// has words takes those of its enum.
+/// Every setting: its name, the member that holds it, a line of help, and its range. An
+/// enum is set by the names of its enumerators.
 /// \param line  The command line.
 /// \param r     Takes what the user gives; must live as long as the line.
 inline void add_settings(CommandLine& line, RenderRequest& r) {
@@ -69,19 +69,20 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     constexpr long long billion = 1'000'000'000;
     auto& photon = r.photon;
 
-    line.group("Files", {"--help", "--version", "--out", "--threads", "--quiet"});
+    line.group("Program", {"--help", "--version", "--threads", "--quiet"});
+    line.group("Files", {"--out"});
     line.add_positional("SCENE.json", r.scene, "The scene file");
     line.file_types({".png", ".hdr", ".pfm", ".slice"});
     line.add("--slice K/N", r.slice,
-             "Render the K-th of N slices of the picture, for ljus-merge to join");
+             "Render the K-th of N slices, which ljus-merge joins");
 
     line.group(common_groups[0], {"--width", "--height", "--rays", "--seed"});
     line.add("--more-rays", r.more_rays,
-             "Further rays per pixel where the first ones disagree", 0, million);
+             "More rays in pixels whose first rays disagree", 0, million);
     line.add("--disagreement", r.disagreement,
              "Relative standard error above which they do", 1e-6, 1e6);
     line.add("--sampling", r.picture.sampling, "Where in a pixel its rays go");
-    line.add("--precision", r.in_double, "Numbers of scene, photons and light",
+    line.add("--precision", r.in_double, "Of scene, photons and light",
              {{"float", false}, {"double", true}});
     line.add("--exposure", r.exposure, "Of PNG files, in stops", -100, 100);
 
@@ -90,43 +91,41 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
              "Photon mapping, or path tracing as its judge",
              {{"photon", false}, {"path", true}});
     line.add("--preset", r.preset,
-             "Settings that go together: a first look, the least time without visible\n"
-             "errors, or little bias; settings that are given as well replace its own");
+             "Settings that go together: a first look; no visible errors in\n"
+             "the least time; or little bias, and noise unless there are many\n"
+             "rays. What is given by name replaces the preset's own");
     line.add("--depth", photon.max_depth, "Surfaces on a path, mirrors counted", 1,
              1000);
     line.add("--roulette", photon.roulette_depth,
              "Surface from which roulette may end a path", 1, million);
 
-    line.group("A promise: all other settings are chosen");
+    line.group("Promise: all other settings are chosen");
     line.add("--seconds", r.promise.seconds,
-             "The picture with the least error in that time", 0.01, 1e9);
-    line.add("--error", r.promise.error, "The first picture with that relMSE", 1e-9,
-             1e9);
+             "The picture with the least error after so many seconds", 0.01, 1e9);
+    line.add("--error", r.promise.error, "The first picture with so small a relMSE",
+             1e-9, 1e9);
 
     line.group(photon_groups[0]);
-    line.add(
-        "--direct", photon.direct,
-        "Light from lamps: by shadow rays, in closed form where there is one, or by\n"
-        "multiple importance sampling");
+    line.add("--direct", photon.direct,
+             "Light of lamps: by shadow rays; in closed form where there is\n"
+             "one; or by multiple importance sampling");
     line.add("--shadow-rays", photon.shadow_rays, "Shadow rays to each light", 1,
              10'000);
-    line.add(
-        "--indirect", photon.indirect,
-        "Light from other surfaces: by rays, by one ray and the general map at its\n"
-        "end, by that map where the camera looks, by precomputed irradiance at the\n"
-        "end of one ray or of many at few points, or none");
+    line.add("--indirect", photon.indirect,
+             "Light of other surfaces: by rays; by the general map where one\n"
+             "ray ends, or where the camera looks; by irradiance that was\n"
+             "precomputed where one ray ends, or many rays at few points");
     line.add("--split-glass", photon.split_glass, "Follow both ways at glass");
 
     line.group(photon_groups[1]);
     line.add("--caustic-photons", photon.caustics.photons,
              "Photons aimed at mirrors and glass", 0, billion);
     line.add("--general-photons", photon.general.photons,
-             "Photons of the general map, where one is needed", 0, billion);
-    line.add(
-        "--caustic-budget", photon.caustic_budget,
-        "How mirrors and glass share the caustic photons: as lights see them, "
-        "equally,\n"
-        "or for the least error of flux, of each caustic, or of what the eye sees");
+             "Photons of the general map, if one is needed", 0, billion);
+    line.add("--caustic-budget", photon.caustic_budget,
+             "How mirrors and glass share these photons: as lights see them;\n"
+             "equally; or for the least error of the flux, of each caustic,\n"
+             "or of what the eye sees");
     line.add("--photon-numbers", photon.caustics.numbers, "Chance, or evenly spread");
     line.add("--photon-bounces", photon.caustics.max_bounces,
              "Surfaces that a photon may meet", 1, million);
@@ -149,7 +148,7 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
 
     line.group(photon_groups[3]);
     line.add("--irradiance-every", photon.irradiance.every,
-             "Photons for each point at which irradiance is precomputed", 2, million);
+             "Photons for each point with precomputed irradiance", 2, million);
     line.add("--irradiance-nearest", photon.irradiance.nearest,
              "Photons in its estimate", 2, max_nearest);
     line.add("--irradiance-radius", photon.irradiance.radius,
@@ -163,16 +162,14 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--gather-nearest", photon.gather.nearest,
              "Points of the cache that a pixel takes", 2, max_cache_nearest);
     line.add("--gather-reach", photon.gather.reach,
-             "How far such a point counts, over the mean distance of what it sees",
-             1e-3, 1e3);
+             "How far it counts, over the mean distance of what it sees", 1e-3, 1e3);
     line.add("--gather-depth", photon.gather.max_depth, "Surfaces on a gather ray", 2,
              million);
 
     line.group(photon_groups[4]);
-    line.add(
-        "--skip", photon.skip.rule,
-        "Skip no shadow ray, or skip by the report's rule, where all photons agree,\n"
-        "or where enough of them agree");
+    line.add("--skip", photon.skip.rule,
+             "Shadow rays to skip: none; by the report's rule; where all\n"
+             "photons agree; or where enough of them agree");
     line.add("--skip-bounces", photon.skip.indirect_rays,
              "Skip indirect rays where no indirect photon is near");
     line.add("--skip-radius", photon.skip.radius, "How near; 0: from the photons", 0,
@@ -183,26 +180,25 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
              0.999);
 
     line.group(path_group);
-    line.add(
-        "--path-lights", r.path_lights,
-        "Light from lamps: by rays and paths, weighted by the balance or the power\n"
-        "heuristic, or by rays or paths alone",
-        {{"balance", MisHeuristic::balance},
-         {"power", MisHeuristic::power},
-         {"rays", MisHeuristic::shadow_rays},
-         {"paths", std::nullopt}});
+    line.add("--path-lights", r.path_lights,
+             "Light of lamps: by shadow rays and paths, weighted by the\n"
+             "balance or the power heuristic; or by only one of the two",
+             {{"balance", MisHeuristic::balance},
+              {"power", MisHeuristic::power},
+              {"rays", MisHeuristic::shadow_rays},
+              {"paths", std::nullopt}});
     line.add("--roulette-threshold", r.path.roulette_threshold,
-             "A path that carries less may be ended; 0: none", 0, 1e6);
-    line.add("--roulette-max", r.path.roulette_max, "Largest probability to survive",
+             "Roulette may end a path that carries less; 0: none", 0, 1e6);
+    line.add("--roulette-max", r.path.roulette_max, "Largest probability to survive it",
              1e-6, 1);
 
     line.group(pass_group);
     add_pass_options(line, r.passes);
 
-    line.group("Instead of a picture");
+    line.group("Instead of the picture");
     line.add("--plan", r.plan, "Print what would run and why");
     line.add("--hooks", r.hooks,
-             "Print what the types of the scene provide, and what happens without it");
+             "Print what the scene's types provide, and what they do not");
     line.add("--explain X,Y", r.pixel, "Print the paths of a pixel");
     line.add("--show-photons", r.photons, "Draw photons as dots",
              {"direct", "indirect", "shadow", "caustic", "all"});
@@ -270,7 +266,7 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
         options = line.fill({width, height, rays.first});
         r.more_rays = options.samples > 1 ? rays.more : 0;
         r.photon = preset_settings(*r.preset, options.width, options.height);
-        r.photon.irradiance = {}; // this program has never changed it by a preset
+        r.photon.irradiance = {}; // its shadow rays are not the preset's, but as ever
         line.give_again();
     }
     if (r.passes.passes > 0) { // each has one ray in a pixel

@@ -40,8 +40,8 @@ inline constexpr bool is_stand_in<OwnOf<S>> = true;
 template <typename S>
 using Own = std::conditional_t<std::is_final_v<S>, S, OwnOf<S>>;
 
-// The name of a type as a compiler spells it, without this namespace; some compilers tell
-// it only as part of a function's name.
+// The name of a type as a compiler spells it, without this namespace. Most compilers
+// tell it only as part of a function's name.
 template <typename T>
 [[nodiscard]] std::string type_name() {
 #ifdef __GNUC__ // "... [with T = ljus::SphereT<float>; ...]", or "[T = ...]" of clang

@@ -140,7 +140,7 @@ cmp -s plain.pfm ball.pfm && wrong "a picture and a mixture change nothing"
 
 # Every setting of --help stands in the file beside a picture, under its own name.
 "$render" --help >help.txt
-"$render" "$scene" "${few[@]}" --preset fast --more-rays 0 --passes 1 --quiet --out choice.pfm
+"$render" "$scene" "${few[@]}" --preset fast --passes 1 --quiet --out choice.pfm
 cp choice.pfm.json all.json
 "$render" "$scene" "${few[@]}" --renderer path --quiet --out choice.pfm
 cat choice.pfm.json >>all.json
