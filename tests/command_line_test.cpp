@@ -124,6 +124,9 @@ TEST_CASE("command_line: what is wrong is named with its value") {
           "--seed: it must be a whole number from 0 to 18446744073709551615, and not "
           "'-1' (see --help)");
     CHECK(answer({"--nope"}) == "there is no option or argument '--nope' (see --help)");
+    CHECK(answer({"--width"}) == "--width: its value is missing (see --help)");
+    CHECK(answer({"--out", "a", "--quality"}) ==
+          "--quality: its value is missing (see --help)");
     CHECK(answer({"stray"}) == "there is no option or argument 'stray' (see --help)");
     CHECK(answer({"--quality", "best"}) == "--quality: it must be draft, report or "
                                            "reference, and not 'best' (see --help)");

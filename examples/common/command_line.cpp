@@ -194,6 +194,7 @@ CommandLine::CommandLine(std::vector<std::string> arguments)
     app.set_help_flag("-h,--help", "Print this text");
     app.set_version_flag("--version", version_text(), "Print the version");
     app.get_formatter()->column_width(32);
+    app.get_formatter()->label("Positionals", "Arguments");
 
     // Given twice, the last one counts: a script's options can be followed by one's own.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
@@ -305,7 +306,9 @@ void CommandLine::add(const std::string& name, bool& value, const std::string& h
 
 void CommandLine::add_positional(const std::string& name, std::string& value,
                                  const std::string& help) {
-    parser_->app.add_option(name, value, help)->required();
+    parser_->app.add_option(name, value, help)
+        ->required()
+        ->option_text("(must be given)");
 }
 
 void CommandLine::file_types(const std::vector<std::string>& types) {
@@ -391,7 +394,10 @@ Options CommandLine::parse(const Presets& presets) {
             throw std::invalid_argument("there is no option or argument '" +
                                         without_end(rest.front(), 800) +
                                         "' (see --help)");
-        throw std::invalid_argument(without_end(error.what(), 800) + " (see --help)");
+        std::string said = error.what();
+        if (error.get_name() == "ArgumentMismatch")
+            said = said.substr(0, said.find(':')) + ": its value is missing";
+        throw std::invalid_argument(without_end(said, 800) + " (see --help)");
     }
     fill(options.pick(presets.draft, presets.report, presets.reference));
     const std::vector<std::string>& types = parser_->file_types;
