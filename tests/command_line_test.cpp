@@ -118,18 +118,17 @@ TEST_CASE("command_line: a program's own options") {
 
 TEST_CASE("command_line: what is wrong is named with its value") {
     CHECK(answer({"--width", "0"}) ==
-          "--width: it must be a whole number from 1 to 65536, and not '0' (see "
-          "--help)");
+          "--width is '0'; it must be a whole number from 1 to 65536 (see --help)");
     CHECK(answer({"--seed", "-1"}) ==
-          "--seed: it must be a whole number from 0 to 18446744073709551615, and not "
-          "'-1' (see --help)");
+          "--seed is '-1'; it must be a whole number from 0 to 18446744073709551615 "
+          "(see --help)");
     CHECK(answer({"--nope"}) == "there is no option or argument '--nope' (see --help)");
-    CHECK(answer({"--width"}) == "--width: its value is missing (see --help)");
+    CHECK(answer({"--width"}) == "--width needs a value (see --help)");
     CHECK(answer({"--out", "a", "--quality"}) ==
-          "--quality: its value is missing (see --help)");
+          "--quality needs a value (see --help)");
     CHECK(answer({"stray"}) == "there is no option or argument 'stray' (see --help)");
-    CHECK(answer({"--quality", "best"}) == "--quality: it must be draft, report or "
-                                           "reference, and not 'best' (see --help)");
+    CHECK(answer({"--quality", "best"}) == "--quality is 'best'; it must be draft, "
+                                           "report or reference (see --help)");
     for (const std::string option : {"--width", "--height", "--rays"})
         for (const std::string value : {"0", "-3", "1.5", "x", "", "99999999999"}) {
             CAPTURE(option);
@@ -284,10 +283,10 @@ TEST_CASE("command_line: a setting is its option, its line of help and its value
         }
         return std::string("accepted");
     };
-    CHECK(said("--radius", "1e-30") == "--radius: it must be 0 or a number from 1e-15 "
-                                       "to 1e+06, and not '1e-30' (see --help)");
+    CHECK(said("--radius", "1e-30") == "--radius is '1e-30'; it must be 0 or a number "
+                                       "from 1e-15 to 1e+06 (see --help)");
     CHECK(said("--kernel", "hat") ==
-          "--kernel: it must be box or cone, and not 'hat' (see --help)");
+          "--kernel is 'hat'; it must be box or cone (see --help)");
 }
 
 TEST_CASE("command_line: the words of an enum are its enumerators") {
@@ -353,9 +352,10 @@ TEST_CASE("command_line: a number that is not whole is called so") {
     for (const char* text : {"1.5", "1e3", "0x10", "010", "ten", "", "1 ", "--"})
         CHECK(answer({"--width", text}).find("it must be a whole number") !=
               std::string::npos);
-    CHECK(answer({"--width", "99999999999999999999"}) ==
-          "--width: it must be a whole number from 1 to 65536, and not "
-          "'99999999999999999999' (see --help)");
+    CHECK(
+        answer({"--width", "99999999999999999999"}) ==
+        "--width is '99999999999999999999'; it must be a whole number from 1 to 65536 "
+        "(see --help)");
 }
 
 #if __has_include(<sys/resource.h>)

@@ -98,11 +98,6 @@ void require_threads(int wanted) {
                                  " threads: " + why + "; --threads 1 needs none");
 }
 
-// What is wrong with a value, as a sentence that begins with its option.
-std::string refusal(const std::string& right, const std::string& text) {
-    return "it must be " + right + ", and not '" + text + "'";
-}
-
 // Digits, and a sign: the parser's own conversion takes 010 for 8.
 bool is_whole(const std::string& text) {
     const std::size_t first = text.find_first_not_of('-');
@@ -116,7 +111,7 @@ std::string take_seed(const std::string& text, std::uint64_t& seed) {
     std::uint64_t given = 0;
     const auto [rest, error] = std::from_chars(text.data(), end, given);
     if (error != std::errc() || rest != end)
-        return refusal("a whole number from 0 to 18446744073709551615", text);
+        return "a whole number from 0 to 18446744073709551615";
     seed = given;
     return "";
 }
@@ -164,7 +159,7 @@ struct CommandLine::Parser {
     // What each option is now, as JSON.
     std::vector<std::pair<CLI::Option*, std::function<std::string()>>> settings;
 
-    // An option: `read` tells its value as JSON, `take` sets it or says what is wrong.
+    // An option: `read` tells its value as JSON, `take` sets it or says what is right.
     void add_setting(const std::string& name, const std::string& kind,
                      const std::string& help, std::function<std::string()> read,
                      std::function<std::string(const std::string&)> take) {
@@ -174,8 +169,11 @@ struct CommandLine::Parser {
         CLI::Option* const option = app.add_option_function<std::string>(
             name,
             [take, first = name.substr(0, name.find(','))](const std::string& text) {
-                const std::string wrong = take(text);
-                if (!wrong.empty()) throw CLI::ValidationError(first, wrong);
+                const std::string right = take(text);
+                if (!right.empty())
+                    throw std::invalid_argument(
+                        first + " is '" + ljus::shown(text, 200) + "'; it must be " +
+                        right + " (see --help)");
             },
             value.empty() ? help : help + " [" + value + "]");
         option->option_text(kind);
@@ -248,7 +246,7 @@ void CommandLine::add_number(const std::string& name, const std::string& help,
         },
         [good, take, right = std::string(range)](const std::string& text) {
             double number = 0;
-            if (!good(text, number)) return refusal(right, text);
+            if (!good(text, number)) return right;
             take(number);
             return std::string();
         });
@@ -268,7 +266,7 @@ void CommandLine::add_words(const std::string& name, const std::string& help,
         },
         [words, take](const std::string& text) {
             const auto found = std::find(words.begin(), words.end(), text);
-            if (found == words.end()) return refusal(list_of(words), text);
+            if (found == words.end()) return list_of(words);
             take(std::size_t(found - words.begin()));
             return std::string();
         });
@@ -396,7 +394,7 @@ Options CommandLine::parse(const Presets& presets) {
                                         "' (see --help)");
         std::string said = error.what();
         if (error.get_name() == "ArgumentMismatch")
-            said = said.substr(0, said.find(':')) + ": its value is missing";
+            said = said.substr(0, said.find(':')) + " needs a value";
         throw std::invalid_argument(without_end(said, 800) + " (see --help)");
     }
     fill(options.pick(presets.draft, presets.report, presets.reference));

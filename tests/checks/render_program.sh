@@ -188,13 +188,13 @@ refused "--explain is 1,2,3; it must be X,Y" "$scene" "${few[@]}" --explain 1,2,
 refused "--rays" "$scene" --rays 0
 refused "--width" "$scene" --width -5
 refused "--caustic-radius" "$scene" --caustic-radius nan
-refused "--caustic-radius: it must be 0 or a number from 1e-15" "$scene" --caustic-radius 1e-30
-refused "--general-radius: it must be 0 or a number from 1e-15" "$scene" --general-radius 1e-30
-refused "--caustic-nearest: it must be 0 or a whole number from 2" "$scene" --caustic-nearest 1
-refused "--general-nearest: it must be 0 or a whole number from 2" "$scene" --general-nearest 1
+refused "--caustic-radius is '1e-30'; it must be 0 or a number from 1e-15" "$scene" --caustic-radius 1e-30
+refused "--general-radius is '1e-30'; it must be 0 or a number from 1e-15" "$scene" --general-radius 1e-30
+refused "--caustic-nearest is '1'; it must be 0 or a whole number from 2" "$scene" --caustic-nearest 1
+refused "--general-nearest is '1'; it must be 0 or a whole number from 2" "$scene" --general-nearest 1
 refused "--caustic-kernel" "$scene" --caustic-kernel hat
-refused "--precision: it must be float or double, and not 'half'" "$scene" --precision half
-refused "--preset: it must be draft, fast or exact, and not 'best'" "$scene" --preset best
+refused "--precision is 'half'; it must be float or double" "$scene" --precision half
+refused "--preset is 'best'; it must be draft, fast or exact" "$scene" --preset best
 refused "there is no option or argument '--nope'" "$scene" --nope
 refused "there is no option or argument '--quality'" "$scene" --quality draft
 refused "--seconds" "$scene" --seconds 0
