@@ -271,10 +271,11 @@ void body(examples::CommandLine& line) {
     line.add("--pieces", request.pieces,
              "More runs like PICTURE with other seeds: each block's standard error");
     line.add("--blocks", request.blocks, "CSV file for the blocks' means and errors");
-    line.add("--map", request.map,
-             "Writes a map of errors to --out (error-map.png): flip, relative, or "
-             "difference, brighter or darker",
-             {"none", "flip", "relative", "difference"});
+    line.add(
+        "--map", request.map,
+        "Map of the errors, written to --out (error-map.png): FLIP, relative to the\n"
+        "reference, or which pixels are brighter and which darker",
+        {"none", "flip", "relative", "difference"});
     line.add("--range", request.range, "Of the map's colours; 0: as it is needed", 0,
              1e12);
     line.add("--json", request.json, "One line of JSON");

@@ -13,7 +13,7 @@
 #include <iterator>
 #include <mutex>
 #include <new>
-#include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
@@ -99,45 +99,50 @@ void require_threads(int wanted) {
 }
 
 // Digits, and a sign: the parser's own conversion takes 010 for 8.
-std::string check_whole(const std::string& text, long long least, long long most) {
-    long long value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, value);
+bool is_whole(const std::string& text) {
     const std::size_t first = text.find_first_not_of('-');
-    const bool octal = first + 1 < text.size() && text[first] == '0';
-    if (rest != end || text.empty() || octal || error == std::errc::invalid_argument)
-        return "Value " + text + " is no whole number";
-    if (error == std::errc() && value >= least && value <= most) return "";
-    return "Value " + text + " not in range " + std::to_string(least) + " to " +
-           std::to_string(most);
-}
-
-auto whole(long long least, long long most) {
-    return [least, most](const std::string& text) {
-        return check_whole(text, least, most);
-    };
+    return first <= 1 && text.find_first_not_of("0123456789", first) == text.npos &&
+           (text[first] != '0' || first + 1 == text.size());
 }
 
 // All digits, and below 2^64: the parser's own conversion takes -1 for the largest seed.
-std::optional<std::uint64_t> to_seed(const std::string& text) {
-    std::uint64_t seed = 0;
+std::string take_seed(const std::string& text, std::uint64_t& seed) {
     const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, seed);
-    if (error != std::errc() || rest != end) return std::nullopt;
-    return seed;
-}
-
-std::string check_seed(const std::string& text) {
-    if (to_seed(text)) return "";
-    return "Value " + text + " not in range 0 to 18446744073709551615";
+    std::uint64_t given = 0;
+    const auto [rest, error] = std::from_chars(text.data(), end, given);
+    if (error != std::errc() || rest != end)
+        return "a whole number from 0 to 18446744073709551615";
+    seed = given;
+    return "";
 }
 
 } // namespace
+
+std::string detail::word_in(const std::string& spelled) {
+    // "(ljus::Sampling)9" is no enumerator; of other compilers "...<...>(void)".
+    const std::size_t end = spelled.find_last_of(spelled.back() == ']' ? ']' : '>');
+    const std::size_t begin = spelled.rfind(':', end) + 1;
+    std::string word = spelled.substr(begin, end - begin);
+    if (word.find_first_of(")(") != std::string::npos) return "";
+    std::replace(word.begin(), word.end(), '_', '-');
+    return word;
+}
 
 void require_writable(const std::string& path) {
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     require_folder(folder.empty() ? "." : folder.string());
     ljus::require_writable(path);
+}
+
+std::optional<std::pair<int, int>> two_numbers(const std::string& text, char between) {
+    std::pair<int, int> numbers;
+    const char* const end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, numbers.first);
+    if (first.ec != std::errc() || first.ptr == end || *first.ptr != between)
+        return std::nullopt;
+    const auto second = std::from_chars(first.ptr + 1, end, numbers.second);
+    if (second.ec != std::errc() || second.ptr != end) return std::nullopt;
+    return numbers;
 }
 
 std::string Options::path(const std::string& name) const {
@@ -149,9 +154,31 @@ struct CommandLine::Parser {
     CLI::App app;
     std::vector<std::string> arguments;
     std::vector<std::string> file_types;
+    std::string out = "."; // a folder, or a file
     Options options;
-    std::string quality = "report";
-    std::string seed = "1";
+    // What each option is now, as JSON.
+    std::vector<std::pair<CLI::Option*, std::function<std::string()>>> settings;
+
+    // An option: `read` tells its value as JSON, `take` sets it or says what is right.
+    void add_setting(const std::string& name, const std::string& kind,
+                     const std::string& help, std::function<std::string()> read,
+                     std::function<std::string(const std::string&)> take) {
+        std::string value = read();
+        std::erase(value, '"');
+        if (kind == "X" && value.size() > 8) value.resize(5); // 0.666
+        CLI::Option* const option = app.add_option_function<std::string>(
+            name,
+            [take, first = name.substr(0, name.find(','))](const std::string& text) {
+                const std::string right = take(text);
+                if (!right.empty())
+                    throw std::invalid_argument(
+                        first + " is '" + ljus::shown(text, 200) + "'; it must be " +
+                        right + " (see --help)");
+            },
+            value.empty() ? help : help + " [" + value + "]");
+        option->option_text(kind);
+        settings.emplace_back(option, std::move(read));
+    }
 };
 
 CommandLine::CommandLine(std::vector<std::string> arguments)
@@ -162,34 +189,27 @@ CommandLine::CommandLine(std::vector<std::string> arguments)
     const std::string program =
         parser_->arguments.empty() ? "example" : parser_->arguments.front();
     app.name(std::filesystem::path(program).filename().string());
-    app.set_version_flag("--version", version_text());
+    app.set_help_flag("-h,--help", "Print this text");
+    app.set_version_flag("--version", version_text(), "Print the version");
     app.get_formatter()->column_width(32);
+    app.get_formatter()->label("Positionals", "Arguments");
 
     // Given twice, the last one counts: a script's options can be followed by one's own.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    app.add_option("--out", options.out,
+    app.add_option("--out", parser_->out,
                    "Folder for the files, made if it is missing [.]")
         ->option_text("DIR");
-    app.add_option("--quality", parser_->quality,
-                   "draft, report or reference: size and rays [report]")
-        ->check(CLI::IsMember({"draft", "report", "reference"}).description(""))
-        ->option_text("WORD");
-    app.add_option("--seed", parser_->seed, "Another seed, other noise [1]")
-        ->check(check_seed)
-        ->option_text("N");
-    app.add_option("--threads", options.threads, "0 for all processors [0]")
-        ->check(whole(0, ljus::max_threads_allowed))
-        ->option_text("N");
-    app.add_option("--width", options.width, "Width of the picture in pixels")
-        ->check(whole(1, 65536))
-        ->option_text("N");
-    app.add_option("--height", options.height, "Height of the picture in pixels")
-        ->check(whole(1, 65536))
-        ->option_text("N");
-    app.add_option("--rays,--spp", options.samples, "Rays per pixel")
-        ->check(whole(1, 100'000'000))
-        ->option_text("N");
-    app.add_flag("--quiet", options.quiet, "No progress bar and no text");
+    add("--quality", options.quality, "Size of the pictures and rays per pixel");
+    parser_->add_setting(
+        "--seed", "N", "Another seed, other noise",
+        [&options] { return std::to_string(options.seed); },
+        [&options](const std::string& text) { return take_seed(text, options.seed); });
+    add("--threads", options.threads, "0 for all processors", 0,
+        ljus::max_threads_allowed);
+    add("--width", options.width, "Width of the picture in pixels", 1, 65536);
+    add("--height", options.height, "Height of the picture in pixels", 1, 65536);
+    add("--rays,--spp", options.samples, "Rays per pixel", 1, 100'000'000);
+    add("--quiet", options.quiet, "No progress bar and no text");
 }
 
 CommandLine::~CommandLine() = default;
@@ -198,44 +218,75 @@ void CommandLine::about(const std::string& text) {
     parser_->app.description(text);
 }
 
-void CommandLine::add(const std::string& name, int& value, const std::string& help,
-                      int least, int most) {
-    parser_->app.add_option(name, value, help + " [" + std::to_string(value) + "]")
-        ->check(whole(least, most))
-        ->option_text("N");
+void CommandLine::group(const std::string& heading,
+                        const std::vector<std::string>& shared) {
+    parser_->app.option_defaults()->group(heading);
+    for (const std::string& name : shared)
+        parser_->app.get_option(name)->group(heading);
 }
 
-void CommandLine::add(const std::string& name, long long& value,
-                      const std::string& help, long long least, long long most) {
-    parser_->app.add_option(name, value, help + " [" + std::to_string(value) + "]")
-        ->check(whole(least, most))
-        ->option_text("N");
-}
-
-void CommandLine::add(const std::string& name, double& value, const std::string& help,
-                      double least, double most) {
-    char text[32];
-    const auto show = [&text](double number) {
-        std::snprintf(text, sizeof text, "%g", number);
-        return std::string(text);
+void CommandLine::add_number(const std::string& name, const std::string& help,
+                             bool whole, double least, double most, bool or_zero,
+                             std::function<std::string()> read,
+                             std::function<void(double)> take) {
+    char range[100];
+    std::snprintf(range, sizeof range,
+                  whole ? "%sa whole number from %.0f to %.0f"
+                        : "%sa number from %g to %g",
+                  or_zero ? "0 or " : "", least, most);
+    const auto good = [=](const std::string& text, double& number) { // NaN is not
+        return (!whole || is_whole(text)) && CLI::detail::lexical_cast(text, number) &&
+               ((number >= least && number <= most) || (or_zero && number == 0));
     };
-    const std::string range = show(least) + " to " + show(most);
-    parser_->app.add_option(name, value, help + " [" + show(value) + "]")
-        ->check([least, most, range](const std::string& given) {
-            double number = 0.0;
-            const bool ok = CLI::detail::lexical_cast(given, number) &&
-                            number >= least && number <= most; // NaN is not
-            return ok ? std::string() : "Value " + given + " not in range " + range;
-        })
-        ->option_text("X");
+    parser_->add_setting(
+        name, whole ? "N" : "X", help,
+        [good, read] {
+            double number = 0;
+            return good(read(), number) ? read() : "";
+        },
+        [good, take, right = std::string(range)](const std::string& text) {
+            double number = 0;
+            if (!good(text, number)) return right;
+            take(number);
+            return std::string();
+        });
+}
+
+void CommandLine::add_words(const std::string& name, const std::string& help,
+                            const std::vector<std::string>& words,
+                            std::function<std::size_t()> read,
+                            std::function<void(std::size_t)> take) {
+    std::string all;
+    for (const std::string& word : words) all += (all.empty() ? "" : "|") + word;
+    parser_->add_setting(
+        name, all, help,
+        [words, read] {
+            const std::size_t i = read();
+            return i < words.size() ? "\"" + words[i] + "\"" : std::string();
+        },
+        [words, take](const std::string& text) {
+            const auto found = std::find(words.begin(), words.end(), text);
+            if (found == words.end()) return list_of(words);
+            take(std::size_t(found - words.begin()));
+            return std::string();
+        });
 }
 
 void CommandLine::add(const std::string& name, std::string& value,
                       const std::string& help, const std::vector<std::string>& words) {
-    CLI::Option* const option =
-        parser_->app.add_option(name, value, help + " [" + value + "]");
-    option->option_text("WORD");
-    if (!words.empty()) option->check(CLI::IsMember(words).description(""));
+    if (!words.empty()) {
+        const auto read = [&value, words] {
+            return std::size_t(std::find(words.begin(), words.end(), value) -
+                               words.begin());
+        };
+        return add_words(name, help, words, read,
+                         [&value, words](std::size_t i) { value = words[i]; });
+    }
+    const std::size_t space = std::min(name.find(' '), name.size());
+    parser_->app
+        .add_option(name.substr(0, space), value,
+                    value.empty() ? help : help + " [" + value + "]")
+        ->option_text(space < name.size() ? name.substr(space + 1) : "TEXT");
 }
 
 void CommandLine::add(const std::string& name, std::vector<std::string>& values,
@@ -246,7 +297,9 @@ void CommandLine::add(const std::string& name, std::vector<std::string>& values,
 }
 
 void CommandLine::add(const std::string& name, bool& value, const std::string& help) {
-    parser_->app.add_flag(name, value, help);
+    CLI::Option* const option = parser_->app.add_flag(name, value, help);
+    parser_->settings.emplace_back(option,
+                                   [&value] { return value ? "true" : "false"; });
 }
 
 void CommandLine::makes(const std::vector<std::string>& items) {
@@ -257,7 +310,9 @@ void CommandLine::makes(const std::vector<std::string>& items) {
 
 void CommandLine::add_positional(const std::string& name, std::string& value,
                                  const std::string& help) {
-    parser_->app.add_option(name, value, help)->required();
+    parser_->app.add_option(name, value, help)
+        ->required()
+        ->option_text("(must be given)");
 }
 
 void CommandLine::file_types(const std::vector<std::string>& types) {
@@ -268,8 +323,13 @@ void CommandLine::file_types(const std::vector<std::string>& types) {
 }
 
 void CommandLine::without(const std::vector<std::string>& names) {
-    for (const std::string& name : names)
-        parser_->app.remove_option(parser_->app.get_option(name));
+    for (const std::string& name : names) {
+        CLI::Option* const option = parser_->app.get_option(name);
+        std::erase_if(parser_->settings, [option](const auto& setting) {
+            return setting.first == option;
+        });
+        parser_->app.remove_option(option);
+    }
 }
 
 bool CommandLine::given(const std::string& name) const {
@@ -285,28 +345,67 @@ std::vector<std::string> CommandLine::all_given() const {
     return names;
 }
 
+std::vector<std::pair<std::string, std::string>>
+CommandLine::values(const std::string& heading) const {
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const auto& [option, read] : parser_->settings)
+        if (std::string value = read();
+            option->get_group() == heading && !value.empty())
+            all.emplace_back(option->get_lnames().front(), std::move(value));
+    return all;
+}
+
+Options CommandLine::fill(const Frame& frame) {
+    Options& options = parser_->options;
+    if (!given("--width")) options.width = frame.width;
+    if (!given("--height")) options.height = frame.height;
+    if (!given("--rays")) options.samples = frame.samples;
+    return options;
+}
+
+void CommandLine::give_again() {
+    for (const CLI::Option* const option : parser_->app.get_options())
+        if (option->count() > 0)
+            parser_->app.get_option(option->get_name())->run_callback();
+}
+
 Options CommandLine::parse(const Presets& presets) {
     CLI::App& app = parser_->app;
     Options& options = parser_->options;
+    const Frame& usual = presets.report;
+    for (const auto& [name, number] : {std::pair{"--width", usual.width},
+                                       {"--height", usual.height},
+                                       {"--rays", usual.samples}})
+        if (CLI::Option* const option = app.get_option_no_throw(name))
+            option->description(option->get_description() + " [" +
+                                (number > 0 ? std::to_string(number) : "by the scene") +
+                                "]");
     std::vector<const char*> words;
     for (const std::string& word : parser_->arguments) words.push_back(word.c_str());
     try {
         app.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::ParseError& error) {
         // --help and --version arrive here as well: those are no errors.
-        if (error.get_exit_code() == 0) throw Exit{app.exit(error)};
-        throw std::invalid_argument(without_end(error.what(), 800) + " (see --help)");
+        if (error.get_exit_code() == 0) {
+            std::ostringstream text;
+            (void)app.exit(error, text);
+            std::fputs(
+                CLI::detail::find_and_replace(text.str(), "\n\n\n", "\n\n").c_str(),
+                stdout);
+            throw Exit{0};
+        }
+        if (const auto rest = app.remaining(); !rest.empty())
+            throw std::invalid_argument("there is no option or argument '" +
+                                        without_end(rest.front(), 800) +
+                                        "' (see --help)");
+        std::string said = error.what();
+        if (error.get_name() == "ArgumentMismatch")
+            said = said.substr(0, said.find(':')) + " needs a value";
+        throw std::invalid_argument(without_end(said, 800) + " (see --help)");
     }
-    options.quality = parser_->quality == "draft"    ? Quality::draft
-                      : parser_->quality == "report" ? Quality::report
-                                                     : Quality::reference;
-    options.seed = to_seed(parser_->seed).value();
-    const Frame frame = options.pick(presets.draft, presets.report, presets.reference);
-    if (!given("--width")) options.width = frame.width;
-    if (!given("--height")) options.height = frame.height;
-    if (!given("--rays")) options.samples = frame.samples;
+    fill(options.pick(presets.draft, presets.report, presets.reference));
     const std::vector<std::string>& types = parser_->file_types;
-    const std::filesystem::path out = options.out;
+    const std::filesystem::path out = options.out = parser_->out;
     std::error_code error; // such a name may be no name at all, and then no folder
     const bool folder = std::filesystem::is_directory(out, error);
     if (std::find(types.begin(), types.end(), out.extension()) != types.end() &&
@@ -336,6 +435,11 @@ int run_main(int argc, const char* const* argv,
                      without_end(what, 1500).c_str());
         return 2;
     };
+    const auto stopped = [&name] {
+        std::fprintf(stderr, "%s: stopped%s.\n", name.c_str(),
+                     detail::last_words_text());
+        return 128 + stop_signal();
+    };
     try {
         name = std::filesystem::path(name).filename().string();
         handle_signals();
@@ -352,12 +456,12 @@ int run_main(int argc, const char* const* argv,
     } catch (const Exit& exit) {
         return exit.code;
     } catch (const Interrupted&) {
-        return 128 + stop_signal();
+        return stopped();
     } catch (const std::bad_alloc&) {
         return complain("there is not enough memory");
     } catch (const std::exception& error) {
         // An error in the wake of Ctrl-C is no news.
-        if (stop_signal() != 0) return 128 + stop_signal();
+        if (stop_signal() != 0) return stopped();
         return complain(error.what());
     } catch (...) {
         return complain("something unknown went wrong");

@@ -10,7 +10,6 @@
 /// bits, lowest byte first. It is written whole or not at all (save_file()).
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -20,10 +19,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "command_line.hpp"
 #include "fingerprint.hpp"
 #include "ljus/io/binary_file.hpp"
 #include "ljus/path/renderer.hpp"
 #include "ljus/render/render.hpp"
+#include "picture_cost.hpp"
 
 namespace examples {
 
@@ -46,19 +47,14 @@ inline constexpr int max_slices = 65536;
 /// \return The number.
 /// \throws std::invalid_argument  if it is no slice.
 [[nodiscard]] inline SliceNumber slice_of(const std::string& text) {
-    SliceNumber slice;
-    const char* const end = text.data() + text.size();
-    const auto first = std::from_chars(text.data(), end, slice.number);
-    const bool bar = first.ec == std::errc{} && first.ptr != end && *first.ptr == '/';
-    const auto second = bar ? std::from_chars(first.ptr + 1, end, slice.count)
-                            : std::from_chars_result{end, {}};
-    if (!bar || second.ec != std::errc{} || second.ptr != end || slice.number < 1 ||
-        slice.count > max_slices || slice.number > slice.count)
+    const auto numbers = two_numbers(text, '/');
+    if (!numbers || numbers->first < 1 || numbers->first > numbers->second ||
+        numbers->second > max_slices)
         throw std::invalid_argument("--slice is '" + text +
                                     "'; it must be K/N, from 1/N to N/N, with N at "
                                     "most " +
                                     std::to_string(max_slices));
-    return slice;
+    return {numbers->first, numbers->second};
 }
 
 /// The rows of a slice: with more slices than rows some have none.
@@ -105,20 +101,6 @@ struct PictureSlice {
     };
     each(each, nlohmann::json::parse(scene.begin(), scene.end()));
     return hex_text(hash);
-}
-
-/// What a picture cost, as it stands in the file beside it.
-[[nodiscard]] inline nlohmann::ordered_json cost_json(const ljus::Counts& counts,
-                                                      double seconds) {
-    return {{"seconds", seconds},
-            {"camera_rays", counts.camera_rays},
-            {"bounce_rays", counts.bounce_rays},
-            {"shadow_rays", counts.shadow_rays},
-            {"map_queries", counts.map_queries},
-            {"skipped_rays", counts.skipped_rays},
-            {"skipped_bounces", counts.skipped_bounces},
-            {"rejected", counts.rejected},
-            {"cut_paths", counts.cut_paths}};
 }
 
 namespace detail {

@@ -32,14 +32,14 @@ struct PassOptions {
 /// \param line  The command line.
 /// \param how   Takes what the user gives; must live until the line is parsed.
 inline void add_pass_options(CommandLine& line, PassOptions& how) {
-    line.add("--passes", how.passes, "Photon maps of smaller and smaller radius", 1,
+    line.add("--passes", how.passes, "How many, each with photons of its own", 1,
              1'000'000'000);
-    line.add("--alpha", how.alpha, "How slowly the radius of the passes shrinks", 1e-3,
-             1);
-    line.add("--checkpoint", how.checkpoint, "A file from which passes can go on");
+    line.add("--alpha", how.alpha, "How slowly their radius shrinks; 1: not at all",
+             1e-3, 1);
+    line.add("--checkpoint FILE", how.checkpoint, "A file from which they can go on");
     line.add("--resume", how.resume, "Go on from the checkpoint");
-    line.add("--preview", how.preview, "A PNG file that is saved as passes run");
-    line.add("--every", how.every, "Seconds between checkpoints; 0: after each pass", 0,
+    line.add("--preview FILE", how.preview, "A PNG file of the passes so far");
+    line.add("--every", how.every, "Seconds between such files; 0: after each pass", 0,
              1e6);
 }
 
@@ -83,6 +83,16 @@ template <typename RenderPass>
                                                 RenderPass&& pass) {
     using namespace ljus;
     ProgressBar bar("passes", quiet);
+    const auto say = [&how](long long saved) {
+        when_stopped_say(
+            how.checkpoint.empty()
+                ? "no pass is saved; with --checkpoint FILE passes can go on later"
+            : saved == 0
+                ? "no pass was done; the same command begins again"
+                : std::to_string(saved) + " passes are saved in '" + how.checkpoint +
+                      "'; the same command with --resume goes on from there");
+    };
+    say(0);
     // [program]
     ProgressiveState state{.alpha = how.alpha};
     if (how.resume) {
@@ -90,12 +100,16 @@ template <typename RenderPass>
         require(state.alpha == how.alpha, "alpha", how.alpha,
                 "that of the passes so far, " + to_text(state.alpha));
         require_first_pass(state, pass);
+        say(state.passes);
     }
     StopWatch watch;
     const auto save = [&](const ProgressiveState& now) {
         if (!how.preview.empty())
             save_png(mean_image(now), how.preview, {.exposure = how.exposure});
-        if (!how.checkpoint.empty()) save_checkpoint(how.checkpoint, now);
+        if (!how.checkpoint.empty()) {
+            save_checkpoint(how.checkpoint, now);
+            say(now.passes);
+        }
         watch.restart();
     };
     const bool done = run_progressive(state, how.passes, pass, [&](const auto& now) {

@@ -1,15 +1,255 @@
 #pragma once
 
 /// \file examples/common/promised_picture.hpp
-/// \brief The picture that a promise of seconds or of error is kept by.
+/// \brief The picture that a promise of seconds or of error is kept by: small pictures
+/// tell what each recipe would bring, one is chosen, and pictures are made by it.
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
-#include "pilot.hpp"
+#include "convergence.hpp"
+#include "ljus/inspect/survey.hpp"
+#include "ljus/math/stratified_stream.hpp"
+#include "ljus/render/budgeting.hpp"
+#include "ljus/render/gathering.hpp"
+#include "ljus/render/skipping.hpp"
+#include "promise.hpp"
+#include "terminal.hpp"
 
 namespace examples {
+
+/// What recipes may ask of a photon mapper.
+inline constexpr auto recipe_abilities =
+    ljus::abilities<ljus::StratifiedStream, ljus::Gathering, ljus::Skipping,
+                    ljus::Budgeting>;
+
+/// A picture by a recipe, and how long it took.
+template <std::floating_point T>
+struct Shot {
+    ljus::RenderedT<T> rendered{};          ///< The picture.
+    ljus::PhotonMappingSettings settings{}; ///< With the radii that were chosen.
+    std::string remarks{};                  ///< Of the first pass, each a line.
+    double bytes = 0;                       ///< Of the photon maps.
+    double photons = 0;                     ///< Seconds of the photon maps.
+    double rest = 0;                        ///< Seconds of all else.
+};
+
+/// Makes one picture.
+/// \param world    The closed scene.
+/// \param camera   Any camera.
+/// \param recipe   Photons and rays.
+/// \param picture  Size, seed, threads, progress; its samples are not looked at.
+/// \param now      A clock, in seconds.
+/// \param map_seed Of the photons, if it is not that of the picture.
+/// \return The picture; not complete if the progress callback stopped it.
+template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
+[[nodiscard]] Shot<typename C::Scalar>
+shoot(const W& world, const C& camera, const Recipe& recipe,
+      ljus::RenderSettings picture, Clock&& now,
+      std::optional<std::uint64_t> map_seed = {}) {
+    Shot<typename C::Scalar> shot{.settings = recipe.settings};
+    for (auto* pass : {&shot.settings.caustics, &shot.settings.general}) {
+        pass->seed = map_seed.value_or(picture.seed);
+        pass->threads = picture.threads;
+        pass->progress = picture.progress;
+    }
+    const double begin = now();
+    ljus::PhotonMapper mapper(world, shot.settings, recipe_abilities);
+    const auto& maps = mapper.maps();
+    shot.remarks = maps.remarks;
+    shot.bytes = double(maps.caustics.tree.bytes() + maps.caustics.records.bytes() +
+                        maps.general.tree.bytes() + maps.general.records.bytes());
+    const double middle = now();
+    if (maps.complete) mapper.fill_cache(camera, picture);
+    shot.settings = mapper.settings();
+    picture.samples = recipe.rays;
+    if (maps.complete)
+        shot.rendered = render(mapper, camera, picture);
+    else
+        shot.rendered.complete = false;
+    shot.rendered.counts += mapper.template state<ljus::Gathering>().cache.counts;
+    shot.photons = middle - begin;
+    shot.rest = now() - middle;
+    return shot;
+}
+
+/// The seed of the i-th picture of several.
+[[nodiscard]] constexpr std::uint64_t seed_of(std::uint64_t seed, long long i) {
+    return seed + 0x9e3779b97f4a7c15u * static_cast<std::uint64_t>(i);
+}
+
+namespace detail {
+
+/// What a pilot tries: a recipe, and the small pictures by it.
+struct Trial {
+    Recipe recipe{};
+    std::vector<double> seconds{}; ///< As long as the large picture would take.
+    std::vector<ljus::ImageT<double>> pictures{}; ///< Of different seeds.
+    ljus::ProgressiveState state{.alpha = 1};     ///< Their sums.
+};
+
+/// How far the pictures of a trial are from those of the judge, seed by seed: both have
+/// the same camera rays, so that what they share falls out.
+/// \param trial  The trial.
+/// \param judge  Of as many pictures.
+[[nodiscard]] inline std::vector<ljus::ImageT<double>> apart(const Trial& trial,
+                                                             const Trial& judge) {
+    const auto truth = levels(judge.state);
+    std::vector<ljus::ImageT<double>> all;
+    for (std::size_t run = 0; run < trial.pictures.size(); ++run) {
+        auto away = trial.pictures[run];
+        for (std::size_t p = 0; p < away.pixels.size(); ++p)
+            away.pixels[p] -= judge.pictures[run].pixels[p];
+        all.push_back(weighed(away, truth));
+    }
+    return all;
+}
+
+/// A pilot: the recipes that it tries, and what it has found of them.
+struct PilotRun {
+    ljus::RenderSettings small{}; ///< The small picture.
+    double all = 0;               ///< Pixels of the large picture.
+    double pixels = 0;            ///< Pixels of the small one.
+    std::vector<Recipe> large{};  ///< The recipes for the large picture.
+    std::vector<Trial> trials{};  ///< Those for the small one; and at last the judge,
+                                  ///< if it is none of them.
+
+    /// How many times as many photons the large picture has.
+    [[nodiscard]] double photons(std::size_t i) const {
+        return double(large[i].settings.caustics.photons) /
+               double(trials[i].recipe.settings.caustics.photons);
+    }
+};
+
+/// What a pilot begins with.
+/// \param world    The closed scene.
+/// \param picture  The large picture.
+template <ljus::AnyWorld W>
+[[nodiscard]] PilotRun make_pilot(const W& world, const ljus::RenderSettings& picture) {
+    PilotRun run{.small = picture,
+                 .all = double(picture.width) * double(picture.height),
+                 .large = recipes(picture.width, picture.height)};
+    const double scale = std::min(1.0, 64 / std::sqrt(run.all));
+    for (int* side : {&run.small.width, &run.small.height})
+        *side = std::max(1, int(std::lround(*side * scale)));
+    run.pixels = double(run.small.width) * double(run.small.height);
+    for (const Recipe& recipe : recipes(run.small.width, run.small.height))
+        run.trials.push_back({.recipe = recipe});
+    if (survey(world, run.large.back().settings).caustics_map.on) {
+        run.trials.push_back({.recipe = run.trials.back().recipe}); // the judge
+        run.trials.back().recipe.settings.caustics.photons *= 8;
+    } else {
+        run.large.back().bias = 0; // exact needs no map, and is the judge itself
+    }
+    return run;
+}
+
+/// Makes one more small picture by a recipe.
+/// \param run     The pilot.
+/// \param i       Which of its trials.
+/// \param world   The closed scene.
+/// \param camera  Any camera.
+/// \param seed    Of the large picture.
+/// \param now     A clock, in seconds.
+template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
+void try_again(PilotRun& run, std::size_t i, const W& world, const C& camera,
+               std::uint64_t seed, Clock& now) {
+    Trial& trial = run.trials[i];
+    run.small.seed = seed_of(seed, -1 - trial.state.passes);
+    const auto shot = shoot(world, camera, trial.recipe, run.small, now);
+    stop_if_asked();
+    add_pass(trial.state, shot.rendered.image);
+    auto& kept = trial.pictures.emplace_back(
+        ljus::ImageT<double>{run.small.width, run.small.height, {}});
+    for (const auto& color : shot.rendered.image.pixels)
+        kept.pixels.push_back(ljus::RgbT<double>(color));
+    if (i < run.large.size())
+        trial.seconds.push_back(shot.photons * run.photons(i) +
+                                shot.rest * run.all / run.pixels);
+}
+
+/// What the trials so far say of the large picture.
+/// \param run     The pilot; each trial has at least one picture.
+/// \param judged  Whether the judge was tried as well: then biases are measured.
+/// \return A forecast for each recipe that was tried.
+[[nodiscard]] inline std::vector<Forecast> forecasts(const PilotRun& run, bool judged) {
+    const auto none = ljus::make_image<double>(run.small.width, run.small.height);
+    std::vector<Forecast> found;
+    for (std::size_t i = 0; i < std::min(run.trials.size(), run.large.size()); ++i) {
+        const Trial& trial = run.trials[i];
+        double bias = 0, error = std::numeric_limits<double>::infinity();
+        if (judged) {
+            const auto away = apart(trial, run.trials.back());
+            const double shrink = 1 / std::sqrt(run.photons(i));
+            bias = bias_variance(away, none).bias_squared * shrink;
+            error = bias_error(away) * shrink;
+        }
+        found.push_back(weigh(bias, error, run.large[i].bias));
+        auto seconds = trial.seconds;
+        std::sort(seconds.begin(), seconds.end());
+        found.back().seconds = std::max(seconds[seconds.size() / 2], 1e-6);
+        found.back().noise = relative_noise(trial.state) * double(trial.state.passes);
+    }
+    return found;
+}
+
+} // namespace detail
+
+/// What each recipe would bring, by small pictures: at most 64 x 64 pixels, and photons
+/// in proportion.
+///
+/// The bias is measured against a *judge*: "exact" with eight times the photons, and so
+/// about a third of the radius. What is left of the blur at that radius is not seen.
+/// The estimate is unbiased itself, since it multiplies differences of different seeds
+/// only; it shrinks with the root of the photons, and is weighed with what the book
+/// knows.
+/// \param world    The closed scene.
+/// \param camera   Any camera.
+/// \param picture  The one that is promised.
+/// \param promise  It goes on for an eighth of the time that the promise will take, and
+///                 for 10 s at most if that is not promised. After it no recipe is
+///                 tried if seconds are promised, and the judge not after half of it.
+/// \param now      A clock, in seconds.
+/// \return A forecast for each recipe that was tried, for the picture itself.
+template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
+[[nodiscard]] std::vector<Forecast> pilot(const W& world, const C& camera,
+                                          const ljus::RenderSettings& picture,
+                                          const Promise& promise, Clock&& now) {
+    constexpr std::size_t least = 3, most = 64; // pictures by each
+    detail::PilotRun run = detail::make_pilot(world, picture);
+    const auto try_again = [&](std::size_t i) {
+        detail::try_again(run, i, world, camera, picture.seed, now);
+    };
+    const double begin = now();
+    const auto patience = [&](const std::vector<Forecast>& found) {
+        return promise.seconds > 0 ? promise.seconds / 8
+                                   : std::min(choose(found, promise).seconds / 8, 10.0);
+    };
+    for (std::size_t i = 0; i < run.trials.size(); ++i) {
+        const bool judge = i == run.large.size(); // as long as all others together
+        const double limit = judge ? patience(detail::forecasts(run, false)) / 2
+                             : promise.seconds > 0 ? promise.seconds / 8
+                                                   : std::numeric_limits<double>::max();
+        if (i > 0 && now() - begin > limit) {
+            run.trials.resize(i);
+            return detail::forecasts(run, false);
+        }
+        for (std::size_t runs = 0; runs < least; ++runs) try_again(i);
+    }
+    auto found = detail::forecasts(run, true);
+    for (std::size_t runs = least; runs < most; ++runs) {
+        const double took = now() - begin;
+        if (took + took / double(runs) > patience(found)) break;
+        for (std::size_t i = 0; i < run.trials.size(); ++i) try_again(i);
+        found = detail::forecasts(run, true);
+    }
+    return found;
+}
 
 /// A picture as it was promised.
 template <std::floating_point T>
@@ -17,7 +257,8 @@ struct Kept {
     ljus::RenderedT<T> rendered{}; ///< The mean of all pictures, and what all cost.
     Recipe recipe{};               ///< By which each was made.
     std::vector<Forecast> found{}; ///< What the pilot said.
-    Choice choice{};               ///< What was chosen then.
+    Choice choice{};               ///< What was chosen then,
+    std::string why{};             ///< and why, in sentences.
     long long pictures = 0;        ///< How many there are.
     double seconds = 0;            ///< Since the clock began, the pilot's included.
     double noise = 0;              ///< Of the mean, by the scatter of the pictures.
@@ -49,7 +290,9 @@ keep(const W& world, const C& camera, ljus::RenderSettings picture,
     picture.progress = go_on;
     kept.found = pilot(world, camera, picture, promise, now);
     kept.choice = choose(kept.found, promise, promise.seconds - now());
-    kept.recipe = recipes(picture.width, picture.height)[kept.choice.recipe];
+    const auto ways = recipes(picture.width, picture.height);
+    kept.recipe = ways[kept.choice.recipe];
+    kept.why = reason(kept.found, ways, promise, kept.choice);
     const Forecast found = kept.forecast();
     if (promise.error > 0 && found.bias >= promise.error)
         throw std::invalid_argument("--error is " + two_digits(promise.error) +

@@ -4,8 +4,11 @@
 /// \brief Ctrl-C asks a program to stop; it does so between two blocks of work, or else
 /// two seconds later, wherever it is: files are whole or not there at any moment.
 
+#include <array>
 #include <atomic>
 #include <csignal>
+#include <cstring>
+#include <string>
 
 #if __has_include(<unistd.h>)
 #include <unistd.h>
@@ -23,6 +26,15 @@ namespace detail {
 inline std::atomic<int> asked_to_stop{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
+// What is said then. The handler may come at any moment: the text that it reads is not
+// the one that is being written.
+inline std::array<std::array<char, 1000>, 2> last_words{};
+inline std::atomic<std::size_t> last_words_now{0};
+
+[[nodiscard]] inline const char* last_words_text() {
+    return last_words[last_words_now].data();
+}
+
 extern "C" inline void ask_to_stop(int signal) {
     asked_to_stop = signal;
     std::signal(signal, SIG_DFL); // the second time it ends the program at once
@@ -33,6 +45,8 @@ extern "C" inline void ask_to_stop(int signal) {
 
 #ifdef SIGALRM
 extern "C" inline void stop_now(int) {
+    for (const char* text : {"stopped", last_words_text(), ".\n"})
+        if (::write(2, text, std::strlen(text)) < 0) break;
     ::_exit(128 + asked_to_stop);
 }
 #endif
@@ -45,6 +59,16 @@ inline void let_be() {
 }
 
 } // namespace detail
+
+/// What a program says when it is stopped: what is saved, and how to go on.
+/// \param sentence  Without a full stop.
+inline void when_stopped_say(const std::string& sentence) {
+    const std::size_t next = 1 - detail::last_words_now;
+    auto& text = detail::last_words[next];
+    const std::string all = ": " + sentence;
+    text[all.copy(text.data(), text.size() - 1)] = '\0';
+    detail::last_words_now = next;
+}
 
 /// Lets Ctrl-C (and SIGTERM) ask for a stop, and a file-size limit be an error when
 /// writing (SIGXFSZ) instead of the end of the program.

@@ -3,8 +3,11 @@
 /// \file ljus/hook.hpp
 /// \brief Hooks: what a type may have beside what its concept asks for.
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <type_traits>
+#include <typeinfo>
 
 #include "ljus/version.hpp"
 
@@ -36,6 +39,22 @@ inline constexpr bool is_stand_in<OwnOf<S>> = true;
 // The stand-in for any type; one that is final can only stand for itself.
 template <typename S>
 using Own = std::conditional_t<std::is_final_v<S>, S, OwnOf<S>>;
+
+// The name of a type as a compiler spells it, without this namespace. Most compilers
+// tell it only as part of a function's name.
+template <typename T>
+[[nodiscard]] std::string type_name() {
+#ifdef __GNUC__ // "... [with T = ljus::SphereT<float>; ...]", or "[T = ...]" of clang
+    std::string name = __PRETTY_FUNCTION__;
+    name.erase(0, name.find("T = ") + 4);
+    name.erase(std::min(name.find(';'), name.rfind(']')));
+#else
+    std::string name = typeid(T).name();
+#endif
+    for (std::size_t at; (at = name.find("ljus::")) != std::string::npos;)
+        name.erase(at, 6);
+    return name;
+}
 
 // A table in one line: what the type has, and what happens without the rest.
 template <typename Rows>

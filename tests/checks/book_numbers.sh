@@ -65,7 +65,7 @@ typed() {
 typed 2 'It took 1.5 s, and the error was 0.012.'
 typed 2 'A slope of -0.67, 3 times as much.'
 typed 0 'Radius 0.5, 1000 photons, version 3.13.5, \given{28 %}, \f$0.123\f$, `0.123`.'
-typed 0 '    render --radius 0.123'
+typed 0 '    render --caustic-radius 0.123'
 typed 0 '\exercise{Find it. (Check: 0.123.)}'
 
 printf 'what,a\nx,3\n' >1.csv

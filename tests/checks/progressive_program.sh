@@ -41,7 +41,7 @@ resume=()
 cmp whole.pfm a.pfm || wrong "killed and resumed, the picture is another"
 
 # Ctrl-C leaves a checkpoint, of more passes than none.
-"$program" --width 32 --height 32 --quiet --passes 1000000 --every 1000 --picture never.pfm --checkpoint b.check &
+"$program" --width 32 --height 32 --quiet --passes 1000000 --every 1000 --picture never.pfm --checkpoint b.check 2>err.txt &
 pid=$!
 sleep 1
 kill -INT $pid
@@ -49,6 +49,8 @@ code=0
 wait $pid || code=$?
 [ $code -eq 130 ] || wrong "Ctrl-C: exit code $code, not 130"
 [ -s b.check ] && [ ! -e never.pfm ] || wrong "Ctrl-C: no checkpoint, or a picture"
+grep -q "stopped: [1-9][0-9]* passes are saved in 'b.check'; the same command with --resume" \
+    err.txt || wrong "Ctrl-C does not say how to go on: $(cat err.txt)"
 
 # refused SENTENCE ARGUMENTS...: exit code 2, and one line on stderr that has SENTENCE.
 refused() {

@@ -43,7 +43,7 @@ cmp -s map.pfm photons.pfm && wrong "--indirect photons changes nothing"
 # What else there is to choose changes the picture, and is known by its name.
 "$render" "$scene" "${few[@]}" --quiet --out plain.pfm
 for choice in --split-glass "--sampling random" "--sampling jittered" "--sampling sobol" \
-    "--precision double" "--shadow-rays 2" "--radius 0.3" "--radius 0" \
+    "--precision double" "--shadow-rays 2" "--caustic-radius 0.3" "--caustic-radius 0" \
     "--caustic-budget equal" "--caustic-budget flux" "--caustic-budget area" \
     "--caustic-budget brightness" "--photon-numbers sobol" "--photon-bounces 1" \
     "--passes 2"; do
@@ -74,44 +74,45 @@ done
 json_has() { grep -q -- "$1" choice.pfm.json || wrong "no $1 in $(cat choice.pfm.json)"; }
 for rule in report any enough; do # where the photons are right, the picture is the same
     "$render" "$scene" "${few[@]}" --skip $rule --quiet --out choice.pfm
-    json_has "\"rule\": \"$rule\""
+    json_has "\"skip\": \"$rule\""
     json_has '"skipped_rays": [1-9]'
 done
 "$render" "$scene" "${few[@]}" --skip enough --skip-bounces --skip-radius 0.4 \
-    --skip-tolerance 0.25 --skip-risk 0.125 --caustic-budget area --radius 0 \
+    --skip-tolerance 0.25 --skip-risk 0.125 --caustic-budget area --caustic-radius 0 \
     --photon-numbers sobol --photon-bounces 9 --photon-memory 2 --out choice.pfm >out.txt
-for line in '"rule": "enough"' '"bounces": true' '"radius": 0.4' '"tolerance": 0.25' \
-    '"risk": 0.125' '"budget": "area"' '"shares": \[' '"photon_numbers": "sobol"' \
-    '"photon_bounces": 9' '"photon_memory_gb": 2' '"skipped_rays": [1-9]' \
+for line in '"skip": "enough"' '"skip-bounces": true' '"skip-radius": 0.4,' \
+    '"skip-tolerance": 0.25,' '"skip-risk": 0.125,' '"caustic-budget": "area"' \
+    '"caustic-shares": \[' '"photon-numbers": "sobol"' '"photon-bounces": 9,' \
+    '"photon-memory": 2,' '"skipped_rays": [1-9]' \
     '"skipped_bounces": [1-9]'; do
     json_has "$line"
 done
 grep -q 'shares of the photons: 0\.' out.txt || wrong "no shares in $(cat out.txt)"
 grep -q 'skipped: [1-9]' out.txt || wrong "no skipped rays in $(cat out.txt)"
-"$render" "$scene" --skip enough --caustic-budget flux --radius 0 --passes 7 --alpha 0.5 \
+"$render" "$scene" --skip enough --caustic-budget flux --caustic-radius 0 --passes 7 --alpha 0.5 \
     --plan >plan.txt
 for line in '^skipped rays  *on ' 'shared out by flux, the radius comes from the photons' \
-    '^passes  *on  *7, .* alpha 0.5$'; do
+    'photon mapping in 7 passes, alpha 0.5$'; do
     grep -q "$line" plan.txt || wrong "no $line in the plan"
 done
 "$render" "$scene" "${few[@]}" --renderer path --path-lights power --quiet --out choice.pfm
-json_has '"path_lights": "power"'
+json_has '"path-lights": "power"'
 
 # Passes: by any threads, cut in two and resumed, the same bytes; and a preview.
-passes=("$scene" "${few[@]}" --radius 0 --caustic-budget brightness --alpha 0.5 --quiet)
+passes=("$scene" "${few[@]}" --caustic-radius 0 --caustic-budget brightness --alpha 0.5 --quiet)
 "$render" "${passes[@]}" --passes 6 --threads 1 --out whole.pfm
 "$render" "${passes[@]}" --passes 2 --threads 2 --out part.pfm --checkpoint part.check
 "$render" "${passes[@]}" --passes 6 --threads 2 --out choice.pfm --checkpoint part.check \
     --resume --preview part.png --every 0
 cmp whole.pfm choice.pfm || wrong "a resumed picture is another"
 [ -s part.png ] || wrong "no preview"
-json_has '"count": 6'
+json_has '"passes": 6,'
 json_has '"alpha": 0.5'
-json_has '"shares": \['
+json_has '"caustic-shares": \['
 "$render" "${passes[@]}" --passes 2 --precision double --preset fast --out choice.pfm
 json_has '"preset": "fast"'
 json_has '"rays": 2,'
-json_has '"more_rays": 0,'
+json_has '"more-rays": 0,'
 "$render" "$scene" --width 20 --height 16 --passes 2 --quiet --out choice.pfm
 json_has '"rays": 1,'
 
@@ -137,6 +138,20 @@ sed -e 's/"clay": .*/"clay": {"type": "picture", "file": "picture.png", "map": "
 "$render" ball.json "${few[@]}" --quiet --out ball.pfm
 cmp -s plain.pfm ball.pfm && wrong "a picture and a mixture change nothing"
 
+# Every setting of --help stands in the file beside a picture, under its own name.
+"$render" --help >help.txt
+"$render" "$scene" "${few[@]}" --preset fast --passes 1 --quiet --out choice.pfm
+cp choice.pfm.json all.json
+"$render" "$scene" "${few[@]}" --renderer path --quiet --out choice.pfm
+cat choice.pfm.json >>all.json
+for name in $(sed -n 's/^  --\([a-z-]*\).*/\1/p' help.txt); do
+    case $name in
+        version | out | threads | quiet | slice | seconds | error) continue ;;
+        checkpoint | preview | plan | hooks | explain | show-photons) continue ;;
+    esac
+    grep -q "\"$name\": " all.json || wrong "--$name is not in the file beside the picture"
+done
+
 # The same seed gives the same bytes for any number of threads; another seed does not.
 for threads in 1 2 3; do
     "$render" "$scene" "${few[@]}" --threads $threads --quiet --out t$threads.pfm
@@ -147,17 +162,19 @@ cmp t1.pfm t2.pfm && cmp t1.pfm t3.pfm || wrong "threads change the picture"
 
 # Photons as dots, of each kind and of all.
 for kind in direct indirect shadow caustic all; do
-    "$render" "$scene" "${few[@]}" --general-photons 500 --photons $kind \
+    "$render" "$scene" "${few[@]}" --general-photons 500 --show-photons $kind \
         --out $kind.png >out.txt
     [ -s $kind.png ] || wrong "no $kind.png"
     [ $kind = all ] || grep -q "^  $kind .*stored" out.txt || wrong "no count of $kind photons"
 done
-cmp -s direct.png indirect.png && wrong "--photons does not tell kinds apart"
+cmp -s direct.png indirect.png && wrong "--show-photons does not tell kinds apart"
 
-# The plan and a pixel's paths; neither writes a file.
+# The plan, the hooks and a pixel's paths; none writes a file.
 mkdir readonly
-(cd readonly && "$render" "$scene" --plan >../plan.txt && "$render" "$scene" \
-    "${few[@]}" --explain 10,8 >../explain.txt)
+(cd readonly && "$render" "$scene" --plan >../plan.txt && "$render" "$scene" --hooks \
+    >../hooks.txt && "$render" "$scene" "${few[@]}" --explain 10,8 >../explain.txt)
+[ "$(wc -l <plan.txt)" -le 12 ] || wrong "the plan is longer than 12 lines: $(cat plan.txt)"
+grep -q '^shape SphereT<float> has bounds, ' hooks.txt || wrong "no hooks of a sphere: $(cat hooks.txt)"
 grep -q '^caustics map *on' plan.txt || wrong "the plan has no caustics map: $(cat plan.txt)"
 grep -q 'E D L  *shadow ray' explain.txt || wrong "no E D L: $(cat explain.txt)"
 [ -z "$(ls readonly)" ] || wrong "--plan or --explain wrote a file"
@@ -170,17 +187,19 @@ refused "--explain is 1; it must be X,Y" "$scene" "${few[@]}" --explain 1
 refused "--explain is 1,2,3; it must be X,Y" "$scene" "${few[@]}" --explain 1,2,3
 refused "--rays" "$scene" --rays 0
 refused "--width" "$scene" --width -5
-refused "--radius" "$scene" --radius nan
-refused "--radius is 1e-30; it must be 0" "$scene" --radius 1e-30
-refused "--general-radius is 1e-30; it must be 0" "$scene" --general-radius 1e-30
-refused "--caustic-nearest is 1; it must be 0" "$scene" --caustic-nearest 1
-refused "--general-nearest is 1; it must be 0" "$scene" --general-nearest 1
+refused "--caustic-radius" "$scene" --caustic-radius nan
+refused "--caustic-radius is '1e-30'; it must be 0 or a number from 1e-15" "$scene" --caustic-radius 1e-30
+refused "--general-radius is '1e-30'; it must be 0 or a number from 1e-15" "$scene" --general-radius 1e-30
+refused "--caustic-nearest is '1'; it must be 0 or a whole number from 2" "$scene" --caustic-nearest 1
+refused "--general-nearest is '1'; it must be 0 or a whole number from 2" "$scene" --general-nearest 1
 refused "--caustic-kernel" "$scene" --caustic-kernel hat
-refused "--precision" "$scene" --precision half
-refused "--nope" "$scene" --nope
+refused "--precision is 'half'; it must be float or double" "$scene" --precision half
+refused "--preset is 'best'; it must be draft, fast or exact" "$scene" --preset best
+refused "there is no option or argument '--nope'" "$scene" --nope
+refused "there is no option or argument '--quality'" "$scene" --quality draft
 refused "--seconds" "$scene" --seconds 0
 refused "--error" "$scene" --error nan
-refused "only one can be promised" "$scene" --seconds 1 --error 0.1
+refused "--error does not go with --seconds: give one of them" "$scene" --seconds 1 --error 0.1
 for option in "--preset fast" "--rays 4" --plan "--explain 1,1" "--renderer path"; do
     # shellcheck disable=SC2086
     refused "does not go with --seconds, which chooses the settings" "$scene" --seconds 1 \
@@ -199,14 +218,14 @@ refused "--path-lights" "$scene" --path-lights all
 refused "--roulette-max" "$scene" --roulette-max 0
 refused "--passes" "$scene" --passes 0
 refused "--alpha" "$scene" --passes 2 --alpha 0
-for option in "--alpha 0.5" "--checkpoint a.check" --resume "--preview a.png"; do
+for option in "--alpha 0.5" "--checkpoint a.check" --resume "--preview a.png" "--every 1"; do
     # shellcheck disable=SC2086
     refused "give --passes N" "$scene" $option
 done
 refused "--passes is for --renderer photon" "$scene" --passes 2 --renderer path
 refused "--more-rays does not go with --passes" "$scene" --passes 2 --more-rays 3
 refused "--explain does not go with --passes" "$scene" --passes 2 --explain 1,1
-refused "--photons does not go with --passes" "$scene" --passes 2 --photons all
+refused "--show-photons does not go with --passes" "$scene" --passes 2 --show-photons all
 refused "--resume needs --checkpoint" "$scene" --passes 2 --resume
 refused "its name must end with .png" "$scene" --passes 2 --preview a.jpg
 refused "it must be a file of its own" "$scene" --passes 2 --out a.pfm --checkpoint a.pfm
@@ -239,7 +258,8 @@ cp t1.pfm older.pfm
 ) || wrong "the file-size limit: $(cat limit.txt)"
 cmp older.pfm t1.pfm || wrong "the older file is lost"
 
-# Ctrl-C: exit code 130 within a second, even with a million rays per pixel.
+# Ctrl-C: exit code 130 within three seconds, even with a million rays per pixel; and what
+# is saved is said.
 set -m
 "$render" "$scene" --rays 1000000 --caustic-photons 500 --out never.png >out.txt 2>err.txt &
 pid=$!
@@ -250,7 +270,9 @@ code=0
 wait $pid || code=$?
 took=$((($(date +%s%N) - begin) / 1000000))
 [ $code -eq 130 ] || wrong "Ctrl-C: exit code $code, not 130"
-[ $took -lt 1000 ] || wrong "Ctrl-C: it took $took ms"
+[ $took -lt 3000 ] || wrong "Ctrl-C: it took $took ms"
+grep -q 'stopped: no picture is saved; .* --passes N --checkpoint FILE' err.txt ||
+    wrong "Ctrl-C does not say what is saved: $(cat err.txt)"
 [ ! -e never.png ] || wrong "Ctrl-C left a picture"
 
 # The same in passes: what is done by then is in the checkpoint.
@@ -263,6 +285,8 @@ code=0
 wait $pid || code=$?
 [ $code -eq 130 ] || wrong "Ctrl-C in passes: exit code $code, not 130"
 [ -s never.check ] && [ ! -e never.png ] || wrong "Ctrl-C in passes: no checkpoint, or a picture"
+grep -q "stopped: [1-9][0-9]* passes are saved in 'never.check'; the same command with --resume" \
+    err.txt || wrong "Ctrl-C in passes does not say how to go on: $(cat err.txt)"
 
 leftover=$(find . -name '*.part*' -o -name '.ljus*')
 [ -z "$leftover" ] || wrong "left behind: $leftover"

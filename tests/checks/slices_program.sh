@@ -75,7 +75,7 @@ mkdir others
 merge_refused "'others/seed.slice' is of another picture than 'part4/scene-1-of-4.slice': its seed is 2, and not 1" \
     "$(at 1 4)" "$(at 2 4)" others/seed.slice "$(at 4 4)"
 "$render" scene.json "${few[@]}" --caustic-photons 301 --slice 3/4 --quiet --out others/photons.slice
-merge_refused "its caustics is" "$(at 1 4)" "$(at 2 4)" others/photons.slice "$(at 4 4)"
+merge_refused "its caustic-photons is 301, and not 300" "$(at 1 4)" "$(at 2 4)" others/photons.slice "$(at 4 4)"
 sed 's/"ior": 1.5/"ior": 1.6/' scene.json >others/scene.json
 "$render" others/scene.json "${few[@]}" --slice 3/4 --quiet --out others/scene.slice
 merge_refused "its scene_hash is" "$(at 1 4)" "$(at 2 4)" others/scene.slice "$(at 4 4)"
@@ -99,7 +99,7 @@ done
 refused "a slice is no picture" "$render" scene.json "${few[@]}" --slice 1/2 --out never.pfm
 refused "is for --slice" "$render" scene.json "${few[@]}" --out never.slice
 refused "does not go with --slice" "$render" scene.json "${few[@]}" --slice 1/2 --passes 3 --out never
-refused "--more-rays 0" "$render" scene.json "${few[@]}" --slice 1/2 --more-rays 3 --out never
+refused "give --more-rays 0" "$render" scene.json "${few[@]}" --slice 1/2 --more-rays 3 --out never
 [ ! -e never ] && [ ! -e never.slice ] || wrong "what was refused left something"
 
 # Killed at any time, a slice leaves nothing; rendered again, it alone, all is well.

@@ -37,10 +37,6 @@ struct Plan {
     PlanItem cache;           ///< Irradiance gathered at a few points of the picture.
     PlanItem thin_film;       ///< Paths pass through soap films.
     PlanItem tree;            ///< A tree over the shapes, or a loop over them.
-    /// One line per type of shape, material and light that the scene lists, in their
-    /// order: the hooks that it has, and what happens without the others. A misspelt
-    /// hook is among the others.
-    std::vector<std::string> types;
     /// Warnings about passes that work badly, with a remedy; most scenes have none.
     std::vector<std::string> remarks;
 
@@ -70,12 +66,11 @@ struct Plan {
     return name + (item.on ? "on   " : "off  ") + item.why + "\n";
 }
 
-/// A plan as text: one line per pass, one per type, then the remarks.
+/// A plan as text: one line per pass, then the remarks.
 /// \return Lines that end with a line feed.
 [[nodiscard]] inline std::string to_text(const Plan& plan) {
     std::string text;
     for (const PlanItem* item : plan.items()) text += to_text(*item);
-    for (const std::string& type : plan.types) text += type + "\n";
     for (const std::string& remark : plan.remarks)
         text += "remark          " + remark + "\n";
     return text;
@@ -177,7 +172,7 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
 
 } // namespace detail
 
-/// Reports which passes a scene requires, and which hooks its types have.
+/// Reports which passes a scene requires.
 /// \param world     The closed scene.
 /// \param settings  The user's settings.
 /// \return The plan that a PhotonMapper follows.
@@ -185,26 +180,34 @@ template <AnyWorld W>
 [[nodiscard]] Plan survey(const W& world, const PhotonMappingSettings& settings) {
     Plan plan = detail::make_plan(needs(world), settings);
     plan.remarks = scene_remarks(world, settings);
-    const auto add = [&](const char* what, int number, const auto& hooks) {
-        std::string name = std::string(what).append(std::to_string(number));
-        name.resize(17, ' ');
-        plan.types.push_back(name.append(detail::to_line(hooks)));
-    };
+    return plan;
+}
+
+/// Reports which hooks the types of a scene have.
+/// \param world  The closed scene; only its type is used.
+/// \return One line per type of shape, material and light that the scene lists, in their
+///         order: its name, the hooks that it has, and what happens without the others.
+///         A misspelt hook is among the others.
+template <AnyWorld W>
+[[nodiscard]] std::vector<std::string> survey_hooks([[maybe_unused]] const W& world) {
+    std::vector<std::string> lines;
     // Returning false continues with the next type.
-    int shapes = 0, materials = 0, lights = 0;
     (void)W::any_shape([&]<typename G>() {
-        add("shape ", ++shapes, detail::shape_hooks<G>());
+        lines.push_back("shape " + detail::type_name<G>() + " " +
+                        detail::to_line(detail::shape_hooks<G>()));
         return false;
     });
     (void)W::any_material([&]<typename M>() {
-        add("material ", ++materials, detail::material_hooks<M>());
+        lines.push_back("material " + detail::type_name<M>() + " " +
+                        detail::to_line(detail::material_hooks<M>()));
         return false;
     });
     (void)W::any_light([&]<typename L>() {
-        add("light ", ++lights, detail::light_hooks<L>());
+        lines.push_back("light " + detail::type_name<L>() + " " +
+                        detail::to_line(detail::light_hooks<L>()));
         return false;
     });
-    return plan;
+    return lines;
 }
 
 /// \}

@@ -1,0 +1,92 @@
+#pragma once
+
+/// \file examples/common/picture_cost.hpp
+/// \brief What a picture cost and what was made for it: for the terminal and for the
+/// file beside the picture.
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "ljus/inspect/census.hpp"
+#include "ljus/path/renderer.hpp"
+#include "ljus/render/photon_mapping_settings.hpp"
+
+namespace examples {
+
+/// What a picture cost, as it stands in the file beside it.
+[[nodiscard]] inline nlohmann::ordered_json cost_json(const ljus::Counts& counts,
+                                                      double seconds) {
+    return {{"seconds", seconds},
+            {"camera_rays", counts.camera_rays},
+            {"bounce_rays", counts.bounce_rays},
+            {"shadow_rays", counts.shadow_rays},
+            {"map_queries", counts.map_queries},
+            {"skipped_rays", counts.skipped_rays},
+            {"skipped_bounces", counts.skipped_bounces},
+            {"rejected", counts.rejected},
+            {"cut_paths", counts.cut_paths}};
+}
+
+/// The same for the terminal, in lines.
+inline void print_cost(const ljus::Counts& counts, double seconds) {
+    const auto over = [](auto a, auto b) { return double(a) / double(b); };
+    std::printf("  %-16s %8.2f s  %" PRIu64
+                " rays, %.2f per sample, %.2f million/s\n  %-16s %10s  %" PRIu64
+                " from the camera, %" PRIu64 " bounces, %" PRIu64 " to lights\n",
+                "render", seconds, counts.rays(),
+                over(counts.rays(), counts.camera_rays),
+                over(counts.rays(), seconds) * 1e-6, "", "", counts.camera_rays,
+                counts.bounce_rays, counts.shadow_rays);
+    if (counts.map_queries > 0)
+        std::printf("  %-16s %10s  %.2f map queries per sample, %.1f photons each\n",
+                    "", "", over(counts.map_queries, counts.camera_rays),
+                    over(counts.map_photons, counts.map_queries));
+    if (counts.skipped_rays + counts.skipped_bounces > 0)
+        std::printf("  %-16s %10s  skipped: %.1f %% of the rays to lights, %" PRIu64
+                    " bounces\n",
+                    "", "",
+                    100 * over(counts.skipped_rays,
+                               std::max<std::uint64_t>(
+                                   counts.skipped_rays + counts.shadow_rays, 1)),
+                    counts.skipped_bounces);
+    if (counts.rejected > 0)
+        std::printf("  %-16s %10s  %" PRIu64
+                    " samples were not finite and are left out\n",
+                    "", "", counts.rejected);
+    if (counts.cut_paths > 0)
+        std::printf("  %-16s %10s  %" PRIu64
+                    " paths were cut at --depth; their further light is missing\n",
+                    "", "", counts.cut_paths);
+}
+
+/// What a photon map keeps, in a line for the terminal.
+/// \param name     Of the map.
+/// \param map      The map.
+/// \param emitted  How many photons were.
+template <std::floating_point T>
+void print_map(const char* name, const ljus::PhotonMapT<T>& map, long long emitted) {
+    std::printf("  %-16s %10s  %lld photons emitted; kept:", name, "", emitted);
+    const ljus::PhotonCensus kept = census(map);
+    using enum ljus::PhotonKind;
+    for (const auto kind : {direct, caustic, indirect, shadow})
+        if (kept[kind].photons > 0)
+            std::printf(" %" PRIu64 " %s", kept[kind].photons, name_of(kind));
+    std::printf("\n");
+}
+
+/// What was chosen for the caustics, in a line for the terminal.
+/// \param settings  With the radius, and the shares of the objects if there are any.
+inline void print_caustics(const ljus::PhotonMappingSettings& settings) {
+    const std::vector<double>& shares = settings.caustics.shares;
+    std::printf("  %-16s %10s  radius %.3g", "caustics", "",
+                double(settings.caustics_estimate.radius));
+    for (std::size_t i = 0; i < shares.size() && i < 12; ++i)
+        std::printf("%s%.3g", i == 0 ? "; shares of the photons: " : ", ", shares[i]);
+    std::printf("%s\n", shares.size() > 12 ? ", ..." : "");
+}
+
+} // namespace examples

@@ -1,0 +1,321 @@
+#pragma once
+
+/// \file examples/common/render_settings.hpp
+/// \brief Every setting of the program `render`, in one table: its option, the values
+/// that it takes, its line of --help and its name in the file beside the picture.
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "command_line.hpp"
+#include "ljus/image/image.hpp"
+#include "ljus/render/path_tracing.hpp"
+#include "ljus/render/photon_mapping_settings.hpp"
+#include "picture_slice.hpp"
+#include "progressive_picture.hpp"
+#include "promise.hpp"
+#include "rendered.hpp"
+
+namespace examples {
+
+// Groups of settings, as --help has them.
+inline const std::vector<std::string> common_groups{"Picture", "Renderer"};
+inline const std::vector<std::string> photon_groups{
+    "Photon mapping", "Photons", "Estimates from photons", "Gathering and cache",
+    "Rays that photons make needless"};
+inline const std::string path_group = "Path tracing";
+inline const std::string pass_group = "Passes: photon maps that converge";
+
+/// What the user asks for, and what is chosen where they ask for nothing.
+struct RenderRequest {
+    std::string scene{};                  ///< The scene file.
+    bool path_tracing = false;            ///< And no photon mapping.
+    bool in_double = false;               ///< Scene, photons and light.
+    std::optional<ljus::Preset> preset{}; ///< Below what is given by name.
+    ljus::RenderSettings picture{};       ///< Of the whole picture.
+    int more_rays = 0;                    ///< Per pixel, where the first ones disagree.
+    double disagreement = 0.4; ///< Relative standard error above which they do.
+    double exposure = 0;       ///< Of PNG files, in stops.
+    ljus::PhotonMappingSettings photon{.caustics_estimate = {.radius = 0.1f}};
+    ljus::PathTracingSettings path{};
+    /// How a path tracer's rays to lamps and its paths are weighted; none: paths alone.
+    std::optional<ljus::MisHeuristic> path_lights = ljus::MisHeuristic::balance;
+    double photon_memory = 4;      ///< For each photon pass, in GB.
+    PassOptions passes{};          ///< Photon maps that converge.
+    Promise promise{};             ///< Seconds or an error.
+    nlohmann::ordered_json kept{}; ///< How that was kept.
+    std::string slice{};           ///< "3/16", or nothing.
+    SliceNumber part{};            ///< The same as a number.
+    std::string pixel{};           ///< "120,80", or nothing.
+    std::string photons{};         ///< Which to draw as dots; or nothing.
+    bool plan = false;             ///< Print what would run.
+    bool hooks = false;            ///< Print what the scene's types provide.
+    bool quiet = false;            ///< No progress bar and no text.
+};
+
+/// Every setting: its name, the member that holds it, a line of help, and its range. An
+/// enum is set by the names of its enumerators.
+/// \param line  The command line.
+/// \param r     Takes what the user gives; must live as long as the line.
+inline void add_settings(CommandLine& line, RenderRequest& r) {
+    using namespace ljus;
+    constexpr int million = 1'000'000;
+    constexpr long long billion = 1'000'000'000;
+    auto& photon = r.photon;
+
+    line.group("Program", {"--help", "--version", "--threads", "--quiet"});
+    line.group("Files", {"--out"});
+    line.add_positional("SCENE.json", r.scene, "The scene file");
+    line.file_types({".png", ".hdr", ".pfm", ".slice"});
+    line.add("--slice K/N", r.slice,
+             "Render the K-th of N slices, which ljus-merge joins");
+
+    line.group(common_groups[0], {"--width", "--height", "--rays", "--seed"});
+    line.add("--more-rays", r.more_rays,
+             "More rays in pixels whose first rays disagree", 0, million);
+    line.add("--disagreement", r.disagreement,
+             "Relative standard error above which they do", 1e-6, 1e6);
+    line.add("--sampling", r.picture.sampling, "Where in a pixel its rays go");
+    line.add("--precision", r.in_double, "Of scene, photons and light",
+             {{"float", false}, {"double", true}});
+    line.add("--exposure", r.exposure, "Of PNG files, in stops", -100, 100);
+
+    line.group(common_groups[1]);
+    line.add("--renderer", r.path_tracing,
+             "Photon mapping, or path tracing as its judge",
+             {{"photon", false}, {"path", true}});
+    line.add("--preset", r.preset,
+             "Settings that go together: a first look; no visible errors in\n"
+             "the least time; or little bias, and noise unless there are many\n"
+             "rays. What is given by name replaces the preset's own");
+    line.add("--depth", photon.max_depth, "Surfaces on a path, mirrors counted", 1,
+             1000);
+    line.add("--roulette", photon.roulette_depth,
+             "Surface from which roulette may end a path", 1, million);
+
+    line.group("Promise: all other settings are chosen");
+    line.add("--seconds", r.promise.seconds,
+             "The picture with the least error after so many seconds", 0.01, 1e9);
+    line.add("--error", r.promise.error, "The first picture with so small a relMSE",
+             1e-9, 1e9);
+
+    line.group(photon_groups[0]);
+    line.add("--direct", photon.direct,
+             "Light of lamps: by shadow rays; in closed form where there is\n"
+             "one; or by multiple importance sampling");
+    line.add("--shadow-rays", photon.shadow_rays, "Shadow rays to each light", 1,
+             10'000);
+    line.add("--indirect", photon.indirect,
+             "Light of other surfaces: by rays; by the general map where one\n"
+             "ray ends, or where the camera looks; by irradiance that was\n"
+             "precomputed where one ray ends, or many rays at few points");
+    line.add("--split-glass", photon.split_glass, "Follow both ways at glass");
+
+    line.group(photon_groups[1]);
+    line.add("--caustic-photons", photon.caustics.photons,
+             "Photons aimed at mirrors and glass", 0, billion);
+    line.add("--general-photons", photon.general.photons,
+             "Photons of the general map, if one is needed", 0, billion);
+    line.add("--caustic-budget", photon.caustic_budget,
+             "How mirrors and glass share these photons: as lights see them;\n"
+             "equally; or for the least error of the flux, of each caustic,\n"
+             "or of what the eye sees");
+    line.add("--photon-numbers", photon.caustics.numbers, "Chance, or evenly spread");
+    line.add("--photon-bounces", photon.caustics.max_bounces,
+             "Surfaces that a photon may meet", 1, million);
+    line.add("--photon-memory", r.photon_memory, "GB that a photon pass may take", 1e-6,
+             1e6);
+
+    line.group(photon_groups[2]);
+    const auto add_estimate = [&](const std::string& map,
+                                  DensityEstimateSettings& estimate) {
+        line.add("--" + map + "-radius", estimate.radius,
+                 "Radius of a " + map + " estimate; 0: from the photons", 1e-15, 1e6,
+                 true);
+        line.add("--" + map + "-nearest", estimate.nearest,
+                 "Photons in it; 0: all within the radius", 2, max_nearest, true);
+        line.add("--" + map + "-kernel", estimate.kernel,
+                 "Weight of a photon by its distance");
+    };
+    add_estimate("caustic", photon.caustics_estimate);
+    add_estimate("general", photon.general_estimate);
+
+    line.group(photon_groups[3]);
+    line.add("--irradiance-every", photon.irradiance.every,
+             "Photons for each point with precomputed irradiance", 2, million);
+    line.add("--irradiance-nearest", photon.irradiance.nearest,
+             "Photons in its estimate", 2, max_nearest);
+    line.add("--irradiance-radius", photon.irradiance.radius,
+             "Radius of its estimate; 0: from the photons", 0, 1e6);
+    line.add("--irradiance-shadow-rays", photon.irradiance.shadow_rays,
+             "Shadow rays from it to each light", 1, 10'000);
+    line.add("--gather-rays", photon.gather.rays, "Rays from each point of the cache",
+             1, million);
+    line.add("--gather-tile", photon.gather.tile,
+             "Pixels on a side that share a point of the cache", 1, 1000);
+    line.add("--gather-nearest", photon.gather.nearest,
+             "Points of the cache that a pixel takes", 2, max_cache_nearest);
+    line.add("--gather-reach", photon.gather.reach,
+             "How far it counts, over the mean distance of what it sees", 1e-3, 1e3);
+    line.add("--gather-depth", photon.gather.max_depth, "Surfaces on a gather ray", 2,
+             million);
+
+    line.group(photon_groups[4]);
+    line.add("--skip", photon.skip.rule,
+             "Shadow rays to skip: none; by the report's rule; where all\n"
+             "photons agree; or where enough of them agree");
+    line.add("--skip-bounces", photon.skip.indirect_rays,
+             "Skip indirect rays where no indirect photon is near");
+    line.add("--skip-radius", photon.skip.radius, "How near; 0: from the photons", 0,
+             1e6);
+    line.add("--skip-tolerance", photon.skip.tolerance,
+             "Hidden part of a light that does not matter (enough)", 1e-6, 0.999);
+    line.add("--skip-risk", photon.skip.risk, "Risk that more is hidden (enough)", 1e-9,
+             0.999);
+
+    line.group(path_group);
+    line.add("--path-lights", r.path_lights,
+             "Light of lamps: by shadow rays and paths, weighted by the\n"
+             "balance or the power heuristic; or by only one of the two",
+             {{"balance", MisHeuristic::balance},
+              {"power", MisHeuristic::power},
+              {"rays", MisHeuristic::shadow_rays},
+              {"paths", std::nullopt}});
+    line.add("--roulette-threshold", r.path.roulette_threshold,
+             "Roulette may end a path that carries less; 0: none", 0, 1e6);
+    line.add("--roulette-max", r.path.roulette_max, "Largest probability to survive it",
+             1e-6, 1);
+
+    line.group(pass_group);
+    add_pass_options(line, r.passes);
+
+    line.group("Instead of the picture");
+    line.add("--plan", r.plan, "Print what would run and why");
+    line.add("--hooks", r.hooks,
+             "Print what the scene's types provide, and what they do not");
+    line.add("--explain X,Y", r.pixel, "Print the paths of a pixel");
+    line.add("--show-photons", r.photons, "Draw photons as dots",
+             {"direct", "indirect", "shadow", "caustic", "all"});
+}
+
+/// Refuses options that do not go together, and reads the number of a slice.
+/// \param line  The command line, parsed.
+/// \param r     What the user asks for.
+/// \param file  The file's name, if --out names one.
+/// \throws std::invalid_argument  with the options and what would be right.
+inline void check_options(const CommandLine& line, RenderRequest& r,
+                          const std::string& file) {
+    const auto refuse = [&line](const std::vector<std::string>& options,
+                                const std::string& why) {
+        for (const std::string& option : options)
+            if (line.given(option)) throw std::invalid_argument(option + why);
+    };
+    const bool in_time = r.promise.seconds > 0;
+    if (in_time) refuse({"--error"}, " does not go with --seconds: give one of them");
+    if (in_time || r.promise.error > 0) {
+        std::vector<std::string> others = line.all_given();
+        for (const char* fits :
+             {"--seconds", "--error", "--width", "--height", "--seed", "--precision",
+              "--exposure", "--threads", "--out", "--quiet"})
+            std::erase(others, fits);
+        refuse(others, std::string(" does not go with ") +
+                           (in_time ? "--seconds" : "--error") +
+                           ", which chooses the settings");
+    }
+    const bool slice_file = std::filesystem::path(file).extension() == ".slice";
+    if (!r.slice.empty()) {
+        refuse({"--explain", "--show-photons", "--passes"},
+               " does not go with --slice");
+        r.part = slice_of(r.slice);
+        if (!file.empty() && !slice_file)
+            throw std::invalid_argument("--out is " + file +
+                                        "; a slice is no picture: it "
+                                        "must be NAME.slice, or a folder for it");
+    } else if (slice_file) {
+        throw std::invalid_argument("--out is " + file +
+                                    "; a file NAME.slice is for --slice K/N");
+    }
+    if (r.passes.passes == 0)
+        return refuse({"--alpha", "--checkpoint", "--resume", "--preview", "--every"},
+                      " is for pictures that are made in passes: give --passes N, too");
+    refuse({"--more-rays", "--explain", "--show-photons"},
+           " does not go with --passes");
+    if (r.path_tracing)
+        throw std::invalid_argument("--passes is for --renderer photon; give a path "
+                                    "tracer more --rays");
+}
+
+/// Settles what was not given by name: by the scene, by the preset, and for passes.
+/// \param line    The command line, parsed.
+/// \param r       What the user asks for.
+/// \param width   Of the scene's picture, in pixels.
+/// \param height  Of the scene's picture, in pixels.
+/// \throws std::invalid_argument  for a picture that is too large.
+inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
+                            int height) {
+    Options options = line.fill({width, height, ljus::RenderSettings{}.samples});
+    ljus::require_image_size(options.width, options.height);
+    if (r.preset) {
+        const ljus::PresetRays rays = preset_rays(*r.preset);
+        options = line.fill({width, height, rays.first});
+        r.more_rays = options.samples > 1 ? rays.more : 0;
+        r.photon = preset_settings(*r.preset, options.width, options.height);
+        r.photon.irradiance = {}; // its shadow rays are not the preset's, but as ever
+        line.give_again();
+    }
+    if (r.passes.passes > 0) { // each has one ray in a pixel
+        options = line.fill({width, height, 1});
+        r.more_rays = 0;
+    }
+    if (r.part.count > 0 && r.more_rays > 0)
+        throw std::invalid_argument(
+            "--more-rays is " + std::to_string(r.more_rays) +
+            "; with --slice, which takes the same rays in every "
+            "pixel, it must be 0: give --more-rays 0");
+    const auto sampling = r.picture.sampling;
+    r.picture = picture_settings(options);
+    r.picture.sampling = sampling;
+    r.photon.general.numbers = r.photon.caustics.numbers;
+    r.photon.general.max_bounces = r.photon.caustics.max_bounces;
+    for (ljus::PhotonPassSettings* pass : {&r.photon.caustics, &r.photon.general}) {
+        pass->max_memory = 1e9 * r.photon_memory;
+        pass->seed = options.seed;
+        pass->threads = options.threads;
+    }
+    r.path.max_depth = r.photon.max_depth;
+    r.path.roulette_depth = r.photon.roulette_depth;
+    r.path.sample_lights = r.path_lights.has_value();
+    r.path.heuristic = r.path_lights.value_or(ljus::MisHeuristic::balance);
+    r.passes.exposure = r.exposure;
+    r.quiet = options.quiet;
+}
+
+/// All settings of a picture as they are in the end, for the file beside it.
+/// \param line  The command line, parsed.
+/// \param r     What the user asked for, and what was chosen.
+[[nodiscard]] inline nlohmann::ordered_json to_json(const CommandLine& line,
+                                                    const RenderRequest& r) {
+    std::vector<std::string> groups = common_groups;
+    if (r.path_tracing)
+        groups.push_back(path_group);
+    else
+        groups.insert(groups.end(), photon_groups.begin(), photon_groups.end());
+    if (r.passes.passes > 0) groups.push_back(pass_group);
+    nlohmann::ordered_json json{
+        {"scene", std::filesystem::path(r.scene).filename().string()}};
+    for (const std::string& group : groups)
+        for (const auto& [name, value] : line.values(group))
+            json[name] = nlohmann::ordered_json::parse(value);
+    if (!r.photon.caustics.shares.empty())
+        json["caustic-shares"] = r.photon.caustics.shares;
+    if (!r.kept.empty()) json["promise"] = r.kept;
+    return json;
+}
+
+} // namespace examples
