@@ -20,8 +20,8 @@
 #include <ljus/scenes/report_rooms.hpp>
 
 #include "common/convergence.hpp"
+#include "common/drawing.hpp"
 #include "common/example.hpp"
-#include "drawings/drawing.hpp"
 
 using namespace ljus;
 

@@ -18,8 +18,8 @@
 #include <ljus/scenes/cornell_box.hpp>
 
 #include "common/convergence.hpp"
+#include "common/drawing.hpp"
 #include "common/example.hpp"
-#include "drawings/drawing.hpp"
 #include "experiments/window.hpp"
 
 #if __has_include(<sys/resource.h>)

@@ -16,8 +16,8 @@
 #include <ljus/ljus.hpp>
 #include <ljus/scenes/report_rooms.hpp>
 
+#include "common/drawing.hpp"
 #include "common/oracle.hpp"
-#include "drawings/drawing.hpp"
 
 using namespace ljus;
 

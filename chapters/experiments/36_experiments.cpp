@@ -16,9 +16,9 @@
 #include <ljus/inspect/survey.hpp>
 #include <ljus/ljus.hpp>
 
+#include "common/drawing.hpp"
 #include "common/example.hpp"
 #include "common/fingerprint.hpp"
-#include "drawings/drawing.hpp"
 #include "experiments/extreme_room.hpp"
 #include "experiments/numbers.hpp"
 

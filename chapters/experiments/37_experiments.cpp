@@ -21,10 +21,10 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
+#include "common/drawing.hpp"
 #include "common/error_map.hpp"
 #include "common/plot.hpp"
 #include "common/terminal.hpp"
-#include "drawings/drawing.hpp"
 #include "experiments/break_it_scenes.hpp"
 
 namespace {
