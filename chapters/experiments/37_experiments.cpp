@@ -1,9 +1,9 @@
 // smoke: --width 16 --rays 1
 // headers: broken
 /// \file chapters/experiments/37_experiments.cpp
-/// \brief Chapter 37: what each mistake looks like. The program is compiled against
-/// headers in which the rows of tests/break_it can be switched on, one at a time: the
-/// right picture, the wrong one, and their difference with its sign.
+/// \brief Chapter 37: the gallery, what each mistake looks like. The program is compiled
+/// against headers in which the rows of tests/break_it can be switched on, one at a time:
+/// the right picture, the wrong one, and their difference with its sign.
 
 #include <algorithm>
 #include <array>
