@@ -18,8 +18,8 @@ namespace {
 
 constexpr int size = 160; // pixels on a side
 
-/// Snell's law as `ljus::refract` has it, but for one line: a square below 0 is taken
-/// for 0, where it says that all light is reflected.
+/// Snell's law as in `ljus::refract`, with one line left out: a square below 0 is taken
+/// for 0, although it means that all light is reflected.
 // [wrong]
 std::optional<Vec3> wrong_refract(const Vec3& direction, const Vec3& normal,
                                   float eta) {

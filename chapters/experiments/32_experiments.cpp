@@ -231,7 +231,7 @@ Schedule dynamic_schedule(const std::vector<double>& jobs, int threads) {
     return schedule;
 }
 
-/// Jobs of which each thread has an equal number, next to each other.
+/// Each thread gets an equal number of neighbouring jobs.
 Schedule static_schedule(const std::vector<double>& jobs, int threads) {
     Schedule schedule;
     const std::size_t count = jobs.size(), parts = static_cast<std::size_t>(threads);

@@ -366,7 +366,7 @@ std::optional<examples::Oracle> reference_of(const Sweep& sweep,
         {sweep.options.out, LJUS_SOURCE_FOLDER "/examples/data"});
 }
 
-/// Goes over one room of which only promises are asked.
+/// Goes over a room in which only promises are tried.
 template <typename Room>
 void go_over(Sweep& sweep, const std::string& name, const Room& room) {
     if (makes_reference(sweep, name, room) || sweep.request.only != "all") return;

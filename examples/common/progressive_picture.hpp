@@ -83,7 +83,6 @@ template <typename RenderPass>
                                                 RenderPass&& pass) {
     using namespace ljus;
     ProgressBar bar("passes", quiet);
-    // [program]
     ProgressiveState state{.alpha = how.alpha};
     if (how.resume) {
         state = load_checkpoint(how.checkpoint);
@@ -104,7 +103,6 @@ template <typename RenderPass>
     });
     if (state.passes > 0) save(state);
     if (!done) throw Interrupted{};
-    // [program]
     return state;
 }
 
