@@ -31,9 +31,7 @@
 #include "ljus/io/load_json.hpp"
 #include "ljus/render/adaptive.hpp"
 #include "ljus/scenes/room.hpp"
-#ifdef LJUS_HAS_TINYOBJLOADER
 #include "ljus/io/load_obj.hpp"
-#endif
 
 namespace {
 
@@ -241,14 +239,10 @@ RenderedT<typename S::Scalar> draw_photons(const Room<S>& room, const Request& r
 /// The scene of a request; what is wrong with its meshes goes to the terminal.
 template <std::floating_point T>
 LoadedSceneT<T> load_scene(const Request& r) {
-#ifdef LJUS_HAS_TINYOBJLOADER
     std::string troubles;
     auto loaded = load_json<T>(r.scene, ObjMeshesT<T>{&troubles});
     if (!r.quiet) std::fputs(troubles.c_str(), stderr);
     return loaded;
-#else
-    return load_json<T>(r.scene);
-#endif
 }
 
 /// Where the picture or the slice goes.

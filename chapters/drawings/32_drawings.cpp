@@ -2,6 +2,7 @@
 /// \file chapters/drawings/32_drawings.cpp
 /// \brief Chapter 32: a sum of floats by threads, and by blocks.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -11,7 +12,7 @@
 #include <ljus/parallel.hpp>
 
 #include "common/command_line.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
 
 namespace {
 
@@ -79,12 +80,8 @@ std::vector<Part> by_thread(std::size_t count, std::size_t threads) {
 /// Blocks of three, each taken by the thread that happens to be free.
 std::vector<Part> by_block(std::size_t count, const std::vector<int>& takers) {
     std::vector<Part> parts;
-    for (std::size_t block = 0; block < takers.size(); ++block) {
-        const auto range = ljus::detail::block_range(static_cast<long long>(block), 3,
-                                                     static_cast<long long>(count));
-        parts.push_back({static_cast<std::size_t>(range.first),
-                         static_cast<std::size_t>(range.last), takers[block]});
-    }
+    for (std::size_t block = 0; block < takers.size(); ++block)
+        parts.push_back({3 * block, std::min(3 * block + 3, count), takers[block]});
     return parts;
 }
 

@@ -17,9 +17,7 @@
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scenes/mesh_formulas.hpp"
-#ifdef LJUS_HAS_TINYOBJLOADER
 #include "ljus/io/load_obj.hpp"
-#endif
 
 using namespace ljus;
 
@@ -207,7 +205,6 @@ void costs(const examples::Options& options, const Sizes& sizes) {
         const Mesh mesh(data);
         const double build = watch.seconds();
         double load = std::numeric_limits<double>::quiet_NaN();
-#ifdef LJUS_HAS_TINYOBJLOADER
         std::string file;
         const auto line = [&](const char* word, const Vec3& v) {
             file += std::string(word) + examples::text(double(v.x), " %.9g") +
@@ -227,7 +224,6 @@ void costs(const examples::Options& options, const Sizes& sizes) {
         const examples::StopWatch reading;
         const LoadedObj loaded = read_obj(std::move(file), "ball.obj");
         load = reading.seconds();
-#endif
         table.rows.push_back(
             {std::to_string(mesh.size()),
              examples::text(double(mesh.bytes()) / mesh.size(), "%.1f"),

@@ -1,6 +1,7 @@
 // smoke: --quality draft --width 24 --height 24 --photons 1000 --seeds 2
 /// \file chapters/experiments/30_experiments.cpp
-/// \brief Chapter 30: how many photons each mirror and each glass should get.
+/// \brief Chapter 30: the experiments behind its tables and plots: how many photons each
+/// mirror and each glass should get.
 
 #include <algorithm>
 #include <array>
@@ -18,11 +19,9 @@
 #include <ljus/render/budgeting.hpp>
 #include <ljus/scenes/report_rooms.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
 #include "common/convergence.hpp"
-#include "common/terminal.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
+#include "common/example.hpp"
 
 using namespace ljus;
 
@@ -51,7 +50,6 @@ constexpr float watts = 10; // a steradian
 
 /// Two balls of one size under one light, indices 1.05 and 1.5, on a floor: in the
 /// void, or in a box whose walls have a colour.
-// [two balls]
 Room<Stage> two_balls(float albedo) {
     Stage stage;
     const Vec3 low{-3, 0, -3}, x{6, 0, 0}, y{0, 5, 0}, z{0, 0, 6};
@@ -73,7 +71,6 @@ Room<Stage> two_balls(float albedo) {
                                        .vfov_degrees = 55});
     return {World(std::move(stage)), camera};
 }
-// [two balls]
 
 /// The part of the floor that is looked at.
 struct Grid {
@@ -297,34 +294,32 @@ void by_share(const std::vector<Known>& rooms, const Grid& grid, float radius,
     save_plot(options.out, plot);
 }
 
-/// The pictures: both rooms by few photons, shared out as lights see them and by area.
+/// The pictures of the lit room: few photons, shared out as lights see them and by area.
 void pictures(const examples::Options& options) {
-    for (const auto& [name, albedo] : {std::pair{"dark", 0.0f}, std::pair{"lit", 0.8f}})
-        for (const auto& [how, budget] : {std::pair{"seen", CausticBudget::as_seen},
-                                          std::pair{"area", CausticBudget::area}}) {
-            const auto room = two_balls(albedo);
-            PhotonMappingSettings settings{.split_glass = true,
-                                           .indirect = IndirectLight::photons,
-                                           .caustic_budget = budget};
-            settings.caustics = {
-                .photons = 3000, .seed = options.seed, .threads = options.threads};
-            settings.general = {.photons = options.pick(100000LL, 400000LL, 1000000LL),
-                                .shadow_photons = false,
-                                .threads = options.threads};
-            settings.caustics_estimate.radius = 0.06f;
-            settings.general_estimate.radius = 0.3f;
-            const PhotonMapper mapper(room.world, settings, abilities<Budgeting>);
-            auto image = render(mapper, room.camera,
-                                {.width = options.width,
-                                 .height = options.height * 3 / 4,
-                                 .samples = options.samples,
-                                 .threads = options.threads})
-                             .image;
-            for (Rgb& c : image.pixels) c *= albedo > 0 ? 0.8f : 1.5f;
-            save_png(image,
-                     options.path(std::string("budget-") + name + "-" + how + ".png"));
-            examples::stop_if_asked();
-        }
+    for (const auto& [how, budget] : {std::pair{"seen", CausticBudget::as_seen},
+                                      std::pair{"area", CausticBudget::area}}) {
+        const auto room = two_balls(0.8f);
+        PhotonMappingSettings settings{.split_glass = true,
+                                       .indirect = IndirectLight::photons,
+                                       .caustic_budget = budget};
+        settings.caustics = {
+            .photons = 3000, .seed = options.seed, .threads = options.threads};
+        settings.general = {.photons = options.pick(100000LL, 400000LL, 1000000LL),
+                            .shadow_photons = false,
+                            .threads = options.threads};
+        settings.caustics_estimate.radius = 0.06f;
+        settings.general_estimate.radius = 0.3f;
+        const PhotonMapper mapper(room.world, settings, abilities<Budgeting>);
+        auto image = render(mapper, room.camera,
+                            {.width = options.width,
+                             .height = options.height * 3 / 4,
+                             .samples = options.samples,
+                             .threads = options.threads})
+                         .image;
+        for (Rgb& c : image.pixels) c *= 0.8f;
+        save_png(image, options.path(std::string("budget-lit-") + how + ".png"));
+        examples::stop_if_asked();
+    }
 }
 
 /// Rays through balls of two indices, as Snell has it: where they land.

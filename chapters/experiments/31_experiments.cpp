@@ -1,9 +1,7 @@
 // smoke: --quality draft --width 24 --height 24 --passes 8 --seeds 2
 /// \file chapters/experiments/31_experiments.cpp
-/// \brief Chapter 31: photon maps that converge. Laws, pictures, and one that resumes.
-///
-/// With --picture it makes one picture and nothing else: with a preview while it runs,
-/// and a checkpoint from which --resume goes on. This is what the chapter kills.
+/// \brief Chapter 31: the experiments behind its tables and plots: laws, and one map
+/// beside many.
 
 #include <algorithm>
 #include <array>
@@ -15,16 +13,13 @@
 #include <vector>
 
 #include <ljus/image/flip.hpp>
-#include <ljus/io/pfm.hpp>
 #include <ljus/ljus.hpp>
+#include <ljus/render/progressive.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
 #include "common/convergence.hpp"
-#include "common/progressive_picture.hpp"
-#include "common/terminal.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
+#include "common/example.hpp"
 #include "experiments/window.hpp"
 
 #if __has_include(<sys/resource.h>)
@@ -37,10 +32,8 @@ namespace {
 
 /// What the user may set besides the common options.
 struct Sizes {
-    long long passes = 0;           ///< How many.
-    int seeds = 0;                  ///< Runs behind each bias and variance.
-    std::string picture = {};       ///< Make this file alone.
-    examples::PassOptions how = {}; ///< In this way.
+    long long passes = 0; ///< How many.
+    int seeds = 0;        ///< Runs behind each bias and variance.
 };
 
 /// The most memory that this program has taken so far; NaN where nobody tells.
@@ -409,33 +402,13 @@ PhotonMappingSettings pass_settings(const examples::Options& options,
     return settings;
 }
 
-RenderSettings picture_settings(const examples::Options& options, int samples,
-                                std::uint64_t seed) {
+RenderSettings frame_of(const examples::Options& options, int samples,
+                        std::uint64_t seed) {
     return {.width = options.width,
             .height = options.height,
             .samples = samples,
             .seed = seed,
             .threads = options.threads};
-}
-
-/// A picture alone, as a program makes it: it shows itself while it runs, and can be
-/// stopped, killed and resumed.
-void one_picture(const examples::Options& options, const Sizes& sizes) {
-    examples::require_writable(sizes.picture);
-    examples::require_pass_files(sizes.how, sizes.picture);
-    const auto room = cornell_box();
-    auto stopped = [](long long, long long) { return examples::stop_signal() == 0; };
-    auto settings = pass_settings(options, options.seed);
-    settings.caustics.progress = settings.general.progress = stopped;
-    auto picture = picture_settings(options, options.samples, options.seed);
-    picture.progress = stopped;
-    const auto pass = [&](long long i, double scale) {
-        return photon_mapping_pass(room.world, room.camera, settings, picture, i,
-                                   scale);
-    };
-    const auto state = examples::run_passes(sizes.how, options.quiet, pass);
-    save_pfm(mean_image(state), sizes.picture);
-    if (!options.quiet) examples::print_passes(state);
 }
 
 /// The box as it is, by many paths.
@@ -452,7 +425,7 @@ Reference reference_of(const Box& box, const examples::Options& options) {
     std::array<Image, 2> halves;
     for (const std::size_t i : {0u, 1u}) {
         examples::ProgressBar bar("reference", options.quiet);
-        auto picture = picture_settings(options, rays, 77 + i);
+        auto picture = frame_of(options, rays, 77 + i);
         picture.progress = bar;
         halves[i] = render(tracer, box.camera, picture).image;
         examples::stop_if_asked();
@@ -505,7 +478,7 @@ void run_seeds(std::vector<Milestone>& milestones, const Box& box,
         const auto pass = [&](long long i, double scale) {
             return photon_mapping_pass(box.world, box.camera,
                                        pass_settings(options, number),
-                                       picture_settings(options, 1, number), i, scale);
+                                       frame_of(options, 1, number), i, scale);
         };
         const double begin = examples::processor_seconds();
         const auto keep = [&](Milestone& at, const ProgressiveState& state) {
@@ -522,33 +495,13 @@ void run_seeds(std::vector<Milestone>& milestones, const Box& box,
     }
 }
 
-/// The passes as one looks at them, in larger pictures than those that are measured.
-void show_passes(const Box& box, examples::Options options, long long passes) {
-    options.width = options.height = options.pick(64, 400, 400);
-    const auto pass = [&](long long i, double scale) {
-        return photon_mapping_pass(
-            box.world, box.camera, pass_settings(options, options.seed),
-            picture_settings(options, 1, options.seed), i, scale);
-    };
-    std::vector<Milestone> shown;
-    for (const long long count : {1LL, 10LL, 100LL, passes})
-        if (count <= passes) shown.push_back({count});
-    run_to(shown, passes, {}, pass, examples::ProgressBar("pictures", options.quiet),
-           [&](const Milestone& at, const ProgressiveState& state) {
-               const bool last = &at == &shown.back();
-               const std::string name = last ? "last" : std::to_string(at.passes);
-               save_png(mean_image(state),
-                        options.path("progressive-" + name + ".png"));
-           });
-}
-
 /// The same passes with the exponent that edges like better.
 void run_faster(std::vector<Milestone>& milestones, const Box& box,
                 const examples::Options& options, const Reference& truth) {
     const auto pass = [&](long long i, double scale) {
-        return photon_mapping_pass(
-            box.world, box.camera, pass_settings(options, options.seed),
-            picture_settings(options, 1, options.seed), i, scale);
+        return photon_mapping_pass(box.world, box.camera,
+                                   pass_settings(options, options.seed),
+                                   frame_of(options, 1, options.seed), i, scale);
     };
     run_to(milestones, milestones.back().passes, {.alpha = 1.0 / 3}, pass,
            examples::ProgressBar("alpha 1/3", options.quiet),
@@ -634,9 +587,9 @@ void beside_one_map(const Box& box, long long passes, const Reference& truth,
         try_way(count + examples::text(scale, "%.2f"), [&](std::uint64_t seed) {
             ProgressiveState state;
             const auto pass = [&](long long i, double shrunk) {
-                return photon_mapping_pass(
-                    box.world, box.camera, settings_of(scale, 1, seed),
-                    picture_settings(options, 1, seed), i, shrunk);
+                return photon_mapping_pass(box.world, box.camera,
+                                           settings_of(scale, 1, seed),
+                                           frame_of(options, 1, seed), i, shrunk);
             };
             (void)run_progressive(state, passes, pass,
                                   [](const auto&) { return true; });
@@ -648,7 +601,7 @@ void beside_one_map(const Box& box, long long passes, const Reference& truth,
                     const auto settings = settings_of(scale, passes, seed);
                     const PhotonMapper mapper(box.world, settings);
                     return render(mapper, box.camera,
-                                  picture_settings(options, int(passes), seed))
+                                  frame_of(options, int(passes), seed))
                         .image;
                 });
     save_table(options.out, table);
@@ -661,7 +614,6 @@ void pictures(const examples::Options& options, const Sizes& sizes) {
     const long long split_at = options.pick(4, 64, 256);
     std::vector<Milestone> all;
     for (const long long passes : milestones(sizes.passes)) all.push_back({passes});
-    show_passes(box, options, sizes.passes);
     run_seeds(all, box, options, sizes.seeds, split_at);
     run_faster(all, box, options, truth);
     save_errors(all, truth, options);
@@ -674,7 +626,7 @@ void pictures(const examples::Options& options, const Sizes& sizes) {
 
 } // namespace
 
-/// Makes the figures of chapter 31, or one picture.
+/// Makes the tables and plots of chapter 31.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; 2 with one sentence for anything that is wrong.
@@ -683,22 +635,13 @@ int main(int argc, char** argv) {
         Sizes sizes;
         line.about("Chapter 31, progressive photons: laws and pictures.");
         line.add("--seeds", sizes.seeds, "Runs behind bias and variance", 2, 1000);
-        line.add("--picture", sizes.picture, "Make only this PFM file");
-        examples::add_pass_options(line, sizes.how);
+        line.add("--passes", sizes.passes, "How many photon maps", 1, 1'000'000'000);
         const examples::Options options =
             line.parse({.draft{.width = 32, .height = 32, .samples = 1},
                         .report{.width = 64, .height = 64, .samples = 1},
                         .reference{.width = 128, .height = 128, .samples = 1}});
-        if (!line.given("--passes")) sizes.how.passes = options.pick(100, 1000, 10000);
-        sizes.passes = sizes.how.passes;
+        if (!line.given("--passes")) sizes.passes = options.pick(100, 1000, 10000);
         if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
-        if (sizes.picture.empty() &&
-            (sizes.how.resume || !sizes.how.checkpoint.empty() ||
-             !sizes.how.preview.empty() || line.given("--alpha")))
-            throw std::invalid_argument(
-                "--checkpoint, --resume, --preview and --alpha are for --picture "
-                "FILE.");
-        if (!sizes.picture.empty()) return one_picture(options, sizes);
         draw_discs(options);
         laws(options, sizes);
         one_map(options, sizes);

@@ -1,8 +1,8 @@
-// figures: table-1
 // smoke: --quality draft --width 16 --height 16 --most 10 --repeats 1 --truth 64
 /// \file chapters/experiments/32_experiments.cpp
-/// \brief Chapter 32: many threads. Table 1, where its times come from, what a loop and
-/// a thread cost, and the same bytes for any number of threads.
+/// \brief Chapter 32: the experiments behind its tables and plots: where the times of
+/// table 1 come from, what a loop and a thread cost, and the same bytes for any number of
+/// threads.
 
 #include <algorithm>
 #include <array>
@@ -10,17 +10,14 @@
 #include <cstdio>
 #include <numeric>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <ljus/ljus.hpp>
 #include <ljus/scenes/report_rooms.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/fingerprint.hpp"
-#include "common/plot.hpp"
-#include "drawings/drawing.hpp"
-#include "experiments/oracle.hpp"
+#include "common/drawing.hpp"
+#include "common/oracle.hpp"
 
 using namespace ljus;
 
@@ -35,18 +32,16 @@ struct Sizes {
     int truth = 0;   ///< Rays per pixel of the reference.
 };
 
-/// A row of the report's table 1, in seconds.
-struct ReportRow {
-    int rays;       ///< Per pixel.
-    double one;     ///< Its "unparallelized rendering time".
-    double four;    ///< Its "parallelized rendering time", on four cores.
-    double printed; ///< Its quotient, as it is printed.
+/// The columns of a table of times.
+struct Times {
+    std::vector<double> rays{}; ///< Per pixel.
+    std::vector<double> one{};  ///< Seconds with one thread.
+    std::vector<double> many{}; ///< Seconds with several.
 };
-constexpr std::array<ReportRow, 5> report_rows{{{1, 3, 22, 0.14},
-                                                {10, 17, 28, 0.61},
-                                                {100, 188, 106, 1.79},
-                                                {200, 362, 208, 1.75},
-                                                {1000, 1391, 640, 2.17}}};
+
+/// Those of the report's table 1.
+const Times report_times{
+    {1, 10, 100, 200, 1000}, {3, 17, 188, 362, 1391}, {22, 28, 106, 208, 640}};
 
 /// Depth 4 and no roulette, as the report has it.
 PhotonMappingSettings report_settings(int threads) {
@@ -90,21 +85,10 @@ Line fit_line(const std::vector<double>& rays, const std::vector<double>& second
 }
 // [fit]
 
-// --- Table 1 -------------------------------------------------------------------------
+// --- The times of table 1 ------------------------------------------------------------
 
-/// What a picture of the loop took.
-struct Timing {
-    double wall = 0; ///< Seconds on the wall.
-    double work = 0; ///< Seconds of all processors.
-};
-
-template <typename Work>
-Timing timed(Work&& work) {
-    const examples::StopWatch watch;
-    const double before = examples::processor_seconds();
-    work();
-    return {watch.seconds(), examples::processor_seconds() - before};
-}
+using examples::timed;
+using examples::Timing;
 
 /// The first pass, in its two halves.
 struct FirstPass {
@@ -123,101 +107,30 @@ FirstPass first_pass(const R& room, const PhotonMappingSettings& settings) {
     return pass;
 }
 
-/// The errors of table 1's rows, from a few seeds, against the truth.
-template <typename R>
-std::vector<double> errors_of(const R& room, const examples::Oracle& oracle,
-                              const std::vector<int>& rays,
-                              const examples::Options& options) {
-    const PhotonMappingSettings settings = report_settings(options.threads);
-    const PhotonMapper mapper(room.world, settings);
-    std::vector<double> found;
-    for (const int n : rays) {
-        const auto seen = render(mapper, room.camera,
-                                 {.width = oracle.truth.width,
-                                  .height = oracle.truth.height,
-                                  .samples = n,
-                                  .seed = options.seed,
-                                  .threads = options.threads});
-        found.push_back(
-            std::max(rel_mse(seen.image, oracle.truth) - oracle.noise, 0.0));
-        examples::stop_if_asked();
-    }
-    return found;
-}
-
-/// What table 1 measures, for its plots and lines: a number for each of its rows.
-struct Measured {
-    std::vector<double> rays{}; ///< Per pixel.
-    std::vector<double> one{};  ///< Seconds with one thread.
-    std::vector<double> many{}; ///< Seconds with several.
-};
-
-/// A row of table 1: medians of pairs of pictures, by one thread and by several.
-struct PairTimes {
-    double one = 0, many = 0; ///< Seconds on the wall.
-    double ratio = 0;         ///< Of these, within a pair.
-    double work = 0;          ///< Processor time of several threads over that of one.
-};
-
-/// \param shot  Renders the picture with the given number of threads: its Timing.
+/// The second pass, with the report's numbers of rays: medians of pairs of pictures.
+/// \param shot  Renders the picture with some rays per pixel and some threads: its Timing.
 template <typename Shot>
-PairTimes time_pairs(int repeats, int threads, Shot shot) {
-    std::vector<double> one, many, ratio, work;
-    for (int repeat = 0; repeat < repeats; ++repeat) {
-        const Timing a = shot(1), b = shot(threads);
-        examples::stop_if_asked();
-        one.push_back(a.wall);
-        many.push_back(b.wall);
-        ratio.push_back(a.wall / b.wall);
-        work.push_back(b.work / a.work);
+Times time_pairs(Shot shot, const Sizes& sizes, int threads) {
+    Times times;
+    for (const double rays : report_times.rays) {
+        if (rays > sizes.most) continue;
+        std::vector<double> one, many;
+        for (int repeat = 0; repeat < sizes.repeats; ++repeat) {
+            one.push_back(shot(int(rays), 1).wall);
+            many.push_back(shot(int(rays), threads).wall);
+            examples::stop_if_asked();
+        }
+        times.rays.push_back(rays);
+        times.one.push_back(median(one));
+        times.many.push_back(median(many));
     }
-    return {median(one), median(many), median(ratio), median(work)};
-}
-
-/// Table 1: the report's times, ours, and the errors of the pictures.
-/// \param shot  Renders the picture with some rays per pixel and some threads.
-template <typename Shot>
-Measured save_table_1(const std::vector<double>& errors, Shot shot,
-                      const examples::Options& options, int repeats, int threads) {
-    examples::Table table{.name = "table-1",
-                          .columns = {"rays", "report: 1 thread, s", "4 threads, s",
-                                      "printed", "is", "1 thread, s",
-                                      std::to_string(threads) + " threads, s", "ratio",
-                                      "work of all", "relMSE"}};
-    Measured measured;
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-        const ReportRow& row = report_rows[i];
-        const PairTimes times =
-            time_pairs(repeats, threads, [&](int by) { return shot(row.rays, by); });
-        measured.rays.push_back(row.rays);
-        measured.one.push_back(times.one);
-        measured.many.push_back(times.many);
-        table.rows.push_back({std::to_string(row.rays), text(row.one), text(row.four),
-                              text(row.printed), text(row.one / row.four, "%.2f"),
-                              text(times.one, "%.3g"), text(times.many, "%.3g"),
-                              text(times.ratio, "%.2f"), text(times.work, "%.2f"),
-                              text(errors[i], "%.2g")});
-    }
-    save_table(options.path(""), table);
-    return measured;
-}
-
-/// The columns of table 1 as the report has them.
-Measured report_columns() {
-    Measured report;
-    for (const ReportRow& row : report_rows) {
-        report.rays.push_back(row.rays);
-        report.one.push_back(row.one);
-        report.many.push_back(row.four);
-    }
-    return report;
+    return times;
 }
 
 /// The straight lines through the columns of table 1, and the times of the first pass.
 /// \return The line of our second pass with one thread.
-Line save_lines(const Measured& measured, const FirstPass& alone,
-                const FirstPass& shared, const examples::Options& options,
-                int threads) {
+Line save_lines(const Times& measured, const FirstPass& alone, const FirstPass& shared,
+                const examples::Options& options, int threads) {
     examples::Table lines{.name = "parallel-lines",
                           .columns = {"", "fixed, s", "one ray in every pixel, s",
                                       "microseconds per path"}};
@@ -228,9 +141,8 @@ Line save_lines(const Measured& measured, const FirstPass& alone,
     const auto once = [&](const std::string& name, double seconds) {
         lines.rows.push_back({name, text(seconds, "%.3g"), "", ""});
     };
-    const Measured report = report_columns();
-    add("report, 1 thread", fit_line(report.rays, report.one), 160000);
-    add("report, 4 threads", fit_line(report.rays, report.many), 160000);
+    add("report, 1 thread", fit_line(report_times.rays, report_times.one), 160000);
+    add("report, 4 threads", fit_line(report_times.rays, report_times.many), 160000);
     const Line loop = fit_line(measured.rays, measured.one);
     const double pixels = double(options.width) * options.height;
     const std::string several = std::to_string(threads) + " threads";
@@ -243,8 +155,12 @@ Line save_lines(const Measured& measured, const FirstPass& alone,
     return loop;
 }
 
-/// What table 1 takes for the truth.
-void save_truth(const examples::Oracle& oracle, const examples::Options& options) {
+/// The reference of table 1.
+template <typename R>
+void save_truth(const R& room, const examples::Options& options, const Sizes& sizes) {
+    const int side = std::min(options.pick(20, 64, 100), options.width);
+    const auto oracle =
+        examples::find_oracle("four-glass", room, side, sizes.truth, options);
     const examples::Table truth{
         .name = "parallel-truth",
         .columns = {"reference", "rays per pixel", "its own relMSE"},
@@ -253,12 +169,12 @@ void save_truth(const examples::Oracle& oracle, const examples::Options& options
     save_table(options.path(""), truth);
 }
 
-/// Table 1, its reference, and the straight lines through its columns.
+/// The straight lines through the times of table 1.
 /// \param[out] loop  The line of the second pass with one thread.
 /// \return Seconds of the first pass with one thread, for Amdahl's law.
 template <typename R>
-FirstPass table_1(const R& room, const examples::Options& options, const Sizes& sizes,
-                  int threads, Line& loop) {
+FirstPass lines(const R& room, const examples::Options& options, const Sizes& sizes,
+                int threads, Line& loop) {
     const PhotonMappingSettings settings = report_settings(1);
     const FirstPass alone = first_pass(room, settings);
     const FirstPass shared = first_pass(room, report_settings(threads));
@@ -270,19 +186,8 @@ FirstPass table_1(const R& room, const examples::Options& options, const Sizes& 
         });
     };
     (void)shot(1, threads); // the threads are made once
-
-    std::vector<int> rays;
-    for (const ReportRow& row : report_rows)
-        if (row.rays <= sizes.most) rays.push_back(row.rays);
-    const int side = options.pick(20, 64, 100);
-    const auto oracle = examples::find_oracle(
-        "four-glass", room, std::min(side, options.width), sizes.truth, options);
-    const std::vector<double> errors = errors_of(room, oracle, rays, options);
-
-    const Measured measured =
-        save_table_1(errors, shot, options, sizes.repeats, threads);
-    loop = save_lines(measured, alone, shared, options, threads);
-    save_truth(oracle, options);
+    loop =
+        save_lines(time_pairs(shot, sizes, threads), alone, shared, options, threads);
     return alone;
 }
 
@@ -326,7 +231,7 @@ Schedule dynamic_schedule(const std::vector<double>& jobs, int threads) {
     return schedule;
 }
 
-/// Jobs of which each thread has an equal number, next to each other.
+/// Each thread gets an equal number of neighbouring jobs.
 Schedule static_schedule(const std::vector<double>& jobs, int threads) {
     Schedule schedule;
     const std::size_t count = jobs.size(), parts = static_cast<std::size_t>(threads);
@@ -504,14 +409,14 @@ float sum_by_thread(const std::vector<float>& values, std::size_t threads) {
 /// The same in blocks of a size that has nothing to do with the number of threads.
 // [sum by block]
 float sum_by_block(const std::vector<float>& values, int threads) {
-    const long long size = 512, total = static_cast<long long>(values.size());
-    std::vector<float> part(std::size_t(detail::block_count(total, size)), 0.0f);
-    const auto body = [&](long long block) {
-        const detail::BlockRange range = detail::block_range(block, size, total);
+    constexpr std::size_t size = 512;
+    std::vector<float> part((values.size() + size - 1) / size, 0.0f);
+    const auto body = [&](long long number) {
+        const auto block = static_cast<std::size_t>(number);
+        const std::size_t last = std::min((block + 1) * size, values.size());
         float sum = 0; // of its own: the list is touched once per block
-        for (long long i = range.first; i < range.last; ++i)
-            sum += values[static_cast<std::size_t>(i)];
-        part[static_cast<std::size_t>(block)] = sum;
+        for (std::size_t i = block * size; i < last; ++i) sum += values[i];
+        part[block] = sum;
     };
     parallel_blocks(static_cast<long long>(part.size()), body, {.threads = threads});
     return std::accumulate(part.begin(), part.end(), 0.0f);
@@ -697,8 +602,8 @@ void machines(const FirstPass& first, const Line& loop, std::size_t photons,
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 32, many threads: table 1.");
-        line.add("--most", sizes.most, "The last row of table 1 that is made", 10,
+        line.about("Chapter 32, many threads: what they cost, and the same bytes.");
+        line.add("--most", sizes.most, "The largest number of rays that is timed", 10,
                  1000);
         line.add("--repeats", sizes.repeats, "Pairs of one thread and several", 1,
                  1000);
@@ -711,12 +616,14 @@ int main(int argc, char** argv) {
         if (!line.given("--most")) sizes.most = options.pick(100, 1000, 1000);
         if (!line.given("--repeats")) sizes.repeats = options.pick(3, 3, 5);
         if (!line.given("--truth")) sizes.truth = options.pick(512, 32768, 262144);
+        const int processors = int(std::thread::hardware_concurrency());
         const int threads =
-            std::max(2, options.threads == 0 ? detail::max_threads() : options.threads);
+            std::max(2, options.threads > 0 ? options.threads : processors);
 
         const auto room = four_glass_room();
         Line loop;
-        const FirstPass first = table_1(room, options, sizes, threads, loop);
+        const FirstPass first = lines(room, options, sizes, threads, loop);
+        save_truth(room, options, sizes);
 
         const PhotonMappingSettings settings = report_settings(options.threads);
         const PhotonMapper mapper(room.world, settings);

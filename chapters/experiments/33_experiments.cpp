@@ -1,7 +1,6 @@
-// figures: table-3 fig-12
 // smoke: --quality draft --width 24 --height 24 --most 10 --seeds 2 --truth 64
 /// \file chapters/experiments/33_experiments.cpp
-/// \brief Chapter 33: rays per pixel. Table 3, figure 12, and what a ray buys.
+/// \brief Chapter 33: the experiments behind its tables and plots: what a ray buys.
 
 #include <algorithm>
 #include <array>
@@ -17,11 +16,7 @@
 #include <ljus/ljus.hpp>
 #include <ljus/scenes/report_rooms.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/convergence.hpp"
-#include "common/plot.hpp"
-#include "experiments/oracle.hpp"
+#include "common/oracle.hpp"
 
 using namespace ljus;
 
@@ -36,17 +31,6 @@ struct Sizes {
     int seeds = 0; ///< Runs behind each error.
     int truth = 0; ///< Rays per pixel of the reference.
 };
-
-/// A row of the report's table 3.
-struct ReportRow {
-    int rays;         ///< Per pixel.
-    double seconds;   ///< Its time.
-    const char* time; ///< As it is printed.
-};
-constexpr std::array<ReportRow, 4> report_rows{{{1, 16, "16 s"},
-                                                {10, 20, "20 s"},
-                                                {100, 72, "1 min 12 s"},
-                                                {1000, 763, "12 min 43 s"}}};
 
 /// The report's settings: depth 4, or as far as roulette lets a path go.
 PhotonMappingSettings settings_with(bool fixed_depth, std::uint64_t seed, int threads) {
@@ -76,13 +60,17 @@ std::vector<double> values_of_pixel(const Room3& room,
                                  .sampling = Sampling::random};
     const PictureRays rays(picture);
     std::vector<double> values(static_cast<std::size_t>(picture.samples));
-    const auto value = [&](std::size_t ray) {
-        Counts counts;
-        const auto found =
-            trace_pixel(mapper, room.camera, rays, {200, 330, int(ray)}, counts);
-        values[ray] = double(luminance(found.weight * found.radiance));
+    constexpr int block = 4096; // rays
+    const auto trace = [&](long long number) {
+        for (int i = 0; i < block; ++i) {
+            const int ray = int(number) * block + i;
+            Counts counts;
+            const auto found =
+                trace_pixel(mapper, room.camera, rays, {200, 330, ray}, counts);
+            values[std::size_t(ray)] = double(luminance(found.weight * found.radiance));
+        }
     };
-    detail::parallel_each(values.size(), 4096, value, {.threads = options.threads});
+    parallel_blocks(picture.samples / block, trace, {.threads = options.threads});
     return values;
 }
 
@@ -139,39 +127,6 @@ void one_pixel(const Room3& room, const examples::Options& options) {
     save_table(options.path(""), table);
 }
 
-// --- Figure 12 -----------------------------------------------------------------------
-
-/// What the pictures of figure 12 took.
-struct Shots {
-    double first = 0;              ///< Processor seconds of the first pass.
-    std::vector<double> seconds{}; ///< Of the second, for each number of rays.
-};
-
-Shots figure_12(const Room3& room, const std::vector<ReportRow>& rows,
-                const examples::Options& options) {
-    const auto settings = settings_with(true, options.seed, options.threads);
-    Shots shots;
-    const double start = examples::processor_seconds();
-    const PhotonMapper mapper(room.world, settings);
-    shots.first = examples::processor_seconds() - start;
-    for (const ReportRow& row : rows) {
-        const int n = row.rays;
-        examples::ProgressBar bar("fig-12, " + std::to_string(n) + " rays",
-                                  options.quiet);
-        const double before = examples::processor_seconds();
-        const auto seen = render(mapper, room.camera,
-                                 {.width = options.width,
-                                  .height = options.height,
-                                  .samples = n,
-                                  .seed = options.seed,
-                                  .threads = options.threads,
-                                  .progress = bar});
-        shots.seconds.push_back(std::max(examples::processor_seconds() - before, 1e-6));
-        save_png(seen.image, options.path("fig-12-" + std::to_string(n) + ".png"));
-    }
-    return shots;
-}
-
 // --- Errors --------------------------------------------------------------------------
 
 /// What a number of rays brought, over several seeds.
@@ -211,9 +166,9 @@ std::vector<Rung> climb(const Method& method, const std::vector<int>& rays,
             rung.trimmed += trimmed_rel_mse(runs.back(), oracle.truth) / seeds;
             examples::stop_if_asked();
         }
-        rung.pixels = examples::relative_split(runs, oracle.truth, oracle.noise);
-        rung.blocks =
-            examples::relative_split(runs, oracle.truth, oracle.block_noise, 10);
+        const auto errors = errors_against(oracle, runs);
+        rung.pixels = errors.pixels;
+        rung.blocks = errors.blocks;
         rung.rays_alone =
             method.has_map ? examples::relative_split(of_one_map, oracle.truth).variance
                            : rung.pixels.variance;
@@ -406,48 +361,6 @@ std::vector<Method> methods_of(Contest& contest) {
              }}};
 }
 
-// --- Table 3 -------------------------------------------------------------------------
-
-/// The report's rows that are rendered here: all of them, unless fewer are asked for.
-std::vector<ReportRow> rows_up_to(int most) {
-    std::vector<ReportRow> rows;
-    for (const ReportRow& row : report_rows)
-        if (row.rays <= most) rows.push_back(row);
-    return rows;
-}
-
-/// The report's times and ours, and our errors by photons.
-/// \param fixed     Rungs of the photon mapper that stops at depth 4.
-/// \param roulette  Those of the one that does not.
-void table_3(const std::vector<ReportRow>& shown, const Shots& shots,
-             const std::vector<Rung>& fixed, const std::vector<Rung>& roulette,
-             const examples::Options& options) {
-    const auto blocks = [](const Rung& rung) {
-        return text(std::max(rung.blocks.bias_squared + rung.blocks.variance, 0.0),
-                    "%.2g");
-    };
-    examples::Table table{.name = "table-3",
-                          .columns = {"rays", "report", "photons, s", "picture, s",
-                                      "relMSE, depth 4", "relMSE, roulette",
-                                      "blocks, depth 4", "blocks, roulette",
-                                      "FLIP, roulette"}};
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-        std::vector<std::string> row{std::to_string(shown[i].rays), shown[i].time,
-                                     text(shots.first, "%.2f"),
-                                     text(shots.seconds[i], "%.3g")};
-        for (std::size_t k = 0; k < fixed.size(); ++k)
-            if (fixed[k].rays == shown[i].rays)
-                row.insert(row.end(),
-                           {text(fixed[k].error(), "%.2g"),
-                            text(roulette[k].error(), "%.2g"), blocks(fixed[k]),
-                            blocks(roulette[k]), text(roulette[k].flip, "%.3f")});
-        row.resize(table.columns.size());
-        table.rows.push_back(row);
-    }
-    save_table(options.path(""), table);
-    if (!options.quiet) examples::print_rows(table);
-}
-
 void table_of_truth(const examples::Oracle& oracle, const examples::Options& options) {
     const examples::Table table{
         .name = "rays_per_pixel-truth",
@@ -458,10 +371,9 @@ void table_of_truth(const examples::Oracle& oracle, const examples::Options& opt
 }
 
 /// What a ray buys: three ways, against a reference.
-std::vector<std::vector<Rung>> errors_of_rays(Contest& contest,
-                                              const std::vector<int>& rays,
-                                              const examples::Oracle& oracle,
-                                              const Sizes& sizes, double first_pass) {
+void errors_of_rays(Contest& contest, const std::vector<int>& rays,
+                    const examples::Oracle& oracle, const Sizes& sizes,
+                    double first_pass) {
     for (int seed = 1; seed <= sizes.seeds; ++seed) // before any clock runs
         for (const bool fixed_depth : {true, false})
             (void)contest.by_photons(fixed_depth, 1, 1, std::uint64_t(seed));
@@ -473,7 +385,6 @@ std::vector<std::vector<Rung>> errors_of_rays(Contest& contest,
     show_slopes(methods, runs, contest.options);
     show_half_time(methods, runs, contest.options);
     equal_error(methods, runs, contest.options);
-    return runs;
 }
 
 } // namespace
@@ -482,7 +393,7 @@ std::vector<std::vector<Rung>> errors_of_rays(Contest& contest,
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 33, rays per pixel: table 3, figure 12.");
+        line.about("Chapter 33, rays per pixel: what a ray buys.");
         line.add("--most", sizes.most, "The largest number of rays", 10, 1000);
         line.add("--seeds", sizes.seeds, "Runs behind each error", 2, 1000);
         line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8,
@@ -497,9 +408,10 @@ int main(int argc, char** argv) {
 
         const auto room = all_materials_room();
         one_pixel(room, options);
-        // Errors may stop before the pictures do: several seeds of 1000 rays take long.
-        const auto shown = rows_up_to(line.given("--most") ? sizes.most : 1000);
-        const Shots shots = figure_12(room, shown, options);
+        const double start = examples::processor_seconds();
+        const PhotonMapper first(room.world,
+                                 settings_with(true, options.seed, options.threads));
+        const double first_pass = examples::processor_seconds() - start;
 
         std::vector<int> rays;
         for (const int n : {1, 3, 10, 30, 100, 300, 1000})
@@ -509,7 +421,6 @@ int main(int argc, char** argv) {
             examples::find_oracle("all-materials", room, size, sizes.truth, options);
         table_of_truth(oracle, options);
         Contest contest{.room = room, .options = options, .size = size};
-        const auto runs = errors_of_rays(contest, rays, oracle, sizes, shots.first);
-        table_3(shown, shots, runs[0], runs[1], options);
+        errors_of_rays(contest, rays, oracle, sizes, first_pass);
     });
 }

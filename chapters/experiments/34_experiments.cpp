@@ -1,8 +1,7 @@
-// figures: table-4 fig-13
 // smoke: --quality draft --width 20 --height 20 --rays 2 --seeds 2 --truth 64
 /// \file chapters/experiments/34_experiments.cpp
-/// \brief Chapter 34: depth. Table 4, figure 13; how paths end, and which pixels
-/// deserve rays.
+/// \brief Chapter 34: the experiments behind its tables and plots: how paths end, and
+/// which pixels deserve rays.
 
 #include <algorithm>
 #include <array>
@@ -17,13 +16,9 @@
 #include <ljus/scenes/furnaces.hpp>
 #include <ljus/scenes/report_rooms.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/convergence.hpp"
 #include "common/error_map.hpp"
-#include "common/plot.hpp"
+#include "common/oracle.hpp"
 #include "experiments/ended_paths.hpp"
-#include "experiments/oracle.hpp"
 
 using namespace ljus;
 
@@ -39,17 +34,6 @@ struct Sizes {
 };
 
 using Room4 = decltype(four_glass_room());
-
-/// The report's settings with another depth; 0: roulette from the fourth surface on.
-PhotonMappingSettings settings_with(int depth, std::uint64_t seed, int threads) {
-    PhotonMappingSettings settings;
-    if (depth > 0) settings.max_depth = depth, settings.roulette_depth = depth + 1;
-    settings.caustics.photons = 100000;
-    settings.caustics.seed = seed;
-    settings.caustics.threads = threads;
-    settings.caustics_estimate.radius = 0.05f; // the report's
-    return settings;
-}
 
 double mean_of(const std::vector<Image>& images) {
     double sum = 0, count = 0;
@@ -68,75 +52,6 @@ double mean_of(const ImageT<double>& image) {
 /// "-3.1 %": how far a mean is from another one.
 std::string percent(double mean, double truth) {
     return text(100 * (mean - truth) / truth, "%+.2f %%");
-}
-
-// --- Figure 13 and table 4 -----------------------------------------------------------
-
-/// Small pictures with maps of their own, beside which the reference tells the error.
-std::vector<Image> runs_to_depth(const Room4& room, int depth,
-                                 const examples::Oracle& oracle, int seeds,
-                                 int threads) {
-    std::vector<Image> runs;
-    for (std::uint64_t seed = 1; seed <= std::uint64_t(seeds); ++seed) {
-        const auto settings = settings_with(depth, seed, threads);
-        runs.push_back(render(PhotonMapper(room.world, settings), room.camera,
-                              {.width = oracle.truth.width,
-                               .height = oracle.truth.height,
-                               .samples = 64,
-                               .seed = seed,
-                               .threads = threads})
-                           .image);
-        examples::stop_if_asked();
-    }
-    return runs;
-}
-
-void table_4(const Room4& room, const examples::Oracle& oracle,
-             const examples::Options& options, const Sizes& sizes) {
-    struct Depth {
-        int depth;          ///< 0: roulette.
-        const char* report; ///< Its time.
-    };
-    constexpr std::array<Depth, 7> depths{{{1, "22 s"},
-                                           {2, "33 s"},
-                                           {3, "44 s"},
-                                           {4, "53 s"},
-                                           {8, ""},
-                                           {16, ""},
-                                           {0, ""}}};
-    examples::Table table{.name = "table-4",
-                          .columns = {"depth", "report", "picture, s",
-                                      "rays per camera ray", "light", "bias²", "noise",
-                                      "bias² of blocks"}};
-    const double truth = mean_of(oracle.truth);
-    for (const Depth& row : depths) {
-        const std::string name = row.depth > 0 ? std::to_string(row.depth) : "roulette";
-        const auto settings = settings_with(row.depth, options.seed, options.threads);
-        const PhotonMapper mapper(room.world, settings);
-        examples::ProgressBar bar("fig-13, depth " + name, options.quiet);
-        const double start = examples::processor_seconds();
-        const auto seen = render(mapper, room.camera,
-                                 {.width = options.width,
-                                  .height = options.height,
-                                  .samples = options.samples,
-                                  .seed = options.seed,
-                                  .threads = options.threads,
-                                  .progress = bar});
-        const double seconds = examples::processor_seconds() - start;
-        save_png(seen.image, options.path("fig-13-" + name + ".png"));
-
-        const auto runs =
-            runs_to_depth(room, row.depth, oracle, sizes.seeds, options.threads);
-        const auto pixels = examples::relative_split(runs, oracle.truth, oracle.noise);
-        const auto blocks =
-            examples::relative_split(runs, oracle.truth, oracle.block_noise, 10);
-        table.rows.push_back(
-            {name, row.report, text(seconds, "%.3g"),
-             text(double(seen.counts.rays()) / double(seen.counts.camera_rays), "%.2f"),
-             percent(mean_of(runs), truth), text(pixels.bias_squared, "%.2g"),
-             text(pixels.variance, "%.2g"), text(blocks.bias_squared, "%.2g")});
-    }
-    save_table(options.path(""), table);
 }
 
 // --- The furnace ---------------------------------------------------------------------
@@ -274,9 +189,7 @@ void endings(const Room4& room, const examples::Oracle& oracle,
             runs.push_back(seen.image);
             examples::stop_if_asked();
         }
-        const auto pixels = examples::relative_split(runs, oracle.truth, oracle.noise);
-        const auto blocks =
-            examples::relative_split(runs, oracle.truth, oracle.block_noise, 10);
+        const auto [pixels, blocks] = errors_against(oracle, runs);
         table.rows.push_back(
             {way.name, text(double(counts.rays()) / double(counts.camera_rays), "%.2f"),
              text(seconds, "%.3g"), percent(mean_of(runs), truth),
@@ -420,7 +333,7 @@ void error_of_sharing(const Trial<Renderer>& trial) {
         }
         plot.rows.push_back(row);
     }
-    save_plot(options.path(""), plot);
+    if (trial.name == "photons") save_plot(options.path(""), plot);
     save_table(options.path(""), table);
 }
 
@@ -499,19 +412,15 @@ void more_where_two_disagree(const Trial<Renderer>& trial) {
     save_table(trial.options.path(""), table);
 }
 
-/// Rays where they are needed, for one renderer.
+/// A trial of one renderer, judged by its own picture with many rays.
 template <typename Renderer>
-void adaptive(const std::string& name, const Renderer& renderer, const Camera& camera,
-              const examples::Options& options, const Sizes& sizes) {
+Trial<Renderer> trial_of(const std::string& name, const Renderer& renderer,
+                         const Camera& camera, const examples::Options& options,
+                         const Sizes& sizes) {
     const int size = std::min(options.pick(24, 96, 128), options.width);
     const int rays = std::max(16, sizes.truth / options.pick(1, 4, 4));
-    const Trial<Renderer> trial{
-        name,    renderer,    camera,
-        options, sizes.seeds, own_truth(renderer, camera, size, rays, options)};
-    error_of_sharing(trial);
-    map_of_rays(trial);
-    stop_at_error(trial);
-    more_where_two_disagree(trial);
+    return {name,    renderer,    camera,
+            options, sizes.seeds, own_truth(renderer, camera, size, rays, options)};
 }
 
 /// The bias of choosing by the rays that are averaged, in closed form: a bright spot
@@ -548,7 +457,7 @@ void spot(const examples::Options& options) {
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 34, depth: table 4, figure 13, and adaptive sampling.");
+        line.about("Chapter 34, depth: how paths end, and adaptive sampling.");
         line.add("--seeds", sizes.seeds, "Runs behind each error", 2, 1000);
         line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8,
                  100000000);
@@ -565,7 +474,6 @@ int main(int argc, char** argv) {
         const int side = std::min(options.pick(20, 64, 100), options.width);
         const auto oracle =
             examples::find_oracle("four-glass", room, side, sizes.truth, options);
-        table_4(room, oracle, options, sizes);
         endings(room, oracle, options, sizes);
         examples::Table truth{
             .name = "recursion_depth-truth",
@@ -574,10 +482,22 @@ int main(int argc, char** argv) {
                       text(oracle.noise, "%.2g"), text(oracle.block_noise, "%.2g")}}};
         save_table(options.path(""), truth);
 
-        auto settings = settings_with(0, options.seed, options.threads);
-        settings.split_glass = true; // else a few fireflies decide all errors
-        adaptive("photons", PhotonMapper(room.world, settings), room.camera, options,
-                 sizes);
-        adaptive("paths", PathTracer(room.world), room.camera, options, sizes);
+        // Without split_glass a few fireflies would decide all errors.
+        PhotonMappingSettings settings{.split_glass = true};
+        settings.caustics.photons = 100000;
+        settings.caustics.seed = options.seed;
+        settings.caustics.threads = options.threads;
+        settings.caustics_estimate.radius = 0.05f; // the report's
+        const PhotonMapper mapper(room.world, settings);
+        const auto photons = trial_of("photons", mapper, room.camera, options, sizes);
+        error_of_sharing(photons);
+        map_of_rays(photons);
+        stop_at_error(photons);
+        more_where_two_disagree(photons);
+
+        const PathTracer tracer(room.world);
+        const auto paths = trial_of("paths", tracer, room.camera, options, sizes);
+        error_of_sharing(paths);
+        stop_at_error(paths);
     });
 }

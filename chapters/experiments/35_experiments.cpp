@@ -1,7 +1,8 @@
 // smoke: --quality draft --seeds 3 --only radius
 /// \file chapters/experiments/35_experiments.cpp
-/// \brief Chapter 35: every knob of the photon mapper, turned. Error against time and
-/// memory, what half of the time costs, and the settings that no other beats.
+/// \brief Chapter 35: the experiments behind its tables and plots: every knob of the
+/// photon mapper, turned. Error against time and memory, what half of the time costs, and
+/// the settings that no other beats.
 ///
 /// Each setting that is done is a line of trades-notebook.json; what is there is not
 /// done again, so that a run can be stopped and gone on with. ./scripts/trades builds
@@ -279,7 +280,7 @@ struct Sweep {
     }
 };
 
-// --- Promises, and equal time --------------------------------------------------------
+// --- Promises ------------------------------------------------------------------------
 
 /// Promises some seconds, and two errors, three times each: were they kept?
 /// \return The smallest error that was measured.
@@ -330,36 +331,6 @@ double promises(Sweep& sweep, const std::string& name, const Room& room,
     return least;
 }
 
-/// The same room after the same seconds, by whole ways to make a picture.
-template <typename Room>
-void panels(Sweep& sweep, const Room& room, float unit) {
-    const examples::Options& options = sweep.options;
-    const int size = options.pick(60, 400, 400);
-    const double seconds = options.pick(0.5, 20.0, 20.0);
-    for (const Setting& way : settings_of("preset", unit, size, true)) {
-        sweep.add(seconds);
-        if (!sweep.bar) continue;
-        ProgressiveState state{.alpha = 1};
-        const double begin = examples::processor_seconds();
-        double took = 0;
-        do { // whole pictures, the last one by half
-            const auto seed = static_cast<std::uint64_t>(state.passes) + 1;
-            Setting one = way;
-            if (one.paths) one.recipe.rays = 1;
-            add_pass(state, shoot_setting(room, one,
-                                          {.width = size,
-                                           .height = size,
-                                           .seed = seed,
-                                           .threads = options.threads},
-                                          seed)
-                                .rendered.image);
-            examples::stop_if_asked();
-            took = examples::processor_seconds() - begin;
-        } while (took + took / double(state.passes) / 2 < seconds);
-        save_png(mean_image(state), options.path("trades-equal-" + way.value + ".png"));
-    }
-}
-
 /// Tries the promises of a room, and tells how good its reference is: its standard
 /// error beside the root of the smallest error that was measured by it.
 template <typename Room>
@@ -395,7 +366,7 @@ std::optional<examples::Oracle> reference_of(const Sweep& sweep,
         {sweep.options.out, LJUS_SOURCE_FOLDER "/examples/data"});
 }
 
-/// Goes over one room of which only promises are asked.
+/// Goes over a room in which only promises are tried.
 template <typename Room>
 void go_over(Sweep& sweep, const std::string& name, const Room& room) {
     if (makes_reference(sweep, name, room) || sweep.request.only != "all") return;
@@ -450,7 +421,6 @@ void go_over(Sweep& sweep, const std::string& name, const Make& make, float unit
         }
     }
     if (request.only != "all") return;
-    if (name == "cornell") panels(sweep, room, unit);
     try_promises(sweep, name, room, *oracle);
 }
 

@@ -1,9 +1,9 @@
 // smoke: --width 16 --rays 1
 // headers: broken
 /// \file chapters/experiments/37_experiments.cpp
-/// \brief Chapter 37: what each mistake looks like. The program is compiled against
-/// headers in which the rows of tests/break_it can be switched on, one at a time: the
-/// right picture, the wrong one, and their difference with its sign.
+/// \brief Chapter 37: the gallery, what each mistake looks like. The program is compiled
+/// against headers in which the rows of tests/break_it can be switched on, one at a time:
+/// the right picture, the wrong one, and their difference with its sign.
 
 #include <algorithm>
 #include <array>
@@ -21,10 +21,10 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
+#include "common/drawing.hpp"
 #include "common/error_map.hpp"
 #include "common/plot.hpp"
 #include "common/terminal.hpp"
-#include "drawings/drawing.hpp"
 #include "experiments/break_it_scenes.hpp"
 
 namespace {

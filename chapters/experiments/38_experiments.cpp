@@ -1,8 +1,7 @@
-// figures: flatland
 // smoke: --quality draft --photons 2000 --maps 2 --quiet
 /// \file chapters/experiments/38_experiments.cpp
-/// \brief Chapter 38, Flatland: its drawings, what its laws say and what is counted,
-/// the bias at a wall, and the error over k.
+/// \brief Chapter 38: the experiments behind its drawings, plots and tables: what the
+/// laws of Flatland say and what is counted, the bias at a wall, and the error over k.
 
 #include <algorithm>
 #include <array>
@@ -18,20 +17,15 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
 
 namespace {
 
 using namespace flatland;
-using examples::Drawing, examples::Point, examples::text;
+using examples::Drawing, examples::flat, examples::Point, examples::text;
 using ljus::Kernel, ljus::PhotonKind;
 
 constexpr double pi = std::numbers::pi;
-
-/// A vector as a point of a drawing.
-Point drawn(const Vec2& v) {
-    return {v.x, v.y};
-}
 
 /// The colour of a photon of each kind.
 std::string color_of(PhotonKind kind) {
@@ -53,61 +47,6 @@ ljus::RandomStream stream_of(std::uint64_t seed, int path) {
 
 // --- Drawings ------------------------------------------------------------------------
 
-/// Draws the walls, the mirror, the disc and the lamp of the room.
-void draw_room(Drawing& figure, const RoomSettings& settings) {
-    for (const Object& object : make_room(settings).objects)
-        if (const auto* wall = std::get_if<Segment>(&object.shape)) {
-            const bool mirror = std::holds_alternative<Mirror>(object.material);
-            draw_line(figure, {drawn(wall->from), drawn(wall->to)},
-                      {.width = mirror ? 5.0 : 1.5});
-        }
-    std::vector<Point> disc;
-    for (int i = 0; i < 90; ++i) {
-        const double angle = 2 * pi * i / 90;
-        disc.push_back(
-            drawn(room_disc.center +
-                  room_disc.radius * Vec2{std::cos(angle), std::sin(angle)}));
-    }
-    draw_area(figure, disc, examples::colors::blue);
-    draw_dot(figure, drawn(settings.lamp), settings.lamp_size * figure.scale,
-             examples::colors::orange);
-}
-
-/// The room with the paths of some photons, and the dots that they leave.
-void draw_photons(const std::string& folder) {
-    const RoomSettings settings;
-    const Scene scene = make_room(settings);
-    Drawing figure{.name = "flatland-room",
-                   .description = "A room of the plane with the paths of 60 photons",
-                   .low{-1.05, -0.06},
-                   .high{1.05, 1.16},
-                   .scale = 340};
-    std::string dots;
-    for (int i = 0; i < 60; ++i) {
-        auto stream = photon_stream({}, i);
-        const PathState photon = emit_photon(scene, 1, stream);
-        Vec2 last = photon.ray.origin;
-        trace_photon(scene, photon, stream, 1000,
-                     [&](const PathState& path, const Vertex& vertex) {
-                         const Vec2& at = vertex.point.position;
-                         const std::string color = color_of(kind_of(path));
-                         draw_line(figure, {drawn(last), drawn(at)}, {color, 0.8});
-                         PhotonMap stored;
-                         store_photon(path, vertex, stored);
-                         std::swap(figure.body, dots); // dots lie on top
-                         if (!stored.empty()) draw_dot(figure, drawn(at), 3.5, color);
-                         std::swap(figure.body, dots);
-                         last = at;
-                     });
-    }
-    figure.body += dots;
-    draw_room(figure, settings);
-    draw_label(figure, {settings.lamp.x - 0.12, settings.lamp.y + 0.06}, "lamp");
-    draw_label(figure, drawn(room_disc.center), "glass");
-    draw_label(figure, {0.87, 0.85}, "mirror");
-    save_drawing(folder, figure);
-}
-
 /// Rays in even steps of the angle, and two screens of one length: how many arrive.
 void draw_falloff(const std::string& folder) {
     Drawing figure{.name = "flatland-falloff",
@@ -126,12 +65,12 @@ void draw_falloff(const std::string& folder) {
         const auto hit = closest_hit(scene, ray);
         if (hit) ++arrived[hit->id];
         const double end = hit ? hit->t : 0.55;
-        draw_line(figure, {{0, 0}, drawn(end * ray.direction)},
+        draw_line(figure, {{0, 0}, flat(end * ray.direction)},
                   {hit ? examples::colors::orange : "currentColor", hit ? 1.2 : 0.4});
     }
     for (const Object& object : scene.objects) {
         const auto& screen = std::get<Segment>(object.shape);
-        draw_line(figure, {drawn(screen.from), drawn(screen.to)}, {.width = 4});
+        draw_line(figure, {flat(screen.from), flat(screen.to)}, {.width = 4});
     }
     draw_dot(figure, {0, 0}, 6, examples::colors::orange);
     draw_label(figure, {1.2, 0}, std::to_string(arrived[0]));
@@ -154,8 +93,8 @@ void draw_lambert(const std::string& folder) {
     constexpr int count = 16;
     for (int i = 0; i < count; ++i) {
         const Vec2 d = sample_cosine_half_circle((i + 0.5) / count);
-        draw_line(figure, {{d.x, 0}, drawn(d)}, {.width = 0.8, .dashed = true});
-        draw_arrow(figure, {0, 0}, drawn(d), {examples::colors::orange, 1.2});
+        draw_line(figure, {{d.x, 0}, flat(d)}, {.width = 0.8, .dashed = true});
+        draw_arrow(figure, {0, 0}, flat(d), {examples::colors::orange, 1.2});
         draw_dot(figure, {d.x, 0}, 3, examples::colors::blue);
     }
     draw_label(figure, {-1, -0.14}, "−1");
@@ -179,8 +118,8 @@ void draw_squeeze(const std::string& folder) {
     for (int i = 0; i < count; ++i) {
         const Vec2 wo = sample_cosine_half_circle((i + 0.5) / count);
         const auto in = sample(Glass{1.5}, wo, 0.999999, ljus::Transport::flux);
-        draw_line(figure, {drawn(wo), {0, 0}}, {examples::colors::orange, 1.2});
-        draw_line(figure, {{0, 0}, drawn(in->wi)}, {examples::colors::orange, 1.2});
+        draw_line(figure, {flat(wo), {0, 0}}, {examples::colors::orange, 1.2});
+        draw_line(figure, {{0, 0}, flat(in->wi)}, {examples::colors::orange, 1.2});
     }
     draw_label(figure, {-1.05, 0.12}, "n_1 = 1");
     draw_label(figure, {-1.05, -0.13}, "n_2 = 1.5");
@@ -198,10 +137,10 @@ void draw_disc(const std::string& folder, const PhotonMap& map) {
                    .scale = 2700};
     draw_line(figure, {{x - 0.13, 0}, {x + 0.13, 0}}, {.width = 2});
     for (const Photon& photon : map) {
-        const Point at = drawn(photon.position);
+        const Point at = flat(photon.position);
         if (photon.normal.y < 0.5 || std::abs(at.x - x) > 0.128) continue;
         const Vec2 from = photon.position - 0.012 * photon.direction;
-        draw_line(figure, {drawn(from), at}, {color_of(photon.kind), 0.8});
+        draw_line(figure, {flat(from), at}, {color_of(photon.kind), 0.8});
         draw_dot(figure, at, 3, color_of(photon.kind));
     }
     double below = -0.015;
@@ -230,7 +169,7 @@ void draw_places(const std::string& folder, const PhotonMap& map) {
     draw_line(figure, {{-1, 0.22}, {-1, 0}, {1, 0}, {1, 0.22}}, {.width = 2});
     for (const Photon& photon : map)
         if (photon.normal.y > 0.5)
-            draw_dot(figure, drawn(photon.position), 2, color_of(photon.kind));
+            draw_dot(figure, flat(photon.position), 2, color_of(photon.kind));
     struct Place {
         double x;
         const char* name;
@@ -559,7 +498,6 @@ int main(int argc, char** argv) {
         const std::string& folder = options.out;
 
         const Scene scene = make_room();
-        draw_photons(folder);
         draw_falloff(folder);
         draw_lambert(folder);
         draw_squeeze(folder);

@@ -128,7 +128,8 @@ Image facets(const Eye& eye, float radius, int cuts) {
     return draw(eye, camera, [&](Ray ray) {
         Rgb seen{0.05f};
         for (std::size_t i = 0; i < data.triangles.size(); ++i) {
-            const Triangle one = ljus::detail::triangle_of(data, i);
+            const auto& [a, b, c] = data.triangles[i];
+            const Triangle one{data.positions[a], data.positions[b], data.positions[c]};
             if (const auto hit = intersect(ray, one)) {
                 ray.t_max = hit->t;
                 const Vec3 n =
@@ -765,8 +766,9 @@ Image box_with_points(const Eye& eye) {
         if (!hit) return Rgb{0};
         const Vertex vertex = vertex_at(room.world, ray, *hit);
         if (vertex.emits()) return Rgb{1};
-        const Rgb irradiance = irradiance_at(points, vertex.point.position,
-                                             ljus::detail::seen_normal(vertex));
+        const Rgb irradiance =
+            irradiance_at(points, vertex.point.position,
+                          std::copysign(1.0f, vertex.wo.z) * vertex.frame.normal);
         return visit_material_at(room.world, vertex, [&](const auto& material) {
             return evaluate(material, vertex.wo, vertex.wo) * irradiance;
         });

@@ -12,14 +12,15 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "common/fingerprint.hpp"
+#include "common/oracle.hpp"
 #include "common/plot.hpp"
 #include "common/promised_picture.hpp"
-#include "experiments/oracle.hpp"
 #include "ljus/image/flip.hpp"
 #include "ljus/render/path_tracing.hpp"
 
@@ -72,11 +73,12 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Measured, scene, knob, value, x, seconds, pho
 /// \param more     Further words, as "4 seeds".
 [[nodiscard]] inline std::string conditions(const Options& options,
                                             const std::string& more) {
-    std::string text = "Ljus " + std::to_string(LJUS_VERSION_MAJOR) + "." +
-                       std::to_string(LJUS_VERSION_MINOR) + "." +
-                       std::to_string(LJUS_VERSION_PATCH) + ", " + more + ", threads " +
-                       std::to_string(options.threads == 0 ? ljus::detail::max_threads()
-                                                           : options.threads);
+    std::string text =
+        "Ljus " + std::to_string(LJUS_VERSION_MAJOR) + "." +
+        std::to_string(LJUS_VERSION_MINOR) + "." + std::to_string(LJUS_VERSION_PATCH) +
+        ", " + more + ", threads " +
+        std::to_string(options.threads > 0 ? options.threads
+                                           : int(std::thread::hardware_concurrency()));
 #ifdef LJUS_BUILD_FLAGS
     text += ", flags " LJUS_BUILD_FLAGS;
 #endif

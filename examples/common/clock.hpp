@@ -32,6 +32,23 @@ private:
     return double(std::clock()) / double(CLOCKS_PER_SEC);
 }
 
+/// How long some work took.
+struct Timing {
+    double wall = 0; ///< Seconds on the wall.
+    double work = 0; ///< Seconds of all processors.
+};
+
+/// Does some work.
+/// \param work  Called once, without arguments.
+/// \return How long it took.
+template <typename Work>
+[[nodiscard]] Timing timed(Work&& work) {
+    const StopWatch watch;
+    const double before = processor_seconds();
+    work();
+    return {watch.seconds(), processor_seconds() - before};
+}
+
 /// Nanoseconds of one call, the best of some runs: whatever else a machine does only
 /// adds to them.
 /// \param calls  How many calls one run of `work` makes.

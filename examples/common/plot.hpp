@@ -11,7 +11,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ljus/io/file.hpp"
@@ -67,6 +69,49 @@ inline void print_row(const std::vector<std::string>& row, int width = 12) {
 /// \param width  Of each cell, in letters.
 inline void print_rows(const Table& table, int width = 12) {
     for (const auto& row : table.rows) print_row(row, width);
+}
+
+/// How many letters a text has: bytes of UTF-8 that begin one.
+[[nodiscard]] inline std::size_t letters_of(const std::string& text) {
+    return std::size_t(std::count_if(text.begin(), text.end(),
+                                     [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+/// Prints a table on the terminal: each column as wide as its cells, and headings over
+/// several lines where they are longer.
+/// \param table  The table.
+inline void print_table(const Table& table) {
+    const std::size_t count = table.columns.size();
+    std::vector<std::vector<std::string>> heading(count); // lines
+    std::vector<std::size_t> width(count, 6);
+    for (std::size_t c = 0; c < count; ++c) {
+        for (const auto& row : table.rows)
+            width[c] = std::max(width[c], letters_of(row[c]));
+        std::string line;
+        std::istringstream words(table.columns[c]);
+        for (std::string word; words >> word;) {
+            width[c] = std::max(width[c], letters_of(word));
+            if (!line.empty() && letters_of(line + " " + word) > width[c])
+                heading[c].push_back(std::exchange(line, ""));
+            line += (line.empty() ? "" : " ") + word;
+        }
+        heading[c].push_back(line);
+    }
+    const auto print = [&](const auto& cell_of) {
+        std::string line;
+        for (std::size_t c = 0; c < count; ++c) {
+            const std::string cell = cell_of(c);
+            line += cell + std::string(width[c] + 2 - letters_of(cell), ' ');
+        }
+        std::printf("%s\n", line.substr(0, line.find_last_not_of(' ') + 1).c_str());
+    };
+    std::size_t lines = 0;
+    for (const auto& each : heading) lines = std::max(lines, each.size());
+    for (std::size_t i = 0; i < lines; ++i)
+        print(
+            [&](std::size_t c) { return i < heading[c].size() ? heading[c][i] : ""; });
+    print([&](std::size_t c) { return std::string(width[c], '-'); });
+    for (const auto& row : table.rows) print([&](std::size_t c) { return row[c]; });
 }
 
 /// Saves a text as a whole, or not at all.

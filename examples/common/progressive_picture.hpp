@@ -93,7 +93,6 @@ template <typename RenderPass>
                       "'; the same command with --resume goes on from there");
     };
     say(0);
-    // [program]
     ProgressiveState state{.alpha = how.alpha};
     if (how.resume) {
         state = load_checkpoint(how.checkpoint);
@@ -118,7 +117,6 @@ template <typename RenderPass>
     });
     if (state.passes > 0) save(state);
     if (!done) throw Interrupted{};
-    // [program]
     return state;
 }
 

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # The program examples/32_many_machines.cpp: 1 to 4 ranks make the bytes of one process,
 # and a rank that dies leaves no picture. Exit code 77 where mpirun cannot start a rank.
-# Usage: many_machines.sh MPIRUN PROGRAM SCRATCH [RENDER SCENE.json]
+# Usage: many_machines.sh MPIRUN PROGRAM SCRATCH RENDER SCENE.json
 set -euo pipefail
 mpirun=$1
 program=$2
 scratch=$3
-render=${4:-}
-scene=${5:-}
+render=$4
+scene=$5
 rm -rf "$scratch"
 mkdir -p "$scratch"
 cd "$scratch"
@@ -22,42 +22,40 @@ ranks() { local n=$1; shift; timeout 120 "$mpirun" -n "$n" "$@"; }
 ranks 1 true >out.txt 2>&1 || { echo "mpirun does not start: $(head -3 out.txt)"; exit 77; }
 
 few=(--width 40 --height 30 --rays 2 --caustic-photons 5000 --threads 1)
-"$program" "${few[@]}" --quiet --out alone.pfm # without mpirun: one rank
+picture=many-machines.pfm
+"$program" "$scene" "${few[@]}" --quiet --out alone # without mpirun: one rank
 for n in 1 2 3 4; do
-    ranks $n "$program" "${few[@]}" --out ranks$n.pfm >out.txt || wrong "$n ranks: exit code $?"
-    cmp alone.pfm ranks$n.pfm || wrong "$n ranks made another picture"
+    ranks $n "$program" "$scene" "${few[@]}" --out ranks$n >out.txt || wrong "$n ranks: exit code $?"
+    cmp alone/$picture ranks$n/$picture || wrong "$n ranks made another picture"
     grep -q "^$n ranks:" out.txt || wrong "no line of $n ranks: $(cat out.txt)"
 done
-# More ranks than rows, and two threads each.
-ranks 3 "$program" --width 9 --height 2 --rays 1 --caustic-photons 2 --threads 2 --quiet \
-    --out few.pfm || wrong "more ranks than rows"
-"$program" --width 9 --height 2 --rays 1 --caustic-photons 2 --quiet --out few1.pfm
-cmp few.pfm few1.pfm || wrong "more ranks than rows make another picture"
-"$program" "${few[@]}" --seed 2 --quiet --out seed.pfm
-! cmp -s alone.pfm seed.pfm || wrong "--seed changes nothing"
+# More ranks than rows and photons, and two threads each.
+tiny=("$scene" --width 9 --height 2 --rays 1 --caustic-photons 2 --quiet)
+ranks 3 "$program" "${tiny[@]}" --threads 2 --out few || wrong "more ranks than rows"
+"$program" "${tiny[@]}" --out few1
+cmp few/$picture few1/$picture || wrong "more ranks than rows make another picture"
+"$program" "$scene" "${few[@]}" --seed 2 --quiet --out seed
+! cmp -s alone/$picture seed/$picture || wrong "--seed changes nothing"
 
-# The program that knows nothing of ranks makes the same picture of a scene file.
-if [ -n "$render" ]; then
-    "$render" "$scene" "${few[@]}" --quiet --out render.pfm
-    ranks 3 "$program" --scene "$scene" "${few[@]}" --quiet --out ranks.pfm
-    cmp render.pfm ranks.pfm || wrong "3 ranks make another picture than render"
-fi
+# The program that knows nothing of ranks makes the same picture.
+"$render" "$scene" "${few[@]}" --quiet --out render.pfm
+cmp render.pfm alone/$picture || wrong "ranks make another picture than render"
 
 # A wrong use: one sentence a rank, no picture, no rank that waits for ever.
 code=0
-ranks 2 "$program" --scene none.json --out never.pfm >out.txt 2>err.txt || code=$?
+ranks 2 "$program" none.json --out never >out.txt 2>err.txt || code=$?
 [ $code -ne 0 ] && [ $code -ne 124 ] || wrong "a missing scene: exit code $code"
 grep -q "cannot read 'none.json'" err.txt || wrong "no sentence: $(cat err.txt)"
 
 # A rank that is killed ends the others, and leaves no picture and no half of one.
-timeout 120 "$mpirun" -n 3 "$program" --width 200 --height 200 --rays 100000 --threads 1 \
-    --out never.pfm >out.txt 2>err.txt &
+timeout 120 "$mpirun" -n 3 "$program" "$scene" --width 200 --height 200 --rays 100000 \
+    --threads 1 --out never >out.txt 2>err.txt &
 job=$!
 victim=
 for _ in 1 2 3 4 5 6 7 8 9 10; do
     sleep 0.5
     child=$(pgrep -P "$job" || true) # mpirun, or whatever MPI calls it, below timeout
-    victim=$([ -z "$child" ] || pgrep -P "$child" -f -- '--out never.pfm' | tail -1)
+    victim=$([ -z "$child" ] || pgrep -P "$child" -f -- '--out never' | tail -1)
     [ -z "$victim" ] || break
 done
 sleep 1
@@ -71,7 +69,7 @@ else
     wrong "no rank to kill was found"
     kill "$job" || true
 fi
-[ ! -e never.pfm ] || wrong "there is a picture"
+[ ! -e never/$picture ] || wrong "there is a picture"
 leftover=$(find . -name '*.part*' -o -name '.ljus*')
 [ -z "$leftover" ] || wrong "left behind: $leftover"
 [ $wrong -eq 0 ] && echo "many machines make the picture of one"
