@@ -1,4 +1,3 @@
-// computes: pictures of 16 to 64 seeds
 /// \file photon_mapping_test.cpp
 /// \brief Photon mapping against closed forms, path tracing and its own bias.
 ///
