@@ -78,6 +78,7 @@ function(ljus_break_it_program target test cases how)
     target_compile_options(${target} PRIVATE -w)
     if(TARGET ljus_test_compilation)
         target_link_libraries(${target} PRIVATE ljus_test_compilation)
+        ljus_include_shown(${target})
     endif()
     if(NOT MSVC) # most of a broken header's time is spent in compiling its test
         target_compile_options(${target} PRIVATE -O1)
