@@ -18,7 +18,8 @@
 #
 # The CTest entry break_it.NAME (labels: break_it and the test's name) passes only if the
 # program runs to its end and reports at least one failed assertion; break_it.TEST.unbroken
-# passes if no assertion fails where nothing is broken. A text that is not there exactly
+# passes if no assertion fails where nothing is broken. The row's verdict.txt says what was
+# changed, and which test case noticed it by which assertion. A text that is not there exactly
 # once stops the build, and so does a header that does not compile; a crash is not a test
 # that notices. Texts with quotes or several lines are written [[like this]].
 #
@@ -75,6 +76,10 @@ function(ljus_break_it_program target test cases how)
     target_include_directories(${target} BEFORE PRIVATE "${include_folder}")
     target_link_libraries(${target} PRIVATE ljus ljus_test_support)
     target_compile_options(${target} PRIVATE -w)
+    if(TARGET ljus_test_compilation)
+        target_link_libraries(${target} PRIVATE ljus_test_compilation)
+        ljus_include_shown(${target})
+    endif()
     if(NOT MSVC) # most of a broken header's time is spent in compiling its test
         target_compile_options(${target} PRIVATE -O1)
     endif()

@@ -1,5 +1,6 @@
 # Runs PROGRAM, a test compiled against broken headers, with the row NAME; fails unless it
-# runs to its end and reports at least one failed assertion.
+# runs to its end and reports at least one failed assertion. What was broken, and who noticed
+# it by what, is printed, and written to FOLDER/verdict.txt: ./scripts/test shows it.
 cmake_minimum_required(VERSION 3.22)
 set(ENV{LJUS_BREAK_IT} "${NAME}")
 set(arguments --no-colors=true)
@@ -30,9 +31,25 @@ if(failed EQUAL 0)
     message(FATAL_ERROR "break it ${NAME}: no assertion failed; an exception that escapes "
         "is not a test that notices.\n${output}")
 endif()
-string(REGEX MATCHALL "TEST CASE: [^\n]*" cases "${output}")
+
+# The change, each line of it with a sign; a text may have quotes, brackets and semicolons.
+file(READ "${FOLDER}/from.txt" from)
+file(READ "${FOLDER}/to.txt" to)
+string(REPLACE "\n" "\n    - " from "${from}")
+string(REPLACE "\n" "\n    + " to "${to}")
+set(verdict "${NAME}, in ${HEADER}:\n    - ${from}\n    + ${to}\n")
+# Each test case that noticed, once; brackets would join the words of a list.
+string(REGEX REPLACE "[][;]" "." plain "${output}")
+string(REGEX MATCHALL "TEST CASE: [^\n]*" cases "${plain}")
 list(REMOVE_DUPLICATES cases)
-message("${failed} assertions failed; it was noticed by")
 foreach(case IN LISTS cases)
-    message("  ${case}")
+    string(REGEX REPLACE "^TEST CASE: +" "" case "${case}")
+    string(APPEND verdict "  noticed by ${case}\n")
 endforeach()
+if(output MATCHES "[^/\n]*: (FATAL )?ERROR: [^\n]*\n( +values: [^\n]*\n)?( +logged: [^\n]*)?")
+    string(STRIP "${CMAKE_MATCH_0}" first)
+    string(REPLACE "\n" "\n    " first "${first}")
+    string(APPEND verdict "  ${failed} assertions failed; the first:\n    ${first}\n")
+endif()
+file(WRITE "${FOLDER}/verdict.txt" "${verdict}")
+message("${verdict}")

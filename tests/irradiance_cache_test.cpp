@@ -1,4 +1,3 @@
-// long: pictures of four rooms, by two renderers
 // The statistical cases were run with 20 further seeds: none failed. For others:
 // `./scripts/test --seeds 20`.
 #include <doctest/doctest.h>

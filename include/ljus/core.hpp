@@ -44,8 +44,13 @@ LJUS_CORE_EXTERN template void check(const Image&);
 // Trees.
 LJUS_CORE_EXTERN template detail::BvhNodesT<float>
 detail::build_bvh(std::span<const Box>, const BvhSettings&);
+LJUS_CORE_EXTERN template detail::BvhNodesT<double>
+detail::build_bvh(std::span<const BoxT<double>>, const BvhSettings&);
 LJUS_CORE_EXTERN template detail::Bvh8Nodes
 detail::make_bvh8(const detail::BvhNodesT<float>&, std::uint32_t);
+LJUS_CORE_EXTERN template Bvh8::Bvh8(const std::vector<Box>&, const BvhSettings&,
+                                     std::uint32_t);
+LJUS_CORE_EXTERN template KdTree8T<float>::KdTree8T(std::span<const Vec3>, int);
 
 // Paths.
 LJUS_CORE_EXTERN template SeenPointT<float> sample_towards(const Sphere&, const Vec3&,
@@ -70,6 +75,7 @@ LJUS_CORE_EXTERN template TracedPhotonsT<float>
 run_pass(MapType, const PhotonPassSettings&, BlockTracerT<float>);
 } // namespace detail
 LJUS_CORE_EXTERN template PhotonMap make_photon_map(const std::vector<Photon>&, int);
+LJUS_CORE_EXTERN template float typical_radius(const PhotonMap&, std::size_t);
 LJUS_CORE_EXTERN template RgbT<double>
 detail::flux_in_disc(const KdTree8&, const detail::PhotonRecordsT<float>&,
                      const detail::FluxDiscT<float>&, std::uint64_t&);

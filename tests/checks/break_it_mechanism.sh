@@ -34,7 +34,7 @@ expect() {
     fi
 }
 
-expect answer noticed passes "1 assertions failed; it was noticed by"
+expect answer noticed passes "noticed by answer: the number"
 expect answer awkward passes "noticed by"
 expect answer member passes "noticed by"
 expect answer lambda passes "noticed by"
@@ -54,6 +54,16 @@ expect not_switched not-switched build "break it not-switched: its text does not
 expect not_there not-there build "break it not-there: the text 'return 41' occurs 0 times"
 expect there_twice there-twice build "break it there-twice: the text 'int ' occurs 6 times"
 expect unchanged unchanged build "break it unchanged: FROM and TO are the same text"
+
+# The change is shown, and the assertion that noticed it.
+verdict=$(cat "$folder/break_it/answer/rows/noticed/verdict.txt")
+for words in 'noticed, in answer.hpp:' '    - return 42' '    + return 43' \
+    '1 assertions failed; the first:' 'answer_test.cpp:' 'values: CHECK( 43 == 42 )'; do
+    if ! grep -qF -e "$words" <<<"$verdict"; then
+        echo "WRONG: the verdict of a row has no '$words': $verdict"
+        wrong=1
+    fi
+done
 
 # Unless they are asked for, the broken headers are neither built nor run.
 if "$ctest" --test-dir "$folder" --show-only | grep 'break_it\.'; then

@@ -33,7 +33,10 @@ chmod +x "$bin"/*
 looks 0 0 test
 looks 0 0 book ci
 looks 0 0 --no-install test
-[ ! -s "$scratch/out" ] || { echo "WRONG: it speaks though it only looks"; wrong=1; }
+grep -q '^ *sudo apt-get install .*doctest-dev' "$scratch/out" ||
+    { echo "WRONG: it looks, and does not say what is missing"; wrong=1; }
+looks 0 0 --no-install figures
+grep -q 'not installed: .*gnuplot-nox' "$scratch/out" || { echo "WRONG: no plots, in silence"; wrong=1; }
 # Who is root but has no network is told so, and goes on with what is there.
 printf '#!%s\necho 0\n' "$(command -v bash)" >"$bin/id"
 printf '#!%s\nexit 100\n' "$(command -v bash)" >"$bin/apt-get"

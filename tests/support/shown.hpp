@@ -1,0 +1,34 @@
+#pragma once
+
+/// \file support/shown.hpp
+/// \brief How a failed check prints vectors, colours and results that may be missing.
+///
+/// Each test has it included by tests/CMakeLists.txt; doctest alone prints {?}.
+
+#include <optional>
+
+#include <doctest/doctest.h>
+#include <glm/vec3.hpp>
+
+namespace doctest {
+
+/// (1, 2, 3)
+template <glm::length_t size, typename T, glm::qualifier Q>
+struct StringMaker<glm::vec<size, T, Q>> {
+    static String convert(const glm::vec<size, T, Q>& v) {
+        String text = "(";
+        for (glm::length_t i = 0; i < size; ++i)
+            text += (i > 0 ? String(", ") : String()) + toString(v[i]);
+        return text + ")";
+    }
+};
+
+/// The value, or "nothing"; a value that cannot be printed is {?}.
+template <typename T>
+struct StringMaker<std::optional<T>> {
+    static String convert(const std::optional<T>& value) {
+        return value ? toString(*value) : String("nothing");
+    }
+};
+
+} // namespace doctest
