@@ -9,7 +9,7 @@
 #include <ljus/math/random.hpp>
 
 #include "common/command_line.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
 
 namespace {
 

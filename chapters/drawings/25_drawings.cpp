@@ -13,7 +13,7 @@
 #include <ljus/math/random.hpp>
 
 #include "common/command_line.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
 #include "experiments/numbers.hpp"
 
 namespace {

@@ -14,8 +14,8 @@
 #include <ljus/optics/refraction.hpp>
 
 #include "common/command_line.hpp"
+#include "common/drawing.hpp"
 #include "drawings/dimension.hpp"
-#include "drawings/drawing.hpp"
 
 namespace {
 

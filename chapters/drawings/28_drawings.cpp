@@ -12,8 +12,8 @@
 #include <ljus/photons/detail/kernel_border.hpp>
 
 #include "common/command_line.hpp"
+#include "common/drawing.hpp"
 #include "drawings/dimension.hpp"
-#include "drawings/drawing.hpp"
 
 namespace {
 

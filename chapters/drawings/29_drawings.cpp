@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "common/command_line.hpp"
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
 #include "flatland/material.hpp"
 #include "flatland/scene.hpp"
 

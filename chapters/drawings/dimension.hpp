@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "drawings/drawing.hpp"
+#include "common/drawing.hpp"
 
 namespace examples {
 

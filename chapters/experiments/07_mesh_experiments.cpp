@@ -10,6 +10,7 @@
 
 #include "common/example.hpp"
 #include "ljus/accel/mesh.hpp"
+#include "ljus/io/load_obj.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
@@ -17,7 +18,6 @@
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scenes/mesh_formulas.hpp"
-#include "ljus/io/load_obj.hpp"
 
 using namespace ljus;
 
