@@ -167,7 +167,7 @@ TEST_CASE("explain: the text has a line for each vertex, each term and each path
     CHECK(text.find("ray 1\n") == 0);
     CHECK(text.find("\nray 2\n") != std::string::npos);
     CHECK(text.find("\nray 3\n") == std::string::npos);
-    CHECK(text.find("sums over 8 rays\n") != std::string::npos);
+    CHECK(text.find("means over 8 rays\n") != std::string::npos);
     CHECK(text.find("the pixel") != std::string::npos);
     // The pixel shows the mirror ball: a delta, and then what it reflects.
     CHECK(text.find("  E S ") != std::string::npos);
@@ -252,7 +252,7 @@ TEST_CASE("explain: each line as it is printed, column by column") {
           "  E D S L                    emission              8         4         2\n"
           "ray 2\n"
           "  no light\n"
-          "sums over 2 rays\n"
+          "means over 2 rays\n"
           "  E D S L                    emission              1         2         3\n"
           "  E.+ L                      map                   0       0.5         0\n"
           "                             the pixel             1         2         3\n"

@@ -147,7 +147,7 @@ template <std::floating_point T>
         for (const PathLogLine& step : steps) text += line_of(step) + "\n";
         if (steps.empty()) text += "  no light\n";
     }
-    text += "sums over " + std::to_string(pixel.samples) + " rays\n";
+    text += "means over " + std::to_string(pixel.samples) + " rays\n";
     glm::dvec3 rest{0};
     for (std::size_t i = 0; i < pixel.sums.size(); ++i) {
         const PathSum& sum = pixel.sums[i];
