@@ -22,8 +22,8 @@
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/convergence.hpp"
+#include "common/oracle.hpp"
 #include "common/plot.hpp"
-#include "experiments/oracle.hpp"
 #include "experiments/show_table.hpp"
 
 using namespace ljus;
