@@ -27,8 +27,7 @@ namespace ljus {
 /// A compiled class of paths: Glushkov's automaton, in which each letter of the
 /// expression is a state and a bit.
 struct LightPathExpression {
-    std::array<std::uint64_t, 64>
-        follow{};                  ///< Successors of each state; 0 is the start.
+    std::array<std::uint64_t, 64> follow{}; ///< Successors by state; 0: start.
     std::array<char, 64> letter{}; ///< Letter of each state: E, D, S, L or '.'.
     std::uint64_t last = 0;        ///< Accepting states.
 
