@@ -67,8 +67,8 @@ struct LightPathExpressionReader {
         const std::size_t place = expression.size() - rest.size();
         throw std::invalid_argument(
             std::string("The class of paths '").append(expression) + "' has " + what +
-            " at place " + std::to_string(place + 1) +
-            "; it is made of E, D, S, L, '.' for D or S, and | ( ) * + ?.");
+            " at position " + std::to_string(place + 1) +
+            "; it may contain E, D, S, L, '.' for D or S, and | ( ) * + ?.");
     }
     [[nodiscard]] constexpr bool at(std::string_view set) const {
         return !rest.empty() && set.find(rest.front()) != std::string_view::npos;
@@ -119,8 +119,8 @@ struct LightPathExpressionReader {
             take();
             return inside;
         }
-        if (!at("EDSL.")) refuse("something else");
-        if (++letters == 64) refuse("its 64th letter");
+        if (!at("EDSL.")) refuse("an unexpected character");
+        if (++letters == 64) refuse("more than 63 letters");
         result.letter[letters] = take();
         const std::uint64_t bit = std::uint64_t(1) << letters;
         return {bit, bit, false};
@@ -139,7 +139,7 @@ light_path_expression(std::string_view expression) {
     LightPathExpression result;
     detail::LightPathExpressionReader reader{result, expression, expression};
     const auto whole = reader.alternatives();
-    if (!reader.rest.empty()) reader.refuse("a bracket that closes nothing");
+    if (!reader.rest.empty()) reader.refuse("an unmatched closing bracket");
     result.follow[0] = whole.first;
     result.last = whole.last | (whole.empty ? 1u : 0u);
     return result;

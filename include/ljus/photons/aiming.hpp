@@ -283,8 +283,7 @@ aim(const W& world, const LightChoice& choice, std::span<const ObjectId> targets
 inline void check_shares(std::span<const double> shares, std::size_t targets) {
     if (shares.empty()) return;
     require(shares.size() == targets, "the number of shares",
-            static_cast<long long>(shares.size()),
-            "that of the objects that mirror or refract");
+            static_cast<long long>(shares.size()), "the number of specular objects");
     double sum = 0;
     for (const double share : shares) {
         require(share >= 0 && share <= 1, "a share of the photons", share,

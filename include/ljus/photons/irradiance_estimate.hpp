@@ -66,7 +66,7 @@ void check(const DensityEstimateOf<K>& gather) {
             mean +=
                 double(kernel_weight(gather.kernel, (float(i) + 0.5f) / 1000)) / 1000;
         require(std::abs(mean - 1) < 0.01, "the mean of gather.kernel over the disc",
-                mean, "1, or light is made or lost");
+                mean, "1, so that the estimate conserves flux");
     }
 }
 
