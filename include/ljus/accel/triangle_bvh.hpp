@@ -33,9 +33,6 @@ struct FilteredTriangles {
 /// A conservative filter for eight triangles: the test of Moeller and Trumbore
 /// \cite moller1997 in float and without its division, with a bound of each number's
 /// rounding error. If the error could change a sign, the triangle's own test decides.
-/// \param block  The triangles.
-/// \param ready  The prepared ray.
-/// \param ray    The ray.
 /// \cost Some 90 operations for all eight together.
 // [conservative_filter]
 template <typename Caller>

@@ -54,7 +54,6 @@ struct BoxRayT {
 /// A tree must find every hit that the shape's own test finds. The rounding of both
 /// tests is proportional to the coordinates relative to the ray's origin. Each box
 /// therefore grows by 16 roundoffs of that size; the slabs alone need 3 \cite ize2013.
-/// \param ray  The ray.
 /// \param all  A box around all boxes to be tested.
 /// \return The prepared ray; nothing if the length of its direction or the distance to
 ///         `all` exceeds the range of T. Then test the shapes themselves.

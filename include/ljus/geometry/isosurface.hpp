@@ -91,7 +91,6 @@ namespace detail {
 /// If the gradient vanishes, the normal faces the ray.
 /// \param value     f, in double.
 /// \param gradient  Its gradient, in double.
-/// \param ray       The ray.
 /// \param t         What intersect() returned.
 /// \param rounding  Error bound of the values of f, including the solver's tolerance.
 /// \return Position, error bound, outward normal.

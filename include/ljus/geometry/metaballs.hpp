@@ -77,7 +77,6 @@ template <std::floating_point T>
 } // namespace detail
 
 /// The distance at which a ray first hits metaballs, from outside or inside.
-///
 /// \tparam Solver  QuarticPieces, the default, is the fastest and most accurate of the
 ///                 four; the others are Bisection, SphereTracing and Radicals.
 /// \param ray      Hits lie within its [t_min, t_max].

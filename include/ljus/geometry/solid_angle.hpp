@@ -28,8 +28,6 @@ namespace detail {
 
 /// Converts the density of a point, uniform over the area, to one per steradian.
 /// \param from   The observer.
-/// \param point  The point of the shape.
-/// \param area   The shape's area, in squared scene units.
 /// \return distance^2 / (|cos| area); infinity if the surface is seen edge-on; 0 if the
 ///         observer is at the point.
 /// \cite veach1997

@@ -51,7 +51,6 @@ struct ChordT {
 /// The discriminant is computed as \f$ R^2 - |P|^2 \f$, where P is the vector from C to
 /// the nearest point of the line; \f$ b^2 - ac \f$ cancels for a small, distant sphere.
 /// The second root is \f$ c/q \f$, which does not cancel either \cite haines2019.
-///
 /// \tparam Compute  The precision of the arithmetic; by default that of the data.
 /// \param ray     Its direction may have any length but zero; its range is ignored.
 /// \param sphere  The sphere. All lengths, and their products with the direction's,
@@ -95,7 +94,6 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
 } // namespace detail
 
 /// The distance at which a ray first hits a sphere, from outside or inside.
-///
 /// \tparam Compute  The precision of the arithmetic; t is rounded to T once. In double,
 ///                  every hit or miss of the tests' float data is decided correctly.
 /// \param ray     Hits lie within [t_min, t_max].
@@ -127,7 +125,6 @@ template <typename Compute = void, std::floating_point T>
 ///
 /// Far away \f$ u^2/4 \f$ and \f$ v \f$ are large and nearly equal, and rounding
 /// destroys their difference.
-///
 /// \tparam Compute  The precision of the arithmetic; t is rounded to T once.
 /// \param ray     A ray with a direction of unit length; hits lie within its range.
 /// \param sphere  The sphere.

@@ -172,10 +172,7 @@ namespace detail {
 /// Their numerators are sums of products with at most 8 roundings, and no term exceeds
 /// \f$ |D|\,|E|\,|T| \f$ with \f$ |X| = |X_x| + |X_y| + |X_z| \f$; u + v has both
 /// errors.
-/// \param d        D.
-/// \param to       T.
-/// \param e1       \f$E_1\f$.
-/// \param e2       \f$E_2\f$.
+/// \param d, to, e1, e2  D, T, \f$E_1\f$ and \f$E_2\f$.
 /// \param inverse  1 over the determinant.
 /// \param most     Largest useful bound.
 /// \return The bound, dimensionless; 0 if it would exceed `most`.
@@ -212,7 +209,6 @@ enum class Spanned : std::uint8_t {
 /// that a ray hits at least one of the two. The border is left out if it exceeds the
 /// rounding of the data, as for slivers in whose plane the ray almost lies. See
 /// border_of_rounding().
-///
 /// \tparam shape    What the two edges span.
 /// \tparam Compute  The precision of the arithmetic; results are rounded to T once. In
 ///                  float, shapes and distances must be between 1e-15 and 1e15.

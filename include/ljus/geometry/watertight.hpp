@@ -62,7 +62,6 @@ template <std::same_as<Watertight> Test, std::floating_point T>
 /// triangles of a vertex round its \f$P\f$ in the same way. Products of two floats are
 /// exact in double, so the sign is exact, with or without fused multiply-adds.
 /// Triangles that share corners and decide exactly leave no gap \cite woop2013.
-///
 /// \tparam Test     Watertight.
 /// \param ray       Its direction may have any length but zero; hits lie in
 ///                  [t_min, t_max].

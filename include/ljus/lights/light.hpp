@@ -79,7 +79,6 @@ void require_flux(const RgbT<T>& flux) {
 
 /// Normalises a direction of any length.
 /// \param what  Its name.
-/// \param way   The direction.
 /// \throws std::invalid_argument  if it is 0 or not finite.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> unit_along(std::string_view what, const Vec3T<T>& way) {
@@ -91,8 +90,6 @@ template <std::floating_point T>
 }
 
 /// The sample of a point-like light: intensity / distance^2.
-/// \param position   Position of the light.
-/// \param from       The lit point.
 /// \param intensity  Called with the unit direction away from the light; W/sr.
 /// \return The sample; nothing if no light arrives.
 template <std::floating_point T, typename Intensity>
@@ -222,10 +219,6 @@ template <std::floating_point T>
 }
 
 /// A ray of a distant light through a disc; it starts on a plane outside the scene.
-/// \param around     The sphere around the scene.
-/// \param direction  Unit direction of travel.
-/// \param center     Centre of the disc.
-/// \param radius     Radius of the disc.
 /// \param u          Point of the unit square; chooses the point of the disc.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> ray_from_afar(const SphereT<T>& around, const Vec3T<T>& direction,

@@ -78,7 +78,6 @@ template <std::floating_point T>
 namespace detail {
 
 /// The fall-off: the factor of the intensity in a direction.
-/// \param light  The spot light.
 /// \param wo     Unit direction away from it.
 /// \return 1 within the inner cone, 0 outside the outer one.
 template <std::floating_point T>
@@ -91,7 +90,6 @@ template <std::floating_point T>
 }
 
 /// Samples 1 - cos of a photon's angle to the axis, with the density of the intensity.
-/// \param light  The spot light.
 /// \param u      In [0, 1).
 /// \return Within [0, outer].
 // [sample_spot]

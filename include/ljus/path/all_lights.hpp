@@ -37,9 +37,6 @@ struct SeenLampT {
 };
 
 /// The form factor and the radiance of a light at a vertex.
-/// \param world   The closed scene.
-/// \param light   The index of the light.
-/// \param vertex  The surface.
 /// \return The lamp; nothing for lights without a form_factor().
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<SeenLampT<T>> seen_lamp(const W& world, std::uint32_t light,
@@ -63,15 +60,8 @@ template <AnyWorld W, std::floating_point T>
 /// with \f$f_i\f$ the light of the i-th sample. If all of the lamp is visible, or none
 /// of it, there is no noise. In a penumbra the ratio of two random sums has a bias of
 /// the order of the variance of \f$f\f$ over the number of rays.
-/// \param world     The closed scene.
-/// \param light     The index of the light.
-/// \param lamp      Its seen_lamp().
-/// \param vertex    The surface.
-/// \param material  Its material.
 /// \param rays      Number of shadow rays, at least 1.
 /// \param place     Called as place(i) for the i-th sample's point of the unit square.
-/// \param counts    Counts the rays.
-/// \param verdict   The known visibility of the lamp.
 /// \return Radiance towards wo.
 /// \cite heitz2018shadows
 // [analytic_light]
@@ -98,9 +88,6 @@ analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
 /// The emission that a ray sampled by the material finds, of lamps and of the sky, with
 /// its weight of multiple importance sampling. The ray ends there; it carries no other
 /// light.
-/// \param world     The closed scene.
-/// \param vertex    The surface.
-/// \param material  Its material.
 /// \param rays      Shadow rays per light.
 /// \param context   Three numbers are drawn; the ray is counted.
 /// \return Radiance towards wo.

@@ -80,9 +80,6 @@ namespace detail {
 
 /// Continues a path in a given direction.
 /// \param path      Receives its new ray, throughput and medium.
-/// \param vertex    The vertex.
-/// \param material  Its material.
-/// \param next      The direction, its weight and its density.
 /// \param wi        The direction in the world.
 template <std::floating_point T, Material M>
 void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,

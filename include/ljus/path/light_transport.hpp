@@ -54,7 +54,6 @@ struct ExpressionLog {
     /// Adds radiance.
     /// \param letters  From here to the light. If a photon map stands for a whole
     ///                 class, as "DS+L", its shortest path decides.
-    /// \param value    The radiance.
     void term(std::string_view, std::string_view letters,
               const RgbT<T>& value) noexcept {
         std::uint64_t here = states;

@@ -62,7 +62,6 @@ template <AnyWorld W>
 
 /// Sets the frame of a vertex on a shape with shading normals.
 /// \param vertex  Its point and its object are set.
-/// \param ray     The ray that hit.
 /// \param normal  The shape's shading normal.
 // [set_frame]
 template <std::floating_point T>
@@ -85,9 +84,7 @@ inline void set_frame(VertexT<T>& vertex, const RayT<T>& ray, Vec3T<T> normal) {
 /// Sets a vertex to the result of vertex_at(), in place: next_vertex() would otherwise
 /// copy 160 bytes per ray.
 /// \param vertex  A new vertex; all members except its medium are set.
-/// \param world   The closed scene.
 /// \param ray     The ray that hit, with a direction of unit length.
-/// \param hit     What closest_hit() returned.
 template <AnyWorld W, std::floating_point T>
 inline void fill_vertex(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
                         const SceneHitT<T>& hit) {
@@ -152,7 +149,6 @@ decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f
 namespace detail {
 
 /// Whether both normals of a vertex agree about the side of a direction.
-/// \param vertex  A point of the surface.
 /// \param local   The direction in the surface's frame.
 /// \param world   The direction in the world.
 template <std::floating_point T>
@@ -165,7 +161,6 @@ template <std::floating_point T>
 
 /// The correction of a photon's flux where it lands: its flux density follows the
 /// geometric normal, but the material reflects by the cosine of the shading normal.
-/// \param vertex     The vertex.
 /// \param direction  The photon's direction of travel.
 /// \return \f$ |\omega \cdot N_s| / |\omega \cdot N_g| \f$; 0 if the normals disagree.
 template <std::floating_point T>
@@ -220,8 +215,6 @@ inline constexpr bool lists_moving = W::any_shape([]<typename G>() {
 /// A vertex of a moving shape, moved back to its position at time 0. Photons of all
 /// times are stored and looked up there, so that each point of the shape receives its
 /// mean irradiance while the shutter is open.
-/// \param world   The closed scene.
-/// \param vertex  The vertex.
 /// \return The vertex at time 0; unchanged on a shape at rest.
 // [at_rest]
 template <AnyWorld W, std::floating_point T>
@@ -349,7 +342,6 @@ struct PassageT {
 
 /// Traces a ray through thin surfaces. At each one the path stops for reflection with
 /// the mean reflectance of the channels as probability, or passes.
-/// \param world   The closed scene.
 /// \param ray     Receives its last segment.
 /// \param hit     The first hit of the ray; receives that of its last segment.
 /// \param stream  One number is drawn per thin surface.
@@ -435,9 +427,6 @@ namespace detail {
 /// `wo` lies on the same side, otherwise that of the material's interior, or none
 /// outside.
 /// \param medium    Absorption on the side of `wo`, per scene unit.
-/// \param material  The surface's material.
-/// \param wo        Outgoing direction.
-/// \param wi        Incident direction.
 /// \return Per scene unit.
 template <typename M, std::floating_point T>
 [[nodiscard]] RgbT<T> medium_beyond(const RgbT<T>& medium, const M& material,

@@ -74,7 +74,6 @@ void log_arrival(Log& log, const Vec3T<T>& position) {
 }
 
 /// Reports the last scattering of a path to a log.
-/// \param log   The log.
 /// \param path  The path after continue_path().
 template <typename Log, std::floating_point T>
 void log_vertex(Log& log, const PathStateT<T>& path) {
@@ -82,7 +81,6 @@ void log_vertex(Log& log, const PathStateT<T>& path) {
 }
 
 /// Reports a path from split_path(): repeats all its letters so far.
-/// \param log   The log.
 /// \param path  The path; it has met only mirrors and glass.
 template <typename Log, std::floating_point T>
 void log_specular_path(Log& log, const PathStateT<T>& path) {

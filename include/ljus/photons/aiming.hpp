@@ -75,10 +75,7 @@ struct AimT {
 /// Chooses how a point of a light aims at an object: at the cone of its bounding
 /// sphere, or at the area of a flat object. If the light emits into a narrower cone, as
 /// a spot or a lamp inside the sphere does, it aims at that cone.
-/// \param world     The closed scene.
 /// \param emission  The cone of all directions of emission.
-/// \param from      The point of the light.
-/// \param target    The object.
 // [aim_at]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] AimT<T> aim_at(const W& world, const ConeT<T>& emission,
@@ -108,7 +105,6 @@ struct ChosenTargetT {
 };
 
 /// Chooses a target in proportion to its weight.
-/// \param targets   The objects.
 /// \param size_of   Called with each; returns its weight, or 0 to exclude it.
 /// \param u_target  In [0, 1).
 /// \return The target; nothing if all weights are 0.
@@ -142,12 +138,7 @@ struct AimedDirectionT {
 };
 
 /// Samples a direction: uniformly in the cone, or by the area of a flat object.
-/// \param world   The closed scene.
-/// \param aim     What aim_at() returned.
 /// \param from    The point of the light.
-/// \param target  The object.
-/// \param u       Point of the unit square.
-/// \param time    Time of the photon, in [0, 1].
 /// \return The direction. Its density may be 0 or infinite if the object is seen
 ///         edge-on or contains `from`.
 template <AnyWorld W, std::floating_point T>

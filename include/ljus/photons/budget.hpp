@@ -62,7 +62,6 @@ namespace detail {
 /// The irradiance around a photon, from the photons of a map on its side of the
 /// surface.
 /// \param map     The photons; shadow photons do not count.
-/// \param at      The photon.
 /// \param radius  Radius of the disc, in scene units.
 /// \return Luminance of the irradiance, in W/m^2.
 template <std::floating_point T>
@@ -118,7 +117,6 @@ struct PilotLightT {
     double dark = 0;               ///< A tenth of the mean irradiance, W/m^2.
 
     /// Sums the flux and the scatters of an object.
-    /// \param object   The object.
     /// \param photons  The stored photons of its pilot.
     /// \param paths    Number of paths of its pilot.
     [[nodiscard]] CausticPilot judge(ObjectId object,

@@ -78,7 +78,6 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
 /// \f$ \pi r^2 \f$ of the disc, so the estimate is unbiased. At the edge of a surface
 /// half of the disc lies outside, in a corner three quarters, and the estimate is 1/2
 /// and 1/4 of the right value.
-///
 /// \param map       The photons.
 /// \param surface   The vertex; only point.position, point.normal and frame are used.
 /// \param material  Its material.

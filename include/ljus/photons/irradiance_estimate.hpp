@@ -80,7 +80,6 @@ struct DiscSum {
 
 /// Divides a sum over a disc by the disc's area.
 /// \param sum      Sum of weight times flux, W; possibly times a BRDF.
-/// \param radius2  Squared radius of the disc.
 /// \return W/m^2; or W/(m^2 sr).
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> per_area(const RgbT<double>& sum, double radius2) noexcept {
@@ -106,9 +105,7 @@ struct NearestPhotons {
 
 /// Finds the k nearest photons for an estimate. The k-th sets the radius and is left
 /// out. If there are fewer than k within `radius`, it returns all of them.
-/// \param map     The photons.
 /// \param point   Point of a surface; its position and normal are used.
-/// \param radius  Maximum radius.
 /// \param room    Has k elements, at most max_nearest.
 /// \param wanted  Called as wanted(index, record); whether the photon counts. Photons
 ///                that are turned_away() never count.
@@ -129,11 +126,7 @@ nearest_photons(const PhotonMapT<T>& map, const SurfacePointT<T>& point, T radiu
 }
 
 /// Sums over the k nearest photons, one by one.
-/// \param map       The photons.
 /// \param point     The point; its position and normal are used.
-/// \param gather    Radius, k, kernel, thickness.
-/// \param kinds     The kinds that count.
-/// \param gathered  Counts the summed photons.
 /// \param factor    Called with a PhotonRecordT; returns a factor of its flux.
 /// \return The sum; 0 if all k photons lie at one point and the disc has no area.
 template <std::floating_point T, KernelLike<T> K, typename Factor>
@@ -178,11 +171,7 @@ flux_disc(const Vec3T<T>& position, const Vec3T<T>& normal, const Vec3T<T>& side
 
 /// Sums the flux that arrives on one side of a surface within a fixed radius, eight
 /// photons at a time.
-/// \param map       The photons.
-/// \param point     The point; its position and normal are used.
 /// \param side      Unit vector; photons that travel against it count.
-/// \param gather    Radius, kernel, thickness.
-/// \param kinds     The kinds that count.
 /// \param gathered  Counts the photons in the disc, on either side.
 template <std::floating_point T, KernelLike<T> K>
 [[nodiscard]] DiscSum flux_within(const PhotonMapT<T>& map,
@@ -209,7 +198,6 @@ template <std::floating_point T, KernelLike<T> K>
 ///     const Rgb E = estimate_irradiance(map, {.position = x, .normal = n}, n,
 ///                                       DensityEstimateSettings{.radius = 0.1f});
 ///     const Rgb L = albedo / pi * E; // radiance of a Lambertian surface
-///
 /// \param map     The photons.
 /// \param point   The point; its position is used, and its normal is compared with
 ///                those of the photons.

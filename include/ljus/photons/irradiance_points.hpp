@@ -53,9 +53,6 @@ template <std::floating_point T>
 /// Whether a photon of a map becomes a lookup point: every n-th one in the order of
 /// emission, which is random. In the tree's order, dense regions would have too many
 /// points, and the mean over a surface would be too small.
-/// \param map    The general map.
-/// \param index  Index of the photon in the tree's order.
-/// \param every  n.
 template <std::floating_point T>
 [[nodiscard]] bool is_point(const PhotonMapT<T>& map, std::size_t index, int every) {
     return map.tree.point_ids()[index] % static_cast<std::size_t>(every) == 0;
@@ -105,14 +102,11 @@ namespace detail {
 
 /// The irradiance at a lookup point: direct light by shadow rays, which give sharp
 /// shadows; caustics and indirect light from the maps.
-/// \param world     The closed scene.
 /// \param general   The general map; its indirect photons count, unless they are lookup
 ///                  points.
 /// \param caustics  The caustics map; may be empty.
 /// \param vertex    The point, seen from the side of the irradiance.
-/// \param settings  The settings.
 /// \param radius    Maximum radius of an estimate, in scene units.
-/// \param stream    Random numbers of the shadow rays.
 /// \return W/m^2.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> irradiance_of_point(const W& world, const PhotonMapT<T>& general,

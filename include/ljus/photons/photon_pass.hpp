@@ -96,7 +96,6 @@ inline constexpr long long pilot_paths = 4 * photon_block;
 
 /// Predicts the memory of a pass in bytes: twice its photons, because all blocks are
 /// joined at the end, plus the blocks.
-/// \param photons  Paths in all.
 /// \param mean     Stored photons per path so far.
 template <std::floating_point T>
 [[nodiscard]] double expected_bytes(long long photons, double mean) noexcept {
@@ -106,7 +105,6 @@ template <std::floating_point T>
 }
 
 /// Refuses a pass that would exceed its memory.
-/// \param pass  The pass.
 /// \param mean  Stored photons per path so far.
 /// \throws std::invalid_argument  with both numbers.
 template <std::floating_point T>
@@ -122,11 +120,7 @@ void require_memory(const PhotonPassSettings& pass, double mean) {
 }
 
 /// Explains in one sentence why a pass that has stored nothing gives up.
-/// \param pass    The pass.
-/// \param map     The kind of map.
-/// \param paths   Paths so far.
 /// \param unsent  Paths that no light could emit.
-/// \param audit   Where their flux went.
 [[nodiscard]] inline std::string why_nothing(const PhotonPassSettings& pass,
                                              MapType map, long long paths,
                                              long long unsent, const FluxAudit& audit) {

@@ -150,12 +150,8 @@ namespace detail {
 /// A shadow photon belongs to the side of a surface on which it arrives, wherever the
 /// normal points; photon_side() tells which it is. The direct and shadow photons of a
 /// side together are its unoccluded light.
-/// \param world   The closed scene.
-/// \param photon  The emitted photon.
-/// \param first   Its first hit.
 /// \param stream  A copy, so that the photon's own numbers do not change. One number is
 ///                drawn per thin surface.
-/// \param out     Receives the photons.
 /// \cost A closest hit for each surface behind the first, and one more; at most 1000.
 /// \report{Section 3.2.2.1} \cite jensen1995
 // [trace_shadow]
@@ -191,14 +187,7 @@ template <std::floating_point T>
 }
 
 /// Stores a photon, if the surface is diffuse and the map stores its kind.
-/// \param world     The closed scene.
 /// \param path      The path of the photon; its throughput is the flux.
-/// \param vertex    The vertex.
-/// \param material  Its material.
-/// \param light     Index of its light.
-/// \param map       The kind of map.
-/// \param keep      The kinds that are stored.
-/// \param out       Receives the photon.
 template <AnyWorld W, std::floating_point T, Material M>
 void store_photon(const W& world, const PathStateT<T>& path, const VertexT<T>& vertex,
                   const M& material, std::uint16_t light, MapType map, PhotonKinds keep,
@@ -216,8 +205,6 @@ void store_photon(const W& world, const PathStateT<T>& path, const VertexT<T>& v
 
 /// Scatters a photon at a vertex, unless roulette ends it.
 /// \param path      Receives its new ray, flux and medium.
-/// \param vertex    The vertex.
-/// \param material  Its material.
 /// \param map       The kind of map: for caustics only specular lobes are sampled.
 /// \param stream    Four numbers are drawn.
 /// \param audit     Receives the absorbed flux, and what roulette moved.
@@ -253,12 +240,8 @@ struct SentPhotonT {
 ///
 /// A photon that has met only mirrors and glass is stored in the caustics map alone, so
 /// that no light counts twice.
-/// \param world   The closed scene.
-/// \param map     The kind of map.
 /// \param sent    The photon; its flux is divided by the number of paths.
-/// \param pass    The limits.
 /// \param stream  Four numbers are drawn per bounce.
-/// \param block   Receives the photons and the audit.
 // [trace]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 void trace_photon(const W& world, MapType map, const SentPhotonT<T>& sent,

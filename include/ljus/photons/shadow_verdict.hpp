@@ -76,7 +76,6 @@ struct PhotonCounts {
 inline constexpr std::uint64_t report_ratio = 1200;
 
 /// The verdict of the photons around a point.
-/// \param found   Their numbers.
 /// \param rule    Any but SkipRule::none.
 /// \param needed  photons_needed() by this rule.
 // [judge]
@@ -95,7 +94,6 @@ inline constexpr std::uint64_t report_ratio = 1200;
 /// is computed from normals rounded to 1/127, as photons store them, so that all points
 /// and photons of a plane have the same facing.
 /// \param x,y,z  Magnitudes of the normal's coordinates in these steps.
-/// \param n      The normal.
 /// \param side   +1 for the side of the normal, -1 for the other.
 /// \return 0 to 5: x, y, z, then the same for negative directions.
 // [facing]

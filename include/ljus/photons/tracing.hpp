@@ -19,13 +19,6 @@ namespace ljus {
 namespace detail {
 
 /// Emits and traces the paths of a block.
-/// \param world    The closed scene.
-/// \param map      The kind of map.
-/// \param choice   The distribution of the scene's lights.
-/// \param targets  Targets of caustics photons.
-/// \param pass     The settings.
-/// \param paths    The paths of the block.
-/// \param block    Receives the photons and the audit.
 template <AnyWorld W, std::floating_point T>
 void trace_block(const W& world, MapType map, const LightChoice& choice,
                  const std::vector<ObjectId>& targets, const PhotonPassSettings& pass,
@@ -56,8 +49,6 @@ void trace_block(const W& world, MapType map, const LightChoice& choice,
 }
 
 /// Joins blocks in their order, and frees them.
-/// \param blocks  The blocks.
-/// \param result  Receives the photons and the audit.
 /// \return The number of paths that no light could emit.
 template <std::floating_point T>
 long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& result) {
@@ -76,8 +67,6 @@ long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& r
 }
 
 /// Checks the settings and the lights of a pass.
-/// \param pass    The settings.
-/// \param choice  The distribution of the scene's lights.
 /// \return The distribution for the pass.
 /// \throws std::invalid_argument  as trace_photons().
 template <std::floating_point T>
@@ -106,9 +95,6 @@ struct BlockTracerT {
 };
 
 /// Traces the blocks of a pass by several threads, and joins them.
-/// \param map    The kind of map.
-/// \param pass   The settings.
-/// \param trace  Traces a block.
 /// \return The photons in the order of emission.
 /// \throws std::invalid_argument  if the memory would not suffice.
 template <std::floating_point T>

@@ -103,7 +103,6 @@ template <std::floating_point T>
 
 /// Whether a vertex needs no indirect ray, because no indirect photon is near.
 /// \param grid    May be empty.
-/// \param vertex  The vertex.
 /// \param counts  Counts the skipped ray.
 template <std::floating_point T>
 [[nodiscard]] bool skips_bounce(const VerdictGridT<T>& grid, const VertexT<T>& vertex,
@@ -115,7 +114,6 @@ template <std::floating_point T>
 
 /// Replaces unknown verdicts by those of a coarser grid. Its neighbourhoods contain
 /// those of the finer grid, so a cell with photons of both kinds stays unknown.
-/// \param fine    Receives the verdicts.
 /// \param coarse  Its cells are twice or four times as large.
 // [fill_from]
 template <std::floating_point T>

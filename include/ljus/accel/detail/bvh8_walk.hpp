@@ -35,7 +35,6 @@ struct Bvh8Ray {
 /// to 0 is replaced by a small one, which moves the ray within the box by less than the
 /// margin.
 /// \param r       Receives the prepared ray.
-/// \param ray     The ray.
 /// \param middle  The centre of the tree's box.
 /// \param half    Half the size of the box.
 /// \return False if the squares of the direction's length or of the distance to the box
@@ -227,7 +226,6 @@ private:
 /// \tparam any   True: the first leaf that returns true ends the search, and children
 ///               are unsorted. False: nearer children come first, and leaves shorten
 ///               the ray.
-/// \param wide   The tree.
 /// \param ray    The ray; a leaf may shorten it.
 /// \param leaf   Called as leaf(first slot, count, prepared ray); true ends the search.
 ///               Called once with a null pointer if the ray cannot be prepared.

@@ -71,8 +71,6 @@ struct ReachT {
         return open ? d2 < limit2 : d2 <= limit2;
     }
     /// The points within reach, exactly; bit i stands for point i.
-    /// \param points  Eight points.
-    /// \param center  The centre of the search.
     /// \param d2      Their distances2().
     // [within]
     [[nodiscard]] constexpr std::uint32_t within(const Lanes3T<T>& points,
@@ -164,10 +162,6 @@ template <std::floating_point T>
 ///     static constexpr bool nearest_first; // false: in the tree's order
 ///     bool leaf(tree, center, first, last) // takes the blocks first to last - 1;
 ///                                          // true ends the search
-///
-/// \param tree     The tree.
-/// \param center   The centre of the search.
-/// \param results  The result set.
 /// \return Whether a leaf ended the search.
 // [walk]
 template <std::floating_point T, typename Results>
@@ -262,10 +256,8 @@ struct BallBlocks {
 /// caustics are estimated for 64 samples together, takes 2 to 8 % less time with 1e5
 /// photons and 8 to 13 % less with 1e6. Estimates at neighbouring points, whose memory
 /// is in the cache, gain nothing.
-/// \param tree    The tree.
 /// \param balls   Number of balls; below 2^32.
 /// \param center  Called as center(ball).
-/// \param radius  Radius of all balls.
 /// \param expect  Called as expect(block) for each block that will be found, to
 ///                prefetch its payload.
 /// \param found   Receives the blocks: for each ball those of visit_blocks(), in its

@@ -35,7 +35,6 @@ template <std::floating_point T>
 
 /// The number of values that do not exceed a threshold.
 /// \param values     Padded to a multiple of eight with infinity.
-/// \param count      Number of values.
 /// \param threshold  Below infinity.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::size_t count_up_to(const T* values, std::size_t count,
@@ -58,7 +57,6 @@ struct Extremes {
 
 /// The smallest value above a bound, and the largest finite one up to another bound.
 /// \param values  Padded to a multiple of eight with infinity.
-/// \param count   Number of values.
 /// \param above   Exclusive lower bound of the smallest.
 /// \param up_to   Inclusive upper bound of the largest.
 /// \return Both; infinity and minus infinity if there are none.

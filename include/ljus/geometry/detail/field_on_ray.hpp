@@ -66,10 +66,6 @@ namespace detail {
 
 /// Finds the first zero of f along a ray by sphere tracing: f cannot reach 0 within a
 /// distance of |f| over the largest slope.
-/// \param solver  Tolerance and limit.
-/// \param line    The field along the ray.
-/// \param t_min   First t that counts.
-/// \param t_max   Last t that counts.
 /// \return The first t at which |f| is within the tolerance, always before the surface;
 ///         nothing for a miss, for NaN, and if the steps run out.
 /// \cost One evaluation per step; rays closer to grazing take more steps.
@@ -108,10 +104,6 @@ template <std::floating_point T, FieldOnRay<T> Line>
 /// slope has one sign, the values at the ends decide. Otherwise the interval is halved,
 /// and the nearer half comes first. The values are bounded by range() and by the mean
 /// value form f(m) + f'([a, b]) (b - a)/2.
-/// \param solver  The limit.
-/// \param line    The field along the ray.
-/// \param t_min   First t that counts.
-/// \param t_max   Last t that counts.
 /// \return The first t at which f has changed its sign, to the last unit; nothing for a
 ///         miss, for NaN, and if the intervals run out. A surface that the ray only
 ///         touches is hit if f is not negative at the ends of an interval of two units

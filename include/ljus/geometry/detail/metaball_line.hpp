@@ -54,7 +54,6 @@ struct StrandT {
 /// A blob along a ray. As in chord(), the vectors are subtracted before they are
 /// squared.
 /// \param ray   The ray; its range is ignored.
-/// \param blob  The blob.
 /// \return In double; nothing for a miss, for non-finite data, a zero direction, or a
 ///         radius not above 0.
 template <std::floating_point T>
@@ -169,8 +168,6 @@ private:
 };
 
 /// The field along a ray; it refers to `strands`.
-/// \param strands  The strands.
-/// \param level    L.
 /// \return The field; without strands `leave` lies before `enter`.
 template <std::floating_point C>
 [[nodiscard]] MetaballLineT<C> line_of(const StrandsT<C>& strands, C level) noexcept {

@@ -33,7 +33,6 @@ namespace detail {
 /// On [a, b] the Bernstein coefficients of \f$ s = h - k\tau^2 \f$, with
 /// \f$ \tau = t - m \f$, are \f$ h - k\tau_a^2,\ h - k\tau_a\tau_b,\ h - k\tau_b^2 \f$;
 /// those of s^2 are products of them, so no power of t is formed.
-/// \param line  The field.
 /// \param a     Start of the span.
 /// \param b     Its end; no strand begins or ends between them.
 // [quartic]
@@ -82,10 +81,6 @@ template <std::floating_point C>
 
 /// The first hit of a ray on metaballs, span by span.
 /// \report{Section 2.1}
-/// \param solver  QuarticPieces or Radicals.
-/// \param line    The field along the ray.
-/// \param t_min   First t that counts.
-/// \param t_max   Last t that counts.
 /// \return The first t where f changes its sign; nothing for a miss.
 /// \cost n blobs have at most 3 n - 1 spans. A span costs n additions of a quartic and
 ///       at most 10 roots of first_change().

@@ -39,7 +39,6 @@ struct QuarticRootsT {
 /// turns this into a difference of two squares, and so into two quadratics. Each step
 /// subtracts numbers that may be nearly equal, and decides by the sign of rounded
 /// numbers.
-///
 /// \param c  The coefficients; the last is not 0.
 /// \return The roots, accurate to about half of T's digits or better if they are well
 ///         separated and the last coefficient is not small; otherwise unreliable.

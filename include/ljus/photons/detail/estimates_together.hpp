@@ -26,9 +26,6 @@ struct EstimatePlaceT {
 /// Sets a request from a vertex, in place, to avoid a store-forwarding stall.
 /// \param place       The request; its estimate is that of estimate_radiance() with the
 ///                    vertex's wo.
-/// \param vertex      The vertex.
-/// \param material    Its material.
-/// \param throughput  Throughput of the path.
 /// \param item        Identifies the request to the caller.
 template <std::floating_point T>
 void set_place(EstimatePlaceT<T>& place, const VertexT<T>& vertex,
@@ -44,11 +41,7 @@ void set_place(EstimatePlaceT<T>& place, const VertexT<T>& vertex,
 
 /// The estimates of estimate_radiance() at many points, to the last bit. An estimate
 /// waits for memory, first of the tree and then of the photons; here the waits overlap.
-/// \param map       The photons.
-/// \param places    The requests.
 /// \param gather    Radius, kernel, thickness; in_lanes(), and without `nearest`.
-/// \param kinds     The kinds that count.
-/// \param gathered  Counts the summed photons.
 /// \param found     Reusable buffer of the search.
 /// \param give      Called as give(place, radiance) in the order of the requests,
 ///                  except for those without a photon.

@@ -106,8 +106,6 @@ lanes_in_disc(const Lanes3T<T>& points, const RecordBlockT<T>& record,
 template <std::floating_point T, typename K>
 class DiscFluxT {
 public:
-    /// \param records   The photons' records.
-    /// \param disc      The disc.
     DiscFluxT(const PhotonRecordsT<T>& records, const FluxDiscT<T, K>& disc) noexcept
         : records_(records), disc_(disc),
           per_radius2_(T(1) / (disc.radius * disc.radius)) {}
@@ -204,9 +202,6 @@ private:
 
 /// Sums the weighted flux of photons that arrive on one side of a disc. It finds the
 /// same photons as the plain loop, with the same weights within the rounding of T.
-/// \param tree      Positions of the photons.
-/// \param records   Their other data.
-/// \param disc      The disc.
 /// \param gathered  Counts the photons in the disc, on either side.
 /// \return The sum of weight times flux; W.
 template <std::floating_point T, typename K>

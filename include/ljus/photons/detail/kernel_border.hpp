@@ -31,8 +31,6 @@ template <std::floating_point T>
 // [kernel_part]
 
 /// Finds the surface near a point by a short ray.
-/// \param world   The closed scene.
-/// \param place   The point.
 /// \param normal  Unit normal of the expected surface.
 /// \param height  The ray starts at this height above the point, and ends as far below.
 /// \return The vertex; nothing if there is no surface.
@@ -51,8 +49,6 @@ vertex_below(const W& world, const Vec3T<T>& place, const Vec3T<T>& normal, T he
 
 /// Whether a surface continues at a point: a short ray from above it hits a surface of
 /// the same normal.
-/// \param world   The closed scene.
-/// \param place   The point.
 /// \param normal  Normal of the surface, on the side of the irradiance.
 /// \param height  As for vertex_below().
 template <AnyWorld W, std::floating_point T>
@@ -66,7 +62,6 @@ template <AnyWorld W, std::floating_point T>
 /// shape cuts off a segment, unless another surface continues there, as at the diagonal
 /// of a wall of two triangles. If several edges cut the disc, their fractions are
 /// multiplied, which is exact for a product kernel and close for this one.
-/// \param world   The closed scene.
 /// \param vertex  The centre.
 /// \param normal  Unit normal, on the side of the irradiance.
 /// \param radius  Radius of the disc.

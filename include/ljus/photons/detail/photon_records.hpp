@@ -68,7 +68,6 @@ public:
     PhotonRecordsT() = default;
 
     /// Gathers the records of photons in a given order.
-    /// \param photons  The photons.
     /// \param order    Indices of the photons.
     PhotonRecordsT(const std::vector<PhotonT<T>>& photons,
                    const std::vector<std::uint32_t>& order)

@@ -51,10 +51,6 @@ template <std::floating_point T>
 /// The length of the smallest cells: with it, the neighbourhood of a cell contains on
 /// average the needed number of photons of a light. A coarse grid measures the area on
 /// which the photons lie.
-/// \param photons  The photons.
-/// \param box      Their bounding box.
-/// \param lights   Number of lights.
-/// \param skip     The rule.
 /// \return In scene units; 0 if all photons lie at one point.
 // [cell_length]
 template <std::floating_point T>
@@ -89,8 +85,6 @@ struct Witness {
 };
 
 /// Finds the cells of photons, and inserts their bricks.
-/// \param photons  The photons.
-/// \param skip     The settings.
 /// \param grid     Receives the bricks.
 /// \return The counted photons by light; the last list has the indirect photons.
 template <std::floating_point T>
@@ -128,8 +122,6 @@ using PackedCounts = std::uint64_t;
 using CountsAround = std::array<PackedCounts, 216>;
 
 /// Collects the counts of a brick and its surroundings.
-/// \param table   All bricks.
-/// \param brick   Index of the brick.
 /// \param counts  64 per brick.
 [[nodiscard]] inline CountsAround
 counts_around(const BrickTable& table, std::uint32_t brick,
@@ -168,8 +160,6 @@ constexpr void add_neighbors(CountsAround& sums) noexcept {
 // [add_neighbors]
 
 /// Converts sums into bits.
-/// \param sums    What add_neighbors() computed.
-/// \param rule    The rule.
 /// \param needed  photons_needed() by this rule.
 /// \return A bit for each lit cell, and one for each cell in shadow.
 [[nodiscard]] inline std::array<std::uint64_t, 2>
@@ -187,11 +177,6 @@ judge_brick(const CountsAround& sums, SkipRule rule, std::uint32_t needed) noexc
 }
 
 /// Computes the bits of all bricks.
-/// \param photons  The photons.
-/// \param cells    Geometry of the grid.
-/// \param lights   Number of lights.
-/// \param skip     The rule.
-/// \param threads  As in ParallelSettings.
 /// \throws std::invalid_argument  if there would be more than most_bricks.
 // [make_bits]
 template <std::floating_point T>
