@@ -111,8 +111,6 @@ using Mesh = MeshT<float>; ///< MeshT in float.
 
 /// The nearest hit of a ray on a mesh; the same as in a loop over all triangles.
 /// \tparam Compute  The precision of the arithmetic, or Watertight.
-/// \param ray   Hits lie within [t_min, t_max].
-/// \param mesh  The mesh.
 /// \return The hit; `part` is the triangle, the first one on a tie.
 /// \cost O(log n) triangles on average.
 // [intersect]
@@ -132,8 +130,6 @@ template <typename Compute = void, std::floating_point T>
 
 /// Whether a ray hits a mesh, for shadow rays: any triangle ends the search.
 /// \tparam Compute  As for intersect().
-/// \param ray   Hits lie within [t_min, t_max].
-/// \param mesh  The mesh.
 /// \return Whether intersect() would return a hit.
 /// \cost O(log n) triangles on average, fewer than intersect().
 template <typename Compute = void, std::floating_point T>
@@ -152,10 +148,8 @@ template <std::floating_point T>
     return point_at(mesh.triangle(hit.part), hit.u, hit.v);
 }
 
-/// The shading normal: interpolated between the vertices \cite phong1975.
-/// \param mesh       The mesh.
-/// \param hit        What intersect() returned.
-/// \param geometric  The triangle's normal.
+/// The shading normal: interpolated between the vertices \cite phong1975. `geometric`
+/// is the triangle's normal.
 /// \return Unit vector within 90 degrees of `geometric`; `geometric` itself if the mesh
 ///         has no normals, or where they point to the triangle's inside.
 template <std::floating_point T>
@@ -184,8 +178,6 @@ template <std::floating_point T>
 
 /// Samples a point of a mesh uniformly over its area: first a triangle in proportion to
 /// its area, then a point on it by the remapped u.x.
-/// \param mesh  The mesh.
-/// \param u     Point of the unit square.
 /// \return The point; its density is 1 / area per squared scene unit.
 /// \cost O(log n).
 template <std::floating_point T>

@@ -75,12 +75,8 @@ template <std::floating_point T>
     return static_cast<T>(glm::length(detail::cross_of_edges(quad)));
 }
 
-/// The point of a quad at u, v.
-/// \param quad    The quad.
-/// \param u       Coordinate along the first edge.
-/// \param v       Coordinate along the second edge.
-/// \param normal  What normal() returned; the overload without it computes it.
-/// \return Position, error bound, normal.
+/// The point of a quad at the coordinates u, v along its edges: position, error bound,
+/// and `normal`, which is what normal() returned.
 template <std::floating_point T>
 [[nodiscard]] inline SurfacePointT<T> point_at(const QuadT<T>& quad, T u, T v,
                                                const Vec3T<T>& normal) noexcept {
@@ -102,11 +98,9 @@ template <std::floating_point T>
     return point_at(quad, u, v, normal(quad));
 }
 
-/// Samples a point of a quad uniformly over its area.
-/// \param quad    A quad with an area.
-/// \param u       Point of the unit square.
-/// \param normal  What normal() returned; the overload without it computes it.
-/// \return The point; its density is 1 / area per squared scene unit.
+/// Samples a point of a quad with an area, uniformly: its density is 1 / area per
+/// squared scene unit. `u` is a point of the unit square, `normal` is what normal()
+/// returned.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const QuadT<T>& quad, const Vec2T<T>& u,
                                            const Vec3T<T>& normal) noexcept {

@@ -33,9 +33,7 @@ struct RayT {
 using Ray = RayT<float>; ///< RayT in float.
 // [ray]
 
-/// The point O + tD of a ray.
-/// \param ray  The ray.
-/// \param t    Any number, in units of the direction's length.
+/// The point O + tD of a ray; t is any number, in units of the direction's length.
 /// \report{Definition 3.1}
 // [at]
 template <std::floating_point T>

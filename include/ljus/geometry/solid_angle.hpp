@@ -26,8 +26,8 @@ struct SeenPointT {
 
 namespace detail {
 
-/// Converts the density of a point, uniform over the area, to one per steradian.
-/// \param from   The observer.
+/// Converts the density of a point, uniform over the area, to one per steradian at the
+/// observer `from`.
 /// \return distance^2 / (|cos| area); infinity if the surface is seen edge-on; 0 if the
 ///         observer is at the point.
 /// \cite veach1997

@@ -55,8 +55,9 @@ struct ChordT {
 /// \param ray     Its direction may have any length but zero; its range is ignored.
 /// \param sphere  The sphere. All lengths, and their products with the direction's,
 ///                must be between 1e-18 and 1e18 in float, 1e-150 and 1e150 in double.
-/// \return Both roots, finite, unrounded; nothing for a miss, a NaN, an infinity, a
-///         zero direction, a radius not above 0, or a length whose square overflows.
+/// \return Both roots, finite, in the precision of the arithmetic; nothing for a miss,
+///         a NaN, an infinity, a zero direction, a radius not above 0, or a length
+///         whose square overflows.
 /// \cost One square root and two divisions; one division for a miss.
 /// \report{Section 3.1.4, Eqs. (2) and (3)}
 // [chord]
@@ -149,10 +150,9 @@ template <typename Compute = void, std::floating_point T>
 }
 // [as_printed]
 
-/// The outward unit normal of a sphere, normalised instead of divided by R, because a
-/// computed hit lies only near the surface.
-/// \param sphere  The sphere.
-/// \param point   A point on the sphere or near it; not its centre.
+/// The outward unit normal of a sphere at a point on it or near it, except its centre.
+/// It is normalised instead of divided by R, because a computed hit lies only near the
+/// surface.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> normal(const SphereT<T>& sphere,
                               const Vec3T<T>& point) noexcept {
@@ -177,9 +177,6 @@ template <std::floating_point T>
 /// The vector from the centre is computed without the centre's coordinates, whose size
 /// far from the origin would round it away. If a sphere is so small and distant that
 /// nothing of that vector remains, the normal faces the ray.
-/// \param sphere  The sphere.
-/// \param ray     The ray.
-/// \param hit     What intersect() returned.
 /// \return Position, error bound, outward normal.
 // [surface_point]
 template <std::floating_point T>
@@ -197,10 +194,8 @@ template <std::floating_point T>
 }
 // [surface_point]
 
-/// Samples a point of a sphere uniformly over its area.
-/// \param sphere  The sphere.
-/// \param u       Point of the unit square.
-/// \return The point; its density is 1 / area per squared scene unit.
+/// Samples a point of a sphere uniformly: its density is 1 / area per squared scene
+/// unit. `u` is a point of the unit square.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const SphereT<T>& sphere,
                                            const Vec2T<T>& u) noexcept {

@@ -120,11 +120,8 @@ template <std::floating_point T>
 }
 // [offset_ray_origin]
 
-/// A ray that leaves a surface and does not hit it again at its start.
-/// \param point      Origin.
-/// \param direction  Direction.
-/// \param time       In [0, 1].
-/// \return The ray, with an unbounded range.
+/// A ray that leaves a surface and does not hit it again at its start. Its range is
+/// unbounded.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> spawn_ray(const SurfacePointT<T>& point,
                                 const Vec3T<T>& direction, T time = T(0)) noexcept {
@@ -138,10 +135,7 @@ template <std::floating_point T>
 /// The rounding error of a hit grows with the length of the ray. The ray therefore ends
 /// short of `to` by this error; otherwise a lamp near the scene's origin would shadow
 /// itself from afar.
-/// \param from  Origin.
-/// \param to    End of the ray, at t = 1.
-/// \param time  In [0, 1].
-/// \return The ray; its direction is as long as the distance.
+/// \return The ray; it ends at t = 1, and its direction is as long as the distance.
 // [spawn_ray_to]
 template <std::floating_point T>
 [[nodiscard]] RayT<T> spawn_ray_to(const SurfacePointT<T>& from,
@@ -212,8 +206,8 @@ enum class Spanned : std::uint8_t {
 /// \tparam shape    What the two edges span.
 /// \tparam Compute  The precision of the arithmetic; results are rounded to T once. In
 ///                  float, shapes and distances must be between 1e-15 and 1e15.
-/// \param ray     Its direction may have any length but zero; hits lie in [t_min,
-///                t_max].
+/// \param ray     Its direction may have any length but zero; hits lie in
+///                [t_min, t_max].
 /// \param v1      A corner.
 /// \param e1      Edge of the coordinate u.
 /// \param e2      Edge of the coordinate v.

@@ -94,14 +94,10 @@ template <std::floating_point T>
     return static_cast<T>(glm::length(detail::cross_of_edges(triangle)) / 2);
 }
 
-/// The point of a triangle with the barycentric coordinates u, v, computed from the
-/// vertices. Its error lies within the plane, whereas the error of t lies along the
-/// ray.
-/// \param triangle  The triangle.
-/// \param u         Weight of the second vertex.
-/// \param v         Weight of the third vertex.
-/// \param normal    What normal() returned; the overload without it computes it.
-/// \return Position, error bound, normal.
+/// The point of a triangle with the barycentric coordinates u, v: position, error
+/// bound, and `normal`, which is what normal() returned. u and v are the weights of the
+/// second and the third vertex. The error of the position lies within the plane,
+/// whereas the error of t lies along the ray.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> point_at(const TriangleT<T>& triangle, T u, T v,
                                         const Vec3T<T>& normal) noexcept {
@@ -124,11 +120,9 @@ template <std::floating_point T>
     return point_at(triangle, u, v, normal(triangle));
 }
 
-/// Samples a point of a triangle uniformly over its area.
-/// \param triangle  A triangle with an area.
-/// \param u         Point of the unit square.
-/// \param normal    What normal() returned; the overload without it computes it.
-/// \return The point; its density is 1 / area per squared scene unit.
+/// Samples a point of a triangle with an area, uniformly: its density is 1 / area per
+/// squared scene unit. `u` is a point of the unit square, `normal` is what normal()
+/// returned.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const TriangleT<T>& triangle,
                                            const Vec2T<T>& u,

@@ -127,12 +127,8 @@ template <typename S, std::floating_point T>
     return {point.normal, T(1)};
 }
 
-/// The form factor from a point to the lamp.
-/// \param light   The lamp.
-/// \param from    The point.
-/// \param normal  Unit normal of the surface at the point.
-/// \param time    Time of the path, in [0, 1].
-/// \return In [0, 1]; nothing if there is no closed form.
+/// The form factor from a point with a unit normal to the lamp, in [0, 1]; nothing if
+/// there is no closed form.
 template <typename S, std::floating_point T>
 [[nodiscard]] std::optional<T> form_factor(const AreaLightT<S>& light,
                                            const Vec3T<T>& from, const Vec3T<T>& normal,

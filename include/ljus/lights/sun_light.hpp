@@ -42,8 +42,6 @@ void check(const SunLightT<T>& light) {
 }
 
 /// Prepares a checked sun for its scene.
-/// \param light   The light.
-/// \param around  The sphere around the scene.
 template <std::floating_point T>
 [[nodiscard]] SunInSceneT<T> in_scene(const SunLightT<T>& light,
                                       const SphereT<T>& around) {

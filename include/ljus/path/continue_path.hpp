@@ -126,9 +126,6 @@ template <std::floating_point T, Material M, StreamLike Stream>
 }
 
 /// Splits a camera path at a boundary: the path is reflected, a copy of it refracted.
-/// \param path      The path.
-/// \param vertex    The vertex.
-/// \param material  Its material.
 /// \return The copy, with its own random numbers; nothing if there is only one
 ///         direction, and then the path is unchanged.
 /// \report{Section 3.2.5}

@@ -67,12 +67,8 @@ struct MisT {
     Lobes lobes = Lobes::all; ///< Those that the scattered ray samples.
 };
 
-/// The density with which a shadow ray would choose the point of a lamp that a path
-/// hit.
-/// \param world  The closed scene.
-/// \param from   Origin of the shadow ray.
-/// \param lamp   The point of the lamp.
-/// \return Per steradian at `from`.
+/// The density with which a shadow ray from `from` would choose the point of a lamp
+/// that a path hit; per steradian.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] T pdf_of_lamp_point(const W& world, const Vec3T<T>& from,
                                   const VertexT<T>& lamp) {
@@ -96,11 +92,8 @@ inline constexpr bool has_sky = W::any_light([]<typename L>() { return FillsSky<
 
 } // namespace detail
 
-/// The sky of one light, as seen by a ray that leaves the scene.
-/// \param world      The closed scene.
-/// \param light      The index of the light.
-/// \param direction  Unit direction of the ray.
-/// \return Black for a light that does not fill the sky.
+/// The sky of one light, as seen by a ray that leaves the scene in a unit direction. It
+/// is black for a light that does not fill the sky.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] SkyT<T> sky_of(const W& world, std::uint32_t light,
                              const Vec3T<T>& direction) {
@@ -112,11 +105,9 @@ template <AnyWorld W, std::floating_point T>
     });
 }
 
-/// The radiance of the sky, summed over all lights, for a ray that leaves the scene. It
-/// costs nothing for a scene whose list has no such type of light.
-/// \param world      The closed scene.
-/// \param direction  Unit direction of the ray.
-/// \return W/(m^2 sr).
+/// The radiance of the sky, W/(m^2 sr), summed over all lights, for a ray that leaves
+/// the scene in a unit direction. It costs nothing for a scene that lists no such
+/// light.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> sky_radiance(const W& world, const Vec3T<T>& direction) {
     RgbT<T> sum{T(0)};

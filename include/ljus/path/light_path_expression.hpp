@@ -31,10 +31,8 @@ struct LightPathExpression {
     std::array<char, 64> letter{}; ///< Letter of each state: E, D, S, L or '.'.
     std::uint64_t last = 0;        ///< Accepting states.
 
-    /// The states after one more letter of a path.
-    /// \param states  One bit per state.
-    /// \param next    E, D, S or L.
-    /// \return The possible states; none if the path is not in the class.
+    /// The possible states after one more letter of a path: E, D, S or L. There is one
+    /// bit per state; none is set if the path is not in the class.
     [[nodiscard]] constexpr std::uint64_t step(std::uint64_t states,
                                                char next) const noexcept {
         std::uint64_t possible = 0;

@@ -15,12 +15,9 @@ namespace ljus {
 /// of its terms. Chapter: \ref ch_light_transport.
 /// \{
 
-/// The factor g of Eq. 1: visibility over squared distance.
-/// \param world  The closed scene.
-/// \param x      A point on a surface.
-/// \param other  Another point on a surface.
-/// \return 0 if anything occludes one from the other, even glass, or if they coincide;
-///         otherwise 1/r^2, per squared scene unit. It is symmetric.
+/// The factor g of Eq. 1: visibility over squared distance, between two points on
+/// surfaces. It is 0 if anything occludes one from the other, even glass, or if they
+/// coincide; otherwise 1/r^2, per squared scene unit. It is symmetric.
 /// \report{Eq. (1)}
 /// \erratum{The report has 1/r^2 only, so that no surface casts a shadow.}
 // [transport_factor]
@@ -98,10 +95,6 @@ template <typename R>
 OnlyPaths(const R&, std::string_view) -> OnlyPaths<R>;
 
 /// The radiance of one camera path, restricted to the class.
-/// \param renderer  The restricted renderer.
-/// \param ray       A primary ray.
-/// \param context   The numbers and the counts of this path.
-/// \return Radiance, W/(m^2 sr).
 /// \cost That of the whole renderer.
 template <typename R, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> radiance(const OnlyPaths<R>& renderer, const RayT<T>& ray,

@@ -114,15 +114,11 @@ inline void fill_vertex(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
 
 } // namespace detail
 
-/// The vertex at a hit.
+/// The vertex at a hit, without its medium. The ray has a direction of unit length.
 ///
 /// The geometric normal decides the side of a direction. If the two normals disagree
 /// about the side of the ray, the frame is set around the geometric one, so that the z
 /// of `wo` always gives the side and no surface is seen from behind.
-/// \param world  The closed scene.
-/// \param ray    The ray that hit, with a direction of unit length.
-/// \param hit    What closest_hit() returned.
-/// \return The vertex, without its medium.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] VertexT<T> vertex_at(const W& world, const RayT<T>& ray,
                                    const SceneHitT<T>& hit) {
@@ -134,9 +130,6 @@ template <AnyWorld W, std::floating_point T>
 /// Calls f(material) with the material of a vertex. A textured material is its base
 /// with the colour at the vertex, and a soap film has its thickness at the vertex;
 /// other materials are the same everywhere.
-/// \param world   The closed scene.
-/// \param vertex  The vertex.
-/// \param f       Called with the material, as its own type.
 // [visit_material_at]
 template <AnyWorld W, std::floating_point T, typename F>
 decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f) {
@@ -258,11 +251,8 @@ template <AnyWorld W, StreamLike Stream>
 
 } // namespace detail
 
-/// Starts the path of a camera ray at a random time.
-/// \param world   The closed scene.
-/// \param ray     A primary ray.
-/// \param stream  One number is drawn if the scene lists a moving shape.
-/// \return A path without vertices.
+/// Starts the path of a camera ray at a random time. One number is drawn if the scene
+/// lists a moving shape.
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] PathStateT<T> camera_path(const W& world, const RayT<T>& ray,
                                         Stream& stream) {
@@ -314,10 +304,6 @@ template <AnyWorld W, std::floating_point T>
 } // namespace detail
 
 /// The fraction of light that arrives from one point at another.
-/// \param world  The closed scene.
-/// \param from   A point on a surface.
-/// \param to     Another one.
-/// \param time   Time of the path, in [0, 1].
 /// \return 0 if anything occludes it; otherwise the product of the transmittances of
 ///         the thin surfaces between them.
 /// \cost That of occluded(); with thin surfaces a closest_hit() for each, and one more.
@@ -383,8 +369,6 @@ inline constexpr bool lists_media = W::any_material([]<typename M>() {
 /// The absorption at a ray's origin: that of the innermost body around it. A body
 /// contains the origin if the ray leaves its surface without having entered it. Opaque
 /// surfaces are ignored. Bodies are closed, and consist of one shape or several.
-/// \param world  The closed scene.
-/// \param ray    Any ray from the point, with a direction of unit length.
 /// \return Per scene unit; 0 outside all bodies.
 /// \cost A comparison outside the bounding box of all absorbing objects; inside it a
 ///       ray per surface up to the end of the body.

@@ -137,10 +137,7 @@ struct RadianceSum {
                     const RgbT<T>& light) const {
         add(owner, letters, throughput * light);
     }
-    /// Adds a term that contains the throughput.
-    /// \param owner    Its estimator.
-    /// \param letters  From here to the light.
-    /// \param term     Throughput times radiance.
+    /// Adds a term that already contains the throughput.
     void add(const char* owner, const char* letters, const RgbT<T>& term) const {
         log.term(owner, letters, term);
         sum += term;

@@ -200,8 +200,6 @@ pilot_caustics(const W& world, const PhotonPassSettings& pass, T radius,
 }
 
 /// Computes PhotonPassSettings::shares.
-/// \param budget  The criterion.
-/// \param pilots  What pilot_caustics() returned.
 /// \return One fraction per object; none for CausticBudget::as_seen.
 [[nodiscard]] inline std::vector<double>
 caustic_shares(CausticBudget budget, std::span<const CausticPilot> pilots) {

@@ -49,7 +49,6 @@ struct DensityEstimateOf {
 using DensityEstimateSettings = DensityEstimateOf<Kernel>; ///< With a listed kernel.
 
 /// Refuses settings that give no estimate.
-/// \param gather  The settings.
 /// \throws std::invalid_argument  with name and value; also for a user's kernel whose
 ///         mean is not 1.
 template <typename K>

@@ -191,10 +191,8 @@ template <AnyWorld W, std::floating_point T>
     return points;
 }
 
-/// The irradiance at the nearest lookup point with a similar normal.
-/// \param points    The lookup points.
-/// \param position  The point in question.
-/// \param normal    Unit vector on the side of the irradiance.
+/// The irradiance at the nearest lookup point with a similar normal. `normal` is a unit
+/// vector on the side in question.
 /// \return W/m^2; 0 if there is none nearby, because photons reach every lit surface.
 // [irradiance_at]
 template <std::floating_point T>

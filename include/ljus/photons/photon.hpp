@@ -87,10 +87,8 @@ struct PhotonT {
 };
 using Photon = PhotonT<float>; ///< PhotonT in float: 44 bytes.
 
-/// The side of a surface on which a photon arrives.
-/// \param direction  Direction of travel.
-/// \param normal     Normal of the surface.
-/// \return +1 for the side of the normal, -1 for the other.
+/// The side of a surface on which a photon arrives: +1 for that of the normal, -1 for
+/// the other.
 // [photon_side]
 template <std::floating_point T>
 [[nodiscard]] int photon_side(const Vec3T<T>& direction,

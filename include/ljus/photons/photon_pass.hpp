@@ -59,7 +59,6 @@ struct PhotonPassSettings {
 };
 
 /// Refuses invalid settings.
-/// \param pass  The settings.
 /// \throws std::invalid_argument  with name and value.
 inline void check(const PhotonPassSettings& pass) {
     require_at_least("the number of photons", pass.photons, 0);

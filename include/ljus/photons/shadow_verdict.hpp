@@ -35,7 +35,6 @@ struct SkipSettings {
 };
 
 /// Refuses invalid settings.
-/// \param skip  The settings.
 /// \throws std::invalid_argument  with name and value.
 inline void check(const SkipSettings& skip) {
     require(skip.radius >= 0 && std::isfinite(skip.radius), "skip.radius",
@@ -52,7 +51,6 @@ inline void check(const SkipSettings& skip) {
 /// with a probability above tau, and n of them are all direct with one below
 /// \f$ (1-\tau)^n \f$. This is at most the risk alpha for
 /// \f$ n \ge \ln\alpha / \ln(1-\tau) \f$.
-/// \param skip  The settings.
 /// \return At least 1.
 // [photons_needed]
 [[nodiscard]] inline std::uint32_t photons_needed(const SkipSettings& skip) noexcept {
