@@ -721,8 +721,7 @@ TEST_CASE("caustic_budget: what cannot be is refused, and extremes are none") {
                              {.photons = photons, .shares = std::move(shares)});
     };
     CHECK(refusal([&] { (void)traced({1.0}); }) ==
-          "the number of shares is 1; it must be that of the objects that mirror or "
-          "refract.");
+          "the number of shares is 1; it must be the number of specular objects.");
     CHECK(refusal([&] {
               (void)traced({0.5, 0.6});
           }) == "the sum of all shares is 1.1; it must be 1.");

@@ -121,21 +121,22 @@ TEST_CASE("light_transport: an expression that is none is refused with its place
     };
     CHECK(refusal("ES*L") == "");
     CHECK(refusal("EXL") ==
-          "The class of paths 'EXL' has something else at place 2; it "
-          "is made of E, D, S, L, '.' for D or S, and | ( ) * + ?.");
+          "The class of paths 'EXL' has an unexpected character at position 2; it "
+          "may contain E, D, S, L, '.' for D or S, and | ( ) * + ?.");
     const auto said = [&](const char* words, const char* what, int place) {
         return refusal(words) ==
                std::string("The class of paths '") + words + "' has " + what +
-                   " at place " + std::to_string(place) +
-                   "; it is made of E, D, S, L, '.' for D or S, and | ( ) * + ?.";
+                   " at position " + std::to_string(place) +
+                   "; it may contain E, D, S, L, '.' for D or S, and | ( ) * + ?.";
     };
     CHECK(said("E(S|D", "no closing bracket", 6));
-    CHECK(said("E)L", "a bracket that closes nothing", 2));
-    CHECK(said("*", "something else", 1));
-    CHECK(said("E L", "something else", 2));
+    CHECK(said("E)L", "an unmatched closing bracket", 2));
+    CHECK(said("*", "an unexpected character", 1));
+    CHECK(said("E L", "an unexpected character", 2));
     CHECK(said("E(S|D)(", "no closing bracket", 8));
-    CHECK(said("E{2}L", "something else", 2));
-    CHECK(refusal(std::string(64, 'D').c_str()).find("64th") != std::string::npos);
+    CHECK(said("E{2}L", "an unexpected character", 2));
+    CHECK(refusal(std::string(64, 'D').c_str()).find("63 letters") !=
+          std::string::npos);
     CHECK(refusal(std::string(63, 'D').c_str()) == "");
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/bvh.hpp
-/// \brief The plain tree of boxes: what a ray meets, without asking everything.
+/// \brief The plain tree of boxes, which spares a ray most intersection tests.
 
 #include <array>
 
@@ -14,29 +14,28 @@ namespace ljus {
 /// partition". Chapter: \ref ch_bvh.
 /// \{
 
-/// Is told of each node that a search visits, and does nothing.
+/// The default observer of a traversal: does nothing.
 struct NoTrace {
-    /// A node was visited: its number.
+    /// Called with the index of each visited node.
     constexpr void operator()(std::uint32_t) const noexcept {}
 };
 
-/// The nearest hit so far; of several that are as near, that of the primitive with the
-/// least number: what asking all of them in turn would find.
+/// The nearest hit so far. Of several equally near hits it is that of the primitive
+/// with the lowest index, as in a loop over all primitives.
 // [nearest]
 template <std::floating_point T>
 struct NearestHitT {
-    FlatHitT<T> at{};                                                 ///< Where it is.
-    std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Of what.
-    bool found = false;     ///< Whether there is one.
-    std::uint32_t slot = 0; ///< Of what, in the order of a tree: see nearest_hit().
+    FlatHitT<T> at{};                                                 ///< The hit.
+    std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Index.
+    bool found = false;     ///< Whether there is a hit.
+    std::uint32_t slot = 0; ///< The primitive's position in a tree: see nearest_hit().
 
-    /// Takes a hit, if it is nearer, and shortens the ray to it: to one unit in the
-    /// last place beyond it, because a primitive at the same t, computed in double, may
-    /// seem farther.
-    /// \return Whether it was nearer.
+    /// Accepts a nearer hit and sets the ray's t_max one ulp beyond it, so that a
+    /// primitive at the same t is still tested.
+    /// \return Whether the hit was nearer.
     bool offer(const FlatHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
         if (found && !(hit.t < at.t || (hit.t == at.t && of < number))) return false;
-        at.t = hit.t; // one by one: a wide copy waits for what was just written
+        at.t = hit.t; // by component: a wide copy would stall
         at.u = hit.u;
         at.v = hit.v;
         at.part = hit.part;
@@ -51,12 +50,12 @@ struct NearestHitT {
 // [nearest]
 using NearestHit = NearestHitT<float>; ///< NearestHitT in float.
 
-/// The nearest hit of all primitives in a tree.
+/// The nearest hit among all primitives in a tree.
 /// \param tree  A BvhT, a Bvh8 or a TriangleBvh.
-/// \param ray   Hits count in [t_min, t_max].
-/// \param ask   Called as ask(slot, ray) for those that the ray may meet; returns where
-///              it does, an optional FlatHitT. The ray is shorter each time.
-/// \return What asking all of them in turn would find.
+/// \param ray   Hits lie within [t_min, t_max].
+/// \param ask   Called as ask(slot, ray) for primitives that the ray may hit, with a
+///              ray that ends at the nearest hit so far; returns an optional FlatHitT.
+/// \return The same hit as a loop over all primitives.
 // [nearest_hit]
 template <typename Tree, std::floating_point T, typename Ask>
 [[nodiscard]] NearestHitT<T> nearest_hit(const Tree& tree, const RayT<T>& ray,
@@ -71,9 +70,9 @@ template <typename Tree, std::floating_point T, typename Ask>
 }
 // [nearest_hit]
 
-/// A binary tree of boxes over any primitives that have one \cite rubin1980. What the
-/// primitives are, and where, is the caller's: a search calls back with a primitive's
-/// *slot* in the tree's order, and primitive_ids() says which one that is.
+/// A binary bounding volume hierarchy over primitives that have boxes \cite rubin1980.
+/// The caller keeps the primitives. A traversal calls back with a *slot*, a position in
+/// the tree's order, and primitive_ids() maps it to the index of the primitive.
 ///
 ///     std::vector<Box> boxes;
 ///     for (const Triangle& triangle : triangles) boxes.push_back(bounds(triangle));
@@ -85,20 +84,19 @@ template <typename Tree, std::floating_point T, typename Ask>
 template <std::floating_point T>
 class BvhT {
 public:
-    /// A tree over nothing.
+    /// An empty tree.
     BvhT() = default;
 
-    /// Builds the tree: top down, each range split where that is cheapest for rays.
-    /// \param boxes     Any boxes, equal and flat ones too; below 2^31.
-    /// \param settings  Leaves and threads; the tree is the same for any number.
+    /// Builds the tree from the top, by the surface area heuristic.
+    /// \param boxes     Fewer than 2^31; they may be equal or flat.
+    /// \param settings  Leaves and threads; the tree does not depend on the threads.
     /// \throws std::invalid_argument  if a box is not finite, or there are too many.
-    /// \cost O(n log n); at most 68 bytes per box for the tree in float, and 36 more
-    ///       while it is built.
+    /// \cost O(n log n); in float at most 68 bytes per box, and 36 more during the
+    ///       build.
     explicit BvhT(std::span<const BoxT<T>> boxes, const BvhSettings& settings = {})
         : tree_(detail::build_bvh(boxes, settings)) {}
 
-    /// primitive_ids()[slot] is a primitive's number in the span that the tree was
-    /// built from.
+    /// primitive_ids()[slot] is the index of a primitive in the span of the boxes.
     [[nodiscard]] const std::vector<std::uint32_t>& primitive_ids() const noexcept {
         return tree_.primitive_ids;
     }
@@ -106,23 +104,23 @@ public:
     [[nodiscard]] const std::vector<detail::BvhNodeT<T>>& nodes() const noexcept {
         return tree_.nodes;
     }
-    /// A box around everything.
+    /// The box around all primitives.
     [[nodiscard]] BoxT<T> box() const noexcept {
         return tree_.nodes.empty() ? BoxT<T>{} : tree_.nodes[0].box;
     }
-    /// The memory that the tree takes.
+    /// The size of the tree in bytes.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return tree_.nodes.capacity() * sizeof(detail::BvhNodeT<T>) +
                tree_.primitive_ids.capacity() * 4;
     }
 
-    /// Asks the primitives that a ray may meet, the nearer ones first.
+    /// Visits the primitives that a ray may hit, nearer nodes first.
     /// \param ray    The ray.
-    /// \param test   Called as test(slot, ray) for primitives whose box the ray meets;
-    ///               it may shorten the ray, as NearestHitT does, so that what lies
-    ///               farther is left out; what is as far is still asked.
-    /// \param watch  Called with the number of each node on the way.
-    /// \cost In the mean O(log n) calls, in the worst case n.
+    /// \param test   Called as test(slot, ray) for primitives in leaves that the ray
+    ///               enters. It may shorten the ray, as NearestHitT does, to prune
+    ///               farther nodes; nodes at exactly t_max are still visited.
+    /// \param watch  Called with the index of each visited node.
+    /// \cost O(log n) calls on average, n in the worst case.
     template <typename Test, typename Watch = NoTrace>
     void closest(RayT<T> ray, Test&& test, Watch&& watch = {}) const {
         walk(
@@ -134,19 +132,18 @@ public:
             watch);
     }
 
-    /// Whether any of the primitives that a ray may meet says yes.
+    /// Whether a test of the primitives that a ray may hit succeeds.
     /// \param ray    The ray.
-    /// \param test   Called as test(slot); true ends the search.
-    /// \param watch  Called with the number of each node on the way.
-    /// \return Whether one said true.
+    /// \param test   Called as test(slot); true ends the traversal.
+    /// \param watch  Called with the index of each visited node.
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const RayT<T>& ray, Test&& test, Watch&& watch = {}) const {
         return walk(ray, test, watch);
     }
 
 private:
-    // The way of both searches: of two children the nearer one first, and the other one
-    // kept for later, with the distance at which the ray enters it.
+    // The traversal of both searches. It visits the nearer child first and pushes the
+    // other one onto a stack, with the distance at which the ray enters it.
     // [walk]
     template <typename Test, typename Watch>
     bool walk(const RayT<T>& ray, Test&& test, Watch& watch) const {
@@ -182,7 +179,7 @@ private:
                     continue;
                 }
             }
-            // What was found since may lie in front of what waits.
+            // A hit found since may lie in front of nodes on the stack.
             do {
                 if (waiting == 0) return false;
                 --waiting;

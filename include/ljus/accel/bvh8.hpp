@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/bvh8.hpp
-/// \brief The fast tree of boxes: eight children a node, asked at once.
+/// \brief The fast tree of boxes: eight children per node, tested together.
 
 #include "ljus/accel/bvh.hpp"
 #include "ljus/accel/detail/bvh8_walk.hpp"
@@ -9,22 +9,22 @@
 namespace ljus {
 
 /// \defgroup bvh8 Wide trees
-/// \brief The twin of the plain tree for speed \cite wald2008 : the same searches, the
-/// same answers. Chapter: \ref ch_bvh.
+/// \brief The fast counterpart of the plain tree \cite wald2008, with the same
+/// searches and results. Chapter: \ref ch_bvh.
 /// \{
 
-/// The plain tree, made wide: nodes of up to eight children, chosen by
+/// The plain tree with up to eight children per node, collapsed as in
 /// \ref bvh_collapse.
 class Bvh8 {
 public:
-    /// A tree over nothing.
+    /// An empty tree.
     Bvh8() = default;
 
     /// Builds the tree.
-    /// \param boxes     As for BvhT, but below 2^27.
-    /// \param settings  As for BvhT; leaves of at most 16.
-    /// \param multiple  Leaves start at multiples of so many slots, with padding
-    ///                  between them.
+    /// \param boxes     As for BvhT, but fewer than 2^27.
+    /// \param settings  As for BvhT; at most 16 primitives per leaf.
+    /// \param multiple  Leaves start at multiples of this number of slots; padding
+    ///                  fills the gaps.
     /// \throws std::invalid_argument  as BvhT.
     template <typename Boxes>
     requires std::convertible_to<const Boxes&, std::span<const Box>>
@@ -36,10 +36,10 @@ public:
             detail::build_bvh(std::span<const Box>(boxes), settings), multiple);
     }
 
-    /// A slot between leaves that nothing has.
+    /// The primitive_ids() entry of an unused slot between leaves.
     static constexpr std::uint32_t padding = detail::Bvh8Nodes::padding;
 
-    /// primitive_ids()[slot] is a primitive's number, or padding.
+    /// primitive_ids()[slot] is the index of a primitive, or padding.
     [[nodiscard]] const std::vector<std::uint32_t>& primitive_ids() const noexcept {
         return wide_.primitive_ids;
     }
@@ -47,17 +47,17 @@ public:
     [[nodiscard]] const std::vector<detail::Bvh8Node>& nodes() const noexcept {
         return wide_.nodes;
     }
-    /// The tree itself, for detail::walk().
+    /// The tree, for detail::walk().
     [[nodiscard]] const detail::Bvh8Nodes& wide() const noexcept { return wide_; }
-    /// A box around everything.
+    /// The box around all primitives.
     [[nodiscard]] const Box& box() const noexcept { return wide_.box; }
-    /// The memory that the tree takes.
+    /// The size of the tree in bytes.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return wide_.nodes.capacity() * sizeof(detail::Bvh8Node) +
                wide_.primitive_ids.capacity() * 4;
     }
 
-    /// Asks the primitives that a ray may meet, the nearer ones first: as
+    /// Visits the primitives that a ray may hit, nearer nodes first; as
     /// BvhT::closest().
     template <typename Test, typename Watch = NoTrace>
     void closest(Ray ray, Test&& test, Watch&& watch = {}) const {
@@ -68,13 +68,13 @@ public:
         detail::walk<false>(wide_, ray, each_slot(ask), watch);
     }
 
-    /// Whether any of the primitives that a ray may meet says yes: as BvhT::any().
+    /// Whether a test of the primitives that a ray may hit succeeds; as BvhT::any().
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
         return detail::walk<true>(wide_, ray, each_slot(test), watch);
     }
 
-    /// A leaf for detail::walk() that asks slot by slot.
+    /// A leaf function for detail::walk() that tests each slot.
     template <typename Ask>
     [[nodiscard]] auto each_slot(Ask& ask) const {
         return [this, &ask](std::uint32_t first, std::uint32_t count,

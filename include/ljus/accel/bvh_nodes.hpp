@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/bvh_nodes.hpp
-/// \brief What a tree of boxes is made of, and the settings that it is built with.
+/// \brief The nodes of a tree of boxes, and the settings of its construction.
 
 #include <cstdint>
 #include <vector>
@@ -14,38 +14,38 @@ namespace ljus {
 /// \brief Boxes within boxes \cite rubin1980. Chapter: \ref ch_bvh.
 /// \{
 
-/// How a tree is built.
+/// Settings of a tree's construction.
 struct BvhSettings {
-    std::uint32_t leaf_size = 4; ///< No leaf has more, at least 1.
-    std::uint32_t at_a_time = 1; ///< How many primitives one test asks, side by side.
-    float node_cost = 1;         ///< Of a step down, in tests.
-    int threads = 0;             ///< 0: all that there are.
+    std::uint32_t leaf_size = 4; ///< Most primitives per leaf; at least 1.
+    std::uint32_t at_a_time = 1; ///< Primitives per test, side by side.
+    float node_cost = 1;         ///< Of a traversal step, in tests.
+    int threads = 0;             ///< 0: all processors.
 };
 
 namespace detail {
 
-/// A node: its box, and either two children or some of the primitives themselves. 32
-/// bytes in float, so that two children share a cache line.
+/// A node: its box, and either two children or a range of primitives. It takes 32 bytes
+/// in float, so that two children share a cache line.
 // [tree node]
 template <std::floating_point T>
 struct BvhNodeT {
-    BoxT<T> box{};           ///< Around all that is below.
-    std::uint32_t first = 0; ///< Its first primitive, or child: the other follows.
-    std::uint32_t count = 0; ///< How many primitives; 0 for a node with children.
+    BoxT<T> box{};           ///< Around the whole subtree.
+    std::uint32_t first = 0; ///< The first primitive, or the first of two children.
+    std::uint32_t count = 0; ///< Number of primitives; 0 for an inner node.
 };
 // [tree node]
 static_assert(sizeof(BvhNodeT<float>) == 32);
 
-/// A tree of boxes: nodes, the root first, and the order in which leaves have
-/// primitives.
+/// A tree of boxes: its nodes, the root first, and the primitives in the order of the
+/// leaves.
 template <std::floating_point T>
 struct BvhNodesT {
-    std::vector<BvhNodeT<T>> nodes{}; ///< Empty if there is nothing.
+    std::vector<BvhNodeT<T>> nodes{}; ///< Empty for an empty tree.
     std::vector<std::uint32_t>
-        primitive_ids{}; ///< primitive_ids[slot] is a primitive's number.
+        primitive_ids{}; ///< primitive_ids[slot] is the index of a primitive.
 };
 
-/// The deepest that a tree may be; what a search keeps in mind is no more.
+/// Bound of a tree's depth, and so of a traversal's stack.
 inline constexpr int bvh_depth = 64;
 
 } // namespace detail

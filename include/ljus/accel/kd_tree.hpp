@@ -19,12 +19,12 @@ namespace ljus {
 /// tree".
 /// \{
 
-/// A balanced k-d tree \cite bentley1975 without a single pointer: each range of the
-/// array is halved at the median of its longest side, down to leaves of a few points.
-/// Each range knows its box, so that a search far from all photons ends at once.
+/// A balanced k-d tree without pointers \cite bentley1975. Each range of the array is
+/// split at the median of its longest axis, down to leaves of a few points. Each range
+/// has its box, so that a search far from all points ends at once.
 ///
-/// The tree keeps the positions only. What belongs to them is the caller's, who puts it
-/// into the tree's order: then a search reads memory that lies together.
+/// The tree stores the positions only. The caller sorts their payload into the tree's
+/// order, so that a search reads contiguous memory:
 ///
 ///     std::vector<Vec3> positions;
 ///     for (const MyPhoton& photon : photons) positions.push_back(photon.position);
@@ -35,19 +35,19 @@ namespace ljus {
 ///         flux += sorted[i].flux;
 ///     });
 ///
-/// Searches are const, take no memory, and may run on any number of threads. KdTree8T
-/// has the same ones: a program changes the type and nothing else.
+/// Searches are const, allocate nothing, and may run in parallel. KdTree8T has the same
+/// interface.
 template <std::floating_point T>
 class KdTreeT {
 public:
-    /// An empty tree: every search finds nothing.
+    /// An empty tree; every search finds nothing.
     KdTreeT() = default;
 
     /// Builds the tree.
-    /// \param points  Any points, equal ones too; below 2^32.
+    /// \param points  Fewer than 2^32; they may be equal.
     /// \throws std::invalid_argument  if a point is not finite.
-    /// \cost O(n log n), whatever the points; 16 bytes per point in float, and 3 to 12
-    ///       for the boxes.
+    /// \cost O(n log n) for any points; in float 16 bytes per point, and 3 to 12 for
+    ///       the boxes.
     explicit KdTreeT(std::span<const Vec3T<T>> points) {
         require(points.size() <= std::numeric_limits<std::uint32_t>::max(),
                 "the number of points in a k-d tree",
@@ -60,8 +60,8 @@ public:
         for (const std::uint32_t index : point_ids_) points_.push_back(points[index]);
     }
 
-    /// Where the points came from: the i-th point of the tree is number point_ids()[i]
-    /// of the span it was built from.
+    /// The i-th point of the tree has the index point_ids()[i] in the span from which
+    /// the tree was built.
     [[nodiscard]] const std::vector<std::uint32_t>& point_ids() const noexcept {
         return point_ids_;
     }
@@ -69,21 +69,20 @@ public:
     [[nodiscard]] const std::vector<Vec3T<T>>& points() const noexcept {
         return points_;
     }
-    /// One point.
-    /// \param index  In the tree's order, below size().
+    /// The point at an index in the tree's order, below size().
     [[nodiscard]] const Vec3T<T>& point(std::size_t index) const noexcept {
         return points_[index];
     }
-    /// How many points there are.
+    /// The number of points.
     [[nodiscard]] std::size_t size() const noexcept { return points_.size(); }
 
-    /// The walk that every search takes, and that a search of your own can take: of the
-    /// two halves of a range the nearer one first. What the search keeps is in its
-    /// arguments.
-    /// \param center   Where the search is.
-    /// \param offer    Called as offer(index, distance2) with each point on the way.
-    /// \param reaches  Called as reaches(distance2) with the squared distance to a
-    ///                 range's box: no point in it is nearer. False leaves it out.
+    /// The traversal of every search, also of your own. It visits the nearer half of a
+    /// range first.
+    /// \param center   Centre of the search.
+    /// \param offer    Called as offer(index, distance2) with each visited point.
+    /// \param reaches  Called as reaches(distance2) with the squared distance to the
+    ///                 box of a range; no point in it is nearer. False prunes the
+    ///                 range.
     template <typename Offer, typename Reaches>
     void walk(const Vec3T<T>& center, Offer&& offer, Reaches&& reaches) const {
         if (!points_.empty() && reaches(distance2_to(0, center)))
@@ -91,11 +90,11 @@ public:
     }
 
     /// Calls `visit(index, distance2)` for each point within a closed ball.
-    /// \param center  Of the ball.
-    /// \param radius  Not squared; infinity for all. Below 0, and if it or the centre
-    ///                is NaN, the ball is empty.
-    /// \param visit   Takes the place in the tree's order and the squared distance.
-    /// \cost In the mean O(log n) and one step a point found.
+    /// \param center  Centre of the ball.
+    /// \param radius  Not squared; may be infinite. If it is negative, or if it or the
+    ///                centre is NaN, the ball is empty.
+    /// \param visit   Takes the index in the tree's order and the squared distance.
+    /// \cost On average O(log n) and one step per point found.
     // [within]
     template <typename Visit>
     void visit_within(const Vec3T<T>& center, T radius, Visit&& visit) const {
@@ -108,9 +107,7 @@ public:
     }
     // [within]
 
-    /// Whether any point lies within a closed ball.
-    /// \param center  Of the ball.
-    /// \param radius  As for visit_within().
+    /// Whether any point lies within a closed ball, given as for visit_within().
     [[nodiscard]] bool any_within(const Vec3T<T>& center, T radius) const {
         if (!(radius >= T(0))) return false;
         const double limit2 = double(radius) * double(radius);
@@ -123,11 +120,9 @@ public:
         return found;
     }
 
-    /// The nearest point within a closed ball.
-    /// \param center  Of the ball.
-    /// \param radius  As for visit_within().
-    /// \return Of several that are equally far, any, but always the same one; nothing
-    ///         if the ball is empty.
+    /// The nearest point within a closed ball, given as for visit_within().
+    /// \return A tie is broken arbitrarily, but always in the same way; nothing if the
+    ///         ball is empty.
     [[nodiscard]] std::optional<Neighbor>
     nearest(const Vec3T<T>& center,
             T radius = std::numeric_limits<T>::infinity()) const {
@@ -137,15 +132,16 @@ public:
     }
 
     /// The nearest points within a closed ball.
-    /// \param center  Of the ball.
+    /// \param center  Centre of the ball.
     /// \param radius  As for visit_within().
-    /// \param found   Room for as many as are wanted; filled as a heap, farthest first.
-    /// \param wanted  Called with a place in the tree's order; false passes it over. By
-    ///                default any point will do.
-    /// \return How many were found; of several that are equally far, any, but always
-    ///         the same ones.
-    /// \cost In the mean O(log n) and some steps a point that is wanted, also where
-    ///       many points are equal; where few of those around are wanted, more.
+    /// \param found   Has one element per wanted point; filled as a heap, farthest
+    ///                first.
+    /// \param wanted  Called with an index in the tree's order; false skips the point.
+    ///                By default all points are wanted.
+    /// \return The number of points found. A tie is broken arbitrarily, but always in
+    ///         the same way.
+    /// \cost On average O(log n) and some steps per wanted point, even if many points
+    ///       are equal; more if few of the points nearby are wanted.
     // [nearest]
     template <typename Wanted = detail::AnyPoint>
     [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,
@@ -162,9 +158,9 @@ public:
     // [nearest]
 
 private:
-    static constexpr std::size_t leaf_size = 16; // such a range is asked one by one
+    static constexpr std::size_t leaf_size = 16; // a leaf is searched linearly
 
-    // Where the points of a range lie.
+    // The box of a range of points.
     struct Box {
         Vec3T<T> low, high;
     };
@@ -181,7 +177,7 @@ private:
         boxes_[node] = box;
         if (last - first <= leaf_size) return;
 
-        // The median goes to the middle; ties are split by the point's number.
+        // The median moves to the middle; the index breaks ties.
         const int axis = detail::longest_axis(box.low, box.high);
         const auto less = [&](std::uint32_t a, std::uint32_t b) {
             const T x = points[a][axis], y = points[b][axis];
@@ -213,7 +209,7 @@ private:
         const double to_low = distance2_to(low, center);
         const double to_high = distance2_to(high, center);
 
-        // The nearer half first: what it finds may bring the other one out of reach.
+        // Points found in the nearer half may rule out the other one.
         const bool low_first = to_low <= to_high;
         if (low_first && reaches(to_low))
             descend(low, first, middle, center, offer, reaches);

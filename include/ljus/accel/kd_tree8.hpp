@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/kd_tree8.hpp
-/// \brief The fast k-d tree: eight children a node, eight points at a time.
+/// \brief The fast k-d tree: eight children per node, eight points at a time.
 
 #include <optional>
 
@@ -15,28 +15,27 @@ namespace ljus {
 
 namespace detail {
 
-/// Eight points of which a search has found some.
+/// Eight points, some of which a search has found.
 template <std::floating_point T>
 struct FoundBlockT {
-    std::size_t first = 0;   ///< The place of the first of them in the tree's order.
-    std::uint32_t found = 0; ///< Which are found: a bit each, the first point's lowest.
+    std::size_t first = 0;   ///< Index of the first point in the tree's order.
+    std::uint32_t found = 0; ///< Bit i: whether point i was found.
     const detail::Lanes3T<T>&
-        points;                  ///< Where they lie; NaN behind the last point of all.
-    detail::LanesT<T> distance2; ///< Squared, in T; for those found, at most infinite.
+        points;                  ///< Positions; NaN beyond the last point of the tree.
+    detail::LanesT<T> distance2; ///< Squared, in T; may be infinite.
 };
 
 } // namespace detail
 
-/// The twin of KdTreeT, with the same answers: a k-d tree \cite bentley1975 of tight
-/// boxes, eight to a node, over leaves of 16 to 32 points in lanes, without a single
-/// pointer.
+/// The fast counterpart of KdTreeT, with the same results: a k-d tree without pointers
+/// \cite bentley1975. Each node holds eight tight boxes; each leaf holds 16 to 32
+/// points in lanes of eight.
 ///
-/// Distances are formed in T, eight at a time; those so near to the limit of a search
-/// that T cannot tell are formed once more in double, as everywhere: see
-/// detail::ReachT.
+/// Distances are computed in T, eight at a time. If one is too close to the limit of a
+/// search for the precision of T, it is computed again in double; see detail::ReachT.
 ///
-/// The tree keeps the positions only. What belongs to them is the caller's, who puts it
-/// into the tree's order: then a search reads memory that lies together.
+/// The tree stores the positions only. The caller sorts their payload into the tree's
+/// order, so that a search reads contiguous memory:
 ///
 ///     std::vector<Vec3> positions;
 ///     for (const MyPhoton& photon : photons) positions.push_back(photon.position);
@@ -47,22 +46,21 @@ struct FoundBlockT {
 ///         flux += sorted[i].flux;
 ///     });
 ///
-/// It has the searches of KdTreeT, by the same names, and visit_blocks() for those who
-/// work on eight points at a time. All of them are one walk of the tree,
-/// detail::walk(), with what is to be kept as an argument. Searches are const, take no
-/// memory, and may run on any number of threads.
+/// It has the searches of KdTreeT, and visit_blocks() for callers that process eight
+/// points at a time. Every search is the traversal detail::walk() with its own result
+/// set. Searches are const, allocate nothing, and may run in parallel.
 template <std::floating_point T>
 class KdTree8T {
 public:
-    /// An empty tree: every search finds nothing.
+    /// An empty tree; every search finds nothing.
     KdTree8T() = default;
 
     /// Builds the tree.
-    /// \param points   Any points, equal ones too; below 2^32.
-    /// \param threads  As in ParallelSettings; the tree is the same for any number.
+    /// \param points   Fewer than 2^32; they may be equal.
+    /// \param threads  As in ParallelSettings; the tree does not depend on it.
     /// \throws std::invalid_argument  if a point is not finite.
-    /// \cost O(n log n), whatever the points; in float 16 bytes per point and about 1
-    ///       for the boxes, and 32 more while it is built.
+    /// \cost O(n log n) for any points; in float 16 bytes per point, about 1 for the
+    ///       boxes, and 32 more during the build.
     explicit KdTree8T(std::span<const Vec3T<T>> points, int threads = 0) {
         require(points.size() <= std::numeric_limits<std::uint32_t>::max(),
                 "the number of points in a k-d tree",
@@ -80,27 +78,26 @@ public:
             .build(points, threads);
     }
 
-    /// Where the points came from: the i-th point of the tree is number point_ids()[i]
-    /// of the span it was built from.
+    /// The i-th point of the tree has the index point_ids()[i] in the span from which
+    /// the tree was built.
     [[nodiscard]] const std::vector<std::uint32_t>& point_ids() const noexcept {
         return point_ids_;
     }
 
-    /// The points, in the tree's order, eight by eight.
+    /// The points in the tree's order, in blocks of eight.
     [[nodiscard]] const std::vector<detail::Lanes3T<T>>& blocks() const noexcept {
         return parts_.blocks;
     }
 
-    /// One point.
-    /// \param index  In the tree's order, below size().
+    /// The point at an index in the tree's order, below size().
     [[nodiscard]] Vec3T<T> point(std::size_t index) const noexcept {
         return parts_.blocks[index / 8][index % 8];
     }
 
-    /// How many points there are.
+    /// The number of points.
     [[nodiscard]] std::size_t size() const noexcept { return point_ids_.size(); }
 
-    /// How many bytes the tree takes, without its own few.
+    /// The size of the tree's arrays in bytes.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return parts_.blocks.size() * sizeof(parts_.blocks[0]) +
                point_ids_.size() * sizeof(point_ids_[0]) +
@@ -109,10 +106,10 @@ public:
 
     /// Calls `visit(found)` with a FoundBlockT for each block of eight that has points
     /// within a closed ball.
-    /// \param center  Of the ball.
-    /// \param radius  Not squared; infinity for all. Below 0, and if it or the centre
-    ///                is NaN, the ball is empty.
-    /// \param visit   Takes the block; the payload of its points has the same places.
+    /// \param center  Centre of the ball.
+    /// \param radius  Not squared; may be infinite. If it is negative, or if it or the
+    ///                centre is NaN, the ball is empty.
+    /// \param visit   Takes the block; its indices are those of the payload.
     template <typename Visit>
     void visit_blocks(const Vec3T<T>& center, T radius, Visit&& visit) const {
         within(center, radius, [&](std::size_t first, std::uint32_t found) {
@@ -125,17 +122,15 @@ public:
         });
     }
 
-    /// The blocks that visit_blocks() visits, for many balls of one radius together:
-    /// the one search that is another walk, see detail::find_in_balls().
+    /// Finds the blocks of visit_blocks() for many balls of one radius together; see
+    /// detail::find_in_balls().
     template <typename Center, typename Expect>
     void find_in_balls(std::size_t balls, Center center, T radius, Expect expect,
                        detail::BallBlocks& found) const {
         detail::find_in_balls(parts_, balls, center, radius, expect, found);
     }
-    /// Calls `visit(index, distance2)` for each point within a closed ball.
-    /// \param center  Of the ball.
-    /// \param radius  As for visit_blocks().
-    /// \param visit   Takes the place in the tree's order and the squared distance.
+    /// Calls `visit(index, distance2)` for each point within a closed ball, given as
+    /// for visit_blocks(), with the index in the tree's order and the squared distance.
     template <typename Visit>
     void visit_within(const Vec3T<T>& center, T radius, Visit&& visit) const {
         within(center, radius, [&](std::size_t first, std::uint32_t found) {
@@ -148,18 +143,14 @@ public:
         });
     }
 
-    /// Whether any point lies within a closed ball.
-    /// \param center  Of the ball.
-    /// \param radius  As for visit_blocks().
+    /// Whether any point lies within a closed ball, given as for visit_blocks().
     [[nodiscard]] bool any_within(const Vec3T<T>& center, T radius) const {
         return within(center, radius, [](std::size_t, std::uint32_t) { return true; });
     }
 
-    /// The nearest point within a closed ball.
-    /// \param center  Of the ball.
-    /// \param radius  As for visit_blocks().
-    /// \return Of several that are equally far, any, but always the same one; nothing
-    ///         if the ball is empty.
+    /// The nearest point within a closed ball, given as for visit_blocks().
+    /// \return A tie is broken arbitrarily, but always in the same way; nothing if the
+    ///         ball is empty.
     [[nodiscard]] std::optional<Neighbor>
     nearest(const Vec3T<T>& center,
             T radius = std::numeric_limits<T>::infinity()) const {
@@ -170,17 +161,17 @@ public:
     }
 
     /// The k nearest points within a closed ball.
-    /// \param center  Of the ball.
+    /// \param center  Centre of the ball.
     /// \param radius  As for visit_blocks().
-    /// \param found   Room for as many as are wanted; the farthest is put first, the
-    ///                others in any order.
-    /// \param wanted  Called with a place in the tree's order; false passes it over.
-    /// \tparam Most   The caller promises to want no more: up to 512 a compiler is
-    ///                spared the heap that more of them need.
-    /// \return How many were found; of several that are equally far, any, but always
-    ///         the same ones.
-    /// \cost In the mean O(log n) and some steps a point that is wanted, also where
-    ///       many points are equal; where few of those around are wanted, more.
+    /// \param found   Has one element per wanted point; the farthest is first, the
+    ///                others are unsorted.
+    /// \param wanted  Called with an index in the tree's order; false skips the point.
+    /// \tparam Most   Upper bound of found.size(); up to 512 no code for a heap is
+    ///                generated.
+    /// \return The number of points found. A tie is broken arbitrarily, but always in
+    ///         the same way.
+    /// \cost On average O(log n) and some steps per wanted point, even if many points
+    ///       are equal; more if few of the points nearby are wanted.
     template <std::size_t Most = std::numeric_limits<std::size_t>::max(),
               typename Wanted = detail::AnyPoint>
     [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,

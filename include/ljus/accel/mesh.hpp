@@ -12,28 +12,28 @@
 namespace ljus {
 
 /// \defgroup mesh Meshes
-/// \brief Triangles that belong together. Chapter: \ref ch_triangle.
+/// \brief Triangles that form one shape. Chapter: \ref ch_triangle.
 ///
-/// A mesh is one shape: one object, one material, one light, and one target for the
-/// photons of the caustics map. The winding of a triangle decides its sides, and from
-/// where rays leave; the normals of the vertices only turn the frame of the material,
-/// see vertex_at() and scatter().
+/// A mesh is one object with one material, one light, and one target for the photons of
+/// the caustics map. The winding of a triangle determines its sides and the origins of
+/// spawned rays; the normals of the vertices only turn the frame of the material, see
+/// vertex_at() and scatter().
 /// \{
 
-/// A mesh; made once, then fixed. In float about 90 bytes per triangle of a closed
-/// mesh with normals, its tree included, and below 120 if no vertex is shared: bytes().
+/// An immutable mesh. In float, a closed mesh with normals takes about 90 bytes per
+/// triangle, including the tree; below 120 if no vertex is shared. See bytes().
 template <std::floating_point T>
 class MeshT {
 public:
-    /// The fast tree, which is made of floats, or the plain one.
+    /// The fast tree in float, otherwise the plain one.
     using Tree = std::conditional_t<std::is_same_v<T, float>, TriangleBvh, BvhT<T>>;
 
     /// Builds the tree.
-    /// \param data     What the mesh is made of; triangles without an area are kept,
-    ///                 and never hit.
-    /// \param threads  That build the tree; 0: all that there are.
-    /// \throws std::invalid_argument  naming the number and the value: a mesh without
-    ///         an area, a vertex that is not there, a coordinate that is not finite.
+    /// \param data     Vertices and triangles. Triangles without an area are kept, but
+    ///                 never hit.
+    /// \param threads  Threads that build the tree; 0: all processors.
+    /// \throws std::invalid_argument  with the index and the value: no area, an index
+    ///         of a missing vertex, or a coordinate that is not finite.
     /// \cost O(n log n).
     explicit MeshT(MeshDataT<T> data, int threads = 0) : data_(std::move(data)) {
         check(data_);
@@ -66,34 +66,33 @@ public:
         require_positive("the radius around the mesh", sphere_.radius);
     }
 
-    /// How many triangles there are.
+    /// The number of triangles.
     [[nodiscard]] std::uint32_t size() const noexcept {
         return static_cast<std::uint32_t>(data_.triangles.size());
     }
-    /// A triangle: the `part` of a hit.
+    /// The triangle of a hit's `part`.
     [[nodiscard]] TriangleT<T> triangle(std::uint32_t part) const noexcept {
         return detail::triangle_of(data_, part);
     }
     /// The triangle at a slot of the tree: triangle(tree().primitive_ids()[slot]). The
-    /// fast tree has it at hand, and a search need not wait for two more parts of
-    /// memory.
+    /// fast tree stores it, which saves two reads of distant memory.
     [[nodiscard]] TriangleT<T> triangle_at(std::uint32_t slot) const noexcept {
         if constexpr (std::is_same_v<T, float>)
             return tree_.triangle(slot);
         else
             return triangle(tree_.primitive_ids()[slot]);
     }
-    /// What the mesh is made of.
+    /// The vertices and triangles.
     [[nodiscard]] const MeshDataT<T>& data() const noexcept { return data_; }
     /// The tree over its triangles.
     [[nodiscard]] const Tree& tree() const noexcept { return tree_; }
-    /// The area of the triangles up to each one, itself included; of nothing for none.
+    /// Prefix sums of the triangles' areas, each with its own; empty for no triangle.
     [[nodiscard]] const std::vector<double>& area_up_to() const noexcept {
         return area_up_to_;
     }
-    /// A sphere around it.
+    /// A sphere around the mesh.
     [[nodiscard]] const SphereT<T>& sphere() const noexcept { return sphere_; }
-    /// The memory that it takes: vertices, triangles, areas and tree.
+    /// The size in bytes: vertices, triangles, areas and tree.
     [[nodiscard]] std::size_t bytes() const noexcept {
         const auto of = [](const auto& list) {
             return list.capacity() * sizeof(list[0]);
@@ -105,18 +104,15 @@ public:
 private:
     MeshDataT<T> data_;
     Tree tree_;
-    std::vector<double> area_up_to_; // in double: a float forgets the last of 1e5
+    std::vector<double> area_up_to_; // double: in float the last of 1e5 would be lost
     SphereT<T> sphere_;
 };
 using Mesh = MeshT<float>; ///< MeshT in float.
 
-/// Where a ray first meets a mesh: what asking all its triangles in turn would find.
-/// \tparam Compute  The precision of the arithmetic, or Watertight: as for one
-/// triangle.
-/// \param ray   Hits count in [t_min, t_max].
-/// \param mesh  The mesh.
-/// \return The nearest hit, `part` the triangle, the first one on a tie.
-/// \cost In the mean O(log n) triangles.
+/// The nearest hit of a ray on a mesh; the same as in a loop over all triangles.
+/// \tparam Compute  The precision of the arithmetic, or Watertight.
+/// \return The hit; `part` is the triangle, the first one on a tie.
+/// \cost O(log n) triangles on average.
 // [intersect]
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<FlatHitT<T>> intersect(const RayT<T>& ray,
@@ -132,13 +128,10 @@ template <typename Compute = void, std::floating_point T>
 }
 // [intersect]
 
-/// Whether a ray meets a mesh at all: the question of a shadow ray, which the first
-/// triangle answers that is met, not the nearest one.
+/// Whether a ray hits a mesh, for shadow rays: any triangle ends the search.
 /// \tparam Compute  As for intersect().
-/// \param ray   Hits count in [t_min, t_max].
-/// \param mesh  The mesh.
 /// \return Whether intersect() would return a hit.
-/// \cost In the mean O(log n) triangles, and fewer of them than intersect().
+/// \cost O(log n) triangles on average, fewer than intersect().
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] bool meets(const RayT<T>& ray, const MeshT<T>& mesh) {
     const auto prepared = prepare<Compute>(ray);
@@ -147,23 +140,18 @@ template <typename Compute = void, std::floating_point T>
     });
 }
 
-/// The point of a mesh that a ray hit; its normal is that of the triangle.
-/// \param mesh  The mesh.
-/// \param hit   What intersect() returned.
-/// \return Position, its error bound, the geometric normal.
+/// The point of a mesh that a ray hit: position, error bound, and the normal of the
+/// triangle.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const MeshT<T>& mesh, const RayT<T>&,
                                              const FlatHitT<T>& hit) noexcept {
     return point_at(mesh.triangle(hit.part), hit.u, hit.v);
 }
 
-/// The normal that the material sees: that of the vertices, interpolated
-/// \cite phong1975.
-/// \param mesh       The mesh.
-/// \param hit        What intersect() returned.
-/// \param geometric  The triangle's normal.
+/// The shading normal: interpolated between the vertices \cite phong1975. `geometric`
+/// is the triangle's normal.
 /// \return Unit vector within 90 degrees of `geometric`; `geometric` itself if the mesh
-///         has no normals, or where they do not point to the triangle's outer side.
+///         has no normals, or where they point to the triangle's inside.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> shading_normal(const MeshT<T>& mesh, const FlatHitT<T>& hit,
                                       const Vec3T<T>& geometric) noexcept {
@@ -176,10 +164,8 @@ template <std::floating_point T>
     return Vec3T<T>(glm::normalize(Vec3T<WideT<T>>(n)));
 }
 
-/// Where a mesh was hit on its texture: the coordinates of the vertices, interpolated.
-/// \param mesh   The mesh.
-/// \param hit    What intersect() returned.
-/// \return (u, v); for a mesh without any, those of the triangle: `hit.u`, `hit.v`.
+/// The texture coordinates of a hit, interpolated between the vertices; `hit.u` and
+/// `hit.v` if the mesh has none.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const MeshT<T>& mesh, const FlatHitT<T>& hit,
                                            const SurfacePointT<T>& /*point*/) noexcept {
@@ -190,19 +176,17 @@ template <std::floating_point T>
            hit.v * uv[corner[2]];
 }
 
-/// A point of a mesh, uniform over its area: a triangle by its share, then a point of
-/// it, from what the choice left of u.x.
-/// \param mesh  The mesh.
-/// \param u     Point of the unit square.
-/// \return The point; density 1 / area per squared scene unit.
+/// Samples a point of a mesh uniformly over its area: first a triangle in proportion to
+/// its area, then a point on it by the remapped u.x.
+/// \return The point; its density is 1 / area per squared scene unit.
 /// \cost O(log n).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const MeshT<T>& mesh,
                                            const Vec2T<T>& u) noexcept {
     const auto& sums = mesh.area_up_to();
     const double wanted = double(u.x) * sums.back();
-    // The first triangle up to which there is more; for u.x = 1, which rounding may
-    // make, the last one that has an area.
+    // The first triangle whose prefix sum exceeds u.x times the area. Rounding may give
+    // u.x = 1; then it is the last triangle that has an area.
     const auto first = [&](auto enough) {
         std::size_t low = 0, high = sums.size();
         while (low < high) {
@@ -232,13 +216,13 @@ template <std::floating_point T>
     return mesh.tree().box();
 }
 
-/// A sphere around a mesh: photons are aimed at it.
+/// A sphere around a mesh.
 template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const MeshT<T>& mesh) noexcept {
     return mesh.sphere();
 }
 
-/// Refuses a mesh that was moved from; anything else was refused when it was made.
+/// Refuses a mesh that was moved from; the constructor refuses all other invalid data.
 /// \throws std::invalid_argument  if it has no triangle.
 template <std::floating_point T>
 void check(const MeshT<T>& mesh) {

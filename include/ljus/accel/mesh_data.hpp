@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/mesh_data.hpp
-/// \brief What a mesh is made of: vertices and triangles.
+/// \brief The data of a mesh: vertices and triangles.
 
 #include <array>
 #include <cstdint>
@@ -13,25 +13,23 @@
 
 namespace ljus {
 
-/// \defgroup mesh_data What meshes are made of
-/// \brief Vertices that triangles share. Chapter: \ref ch_triangle.
+/// \defgroup mesh_data The data of meshes
+/// \brief Triangles that share vertices. Chapter: \ref ch_triangle.
 /// \{
 
-/// Vertices, and triangles as numbers of vertices, from 0.
+/// Vertices, and triangles as indices of vertices.
 template <std::floating_point T>
 struct MeshDataT {
-    std::vector<Vec3T<T>> positions{}; ///< Of the vertices, in scene units.
-    std::vector<Vec3T<T>> normals{};   ///< Unit, one a vertex; none: flat triangles.
+    std::vector<Vec3T<T>> positions{}; ///< Of vertices, in scene units.
+    std::vector<Vec3T<T>> normals{};   ///< Unit, one per vertex; empty: flat triangles.
     std::vector<std::array<std::uint32_t, 3>> triangles{}; ///< Counter-clockwise.
-    std::vector<Vec2T<T>> uv{}; ///< Texture coordinates, one a vertex; or none.
+    std::vector<Vec2T<T>> uv{}; ///< Texture coordinates, one per vertex; or empty.
 };
 using MeshData = MeshDataT<float>; ///< MeshDataT in float.
 
 namespace detail {
 
-/// A triangle of the data.
-/// \param data  The data.
-/// \param part  Which one.
+/// The triangle `part` of the data.
 template <std::floating_point T>
 [[nodiscard]] TriangleT<T> triangle_of(const MeshDataT<T>& data,
                                        std::size_t part) noexcept {
@@ -42,9 +40,8 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Refuses data that no mesh can be made of.
-/// \param data  The data.
-/// \throws std::invalid_argument  naming the place and the value.
+/// Refuses data from which no mesh can be built.
+/// \throws std::invalid_argument  with the index and the value.
 template <std::floating_point T>
 void check(const MeshDataT<T>& data) {
     const auto place = [](const char* list, std::size_t i) {
@@ -77,12 +74,12 @@ void check(const MeshDataT<T>& data) {
                             std::to_string(data.positions.size()));
 }
 
-/// Gives each vertex the mean of its triangles' normals, weighted by their angles
-/// there, so that it does not matter how a flat part is cut into triangles
-/// \cite thurmer1998. Vertices at different numbers stay different, even at the same
-/// point: so edges are kept sharp.
-/// \param data  The data; the old normals are forgotten. A vertex without a triangle
-///              that has an area gets (0, 0, 0), which counts as no normal.
+/// Sets the normal of each vertex to the mean of its triangles' normals, weighted by
+/// their angles at the vertex; the mean does not depend on the tessellation of flat
+/// regions \cite thurmer1998. Vertices with different indices stay separate, even at
+/// the same position, so edges between them stay sharp.
+/// \param data  The data; old normals are replaced. A vertex of no triangle with an
+///              area gets (0, 0, 0), which counts as no normal.
 /// \cost O(n).
 template <std::floating_point T>
 void smooth_normals(MeshDataT<T>& data) {

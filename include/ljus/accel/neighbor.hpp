@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/neighbor.hpp
-/// \brief What a search among points finds, and how far away it is.
+/// \brief The results of searches among points, and their distances.
 
 #include <algorithm>
 #include <cmath>
@@ -17,21 +17,20 @@ namespace ljus {
 /// \addtogroup kd_tree
 /// \{
 
-/// A point that a search has found. The nearer one is less.
+/// A point found by a search. Neighbors are ordered by distance.
 struct Neighbor {
     double distance2 = 0;    ///< Squared, in double.
-    std::uint32_t index = 0; ///< Its place in the tree's order.
+    std::uint32_t index = 0; ///< Index in the tree's order.
 
-    /// By distance, then by place.
+    /// Compares the distances, then the indices.
     friend auto operator<=>(const Neighbor&, const Neighbor&) = default;
 };
 
 namespace detail {
 
-/// \f$ x^2 + y^2 + z^2 \f$, the same wherever it is asked for. Where the machine can
-/// fuse a product with a sum, a compiler does so in one place and not in another, and a
-/// point on the border of a ball would lie in it or not according to who asks: there
-/// the sums are fused by name.
+/// \f$ x^2 + y^2 + z^2 \f$, rounded in the same way everywhere. A compiler may fuse a
+/// product with a sum in one call and not in another; then a point on the border of a
+/// ball would lie inside for one caller only. Machines that can fuse do so explicitly.
 // [sum of squares]
 [[nodiscard]] inline double sum_of_squares(double x, double y, double z) noexcept {
 #ifdef FP_FAST_FMA
@@ -47,11 +46,8 @@ namespace detail {
 
 } // namespace detail
 
-/// What decides whether a point lies within a ball: the squared distance in double,
-/// wherever it is asked for. Of floats no term under- or overflows.
-/// \param a  A point.
-/// \param b  Another one.
-/// \return |a - b|^2, within three roundings.
+/// |a - b|^2 in double, within three roundings; it decides whether a point lies within
+/// a ball. For floats no term underflows or overflows.
 template <std::floating_point T>
 [[nodiscard]] double distance2(const Vec3T<T>& a, const Vec3T<T>& b) noexcept {
     return detail::sum_of_squares(double(a.x) - double(b.x), double(a.y) - double(b.y),
@@ -60,12 +56,10 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The squared distance from a point to a box, rounded as the distances of points are:
-/// no point of the box is nearer than that.
-/// \param low    The box's corner with the smallest coordinates.
-/// \param high   The opposite corner.
-/// \param point  The point.
-/// \return 0 within the box; NaN if the point has a NaN.
+/// The squared distance from a point to a box, rounded so that no point of the box is
+/// nearer: 0 within the box; NaN if the point has a NaN.
+/// \param low, high  The corners with the least and the greatest coordinates.
+/// \param point      The point.
 template <std::floating_point T>
 [[nodiscard]] double box_distance2(const Vec3T<T>& low, const Vec3T<T>& high,
                                    const Vec3T<T>& point) noexcept {
@@ -78,35 +72,33 @@ template <std::floating_point T>
     return sum_of_squares(outside(0), outside(1), outside(2));
 }
 
-/// The axis along which a box is longest: where a range of points is split.
-/// \param low   The box's corner with the smallest coordinates.
-/// \param high  The opposite corner.
-/// \return 0, 1 or 2; the first of several.
+/// The longest axis of a box, at which a range of points is split: 0, 1 or 2; the first
+/// one on a tie.
 template <std::floating_point T>
 [[nodiscard]] constexpr int longest_axis(const Vec3T<T>& low,
                                          const Vec3T<T>& high) noexcept {
-    const Vec3T<T> size = high / T(2) - low / T(2); // halves: no overflow
+    const Vec3T<T> size = high / T(2) - low / T(2); // halved to avoid overflow
     if (size.x >= size.y && size.x >= size.z) return 0;
     return size.y >= size.z ? 1 : 2;
 }
 
 } // namespace detail
 
-/// The nearest points of a search so far: a heap in the caller's memory, the farthest
-/// of them on top, at `found[0]`.
+/// The nearest points of a search so far: a heap in the caller's memory with the
+/// farthest of them on top, at `found[0]`.
 struct Nearest {
-    std::span<Neighbor> found; ///< Room for as many as are wanted, at least one.
+    std::span<Neighbor> found; ///< Has one element per wanted point; at least one.
     double limit2 = 0;         ///< The search's radius, squared.
-    std::size_t count = 0;     ///< How many there are.
+    std::size_t count = 0;     ///< Number of points so far.
 
-    /// Whether a point at this distance belongs to them. Once the room is full it must
-    /// be nearer than the farthest: a thousand equal points are not tried one by one.
+    /// Whether a point at this distance would be taken. Once `found` is full, it must
+    /// be nearer than the farthest: then equal points are not all tried.
     [[nodiscard]] bool reaches(double distance2) const noexcept {
         return count < found.size() ? distance2 <= limit2
                                     : distance2 < found[0].distance2;
     }
 
-    /// Takes a point that belongs to them; the farthest one leaves if the room is full.
+    /// Takes a point; it replaces the farthest one if `found` is full.
     void take(const Neighbor& neighbor) {
         const auto last = [&] {
             return found.begin() + static_cast<std::ptrdiff_t>(count);
@@ -122,9 +114,9 @@ struct Nearest {
 
 namespace detail {
 
-/// Every index: what a search passes that wants any point.
+/// The default filter of a search: accepts every point.
 struct AnyPoint {
-    /// True.
+    /// Always true.
     constexpr bool operator()(std::uint32_t) const noexcept { return true; }
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/accel/triangle_bvh.hpp
-/// \brief A wide tree over triangles: eight of them are looked at together, and only
-/// those that this leaves in doubt are tested one by one.
+/// \brief A wide tree over triangles. A conservative filter tests eight triangles
+/// together; only undecided ones are tested one by one.
 
 #include "ljus/accel/bvh8.hpp"
 #include "ljus/geometry/triangle.hpp"
@@ -15,28 +15,24 @@ namespace ljus {
 
 namespace detail {
 
-/// Up to eight triangles, coordinate by coordinate: five cache lines of 64 bytes.
+/// Up to eight triangles, by coordinate.
 struct alignas(64) TriangleLanes {
     Lanes3 v1{};  ///< First corners.
     Lanes3 v2{};  ///< Second corners.
     Lanes3 v3{};  ///< Third corners.
-    Lanes size{}; ///< The largest component of both edges; below 0 for no triangle.
+    Lanes size{}; ///< The largest component of both edges; negative: no triangle.
 };
 
-/// What the conservative filter says of eight triangles: lanes, as yes_lanes() has
-/// them.
+/// The result of the conservative filter for eight triangles, in lanes as from
+/// yes_lanes().
 struct FilteredTriangles {
     std::uint64_t possible = 0; ///< Those that the ray may hit.
-    std::uint64_t definite = 0; ///< Those among them that it hits.
+    std::uint64_t definite = 0; ///< Those that the ray certainly hits.
 };
 
 /// A conservative filter for eight triangles: the test of Moeller and Trumbore
-/// \cite moller1997 without its division, in float, and how far its rounding can move
-/// each number. Where a sign could change within that, a triangle's own test decides.
-/// \param block  The triangles.
-/// \param ready  The ray, made ready.
-/// \param ray    The ray.
-/// \return Which ones it may hit, and which it hits.
+/// \cite moller1997 in float and without its division, with a bound of each number's
+/// rounding error. If the error could change a sign, the triangle's own test decides.
 /// \cost Some 90 operations for all eight together.
 // [conservative_filter]
 template <typename Caller>
@@ -44,7 +40,7 @@ template <typename Caller>
                                                            const Bvh8Ray& ready,
                                                            const Ray& ray) noexcept {
     constexpr float min = std::numeric_limits<float>::min();
-    // Each number is a sum of six products with at most 8 roundings on the way.
+    // Each number is a sum of six products with at most 8 roundings.
     constexpr float rounding = 64 * std::numeric_limits<float>::epsilon() / 2;
     const float across = rounding * ready.length;
     const Vec3 o = ray.origin, d = ray.direction;
@@ -66,7 +62,7 @@ template <typename Caller>
         const float qy = tz * e1x - tx * e1z;
         const float qz = tx * e1y - ty * e1x;
 
-        // All of them times the size of the determinant.
+        // All numbers are scaled by the absolute determinant.
         const float signed_area = px * e1x + py * e1y + pz * e1z;
         const float sign = signed_area < 0 ? -1.0f : 1.0f;
         const float area = sign * signed_area;
@@ -83,8 +79,8 @@ template <typename Caller>
         const float deep = rounding * size * scale + min;
         const float near = deep + across * t_min * size * size;
         const float far = deep + across * t_max * size * size;
-        // Written so that NaN, of what overflows, is left to the triangle's own test:
-        // where u or v is NaN, so is w, and `inner` then is w.
+        // Overflow gives NaN, which the triangle's own test decides: where u or v is
+        // NaN, so is w, and then `inner` is w.
         const float uv = u < v ? u : v;
         const float inner = uv < w ? uv : w;
         const bool out =
@@ -99,9 +95,8 @@ template <typename Caller>
 
 } // namespace detail
 
-/// A wide tree over triangles, with the searches of BvhT, and the same answers. It
-/// keeps the triangles, in its own order: what a search asks about lies where the
-/// filter has just been.
+/// A wide tree over triangles, with the searches and results of BvhT. It stores the
+/// triangles in its own order, so that a test reads memory that the filter has loaded.
 ///
 ///     const TriangleBvh tree(count, [&](std::uint32_t i) { return triangles[i]; });
 ///     const NearestHit nearest =
@@ -111,13 +106,13 @@ template <typename Caller>
 /// \cost About 60 bytes per triangle.
 class TriangleBvh {
 public:
-    /// A tree over nothing.
+    /// An empty tree.
     TriangleBvh() = default;
 
     /// Builds the tree.
-    /// \param count     How many triangles, below 2^26.
-    /// \param triangle  Called as triangle(i) for each; returns a Triangle.
-    /// \param threads   0: all that there are.
+    /// \param count     Number of triangles, below 2^26.
+    /// \param triangle  Called as triangle(i); returns a Triangle.
+    /// \param threads   0: all processors.
     /// \throws std::invalid_argument  as BvhT.
     template <typename TriangleOf>
     TriangleBvh(std::uint32_t count, TriangleOf&& triangle, int threads = 0) {
@@ -137,11 +132,11 @@ public:
                     triangle(primitive_ids()[slot]));
     }
 
-    /// primitive_ids()[slot] is a triangle's number, or Bvh8::padding.
+    /// primitive_ids()[slot] is the index of a triangle, or Bvh8::padding.
     [[nodiscard]] const std::vector<std::uint32_t>& primitive_ids() const noexcept {
         return tree_.primitive_ids();
     }
-    /// The triangle at a slot that is no padding, as it was given.
+    /// The triangle at a slot that is not padding.
     [[nodiscard]] Triangle triangle(std::uint32_t slot) const noexcept {
         const detail::TriangleLanes& block = blocks_[slot / detail::lane_count];
         const std::size_t lane = slot % detail::lane_count;
@@ -149,14 +144,14 @@ public:
     }
     /// The tree of boxes.
     [[nodiscard]] const Bvh8& tree() const noexcept { return tree_; }
-    /// A box around everything.
+    /// The box around all triangles.
     [[nodiscard]] const Box& box() const noexcept { return tree_.box(); }
-    /// The memory that it takes, with what it keeps of the triangles.
+    /// The size in bytes, including the triangles.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return tree_.bytes() + blocks_.capacity() * sizeof(detail::TriangleLanes);
     }
 
-    /// As BvhT::closest(): the triangles that the ray may hit are asked.
+    /// As BvhT::closest(), for the triangles that pass the filter.
     template <typename Test, typename Watch = NoTrace>
     void closest(Ray ray, Test&& test, Watch&& watch = {}) const {
         const auto ask = [&](std::uint32_t slot) {
@@ -166,7 +161,7 @@ public:
         detail::walk<false>(tree_.wide(), ray, filtered_leaf<false>(ray, ask), watch);
     }
 
-    /// As BvhT::any(), but a triangle that is certainly hit is not asked.
+    /// As BvhT::any(); a triangle that is certainly hit is not tested.
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
         return detail::walk<true>(tree_.wide(), ray, filtered_leaf<true>(ray, test),
@@ -174,7 +169,7 @@ public:
     }
 
 private:
-    // A leaf of the tree's walks.
+    // The leaf function of both traversals.
     template <bool definite_ends, typename Ask>
     struct FilteredLeaf {
         const TriangleBvh& of;

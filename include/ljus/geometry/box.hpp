@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/box.hpp
-/// \brief Boxes along the axes, and whether a ray meets them.
+/// \brief Axis-aligned boxes and their intersection with rays.
 
 #include <array>
 #include <cmath>
@@ -17,21 +17,21 @@ namespace ljus {
 /// \brief Discussion: "axis-aligned bounding boxes". Chapter: \ref ch_bvh.
 /// \{
 
-/// All points between two corners. Without values: the box around nothing.
+/// An axis-aligned box, given by two opposite corners. By default it is empty.
 template <std::floating_point T>
 struct BoxT {
-    Vec3T<T> low{std::numeric_limits<T>::infinity()}; ///< The corner of least x, y, z.
-    Vec3T<T> high{-std::numeric_limits<T>::infinity()}; ///< The corner across.
+    Vec3T<T> low{std::numeric_limits<T>::infinity()};   ///< The least x, y and z.
+    Vec3T<T> high{-std::numeric_limits<T>::infinity()}; ///< The greatest x, y and z.
 };
 using Box = BoxT<float>; ///< BoxT in float.
 
-/// The box around two boxes.
+/// The smallest box that contains two boxes.
 template <std::floating_point T>
 [[nodiscard]] constexpr BoxT<T> box_union(const BoxT<T>& a, const BoxT<T>& b) noexcept {
     return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
 }
 
-/// The box around a box and a point.
+/// The smallest box that contains a box and a point.
 template <std::floating_point T>
 [[nodiscard]] constexpr BoxT<T> box_union(const BoxT<T>& a,
                                           const Vec3T<T>& point) noexcept {
@@ -40,26 +40,23 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// A ray, made ready for many boxes.
+/// A ray with the reciprocals that the test of many boxes shares.
 template <std::floating_point T>
 struct BoxRayT {
-    Vec3T<T> origin{T(0)};  ///< O.
-    Vec3T<T> inverse{T(1)}; ///< 1 / D; infinite along an axis it runs across.
-    std::array<bool, 3>
-        is_negative{}; ///< The sign of `inverse`, which tells -0 from 0.
-    T slack = T(0); ///< By how much every box is larger than it says, in scene units.
+    Vec3T<T> origin{T(0)};             ///< O.
+    Vec3T<T> inverse{T(1)};            ///< 1 / D; infinite where D is 0.
+    std::array<bool, 3> is_negative{}; ///< Sign of `inverse`; -0 counts as negative.
+    T slack = T(0); ///< Margin added to all sides of each box, in scene units.
 };
 
-/// Makes a ray ready for boxes.
+/// Prepares a ray for intersection with many boxes.
 ///
-/// A tree must not lose what a shape's own test finds, and both are rounded: by the
-/// size of the coordinates as seen from the ray's origin. So the boxes grow by 16 units
-/// of roundoff of that size: more than the 3 that the slabs need \cite ize2013, for the
-/// shape's test needs them too.
-/// \param ray  The ray.
-/// \param all  A box around all boxes that the ray will be asked about.
-/// \return The ray; nothing if its direction is too long or too short, or its origin
-///         too far away, for numbers of this precision: then ask the shapes themselves.
+/// A tree must find every hit that the shape's own test finds. The rounding of both
+/// tests is proportional to the coordinates relative to the ray's origin. Each box
+/// therefore grows by 16 roundoffs of that size; the slabs alone need 3 \cite ize2013.
+/// \param all  A box around all boxes to be tested.
+/// \return The prepared ray; nothing if the length of its direction or the distance to
+///         `all` exceeds the range of T. Then test the shapes themselves.
 // [box_ray]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BoxRayT<T>> box_ray(const RayT<T>& ray,
@@ -81,16 +78,12 @@ template <std::floating_point T>
 }
 // [box_ray]
 
-/// Where a ray enters a box: between the planes that it meets first and those that it
-/// meets last, chosen by the signs of the inverse direction \cite williams2005.
+/// Finds where a ray enters a box: after the near plane and before the far plane of
+/// each axis. The signs of the inverse direction tell near from far \cite williams2005.
 ///
-/// A ray in the plane of a side has \f$ 0 \cdot \infty \f$ there, NaN; the comparisons
-/// are written so that such an axis does not count.
-/// \param ray    Of box_ray().
-/// \param box    The box.
-/// \param t_min  Start of the range that counts.
-/// \param t_max  Its end.
-/// \return The first t of the range that lies in the box; nothing for a miss, or if the
+/// A ray that lies in the plane of a side gives \f$ 0 \cdot \infty \f$, which is NaN;
+/// the comparisons ignore such an axis.
+/// \return The first t of [t_min, t_max] inside the box; nothing for a miss, or if the
 ///         range is NaN.
 // [enter]
 template <std::floating_point T>

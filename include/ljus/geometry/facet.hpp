@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/facet.hpp
-/// \brief Flat polygons, and how much of a hemisphere one of them fills.
+/// \brief Flat polygons, and the fraction of a hemisphere that one fills.
 
 #include <array>
 #include <cmath>
@@ -17,19 +17,19 @@ namespace ljus {
 /// \brief Section 2.2: "a form factor, which describes patch visibility, is calculated
 /// for each pair of patches". Chapter: \ref ch_radiosity.
 ///
-/// All in double: a form factor is a small difference of larger numbers.
+/// All computations are in double: a form factor is a small difference of larger
+/// numbers.
 /// \{
 
-/// A convex polygon in space, its corners counter-clockwise as seen from the side that
-/// it faces.
+/// A convex polygon. Its corners turn counter-clockwise as seen from its front.
 struct Facet {
-    std::array<glm::dvec3, 6> corners{}; ///< The first `count` of them.
+    std::array<glm::dvec3, 6> corners{}; ///< The first `count` are used.
     int count = 0;                       ///< At most 6: a quad cut by a plane has 5.
 };
 
 namespace detail {
 
-/// The other side of a facet.
+/// A facet with the opposite front.
 [[nodiscard]] constexpr Facet turned(const Facet& facet) noexcept {
     Facet other{.count = facet.count};
     for (int i = 0; i < facet.count; ++i)
@@ -38,9 +38,7 @@ namespace detail {
     return other;
 }
 
-/// The area of a facet as a vector along its normal.
-/// \param facet  Any facet.
-/// \return Normal times area; 0 for fewer than three corners.
+/// The normal of a facet times its area; 0 for fewer than three corners.
 [[nodiscard]] constexpr glm::dvec3 area_vector(const Facet& facet) noexcept {
     glm::dvec3 sum(0);
     for (int i = 2; i < facet.count; ++i) {
@@ -51,12 +49,13 @@ namespace detail {
     return 0.5 * sum;
 }
 
-/// The part of a facet in front of a plane.
+/// Clips a facet by a plane.
 /// \param facet   Convex.
-/// \param point   Of the plane.
-/// \param normal  Unit; points to the side that stays.
-/// \param width   What lies as near as this to the plane counts as on it.
-/// \return The part, with at most one corner more; no corner if nothing stays.
+/// \param point   A point of the plane.
+/// \param normal  Unit normal; points to the side that is kept.
+/// \param width   Corners within this distance count as on the plane.
+/// \return The facet in front of the plane, with at most one corner more; no corners if
+///         nothing is left.
 [[nodiscard]] inline Facet clipped(const Facet& facet, const glm::dvec3& point,
                                    const glm::dvec3& normal,
                                    double width = 0) noexcept {
@@ -82,17 +81,17 @@ namespace detail {
 
 } // namespace detail
 
-/// The form factor from a point of a surface to a facet: the share of what the point
-/// sends out, or of what could come to it, that the facet takes.
+/// The form factor from a point of a surface to a facet: the fraction of the point's
+/// diffuse emission that arrives at the facet.
 ///
 /// Lambert's formula: with the unit vectors \f$v_k\f$ to the corners,
 /// \f[ F = \frac1{2\pi} \sum_k \theta_k\,
 ///     n \cdot \frac{v_{k+1} \times v_k}{|v_{k+1} \times v_k|}, \f]
-/// where \f$\theta_k\f$ is the angle between \f$v_k\f$ and \f$v_{k+1}\f$: the solid
-/// angle turned into area on the floor of Nusselt's hemisphere, edge by edge.
-/// \param point   Anywhere but on the facet's border.
+/// where \f$\theta_k\f$ is the angle between \f$v_k\f$ and \f$v_{k+1}\f$. Each term is
+/// the signed area between an edge and the centre of Nusselt's disc.
+/// \param point   Any point not on the facet's border.
 /// \param normal  Unit normal at the point.
-/// \param facet   What lies behind the point's horizon does not count.
+/// \param facet   What lies below the point's horizon is clipped.
 /// \return In [0, 1]; 0 if the facet faces away.
 /// \report{Section 2.2}
 /// \cite baum1989

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/isosurface.hpp
-/// \brief Surfaces f(X) = 0 of any field that has a Lipschitz bound.
+/// \brief Isosurfaces f(X) = 0 of fields with a Lipschitz bound.
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +20,8 @@ namespace ljus {
 /// \addtogroup isosurface
 /// \{
 
-/// What an isosurface asks of a field: its value and gradient at a point, in double,
-/// and a bound of the gradient's length.
+/// A field: its value and gradient at a point, in double, and a bound of the gradient's
+/// length.
 template <typename F>
 concept LipschitzField = requires(const F& field, Vec3T<double> x) {
     { field.value(x) } -> std::same_as<double>;
@@ -29,32 +29,32 @@ concept LipschitzField = requires(const F& field, Vec3T<double> x) {
     { field.lipschitz() } -> std::same_as<double>;
 };
 
-/// The surface of any field, within a ball.
+/// The surface of a field, within a ball.
 /// \report{Section 2.1}
 template <std::floating_point T, LipschitzField Field>
 struct IsosurfaceT {
-    Field field{};       ///< Above 0 inside, below 0 outside.
-    SphereT<T> bounds{}; ///< Holds the whole surface, with room to spare.
+    Field field{};       ///< Positive inside, negative outside.
+    SphereT<T> bounds{}; ///< Contains the whole surface, with a margin.
 };
 template <LipschitzField Field>
 using Isosurface = IsosurfaceT<float, Field>; ///< IsosurfaceT in float.
 
 namespace detail {
 
-/// The field of an isosurface on a ray; its range comes from the Lipschitz bound.
+/// The field of an isosurface along a ray; the Lipschitz bound gives its range.
 template <LipschitzField Field>
 struct LipschitzLine {
     const Field& field; ///< The field.
     RayT<double> ray{}; ///< The ray.
-    double length = 0;  ///< Of its direction.
-    double enter = 0;   ///< Where it comes into the bounds.
-    double leave = 0;   ///< Where it goes out of them.
+    double length = 0;  ///< Length of the ray's direction.
+    double enter = 0;   ///< Where the ray enters the bounds.
+    double leave = 0;   ///< Where the ray leaves the bounds.
 
     /// f(O + tD).
     [[nodiscard]] double value(double t) const { return field.value(point_at(ray, t)); }
-    /// The largest |df/dt|.
+    /// Bound of |df/dt|.
     [[nodiscard]] double steepest() const { return field.lipschitz() * length; }
-    /// All values in [a, b], and more.
+    /// An interval that contains all values in [a, b].
     [[nodiscard]] IntervalT<double> range(double a, double b) const {
         const double middle = value(a + (b - a) / 2), reach = steepest() * (b - a) / 2;
         return {middle - reach, middle + reach};
@@ -63,12 +63,12 @@ struct LipschitzLine {
 
 } // namespace detail
 
-/// The distance at which a ray first meets an isosurface.
+/// The distance at which a ray first hits an isosurface.
 /// \tparam Solver  SphereTracing or Bisection.
-/// \param ray      Hits count within its [t_min, t_max].
+/// \param ray      Hits lie within its [t_min, t_max].
 /// \param surface  The isosurface.
-/// \param solver   Its limits.
-/// \return As first_meeting() has it, computed in double.
+/// \param solver   The solver's limits.
+/// \return As first_meeting(), computed in double.
 template <typename Solver = SphereTracing, std::floating_point T, LipschitzField Field>
 [[nodiscard]] std::optional<T> intersect(const RayT<T>& ray,
                                          const IsosurfaceT<T, Field>& surface,
@@ -86,15 +86,14 @@ template <typename Solver = SphereTracing, std::floating_point T, LipschitzField
 
 namespace detail {
 
-/// A hit of a field, put back onto the surface: one Newton step along the gradient, no
-/// longer than t can have been wrong: by its rounding, or by what the solver leaves of
-/// f. Where the gradient vanishes there is no normal, and the point faces the ray.
+/// Projects the hit of a field onto the surface: one Newton step along the gradient,
+/// bounded by the error of t that stems from its rounding and the solver's tolerance.
+/// If the gradient vanishes, the normal faces the ray.
 /// \param value     f, in double.
 /// \param gradient  Its gradient, in double.
-/// \param ray       The ray.
 /// \param t         What intersect() returned.
-/// \param rounding  What the values of f may be wrong by, the solver's tolerance in.
-/// \return Position, its error bound, the outer normal.
+/// \param rounding  Error bound of the values of f, including the solver's tolerance.
+/// \return Position, error bound, outward normal.
 template <std::floating_point T, typename Value, typename Gradient>
 [[nodiscard]] SurfacePointT<T> refined(const Value& value, const Gradient& gradient,
                                        const RayT<T>& ray, T t, double rounding) {
@@ -103,8 +102,8 @@ template <std::floating_point T, typename Value, typename Gradient>
     Wide x = o + double(t) * d;
     const double unit = double(std::numeric_limits<T>::epsilon()) / 2;
     Wide g = gradient(x);
-    // How far along the ray a doubtful value may lie: its doubt over the slope; where
-    // the slope vanishes and f is like a square, the root of its doubt.
+    // The error along the ray: the error of f over its slope, or the root of the error
+    // of f where the slope vanishes and f behaves like a square.
     const double doubt =
         std::max(8 * unit * (glm::length(o) + double(t) * glm::length(d)),
                  std::min(rounding / glm::length(g), std::sqrt(rounding)));
@@ -125,11 +124,7 @@ template <std::floating_point T, typename Value, typename Gradient>
 
 } // namespace detail
 
-/// The point of an isosurface that a ray hit.
-/// \param surface  The isosurface.
-/// \param ray      The ray.
-/// \param hit      What intersect() returned.
-/// \return Position, its error bound, the outer normal.
+/// The point of an isosurface that a ray hit: position, error bound, outward normal.
 template <std::floating_point T, LipschitzField Field>
 [[nodiscard]] SurfacePointT<T> surface_point(const IsosurfaceT<T, Field>& surface,
                                              const RayT<T>& ray,
@@ -146,8 +141,8 @@ bounding_sphere(const IsosurfaceT<T, Field>& surface) noexcept {
     return surface.bounds;
 }
 
-/// Refuses bounds without a size, and a Lipschitz bound that is not above 0.
-/// \throws std::invalid_argument  naming what is wrong and its value.
+/// Refuses bounds with a radius not above 0, and a Lipschitz bound not above 0.
+/// \throws std::invalid_argument  with the name and the value.
 template <std::floating_point T, LipschitzField Field>
 void check(const IsosurfaceT<T, Field>& surface) {
     require_finite("isosurface.bounds.center", surface.bounds.center);

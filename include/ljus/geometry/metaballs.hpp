@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/metaballs.hpp
-/// \brief Metaballs: a field of blobs, and the surface where it has a given level.
+/// \brief Metaballs: a field of blobs, and its isosurface.
 
 #include <cmath>
 #include <concepts>
@@ -18,24 +18,22 @@ namespace ljus {
 /// \addtogroup metaballs
 /// \{
 
-/// A field of blobs; its surface is where the field has the value `level`:
+/// A field of blobs. Its surface is where the field equals `level`:
 /// \f[ f(X) = \sum_i w_i \left(1 - \frac{|X - C_i|^2}{R_i^2}\right)_+^2 - L = 0. \f]
-/// Inside f is above 0, outside below. Any number of blobs; one of negative weight
-/// carves. One blob of weight 1 and level 1/4 is a sphere of radius 0.707 R.
+/// f is positive inside and negative outside. A blob of negative weight carves. One
+/// blob of weight 1 and level 1/4 gives a sphere of radius 0.707 R.
 /// \report{Section 2.1, footnote 2} \cite blinn1982 \cite wyvill1986
 // [metaballs]
 template <std::floating_point T>
 struct MetaballsT {
-    std::vector<BlobT<T>> blobs{}; ///< At least one.
-    T level = T(0.25);             ///< L, above 0, below the sum of positive weights.
+    std::vector<BlobT<T>> blobs{}; ///< One or more.
+    T level = T(0.25); ///< L: above 0, below the sum of the positive weights.
 };
 using Metaballs = MetaballsT<float>; ///< MetaballsT in float.
 // [metaballs]
 
-/// The field of metaballs.
-/// \param balls  The metaballs.
-/// \param x      A point.
-/// \return f(X), in double: above 0 inside, 0 on the surface, -L far away.
+/// The field f of metaballs at a point, in double: positive inside, 0 on the surface,
+/// -L far away.
 template <std::floating_point T>
 [[nodiscard]] WideT<T> field(const MetaballsT<T>& balls, const Vec3T<WideT<T>>& x) {
     using C = WideT<T>;
@@ -48,10 +46,8 @@ template <std::floating_point T>
     return sum;
 }
 
-/// The gradient of the field: it points inwards.
-/// \param balls  The metaballs.
-/// \param x      A point.
-/// \return \f$ \nabla f = -4 \sum_i w_i s_i (X - C_i)/R_i^2 \f$, in double.
+/// The gradient of the field, \f$ \nabla f = -4 \sum_i w_i s_i (X - C_i)/R_i^2 \f$, in
+/// double. It points inwards.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<WideT<T>> gradient(const MetaballsT<T>& balls,
                                        const Vec3T<WideT<T>>& x) {
@@ -67,10 +63,9 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// A bound of the gradient's length everywhere: the Lipschitz constant of the field.
-/// \param balls  The metaballs.
-/// \return The sum of \f$ \frac{8}{3\sqrt 3} |w_i| / R_i \f$: a blob is steepest where
-///         \f$ r = R / \sqrt 3 \f$.
+/// The Lipschitz constant of the field: the sum of
+/// \f$ \frac{8}{3\sqrt 3} |w_i| / R_i \f$. A blob is steepest at
+/// \f$ r = R / \sqrt 3 \f$.
 template <std::floating_point T>
 [[nodiscard]] WideT<T> lipschitz(const MetaballsT<T>& balls) {
     WideT<T> sum = 0;
@@ -81,19 +76,18 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The distance at which a ray first meets metaballs, from outside or from within.
-///
-/// \tparam Solver  QuarticPieces, the default: the fastest and the most exact of the
-///                 four that chapter 9 compares; or Bisection, SphereTracing, Radicals.
-/// \param ray      Hits count within its [t_min, t_max].
+/// The distance at which a ray first hits metaballs, from outside or inside.
+/// \tparam Solver  QuarticPieces, the default, is the fastest and most accurate of the
+///                 four; the others are Bisection, SphereTracing and Radicals.
+/// \param ray      Hits lie within its [t_min, t_max].
 /// \param balls    The metaballs.
-/// \param solver   The limits of the solver.
+/// \param solver   The solver's limits.
 /// \return The smallest t at which f crosses 0, in units of the direction's length,
-///         computed in double and rounded to T once; nothing for a miss, and nothing
-///         for a NaN, an infinity, or a zero direction. Inside is where f >= 0.
-/// \cost A square root and a division for each blob, and a quartic for each span
-///       between two of the places where the ray meets, leaves or is nearest to one: at
-///       most 3 n - 1 spans of n additions and mostly 0 or 1 root; never more than 10
+///         computed in double and rounded to T once; nothing for a miss, a NaN, an
+///         infinity, or a zero direction. The inside is where f >= 0.
+/// \cost A square root and a division per blob, and a quartic per span. The spans lie
+///       between the points at which the ray enters, leaves or is nearest to a blob: at
+///       most 3 n - 1 spans, each with n additions and mostly 0 or 1 root; at most 10
 ///       roots of 106 steps.
 /// \report{Section 2.1}
 template <typename Solver = QuarticPieces, std::floating_point T>
@@ -109,13 +103,10 @@ template <typename Solver = QuarticPieces, std::floating_point T>
     return static_cast<T>(*t);
 }
 
-/// The point of metaballs that a ray hit, put back onto the surface.
-/// \param balls  The metaballs.
-/// \param ray    The ray.
-/// \param hit    What intersect() returned.
-/// \return Position, its error bound, the outer normal -grad f / |grad f|; where the
-///         gradient vanishes, as in the neck of two blobs that just touch, the normal
-///         faces the ray.
+/// The point of metaballs that a ray hit, projected onto the surface.
+/// \return Position, error bound, outward normal -grad f / |grad f|. If the gradient
+///         vanishes, as in the neck of two blobs that just touch, the normal faces the
+///         ray.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T>
 surface_point(const MetaballsT<T>& balls, const RayT<T>& ray, const FlatHitT<T>& hit) {
@@ -128,10 +119,10 @@ surface_point(const MetaballsT<T>& balls, const RayT<T>& ray, const FlatHitT<T>&
 
 namespace detail {
 
-/// The radius within which a blob can hold a share of the level up.
+/// The radius within which a blob's field reaches a value.
 /// \param blob   A blob of positive weight.
-/// \param share  The field that it shall have at least.
-/// \return R sqrt(1 - sqrt(share/w)); negative if it has so much nowhere.
+/// \param share  The value s.
+/// \return R sqrt(1 - sqrt(s/w)); negative if the field is below s everywhere.
 template <std::floating_point T>
 [[nodiscard]] WideT<T> reach_of(const BlobT<T>& blob, WideT<T> share) {
     const WideT<T> s = std::sqrt(share / WideT<T>(blob.weight));
@@ -140,11 +131,9 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// A sphere around metaballs. Where n blobs together reach the level, one of them has
-/// at least 1/n of it: that lies within the blob's reach, and the sphere holds all
-/// reaches. For one blob it is the surface itself.
-/// \param balls  The metaballs.
-/// \return The sphere, its radius rounded up.
+/// A sphere around metaballs. Where n blobs together reach the level, at least one of
+/// them reaches 1/n of it; the sphere contains all points where a blob does. For a
+/// single blob it is the surface itself.
 template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const MetaballsT<T>& balls) {
     using C = WideT<T>;
@@ -176,8 +165,7 @@ template <std::floating_point T>
 }
 
 /// Refuses metaballs that have no surface.
-/// \param balls  The metaballs.
-/// \throws std::invalid_argument  naming what is wrong and its value.
+/// \throws std::invalid_argument  with the name and the value.
 template <std::floating_point T>
 void check(const MetaballsT<T>& balls) {
     require_positive("metaballs.level", balls.level);

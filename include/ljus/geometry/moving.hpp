@@ -13,23 +13,20 @@ namespace ljus {
 /// \ref ch_distributed_rays.
 /// \{
 
-/// A shape that is moved at little cost, so that it can be at each ray's own time.
+/// A shape that is cheap to displace, because each ray displaces it to its own time.
 template <typename S>
 concept Movable = Shape<S> && requires(const S& shape, const Vec3T<ScalarOf<S>>& by) {
     { translated(shape, by) } -> std::same_as<S>;
 };
 
-/// A shape on its way in a straight line. Time runs from 0, when the shutter opens, to
-/// 1, when it closes.
-///
-/// It is a shape like any other, and a ray meets it where it is at the ray's time. A
-/// scene that lists no moving shape pays nothing.
+/// A shape in linear motion. The shutter opens at time 0 and closes at time 1, and a
+/// ray sees the shape at the ray's time. A scene without moving shapes pays nothing.
 /// \tparam S  A sphere, a triangle, a quad.
 // [moving]
 template <Movable S>
 struct Moving {
-    S shape{};                 ///< Where it is at time 0.
-    Vec3T<ScalarOf<S>> way{0}; ///< How far it moves until time 1, in scene units.
+    S shape{};                 ///< The shape at time 0.
+    Vec3T<ScalarOf<S>> way{0}; ///< Displacement until time 1, in scene units.
 };
 // [moving]
 
@@ -39,16 +36,13 @@ namespace detail {
 template <typename S>
 inline constexpr bool is_moving = false;
 
-/// The one that does.
+/// \copydoc is_moving
 template <typename S>
 inline constexpr bool is_moving<Moving<S>> = true;
 
 } // namespace detail
 
-/// A shape at a time.
-/// \param moving  The shape.
-/// \param time    In [0, 1].
-/// \return Where it is then.
+/// The shape at a time in [0, 1].
 // [at_time]
 template <typename S, std::floating_point T>
 [[nodiscard]] S at_time(const Moving<S>& moving, T time) noexcept {
@@ -56,7 +50,7 @@ template <typename S, std::floating_point T>
 }
 // [at_time]
 
-/// The same for a shape that stands still: itself.
+/// A shape at rest is the same at all times.
 template <typename S, std::floating_point T>
 requires(!detail::is_moving<S>)
     [[nodiscard]] constexpr const S& at_time(const S& shape, T) noexcept {
@@ -64,23 +58,16 @@ requires(!detail::is_moving<S>)
 }
 
 /// \name As a shape
-/// Its bounds hold it at all times.
+/// Its bounds contain it at all times.
 /// \{
 
-/// Where a ray meets it.
-/// \param ray     Any length of direction but zero.
-/// \param moving  The shape.
-/// \return As for the shape itself at the ray's time.
+/// Intersects a ray with the shape at the ray's time.
 template <typename Compute = void, std::floating_point T, typename S>
 [[nodiscard]] auto intersect(const RayT<T>& ray, const Moving<S>& moving) noexcept {
     return intersect<Compute>(ray, at_time(moving, ray.time));
 }
 
-/// The point that a ray hit.
-/// \param moving  The shape.
-/// \param ray     The ray.
-/// \param hit     What intersect() returned.
-/// \return As for the shape itself at the ray's time.
+/// The point that a ray hit, on the shape at the ray's time.
 template <typename S, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const Moving<S>& moving,
                                              const RayT<T>& ray,
@@ -88,19 +75,14 @@ template <typename S, std::floating_point T>
     return surface_point(at_time(moving, ray.time), ray, hit);
 }
 
-/// The area, of a shape that has one.
-/// \param moving  The shape.
-/// \return In squared scene units.
+/// The area of the shape, in squared scene units.
 template <typename S>
 requires HasArea<S>
 [[nodiscard]] auto area(const Moving<S>& moving) noexcept {
     return area(moving.shape);
 }
 
-/// A point, uniform over the area, where it is at time 0.
-/// \param moving  The shape.
-/// \param u       Point of the unit square.
-/// \return The point.
+/// Samples a point of the shape at time 0, uniformly over its area.
 template <typename S, std::floating_point T>
 requires Samplable<S>
 [[nodiscard]] SurfacePointT<T> sample_area(const Moving<S>& moving,
@@ -108,9 +90,7 @@ requires Samplable<S>
     return sample_area(moving.shape, u);
 }
 
-/// A sphere around all its places.
-/// \param moving  The shape.
-/// \return The sphere.
+/// A sphere around all positions of the shape.
 template <typename S>
 [[nodiscard]] auto bounding_sphere(const Moving<S>& moving) noexcept {
     auto sphere = bounding_sphere(moving.shape);
@@ -120,9 +100,8 @@ template <typename S>
     return sphere;
 }
 
-/// A box around all its places: those between the first and the last lie between.
-/// \param moving  The shape.
-/// \return The box, a few units in the last place too large.
+/// A box around all positions of the shape: that around the first and the last one. It
+/// is a few units in the last place too large.
 template <typename S>
 [[nodiscard]] auto bounds(const Moving<S>& moving) noexcept {
     using T = ScalarOf<S>;
@@ -134,11 +113,7 @@ template <typename S>
     return BoxT<T>{both.low - rounding, both.high + rounding};
 }
 
-/// The texture coordinates: those of the shape, wherever it is.
-/// \param moving  The shape.
-/// \param hit     What intersect() returned.
-/// \param point   Of surface_point().
-/// \return (u, v), without a unit.
+/// The texture coordinates of the shape; they move with it.
 template <typename S, std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const Moving<S>& moving,
                                            const FlatHitT<T>& hit,
@@ -146,8 +121,7 @@ template <typename S, std::floating_point T>
     return texture_coordinates(moving.shape, hit, point);
 }
 
-/// Refuses a way that is not finite, and what the shape refuses.
-/// \param moving  The shape.
+/// Refuses a non-finite displacement, and what check() of the shape refuses.
 /// \throws std::invalid_argument  with the name and the value.
 template <typename S>
 void check(const Moving<S>& moving) {

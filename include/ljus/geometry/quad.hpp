@@ -17,8 +17,8 @@
 namespace ljus {
 
 /// \defgroup quad Quads
-/// \brief Section 3.1.5, with other bounds for u and v: one test where two triangles
-/// would need two, and no diagonal to leak through.
+/// \brief Section 3.1.5, with other bounds for u and v. One test replaces those of two
+/// triangles, and there is no diagonal through which rays could leak.
 /// \{
 
 /// The points \f$ V_1 + uE_1 + vE_2 \f$ with u and v in [0, 1].
@@ -32,16 +32,13 @@ using Quad = QuadT<float>; ///< QuadT in float.
 
 namespace detail {
 
-/// \f$ E_1 \times E_2 \f$, in double, as for a triangle.
-/// \param quad  Any quad.
-/// \return A normal as long as the area.
+/// \f$ E_1 \times E_2 \f$: the normal, as long as the area, in double.
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<WideT<T>> cross_of_edges(const QuadT<T>& quad) noexcept {
     return glm::cross(Vec3T<WideT<T>>{quad.edge_u}, Vec3T<WideT<T>>{quad.edge_v});
 }
 
-/// Whether a quad has an area: see span_area().
-/// \param quad  Any quad.
+/// Whether a quad has an area; see span_area().
 template <std::floating_point T>
 [[nodiscard]] bool has_area(const QuadT<T>& quad) noexcept {
     return span_area(Vec3T<WideT<T>>{quad.edge_u}, Vec3T<WideT<T>>{quad.edge_v});
@@ -49,11 +46,11 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Where a ray meets a quad.
-/// \tparam Compute  The precision of the arithmetic; without a wish double, as for a
-///                  triangle.
-/// \param ray   Any length of direction but zero; hits count in [t_min, t_max].
-/// \param quad  Any two edges; parallel ones are never hit.
+/// Intersects a ray with a quad.
+/// \tparam Compute  The precision of the arithmetic; by default double, as for
+///                  triangles.
+/// \param ray   Its direction may have any length but zero; hits lie in [t_min, t_max].
+/// \param quad  Any two edges; a quad with parallel edges is never hit.
 /// \return t, and the coordinates u, v along the edges; nothing for a miss.
 /// \report{Section 3.1.5}
 template <typename Compute = void, std::floating_point T>
@@ -66,28 +63,20 @@ template <typename Compute = void, std::floating_point T>
     return hit;
 }
 
-/// The unit normal, along \f$ E_1 \times E_2 \f$.
-/// \param quad  A quad with an area.
-/// \return Unit vector.
+/// The unit normal of a quad with an area, along \f$ E_1 \times E_2 \f$.
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<T> normal(const QuadT<T>& quad) noexcept {
     return Vec3T<T>(glm::normalize(detail::cross_of_edges(quad)));
 }
 
 /// The area, in squared scene units.
-/// \param quad  Any quad.
-/// \return At least 0.
 template <std::floating_point T>
 [[nodiscard]] inline T area(const QuadT<T>& quad) noexcept {
     return static_cast<T>(glm::length(detail::cross_of_edges(quad)));
 }
 
-/// The point of a quad at u, v, if its normal is known.
-/// \param quad    The quad.
-/// \param u       Coordinate along the first edge.
-/// \param v       Coordinate along the second edge.
-/// \param normal  What normal() returned.
-/// \return Position, its error bound, the normal.
+/// The point of a quad at the coordinates u, v along its edges: position, error bound,
+/// and `normal`, which is what normal() returned.
 template <std::floating_point T>
 [[nodiscard]] inline SurfacePointT<T> point_at(const QuadT<T>& quad, T u, T v,
                                                const Vec3T<T>& normal) noexcept {
@@ -102,25 +91,23 @@ template <std::floating_point T>
     return point;
 }
 
-/// The point of a quad at u, v.
+/// \overload
 template <std::floating_point T>
 [[nodiscard]] inline SurfacePointT<T> point_at(const QuadT<T>& quad, T u,
                                                T v) noexcept {
     return point_at(quad, u, v, normal(quad));
 }
 
-/// A point of a quad, uniform over its area.
-/// \param quad    A quad with an area.
-/// \param u       Point of the unit square.
-/// \param normal  What normal() returned.
-/// \return The point; density 1 / area per squared scene unit.
+/// Samples a point of a quad with an area, uniformly: its density is 1 / area per
+/// squared scene unit. `u` is a point of the unit square, `normal` is what normal()
+/// returned.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const QuadT<T>& quad, const Vec2T<T>& u,
                                            const Vec3T<T>& normal) noexcept {
     return point_at(quad, u.x, u.y, normal);
 }
 
-/// The same, if the normal is not known.
+/// \overload
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const QuadT<T>& quad,
                                            const Vec2T<T>& u) noexcept {
@@ -128,9 +115,6 @@ template <std::floating_point T>
 }
 
 /// The point of a quad that a ray hit, from its coordinates u and v.
-/// \param quad  The quad.
-/// \param hit   What intersect() returned.
-/// \return Position, its error bound, the normal.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const QuadT<T>& quad,
                                              const RayT<T>& /*ray*/,
@@ -152,7 +136,7 @@ template <std::floating_point T>
     return {{c, c + u, c + u + v, c + v}, 4};
 }
 
-/// A sphere around a quad, not always the smallest. Photons are aimed at it.
+/// A sphere around a quad, not always the smallest.
 template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const QuadT<T>& quad) noexcept {
     return {.center = quad.corner + (quad.edge_u + quad.edge_v) / T(2),
@@ -161,9 +145,8 @@ template <std::floating_point T>
                       T(2)};
 }
 
-/// A box around a quad. No point of the quad lies outside of it, not by a rounding
-/// either.
-/// \return The box, a few units in the last place too large.
+/// A box that contains a quad despite rounding; it is a few units in the last place too
+/// large.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const QuadT<T>& quad) noexcept {
     BoxT<T> box{quad.corner, quad.corner};
@@ -176,10 +159,7 @@ template <std::floating_point T>
     return {box.low - size, box.high + size};
 }
 
-/// A quad in another place.
-/// \param shape  The quad.
-/// \param by     The displacement, in scene units.
-/// \return The same quad there.
+/// A quad displaced by a vector, in scene units.
 template <std::floating_point T>
 [[nodiscard]] constexpr QuadT<T> translated(QuadT<T> shape,
                                             const Vec3T<T>& by) noexcept {
@@ -187,8 +167,7 @@ template <std::floating_point T>
     return shape;
 }
 
-/// Refuses a quad of which no picture can be made.
-/// \param quad  The quad.
+/// Refuses a quad with a non-finite member.
 /// \throws std::invalid_argument  with the name and the value.
 template <std::floating_point T>
 void check(const QuadT<T>& quad) {

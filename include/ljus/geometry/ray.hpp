@@ -15,12 +15,11 @@ namespace ljus {
 /// \brief Section 3.1.1: the ray. Chapter: \ref ch_ray.
 /// \{
 
-/// The part of a line from `t_min` to `t_max`.
+/// The segment of a line from `t_min` to `t_max`.
 ///
-/// The report allows every t >= 0, so that a ray which leaves a surface may hit that
-/// surface again at t = 0: see offset_ray_origin() for the origin that avoids it.
-/// A NaN or an infinity in a ray, a direction of zero, a t_min beyond t_max: such a ray
-/// meets nothing.
+/// The report allows every t >= 0, so a ray that leaves a surface may hit that surface
+/// again at t = 0; spawn_ray() avoids this. A ray hits nothing if it contains a NaN or
+/// an infinity (other than t_max), if its direction is zero, or if t_min exceeds t_max.
 /// \report{Definition 3.1}
 // [ray]
 template <std::floating_point T>
@@ -29,15 +28,12 @@ struct RayT {
     Vec3T<T> direction{T(0), T(0), T(-1)};        ///< D: any length but zero.
     T t_min = T(0);                               ///< First t that counts, >= 0.
     T t_max = std::numeric_limits<T>::infinity(); ///< Last t that counts.
-    T time = T(0); ///< In [0, 1]: from when the shutter opens to when it closes.
+    T time = T(0); ///< In [0, 1]: the shutter opens at 0 and closes at 1.
 };
 using Ray = RayT<float>; ///< RayT in float.
 // [ray]
 
-/// The point of a ray at distance t, in units of the direction's length.
-/// \param ray  The ray.
-/// \param t    Any number.
-/// \return O + tD.
+/// The point O + tD of a ray; t is any number, in units of the direction's length.
 /// \report{Definition 3.1}
 // [at]
 template <std::floating_point T>
@@ -46,20 +42,20 @@ template <std::floating_point T>
 }
 // [at]
 
-/// Where a ray meets a shape. Of a flat shape, u and v are coordinates along its edges;
-/// other shapes may leave them 0.
+/// The hit of a ray on a shape. On a flat shape, u and v are coordinates along its
+/// edges; other shapes may leave them 0.
 template <std::floating_point T>
 struct FlatHitT {
     T t = T(0);             ///< Distance, in units of the direction's length.
     T u = T(0);             ///< Coordinate along the first edge.
     T v = T(0);             ///< Coordinate along the second edge.
-    std::uint32_t part = 0; ///< Which triangle of a mesh; 0 for other shapes.
+    std::uint32_t part = 0; ///< Index of a mesh's triangle; 0 for other shapes.
 };
 
-/// \name Mistakes
+/// \name Diagnostics
 /// \{
 
-/// A mistake does not compile, and says why.
+/// Reports swapped arguments and mixed precisions at compile time.
 template <std::floating_point T, typename Other>
 requires(!std::same_as<T, Other>) Vec3T<T> point_at(const RayT<T>&, Other) {
     static_assert(sizeof(Other) == 0, "A ray of floats takes a float: 2.0f, not 2.");
@@ -79,9 +75,9 @@ requires(!std::same_as<T, Other>) std::optional<T> intersect(const RayT<T>&,
 }
 /// \}
 
-/// \name What a test prepares
-/// A loop over many shapes is told its test once, as one template argument: a
-/// precision, or the name of a test.
+/// \name Preparation for many shapes
+/// A template argument, a precision or the name of a test, selects the intersection
+/// test for all shapes of a loop.
 ///
 ///     const auto prepared = prepare<Test>(ray);
 ///     for (const Triangle& triangle : mesh) intersect<Test>(ray, triangle, prepared);
@@ -89,23 +85,20 @@ requires(!std::same_as<T, Other>) std::optional<T> intersect(const RayT<T>&,
 
 namespace detail {
 
-/// A test that prepares nothing.
+/// The empty preparation.
 struct Unprepared {};
 
 } // namespace detail
 
-/// What a test computes once for a ray and then uses for every shape: nothing, in
-/// general; prepare<Watertight>() is another.
+/// What a test computes once per ray and uses for every shape: in general nothing. See
+/// prepare<Watertight>() for a test that uses it.
 template <typename Test = void, std::floating_point T>
 [[nodiscard]] constexpr detail::Unprepared prepare(const RayT<T>&) noexcept {
     return {};
 }
 
-/// Where a ray meets a shape whose test has no use for what was prepared.
-/// \tparam Test  As for intersect(ray, shape).
-/// \param ray    The ray.
-/// \param shape  The shape.
-/// \return What intersect(ray, shape) returns.
+/// Intersects a ray with a shape whose test needs no preparation: calls
+/// intersect(ray, shape).
 template <typename Test = void, std::floating_point T, typename Shape,
           typename Prepared>
 [[nodiscard]] constexpr auto intersect(const RayT<T>& ray, const Shape& shape,

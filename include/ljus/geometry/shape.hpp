@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/shape.hpp
-/// \brief What every shape can do, and the simple shapes of the library together.
+/// \brief The interface of a shape, and its defaults.
 
 #include <array>
 #include <concepts>
@@ -20,24 +20,23 @@ namespace ljus {
 /// \defgroup shape Shapes
 /// \brief What a scene asks of a shape.
 ///
-/// A new shape needs what the concept Shape lists: intersect(), surface_point(),
-/// bounding_sphere() and check(). What it may have as well, what that is for, and what
-/// happens without it:
+/// A shape needs the functions of the concept Shape: intersect(), surface_point(),
+/// bounding_sphere() and check(). The table lists its optional functions, the purpose
+/// of each, and what happens without it:
 ///
 /// \snippet{lineno} ljus/geometry/shape.hpp shape hooks
 ///
-/// The survey prints which of these each shape of a scene has. The functions stand
-/// beside the shape, in its own header and namespace, where a call finds them by their
-/// argument.
+/// The survey prints which of these each shape of a scene has. The functions belong
+/// in the shape's own namespace, where argument-dependent lookup finds them.
 /// \{
 
-/// A hit of any shape, of what intersect() returned: a sphere has no u and v.
+/// Turns the result of a shape's intersect() into a hit. A bare t leaves u and v 0.
 template <std::floating_point T>
 [[nodiscard]] constexpr FlatHitT<T> as_hit(T t) noexcept {
     return {.t = t};
 }
 
-/// The hit of a flat shape, as it is.
+/// Returns the hit of a flat shape unchanged.
 template <std::floating_point T>
 [[nodiscard]] constexpr FlatHitT<T> as_hit(const FlatHitT<T>& hit) noexcept {
     return hit;
@@ -47,14 +46,14 @@ template <std::floating_point T>
 template <typename S>
 using ScalarOf = decltype(bounding_sphere(std::declval<const S&>()).radius);
 
-/// What has a bounding sphere; asked first, so that the message for what is no shape is
-/// short.
+/// Whether a type has a bounding sphere. Shape tests this first, to keep the compiler's
+/// message for other types short.
 template <typename S>
 concept HasBoundingSphere = !detail::is_stand_in<S> && requires(const S& shape) {
     bounding_sphere(shape);
 };
 
-/// What a scene asks of a shape.
+/// The functions that every shape needs.
 template <typename S>
 concept Shape = HasBoundingSphere<S> &&
     requires(const S& shape, RayT<ScalarOf<S>> ray, FlatHitT<ScalarOf<S>> hit) {
@@ -64,23 +63,23 @@ concept Shape = HasBoundingSphere<S> &&
     check(shape);
 };
 
-/// Whether the area of a shape is known. One without, such as metaballs, can be lit but
-/// cannot be a light.
+/// Whether the area of a shape is known. A shape without it, such as metaballs, cannot
+/// be a light.
 template <typename S>
 concept HasArea = requires(const S& shape) {
     { area(shape) } -> std::same_as<ScalarOf<S>>;
 };
 
-/// What a shape needs besides to be a light: points chosen evenly over its area.
+/// A shape that can be a light: its area can be sampled uniformly.
 template <typename S>
 concept Samplable = Shape<S> && HasArea<S> &&
     requires(const S& shape, Vec2T<ScalarOf<S>> u) {
     { sample_area(shape, u) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;
 };
 
-/// A shape that lies in a plane and says so by having one normal, `normal(shape)`. It
-/// fills little of its bounding sphere, and no ray meets it twice, so photons are aimed
-/// at points of its area.
+/// A plane shape: it has a single normal, `normal(shape)`. It fills little of its
+/// bounding sphere, and no ray hits it twice, so photons are aimed at points of its
+/// area.
 template <typename S>
 concept FlatShape = Samplable<S> && requires(const S& shape) {
     { normal(shape) } -> std::same_as<Vec3T<ScalarOf<S>>>;
@@ -88,8 +87,8 @@ concept FlatShape = Samplable<S> && requires(const S& shape) {
 
 namespace detail {
 
-/// Whether a flat shape takes its normal() as an argument instead of computing it
-/// again. Then the normal is computed once, when a scene is made.
+/// Whether a flat shape accepts its normal() as an argument of point_at(). Then
+/// normal() is called only once, when the scene is made.
 template <typename S>
 inline constexpr bool is_plane = requires(const S& shape, Vec2T<ScalarOf<S>> u) {
     requires FlatShape<S>;
@@ -99,25 +98,24 @@ inline constexpr bool is_plane = requires(const S& shape, Vec2T<ScalarOf<S>> u) 
 
 } // namespace detail
 
-/// \name What any shape can do
-/// Used for a shape that has no such function of its own.
+/// \name Defaults
+/// A shape's own function of the same name takes precedence.
 /// \{
 
-/// A shape without an area has no points to choose. A scene refuses it as a light, so
-/// that none is ever asked for.
-/// \return A point of no use.
+/// Lets lights of shapes without an area compile. A scene refuses such lights, so this
+/// function is never called.
 template <Shape S>
 requires(!HasArea<S>) [[nodiscard]] SurfacePointT<ScalarOf<S>> sample_area(
     const S&, const Vec2T<ScalarOf<S>>&) noexcept {
     return {};
 }
 
-/// A point of any shape, uniform over its area.
+/// Samples a point of any shape, uniformly over its area.
 /// \param shape  The shape.
 /// \param from   The observer.
 /// \param u      Point of the unit square.
-/// \return The point and its density per steradian of the observer: 0 for a shape
-///         without an area, which is no light, and where the observer is that point.
+/// \return The point and its density per steradian at the observer; the density is 0
+///         for a shape without an area, and if the observer is at that point.
 template <Shape S, std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const S& shape, const Vec3T<T>& from,
                                            const Vec2T<T>& u) noexcept {
@@ -128,11 +126,8 @@ template <Shape S, std::floating_point T>
         return {};
 }
 
-/// The density of sample_towards() at a point of the shape.
-/// \param shape  The shape.
-/// \param from   The observer.
-/// \param point  The point of the shape in question.
-/// \return Per steradian; 0 for a shape without an area.
+/// The density of sample_towards() at a point of the shape, per steradian at `from`; 0
+/// for a shape without an area.
 template <Shape S, std::floating_point T>
 [[nodiscard]] T pdf_towards(const S& shape, const Vec3T<T>& from,
                             const SurfacePointT<T>& point) noexcept {
@@ -142,29 +137,27 @@ template <Shape S, std::floating_point T>
         return T(0);
 }
 
-/// The point of the unit square whose sample, by sample_towards(), stands for the whole
-/// lamp: the middle of a quad.
-/// \return (1/2, 1/2).
+/// The point u of the unit square for which sample_towards() returns the lamp's centre:
+/// (1/2, 1/2).
 template <Shape Lamp>
 [[nodiscard]] auto center_sample(const Lamp&) noexcept {
     return Vec2T<ScalarOf<Lamp>>{ScalarOf<Lamp>(0.5)};
 }
 
-/// The texture coordinates of a hit: those that intersect() found.
-/// \param hit  What intersect() returned.
-/// \return (u, v), without a unit; see the group \ref texture_coordinates.
+/// The texture coordinates of a hit: its u and v, dimensionless. See the group
+/// \ref texture_coordinates.
 template <Shape S, std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const S& /*shape*/, const FlatHitT<T>& hit,
                                            const SurfacePointT<T>& /*point*/) noexcept {
     return {hit.u, hit.v};
 }
 
-/// The form factor from a point to a shape that has a facet_of(): the share of the
-/// hemisphere over the point that it fills, weighted by the cosine, in closed form.
+/// The form factor from a point to a shape that has facet_of(): the cosine-weighted
+/// fraction of the point's hemisphere that the shape fills, in closed form.
 /// \param from        The point.
-/// \param normal      Unit, of the surface at the point.
-/// \param lamp        It counts from the side that its normal points to.
-/// \param inside_out  From the other side.
+/// \param normal      Unit normal of the surface at the point.
+/// \param lamp        The shape; its normal's side emits.
+/// \param inside_out  The other side emits.
 /// \return In [0, 1]: the irradiance over pi times the lamp's radiance.
 template <Shape Flat, std::floating_point T>
 [[nodiscard]] auto form_factor_from(const Vec3T<T>& from, const Vec3T<T>& normal,
@@ -178,7 +171,7 @@ template <Shape Flat, std::floating_point T>
 
 namespace detail {
 
-/// The hooks of a type of shape.
+/// The optional functions of a type of shape.
 template <Shape S>
 [[nodiscard]] constexpr auto shape_hooks() noexcept {
     using T = ScalarOf<S>;
@@ -234,15 +227,15 @@ template <Shape S>
 /// \}
 
 /// \defgroup texture_coordinates Texture coordinates
-/// \brief Where a shape was hit, in its own terms: what a UvMap looks up by.
+/// \brief A point of a shape in the shape's own coordinates, for images in a UvMap.
 ///
 /// | shape           | (u, v)                                                     |
 /// |-----------------|------------------------------------------------------------|
 /// | quad            | along its two edges, from its corner: [0, 1] x [0, 1]      |
 /// | triangle        | along its two edges, from its first vertex: u + v <= 1     |
-/// | sphere          | longitude and latitude, as a GlobeMap at its centre has it |
-/// | mesh            | of its vertices, interpolated; without any, the triangle's |
-/// | moving shape    | the shape's                                                |
-/// | any other shape | the u and v of its hit; (0, 0) if it has none              |
+/// | sphere          | longitude and latitude, as in a GlobeMap at its centre     |
+/// | mesh            | interpolated between its vertices, or the triangle's       |
+/// | moving shape    | those of its shape                                         |
+/// | any other shape | u and v of the hit; (0, 0) if it has none                  |
 
 } // namespace ljus

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/solid_angle.hpp
-/// \brief Points of a shape, chosen for an observer: densities per steradian.
+/// \brief Points sampled on a shape for an observer, with densities per steradian.
 
 #include <cmath>
 
@@ -10,28 +10,26 @@
 namespace ljus {
 
 /// \defgroup solid_angle Shapes as an observer sees them
-/// \brief Section 3.2.3: shadow rays end at a point of a lamp; its density per
-/// steradian holds the cosine and the inverse square that the report's program forgot.
+/// \brief Section 3.2.3: shadow rays end at a point of a lamp. Its density per
+/// steradian contains the cosine and the inverse square that the report's program
+/// forgot.
 ///
-/// Each shape has its own sample_towards() and pdf_towards(), or those that shape.hpp
-/// has for any shape.
+/// A shape has its own sample_towards() and pdf_towards(), or uses those of shape.hpp.
 /// \{
 
-/// A point of a shape, and the density with which an observer's direction fell on it.
+/// A sampled point of a shape, with its density.
 template <std::floating_point T>
 struct SeenPointT {
     SurfacePointT<T> point{}; ///< The point.
-    T pdf = T(0);             ///< Per steradian of the observer.
+    T pdf = T(0);             ///< Per steradian at the observer.
 };
 
 namespace detail {
 
-/// The density per steradian of a point that was chosen uniformly over the area.
-/// \param from   The observer.
-/// \param point  The point of the shape.
-/// \param area   The shape's area.
-/// \return distance^2 / (|cos| area); infinity if the surface is seen edge-on, and 0 at
-///         the point itself, whose light comes from nowhere.
+/// Converts the density of a point, uniform over the area, to one per steradian at the
+/// observer `from`.
+/// \return distance^2 / (|cos| area); infinity if the surface is seen edge-on; 0 if the
+///         observer is at the point.
 /// \cite veach1997
 // [pdf from area]
 template <std::floating_point T>

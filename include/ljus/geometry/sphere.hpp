@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/sphere.hpp
-/// \brief The sphere |X - C|^2 = R^2: where a ray meets it, and all else it can do.
+/// \brief The sphere |X - C|^2 = R^2: its intersection with a ray, and sampling.
 
 #include <cmath>
 #include <concepts>
@@ -37,30 +37,28 @@ using Sphere = SphereT<float>; ///< SphereT in float.
 
 namespace detail {
 
-/// The part of a line that lies within a ball: where it enters, and where it leaves.
+/// The segment of a line inside a ball.
 template <std::floating_point T>
 struct ChordT {
     T enter = T(0); ///< The smaller root, in units of the direction's length.
     T leave = T(0); ///< The larger root, at least `enter`.
 };
 
-/// Both distances at which the whole line of a ray meets a sphere.
+/// Both distances at which the infinite line of a ray meets a sphere.
 ///
 /// The line O + tD meets the sphere where
 /// \f[ t^2\,(D \cdot D) + 2t\,D \cdot (O - C) + |O - C|^2 - R^2 = 0. \f]
-/// The discriminant is taken as \f$ R^2 - |P|^2 \f$, P being the way from C to the
-/// nearest point of the line, for \f$ b^2 - ac \f$ loses a small, distant sphere; and
-/// the second root as \f$ c/q \f$, which does not cancel either \cite haines2019.
-///
-/// \tparam Compute  The precision of the arithmetic; the data's own if left out.
-/// \param ray     Its direction may have any length but zero; t_min, t_max are ignored.
-/// \param sphere  The sphere. In float arithmetic all lengths, and their products with
-///                that of the direction, lie between 1e-18 and 1e18; in double between
-///                1e-150 and 1e150.
+/// The discriminant is computed as \f$ R^2 - |P|^2 \f$, where P is the vector from C to
+/// the nearest point of the line; \f$ b^2 - ac \f$ cancels for a small, distant sphere.
+/// The second root is \f$ c/q \f$, which does not cancel either \cite haines2019.
+/// \tparam Compute  The precision of the arithmetic; by default that of the data.
+/// \param ray     Its direction may have any length but zero; its range is ignored.
+/// \param sphere  The sphere. All lengths, and their products with the direction's,
+///                must be between 1e-18 and 1e18 in float, 1e-150 and 1e150 in double.
 /// \return Both roots, finite, in the precision of the arithmetic; nothing for a miss,
-///         a NaN, an infinity, a zero direction, a radius not above 0, and for lengths
-///         so large that a square is infinite.
-/// \cost One square root and two divisions; a miss costs one division.
+///         a NaN, an infinity, a zero direction, a radius not above 0, or a length
+///         whose square overflows.
+/// \cost One square root and two divisions; one division for a miss.
 /// \report{Section 3.1.4, Eqs. (2) and (3)}
 // [chord]
 template <typename Compute = void, std::floating_point T>
@@ -75,35 +73,34 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
     const C inverse_a = C(1) / a;
     // [chord]
     // [chord ends]
-    // From the centre to the point of the line that is nearest to it.
+    // From the centre to the nearest point of the line.
     const Vec3T<C> p = oc + (b * inverse_a) * d;
     const C discriminant = r * r - glm::dot(p, p);
-    // Written so that NaN says no; so does a radius of 0 or less.
+    // False for NaN and for a radius of 0 or less.
     if (!(C(0) <= discriminant && r > C(0))) return std::nullopt;
 
-    // The root of larger size first; by Vieta the other one is c/q.
+    // The root of larger magnitude comes first; by Vieta the other one is c/q.
     const C q = b + std::copysign(std::sqrt(a * discriminant), b);
     const C c = glm::dot(oc, oc) - r * r;
     const C large = q * inverse_a;
-    const C small = q != C(0) ? c / q : C(0); // 0/0: it only touches
-    // Infinity says no, and NaN.
+    const C small = q != C(0) ? c / q : C(0); // 0/0 if the line is tangent
+    // False for infinity and NaN.
     constexpr C max = std::numeric_limits<C>::max();
     if (!(std::abs(large) <= max && std::abs(small) <= max)) return std::nullopt;
-    // By their size, not by q's sign: two roots that are almost one may change places.
+    // Sorted by value, because rounding may swap two nearly equal roots.
     return ChordT<C>{.enter = glm::min(small, large), .leave = glm::max(small, large)};
 }
 // [chord ends]
 
 } // namespace detail
 
-/// The distance at which a ray first meets a sphere, from outside or from within.
-///
-/// \tparam Compute  The precision of the arithmetic; t is rounded to T once. With float
-///                  data and `double` every decision of the tests is right.
-/// \param ray     Hits count within its [t_min, t_max].
+/// The distance at which a ray first hits a sphere, from outside or inside.
+/// \tparam Compute  The precision of the arithmetic; t is rounded to T once. In double,
+///                  every hit or miss of the tests' float data is decided correctly.
+/// \param ray     Hits lie within [t_min, t_max].
 /// \param sphere  The sphere. In float arithmetic, lengths between 1e-18 and 1e18.
-/// \return The smallest such t, in units of the direction's length; nothing for a miss,
-///         and nothing for invalid data, as chord() says.
+/// \return The smallest such t, in units of the direction's length; nothing for a miss
+///         or for data that chord() rejects.
 /// \cost That of chord() and three comparisons.
 /// \report{Section 3.1.4, Eqs. (2) and (3)}
 // [intersect]
@@ -112,7 +109,7 @@ template <typename Compute = void, std::floating_point T>
                                          const SphereT<T>& sphere) noexcept {
     const auto hits = detail::chord<Compute>(ray, sphere);
     if (!hits) return std::nullopt;
-    // A ray may be open to infinity; no hit is infinitely far away.
+    // A ray may be unbounded, but no hit is at infinity.
     const T t_max = glm::min(ray.t_max, std::numeric_limits<T>::max());
     const T enter = static_cast<T>(hits->enter);
     if (ray.t_min <= enter && enter <= t_max) return enter;
@@ -122,18 +119,17 @@ template <typename Compute = void, std::floating_point T>
 }
 // [intersect]
 
-/// The report's formula, term by term: kept for the lesson, not for use.
+/// The report's formula, term by term, for comparison.
 ///
 /// \f[ t = -\frac{u}{2} \pm \sqrt{\frac{u^2}{4} - v},\quad
 ///     u = 2\,D \cdot (O - C),\quad v = |O - C|^2 - R^2 \f]
 ///
-/// Far away \f$ u^2/4 \f$ and \f$ v \f$ are two nearly equal, large numbers, and their
-/// small difference, which is all that decides, drowns in their rounding.
-///
+/// Far away \f$ u^2/4 \f$ and \f$ v \f$ are large and nearly equal, and rounding
+/// destroys their difference.
 /// \tparam Compute  The precision of the arithmetic; t is rounded to T once.
-/// \param ray     A ray with a direction of unit length; its range decides.
+/// \param ray     A ray with a direction of unit length; hits lie within its range.
 /// \param sphere  The sphere.
-/// \return As intersect(), where the formula holds; elsewhere what it happens to give.
+/// \return As intersect() where the formula holds; otherwise undefined.
 /// \cost One square root, no division.
 /// \report{Section 3.1.4}
 // [as_printed]
@@ -154,18 +150,15 @@ template <typename Compute = void, std::floating_point T>
 }
 // [as_printed]
 
-/// The outward normal of a sphere.
-///
-/// Normalised instead of divided by R, for a computed hit is only near to the surface.
-/// \param sphere  The sphere.
-/// \param point   A point on the sphere, or near to it; not its centre.
-/// \return Unit vector from the centre towards the point.
+/// The outward unit normal of a sphere at a point on it or near it, except its centre.
+/// It is normalised instead of divided by R, because a computed hit lies only near the
+/// surface.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> normal(const SphereT<T>& sphere,
                               const Vec3T<T>& point) noexcept {
     return glm::normalize(point - sphere.center);
 }
-/// A mistake: it does not compile, and says why.
+/// Reports mixed precisions at compile time.
 template <std::floating_point T, std::floating_point Other>
 requires(!std::same_as<T, Other>) Vec3T<T> normal(const SphereT<T>&,
                                                   const Vec3T<Other>&) {
@@ -173,23 +166,18 @@ requires(!std::same_as<T, Other>) Vec3T<T> normal(const SphereT<T>&,
     return {};
 }
 
-/// The area of a sphere.
-/// \param sphere  The sphere.
-/// \return \f$ 4 \pi R^2 \f$, in square scene units.
+/// The area of a sphere, \f$ 4 \pi R^2 \f$, in squared scene units.
 template <std::floating_point T>
 [[nodiscard]] constexpr T area(const SphereT<T>& sphere) noexcept {
     return T(4) * std::numbers::pi_v<T> * sphere.radius * sphere.radius;
 }
 
-/// The point of a sphere that a ray hit: O + tD, put back onto the sphere.
+/// The point of a sphere that a ray hit: O + tD, projected onto the sphere.
 ///
-/// The vector from the centre is summed without the centre's own coordinates, which far
-/// from the origin would round it away. Of a sphere so small and far away that nothing
-/// is left of that vector, the point faces the ray.
-/// \param sphere  The sphere.
-/// \param ray     The ray.
-/// \param hit     What intersect() returned.
-/// \return Position, its error bound, the outer normal.
+/// The vector from the centre is computed without the centre's coordinates, whose size
+/// far from the origin would round it away. If a sphere is so small and distant that
+/// nothing of that vector remains, the normal faces the ray.
+/// \return Position, error bound, outward normal.
 // [surface_point]
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const SphereT<T>& sphere,
@@ -206,10 +194,8 @@ template <std::floating_point T>
 }
 // [surface_point]
 
-/// A point of a sphere, uniform over its area.
-/// \param sphere  The sphere.
-/// \param u       Point of the unit square.
-/// \return The point; density 1 / area per squared scene unit.
+/// Samples a point of a sphere uniformly: its density is 1 / area per squared scene
+/// unit. `u` is a point of the unit square.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const SphereT<T>& sphere,
                                            const Vec2T<T>& u) noexcept {
@@ -222,17 +208,15 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The directions from a point to a sphere: a cone.
+/// The cone of directions from a point to a sphere.
 template <std::floating_point T>
 struct ConeT {
     Vec3T<T> axis{T(0), T(0), T(1)}; ///< Unit vector to the centre.
-    T one_minus_cos = T(2); ///< 1 - cos of the half angle: 2 is every direction.
+    T one_minus_cos = T(2); ///< 1 - cos of the half angle; 2 for all directions.
 };
 
-/// The cone of directions in which a sphere is seen.
-/// \param sphere  The sphere.
-/// \param from    The observer.
-/// \return The cone; every direction if the observer is inside.
+/// The cone of directions in which an observer sees a sphere; all directions if the
+/// observer is inside.
 template <std::floating_point T>
 [[nodiscard]] ConeT<T> cone_towards(const SphereT<T>& sphere,
                                     const Vec3T<T>& from) noexcept {
@@ -242,11 +226,9 @@ template <std::floating_point T>
     return {.axis = glm::normalize(way), .one_minus_cos = one_minus_cosine(sin2)};
 }
 
-/// Whether an observer is surely outside a sphere, and samples the cone in which it is
-/// seen. From inside, and from a point on the sphere, which may be rounded to either
-/// side, the area serves: a room made of a sphere must see all of its wall.
-/// \param sphere  The sphere.
-/// \param from    The observer.
+/// Whether an observer is outside a sphere beyond rounding, so that its cone can be
+/// sampled. From inside, and from a point on the sphere that may be rounded to either
+/// side, the area is sampled instead: then a spherical room sees its whole wall.
 template <std::floating_point T>
 [[nodiscard]] bool sees_cone(const SphereT<T>& sphere, const Vec3T<T>& from) noexcept {
     const T doubt = T(8) * std::numeric_limits<T>::epsilon() *
@@ -256,13 +238,13 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// A point of the near side of a sphere, uniform over the cone in which it is seen;
-/// from inside, uniform over its area.
+/// Samples a point of the visible side of a sphere, uniformly over its cone; from
+/// inside, uniformly over its area.
 /// \param sphere  The sphere.
 /// \param from    The observer.
 /// \param u       Point of the unit square.
-/// \return The point and its density per steradian of the observer; 0 where the
-///         observer is that point.
+/// \return The point and its density per steradian at the observer; the density is 0 if
+///         the observer is at that point.
 /// \cite shirley1996
 template <std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const SphereT<T>& sphere,
@@ -276,7 +258,7 @@ template <std::floating_point T>
     const detail::ConeT<T> cone = detail::cone_towards(sphere, from);
     const Vec3T<T> local = sample_uniform_cone(u, cone.one_minus_cos);
 
-    // From the centre, the point lies at the angle that the chord leaves.
+    // The angle at the centre between the axis and the point.
     const Vec3T<T> direction = to_world(frame_around(cone.axis), local);
     const T distance = glm::distance(sphere.center, from);
     const T sine2 = local.x * local.x + local.y * local.y;
@@ -287,11 +269,7 @@ template <std::floating_point T>
             .pdf = pdf_uniform_cone(cone.one_minus_cos)};
 }
 
-/// The density of sample_towards() for a sphere.
-/// \param sphere  The sphere.
-/// \param from    The observer.
-/// \param point   The point of the sphere in question.
-/// \return Per steradian.
+/// The density of sample_towards() at a point of a sphere, per steradian at `from`.
 template <std::floating_point T>
 [[nodiscard]] T pdf_towards(const SphereT<T>& sphere, const Vec3T<T>& from,
                             const SurfacePointT<T>& point) noexcept {
@@ -300,22 +278,21 @@ template <std::floating_point T>
     return pdf_uniform_cone(detail::cone_towards(sphere, from).one_minus_cos);
 }
 
-/// The point of the unit square whose sample_towards() is the point of a sphere that is
-/// nearest to the observer.
-/// \return (0, 0).
+/// The u for which sample_towards() returns the point of the sphere nearest to the
+/// observer: (0, 0).
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec2T<T> center_sample(const SphereT<T>& /*sphere*/) noexcept {
     return Vec2T<T>{T(0)};
 }
 
-/// The form factor from a point to a sphere: the share of the hemisphere over the point
-/// that the sphere fills, weighted by the cosine, in closed form.
+/// The form factor from a point to a sphere: the cosine-weighted fraction of the
+/// point's hemisphere that the sphere fills, in closed form.
 /// \param from        The point.
-/// \param normal      Unit, of the surface at the point.
-/// \param lamp        The sphere; it counts from its outer side.
-/// \param inside_out  From the other side.
-/// \return In [0, 1]; nothing if the horizon cuts the sphere, if the point lies in it,
-///         or for the inner side: then the formula does not hold.
+/// \param normal      Unit normal of the surface at the point.
+/// \param lamp        The sphere; its outside emits.
+/// \param inside_out  Its inside emits.
+/// \return In [0, 1]; nothing where the formula does not hold: if the horizon cuts the
+///         sphere, if the point lies inside it, or if the inside emits.
 template <std::floating_point T>
 [[nodiscard]] std::optional<T>
 form_factor_from(const Vec3T<T>& from, const Vec3T<T>& normal, const SphereT<T>& lamp,
@@ -329,15 +306,14 @@ form_factor_from(const Vec3T<T>& from, const Vec3T<T>& normal, const SphereT<T>&
     return sine * sine * (height / distance);
 }
 
-/// The smallest sphere around a sphere: itself.
+/// The bounding sphere of a sphere: itself.
 template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const SphereT<T>& sphere) noexcept {
     return sphere;
 }
 
-/// A box around a sphere. No point of the sphere lies outside of it, not by a rounding
-/// either.
-/// \return The box, a few units in the last place too large.
+/// A box that contains a sphere despite rounding; it is a few units in the last place
+/// too large.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const SphereT<T>& sphere) noexcept {
     const Vec3T<T> size =
@@ -347,10 +323,7 @@ template <std::floating_point T>
     return {sphere.center - size, sphere.center + size};
 }
 
-/// A sphere in another place.
-/// \param shape  The sphere.
-/// \param by     The displacement, in scene units.
-/// \return The same sphere there.
+/// A sphere displaced by a vector, in scene units.
 template <std::floating_point T>
 [[nodiscard]] constexpr SphereT<T> translated(SphereT<T> shape,
                                               const Vec3T<T>& by) noexcept {
@@ -358,11 +331,9 @@ template <std::floating_point T>
     return shape;
 }
 
-/// The texture coordinates of a point of a sphere: longitude and latitude, as a
-/// GlobeMap at its centre has them. They come from the normal, which is known well also
-/// far from the origin.
-/// \param point  Of surface_point().
-/// \return (u, v) in [0, 1].
+/// The texture coordinates of a point of a sphere: longitude and latitude, as in a
+/// GlobeMap at its centre, in [0, 1]. They are computed from the normal, which is
+/// accurate even far from the origin.
 /// \cost Two arc tangents.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const SphereT<T>& /*sphere*/,
@@ -371,8 +342,7 @@ template <std::floating_point T>
     return globe_coordinates(point.normal);
 }
 
-/// Refuses a sphere of which no picture can be made.
-/// \param sphere  The sphere.
+/// Refuses a sphere with a non-finite centre or a radius not above 0.
 /// \throws std::invalid_argument  with the name and the value.
 template <std::floating_point T>
 void check(const SphereT<T>& sphere) {

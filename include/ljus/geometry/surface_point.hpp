@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/geometry/surface_point.hpp
-/// \brief A point of a surface: how well it is known, how a ray leaves it, and where a
-/// ray meets a flat one.
+/// \brief Points on surfaces: their rounding error, the rays that leave them, and the
+/// hit of a ray on a flat shape.
 
 #include <cmath>
 #include <cstdint>
@@ -15,25 +15,25 @@
 namespace ljus {
 
 /// \defgroup surface Leaving a surface
-/// \brief A hit point is rounded: it lies a little in front of its surface or behind
-/// it. Chapter: \ref ch_ray.
+/// \brief Rounding moves a hit point slightly to one side of its surface. Chapter:
+/// \ref ch_ray.
 /// \{
 
 /// A point of a surface.
 template <std::floating_point T>
 struct SurfacePointT {
-    Vec3T<T> position{T(0)};           ///< In scene units.
-    Vec3T<T> error{T(0)};              ///< Bound of the rounding of each coordinate.
-    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit, geometric, on the outer side.
-    T tilt = T(0); ///< By how many roundoffs a test may turn its plane: that of
-                   ///< detail::add_tilt(), or 0.
+    Vec3T<T> position{T(0)}; ///< In scene units.
+    Vec3T<T> error{T(0)};    ///< Bound of the rounding error of each coordinate.
+    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit, geometric, on the outside.
+    T tilt = T(0); ///< Condition number of the plane, in roundoffs; see
+                   ///< detail::add_tilt(). 0: not used.
 };
 using SurfacePoint = SurfacePointT<float>; ///< SurfacePointT in float.
 
 namespace detail {
 
-/// Sets a point to another, number by number: a processor waits for a copy of what has
-/// just been written if the copy is made in wider pieces.
+/// Copies a point component by component. A wider copy of values that have just been
+/// written would cause a store-forwarding stall.
 template <std::floating_point T>
 inline void set_point(SurfacePointT<T>& to, const SurfacePointT<T>& from) noexcept {
     const auto set = [](Vec3T<T>& a, const Vec3T<T>& b) {
@@ -47,20 +47,19 @@ inline void set_point(SurfacePointT<T>& to, const SurfacePointT<T>& from) noexce
     to.tilt = from.tilt;
 }
 
-/// Adds to a point of a flat shape how far the next test of the same shape may see its
-/// plane from where it is.
+/// Adds to the error of a point on a flat shape the error of the plane that the next
+/// test of the same shape will see.
 ///
-/// On which side of the plane a point lies that is at T from the corner is the sign of
-/// \f$ T \cdot (E_1 \times E_2) \f$: a sum of products with 9 roundings on the way,
-/// none larger than \f$ |T|\,|E_1|\,|E_2| \f$ with
-/// \f$ |X| = |X_x| + |X_y| + |X_z| \f$. Over twice the area that is a height,
+/// The sign of \f$ T \cdot (E_1 \times E_2) \f$ tells on which side of the plane a
+/// point lies, where T is its vector from the corner. This sum of products has 9
+/// roundings, and no term exceeds \f$ |T|\,|E_1|\,|E_2| \f$ with
+/// \f$ |X| = |X_x| + |X_y| + |X_z| \f$. Division by twice the area gives a height:
 /// \f[ \gamma_9 |T| \, \frac{|E_1|\,|E_2|}{|E_1 \times E_2|} . \f]
-/// The quotient, the tilt, is 1 to 3 for a square; for two edges at a small angle it is
-/// 1 over its sine: the plane of a sliver is known badly. Where the arithmetic is wider
-/// than the data, as for float, it does not matter and nothing is added.
-/// \param point  Of the shape; gets its tilt and a larger error.
-/// \param e1     An edge.
-/// \param e2     Another one; of parallel ones, which no ray meets, nothing is added.
+/// The quotient is the tilt: 1 to 3 for a square, and 1 over the sine of the angle for
+/// two nearly parallel edges. If the arithmetic is wider than the data, as for float,
+/// the error is negligible and the point stays as it is.
+/// \param point   Point of the shape; receives the tilt and a larger error.
+/// \param e1, e2  The edges; for parallel ones, which no ray hits, nothing is added.
 // [add_tilt]
 template <std::floating_point T>
 void add_tilt(SurfacePointT<T>& point, const Vec3T<T>& e1,
@@ -75,11 +74,11 @@ void add_tilt(SurfacePointT<T>& point, const Vec3T<T>& e1,
 }
 // [add_tilt]
 
-/// Whether two edges span an area, and so have a normal; one that rounding may have
-/// made of none does not count. An edge between doubles is one rounding off, a product
-/// another, or none if it is fused with the subtraction: together 3 units of roundoff.
+/// Whether two edges span an area and so define a normal. An area that rounding alone
+/// may have produced does not count: an edge between doubles has one rounding, and a
+/// product has another unless it is fused with the subtraction; together 3 roundoffs.
 /// \param a, b  The edges, in double; lengths between 1e-150 and 1e150.
-/// \return False for parallel ones, and for those whose sine is below 1e-15.
+/// \return False for parallel edges, and if the sine of their angle is below 1e-15.
 template <std::floating_point W>
 [[nodiscard]] bool span_area(const Vec3T<W>& a, const Vec3T<W>& b) noexcept {
     constexpr W bound = W(1.75) * std::numeric_limits<W>::epsilon();
@@ -92,22 +91,20 @@ template <std::floating_point W>
 
 } // namespace detail
 
-/// The origin of a ray that leaves a surface: safely on the side the direction points
-/// to, and no farther from the surface than its rounding asks for.
+/// The origin of a ray that leaves a surface: on the side to which `direction` points,
+/// and as close to the surface as rounding permits.
 ///
-/// A fixed distance (the report's program has four, from 0.0001 to 0.1) is too long for
-/// a small scene and too short far from the origin. Here the distance is twice the
-/// error of the point, along the normal, and 4 units in the last place of its largest
-/// coordinate for the rounding of the sum. A point of a wall through the origin may
-/// have no coordinate but 0: then the error in the wall's plane gives the scale.
+/// A fixed offset (the report's program has four, from 0.0001 to 0.1) is too long for a
+/// small scene and too short far from the origin. Here the offset along the normal is
+/// twice the error of the point, plus 4 units in the last place of its largest
+/// coordinate for the rounding of the sum. All coordinates of a point on a wall through
+/// the origin may be 0; then the error within the wall's plane gives the scale.
 ///
-/// A ray in double that leaves a flat shape does not meet it again if its angle with
-/// the plane is above some 20 roundoffs times the tilt: 2e-9 for a sliver of 1 to 1e-6.
-/// Below that double cannot tell on which side of the plane the ray goes.
-///
+/// A double-precision ray that leaves a flat shape does not hit it again if its angle
+/// to the plane exceeds some 20 roundoffs times the tilt: 2e-9 for a sliver of 1 to
+/// 1e-6. Below that angle, double cannot tell to which side of the plane the ray goes.
 /// \param point      A point of the surface, with its error.
-/// \param direction  Where the ray goes; its length does not matter.
-/// \return A point on the side of `direction`.
+/// \param direction  Direction of the ray, of any length.
 /// \report{Definition 3.1}
 // [offset_ray_origin]
 template <std::floating_point T>
@@ -123,11 +120,8 @@ template <std::floating_point T>
 }
 // [offset_ray_origin]
 
-/// A ray that leaves a surface for good.
-/// \param point      Where it starts.
-/// \param direction  Its direction.
-/// \param time       In [0, 1].
-/// \return The ray, its range open to infinity.
+/// A ray that leaves a surface and does not hit it again at its start. Its range is
+/// unbounded.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> spawn_ray(const SurfacePointT<T>& point,
                                 const Vec3T<T>& direction, T time = T(0)) noexcept {
@@ -136,15 +130,12 @@ template <std::floating_point T>
             .time = time};
 }
 
-/// A ray between two points of surfaces that touches neither surface.
+/// A ray between two points on surfaces that hits neither surface.
 ///
-/// The farther the way, the less is known of where it meets its end: the arithmetic of
-/// an intersection is rounded by the length of the way. Without that, a lamp close to
-/// the origin of the scene shades itself from afar.
-/// \param from  Where it starts.
-/// \param to    Where it ends, at t = 1.
-/// \param time  In [0, 1].
-/// \return The ray; its direction has the length of the way.
+/// The rounding error of a hit grows with the length of the ray. The ray therefore ends
+/// short of `to` by this error; otherwise a lamp near the scene's origin would shadow
+/// itself from afar.
+/// \return The ray; it ends at t = 1, and its direction is as long as the distance.
 // [spawn_ray_to]
 template <std::floating_point T>
 [[nodiscard]] RayT<T> spawn_ray_to(const SurfacePointT<T>& from,
@@ -170,18 +161,15 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// How far the rounding of moller_trumbore() may move u, v and u + v.
+/// Bound of the rounding errors of u, v and u + v in moller_trumbore().
 ///
-/// Their numerators are sums of products with at most 8 roundings on the way, none
-/// larger than \f$ |D|\,|E|\,|T| \f$ with \f$ |X| = |X_x| + |X_y| + |X_z| \f$; u + v
-/// has both. Where that is no small part of the shape, nothing is known.
-/// \param d        D.
-/// \param to       T.
-/// \param e1       \f$E_1\f$.
-/// \param e2       \f$E_2\f$.
+/// Their numerators are sums of products with at most 8 roundings, and no term exceeds
+/// \f$ |D|\,|E|\,|T| \f$ with \f$ |X| = |X_x| + |X_y| + |X_z| \f$; u + v has both
+/// errors.
+/// \param d, to, e1, e2  D, T, \f$E_1\f$ and \f$E_2\f$.
 /// \param inverse  1 over the determinant.
-/// \param most     No wider border is of use.
-/// \return A bound without a unit; 0 where it would be above `most`.
+/// \param most     Largest useful bound.
+/// \return The bound, dimensionless; 0 if it would exceed `most`.
 // [border]
 template <std::floating_point C>
 [[nodiscard]] C border_of_rounding(const Vec3T<C>& d, const Vec3T<C>& to,
@@ -195,7 +183,7 @@ template <std::floating_point C>
 
 } // namespace detail
 
-/// What two edges span from a corner.
+/// The figure that two edges span from a corner.
 enum class Spanned : std::uint8_t {
     triangle,     ///< u and v at least 0, u + v at most 1.
     parallelogram ///< u and v in [0, 1].
@@ -207,26 +195,26 @@ enum class Spanned : std::uint8_t {
 /// \f[ t = \frac{Q \cdot E_2}{P \cdot E_1}, \quad u = \frac{P \cdot T}{P \cdot E_1},
 ///     \quad v = \frac{Q \cdot D}{P \cdot E_1} \f]
 ///
-/// No epsilon guards the determinant: where it is 0 the quotients are infinite or NaN,
-/// and no shape holds those; where it overflows they are 0, which is refused as well.
+/// No epsilon guards the determinant. If it is 0, the quotients are infinite or NaN and
+/// lie in no shape; if it overflows, they are 0, which is rejected as well.
 ///
-/// Two triangles round a ray at their common edge each in its own way. In a precision
-/// wider than that of the data the shape is closed, its border as wide as this rounding
-/// may be: then at least one of the two is hit. Where that is more than the rounding of
-/// the data, for slivers in whose plane the ray almost lies, the border is open again.
-/// See border_of_rounding().
-///
+/// Two triangles round a hit on their common edge differently. If the arithmetic is
+/// wider than the data, the shape includes a border as wide as this rounding error, so
+/// that a ray hits at least one of the two. The border is left out if it exceeds the
+/// rounding of the data, as for slivers in whose plane the ray almost lies. See
+/// border_of_rounding().
 /// \tparam shape    What the two edges span.
 /// \tparam Compute  The precision of the arithmetic; results are rounded to T once. In
-///                  float, for shapes and distances between 1e-15 and 1e15.
-/// \param ray     Any length of direction but zero; hits count in [t_min, t_max].
+///                  float, shapes and distances must be between 1e-15 and 1e15.
+/// \param ray     Its direction may have any length but zero; hits lie in
+///                [t_min, t_max].
 /// \param v1      A corner.
-/// \param e1      The edge along which u runs.
-/// \param e2      The edge along which v runs.
+/// \param e1      Edge of the coordinate u.
+/// \param e2      Edge of the coordinate v.
 /// \return Distance and coordinates; nothing for a miss or a non-finite input.
 /// \cost One division, 25 multiplications, and 6 more for t \cite moller1997.
 /// \report{Section 3.1.5}
-/// \erratum{The report leaves out u, v and their conditions, without which every ray
+/// \erratum{The report leaves out u, v and their conditions; without them every ray
 ///          that crosses the plane hits.}
 // [moller_trumbore]
 template <Spanned shape, typename Compute = void, std::floating_point T>
@@ -241,13 +229,13 @@ moller_trumbore(const RayT<T>& ray, const Vec3T<ComputeT<Compute, T>>& v1,
     const C inverse = C(1) / glm::dot(p, e1);
     const C u = glm::dot(p, to) * inverse;
     constexpr bool closed = sizeof(C) > sizeof(T);
-    // No wider than the data's own rounding, or what lies beside the shape is hit.
+    // No wider than the data's own rounding, or points beside the shape would be hits.
     constexpr C near = closed ? C(std::numeric_limits<T>::epsilon()) : C(0);
     if (!(u >= -near && u <= C(1) + near)) return std::nullopt; // most rays miss here
 
     const Vec3T<C> q = glm::cross(to, e1);
     const C v = glm::dot(q, d) * inverse;
-    // Written so that NaN is a miss.
+    // NaN is a miss.
     const auto within = [&](C border) {
         if (!(u >= -border)) return false;
         if (shape == Spanned::triangle) return v >= -border && u + v <= C(1) + border;
@@ -255,11 +243,11 @@ moller_trumbore(const RayT<T>& ray, const Vec3T<ComputeT<Compute, T>>& v1,
     };
     if (!(within(near) && inverse != C(0))) return std::nullopt;
 
-    // Not dot(q, e2) * inverse: the cube of a size leaves the range of float first.
+    // dot(q, e2) * inverse would overflow float earlier: it forms the cube of a length.
     const C t = glm::dot(inverse * q, e2);
     constexpr C max{std::numeric_limits<T>::max()};
     if (!(C(ray.t_min) <= t && t <= C(ray.t_max) && t <= max)) return std::nullopt;
-    // The border is asked for last: few hits are so near to an edge that it decides.
+    // The border comes last, because few hits are close enough to an edge to need it.
     if (closed && !within(C(0)) &&
         !within(detail::border_of_rounding(d, to, e1, e2, inverse, near)))
         return std::nullopt;

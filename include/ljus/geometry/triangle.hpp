@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/geometry/triangle.hpp
-/// \brief The triangle: where a ray meets it (Moeller and Trumbore), and all else.
+/// \brief The triangle: its intersection with a ray (Moeller and Trumbore), and
+/// sampling.
 
 #include <array>
 #include <cmath>
@@ -21,10 +22,11 @@ namespace ljus {
 /// \brief Section 3.1.5: the ray-triangle intersection. Chapter: \ref ch_triangle.
 /// \{
 
-/// Three vertices; seen from the side where they turn counter-clockwise, the normal
-/// points towards the viewer.
+/// Three vertices. They turn counter-clockwise as seen from the side to which the
+/// normal points.
 /// \report{Definition 3.3}
-/// \erratum{The report's triple is unordered; then its normal has no side.}
+/// \erratum{The report's triple is unordered, which leaves the normal's side
+/// undefined.}
 template <std::floating_point T>
 struct TriangleT {
     Vec3T<T> v1{T(0)}; ///< \f$V_1\f$, in scene units.
@@ -35,10 +37,9 @@ using Triangle = TriangleT<float>; ///< TriangleT in float.
 
 namespace detail {
 
-/// \f$ E_1 \times E_2 \f$, in double: in float the normal of a thin triangle is off,
-/// and its length, the fourth power of a size on the way, leaves the range beyond 1e9.
-/// \param triangle  Any triangle.
-/// \return A normal as long as twice the area.
+/// \f$ E_1 \times E_2 \f$: the normal, as long as twice the area, in double. In float
+/// the normal of a thin triangle is inaccurate, and the fourth power of a length within
+/// its norm overflows beyond 1e9.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<WideT<T>> cross_of_edges(const TriangleT<T>& triangle) noexcept {
     const Vec3T<WideT<T>> v1{triangle.v1};
@@ -46,8 +47,7 @@ template <std::floating_point T>
                       Vec3T<WideT<T>>{triangle.v3} - v1);
 }
 
-/// Whether a triangle has an area: see span_area().
-/// \param triangle  Any triangle.
+/// Whether a triangle has an area; see span_area().
 template <std::floating_point T>
 [[nodiscard]] bool has_area(const TriangleT<T>& triangle) noexcept {
     const Vec3T<WideT<T>> v1{triangle.v1};
@@ -57,13 +57,14 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Where a ray meets a triangle.
-/// \tparam Compute  The precision of the arithmetic. Without a wish it is double, in
-///                  which no ray slips between two neighbours; intersect<float>() is
-///                  the report's formula, which lets one of six rays at edges through.
-/// \param ray       Any length of direction but zero; hits count in [t_min, t_max].
-/// \param triangle  Any three vertices; one without an area is never hit, nor one whose
-///                  area double cannot tell from none: see detail::span_area().
+/// Intersects a ray with a triangle.
+/// \tparam Compute  The precision of the arithmetic; by default double, in which no ray
+///                  passes between two neighbours. intersect<float>() is the report's
+///                  formula, which misses one in six rays aimed at edges.
+/// \param ray       Its direction may have any length but zero; hits lie in
+///                  [t_min, t_max].
+/// \param triangle  Any three vertices. A triangle without an area, or whose area is
+///                  lost in double's rounding, is never hit: see detail::span_area().
 /// \return t, and the barycentric u, v of the hit \f$(1-u-v)V_1 + uV_2 + vV_3\f$;
 ///         nothing for a miss.
 /// \report{Section 3.1.5}
@@ -74,35 +75,29 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
     const Vec3T<C> v1{triangle.v1};
     auto hit = moller_trumbore<Spanned::triangle, C>(
         ray, v1, Vec3T<C>{triangle.v2} - v1, Vec3T<C>{triangle.v3} - v1);
-    // Rounded, corners on a line may span a triangle. (No second return: a function
-    // that returns one variable does not copy it.)
+    // Rounding may give collinear corners an area. (A single return of a single
+    // variable avoids a copy.)
     if (hit && !detail::has_area(triangle)) hit.reset();
     return hit;
 }
 
-/// The unit normal: of the side from which the vertices turn counter-clockwise.
-/// \param triangle  A triangle with an area.
-/// \return Unit vector.
+/// The unit normal of a triangle with an area; the vertices turn counter-clockwise
+/// around it.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> normal(const TriangleT<T>& triangle) noexcept {
     return Vec3T<T>(glm::normalize(detail::cross_of_edges(triangle)));
 }
 
 /// The area, in squared scene units.
-/// \param triangle  Any triangle.
-/// \return At least 0.
 template <std::floating_point T>
 [[nodiscard]] T area(const TriangleT<T>& triangle) noexcept {
     return static_cast<T>(glm::length(detail::cross_of_edges(triangle)) / 2);
 }
 
-/// The point of a triangle with the barycentric coordinates u, v, from the vertices:
-/// the rounding of t moves it along the ray, the rounding of u, v along the plane only.
-/// \param triangle  The triangle.
-/// \param u         Weight of the second vertex.
-/// \param v         Weight of the third vertex.
-/// \param normal    What normal() returned.
-/// \return Position, its error bound, the normal.
+/// The point of a triangle with the barycentric coordinates u, v: position, error
+/// bound, and `normal`, which is what normal() returned. u and v are the weights of the
+/// second and the third vertex. The error of the position lies within the plane,
+/// whereas the error of t lies along the ray.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> point_at(const TriangleT<T>& triangle, T u, T v,
                                         const Vec3T<T>& normal) noexcept {
@@ -118,18 +113,16 @@ template <std::floating_point T>
     return point;
 }
 
-/// The point of a triangle, if its normal is not known.
+/// \overload
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> point_at(const TriangleT<T>& triangle, T u,
                                         T v) noexcept {
     return point_at(triangle, u, v, normal(triangle));
 }
 
-/// A point of a triangle, uniform over its area.
-/// \param triangle  A triangle with an area.
-/// \param u         Point of the unit square.
-/// \param normal    What normal() returned.
-/// \return The point; density 1 / area per squared scene unit.
+/// Samples a point of a triangle with an area, uniformly: its density is 1 / area per
+/// squared scene unit. `u` is a point of the unit square, `normal` is what normal()
+/// returned.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const TriangleT<T>& triangle,
                                            const Vec2T<T>& u,
@@ -138,7 +131,7 @@ template <std::floating_point T>
     return point_at(triangle, T(1) - root, u.y * root, normal);
 }
 
-/// The same, if the normal is not known.
+/// \overload
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const TriangleT<T>& triangle,
                                            const Vec2T<T>& u) noexcept {
@@ -146,9 +139,6 @@ template <std::floating_point T>
 }
 
 /// The point of a triangle that a ray hit, from its coordinates u and v.
-/// \param triangle  The triangle.
-/// \param hit       What intersect() returned.
-/// \return Position, its error bound, the normal.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const TriangleT<T>& triangle,
                                              const RayT<T>& /*ray*/,
@@ -170,7 +160,7 @@ template <std::floating_point T>
             3};
 }
 
-/// A sphere around a triangle, not always the smallest. Photons are aimed at it.
+/// A sphere around a triangle, not always the smallest.
 template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const TriangleT<T>& triangle) noexcept {
     const Vec3T<T> center = (triangle.v1 + triangle.v2 + triangle.v3) / T(3);
@@ -180,26 +170,21 @@ template <std::floating_point T>
                                              glm::distance(center, triangle.v3)})};
 }
 
-/// A box around a triangle: the smallest one, without a rounding.
-/// \return The box.
+/// The smallest box around a triangle; no rounding is involved.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const TriangleT<T>& triangle) noexcept {
     return {glm::min(glm::min(triangle.v1, triangle.v2), triangle.v3),
             glm::max(glm::max(triangle.v1, triangle.v2), triangle.v3)};
 }
 
-/// A triangle in another place.
-/// \param shape  The triangle.
-/// \param by     The displacement, in scene units.
-/// \return The same triangle there.
+/// A triangle displaced by a vector, in scene units.
 template <std::floating_point T>
 [[nodiscard]] constexpr TriangleT<T> translated(const TriangleT<T>& shape,
                                                 const Vec3T<T>& by) noexcept {
     return {.v1 = shape.v1 + by, .v2 = shape.v2 + by, .v3 = shape.v3 + by};
 }
 
-/// Refuses a triangle of which no picture can be made.
-/// \param triangle  The triangle.
+/// Refuses a triangle with a non-finite vertex.
 /// \throws std::invalid_argument  with the name and the value.
 template <std::floating_point T>
 void check(const TriangleT<T>& triangle) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/watertight.hpp
-/// \brief A ray-triangle test through which no ray slips between two neighbours.
+/// \brief A ray-triangle test that lets no ray pass between two neighbours.
 
 #include <limits>
 #include <optional>
@@ -12,24 +12,23 @@
 namespace ljus {
 
 /// \defgroup watertight Watertight triangles
-/// \brief Section 3.1.5 once more, with a promise about shared edges.
+/// \brief Section 3.1.5, with a guarantee for shared edges.
 /// Chapter: \ref ch_triangle.
 /// \{
 
-/// In place of a precision: `intersect<Watertight>(ray, triangle)`. Where a loop or a
-/// tree takes a precision for all its shapes, it takes this as well; a sphere, which
-/// has no neighbours, is then met as always, and a quad in double.
+/// A test for triangles: `intersect<Watertight>(ray, triangle)`. It can replace a
+/// precision wherever a loop or a tree takes one. Spheres are then intersected in their
+/// usual precision, and quads in double.
 struct Watertight {};
 
 namespace detail {
 
-/// Which axis a ray mostly follows, and how the other two lean. The same for all
-/// triangles.
+/// The shear that maps a ray's direction to the z axis; the same for all triangles.
 template <std::floating_point T>
 struct ShearT {
-    int x = 0;     ///< The axis that becomes x,
-    int y = 1;     ///< and the one that becomes y.
-    int z = 2;     ///< The axis along which the direction is longest.
+    int x = 0;     ///< The axis that becomes x.
+    int y = 1;     ///< The axis that becomes y.
+    int z = 2;     ///< The axis of the direction's largest component.
     T sx = T(0);   ///< \f$ D_x / D_z \f$, in [-1, 1].
     T sy = T(0);   ///< \f$ D_y / D_z \f$, in [-1, 1].
     double sz = 1; ///< \f$ 1 / D_z \f$; beyond the range of T for a denormal direction.
@@ -37,11 +36,10 @@ struct ShearT {
 
 } // namespace detail
 
-/// The shear that turns a ray into the z axis.
+/// Computes the shear that maps a ray to the z axis.
 /// \tparam Test  Watertight.
-/// \param ray    A ray. A direction of zero, NaN or infinity gives NaN or an sz of 0,
-///               and no hit.
-/// \return Axes and factors.
+/// \param ray    A ray. For a direction of zero, NaN or infinity the shear contains a
+///               NaN or an sz of 0, and nothing is hit.
 template <std::same_as<Watertight> Test, std::floating_point T>
 [[nodiscard]] detail::ShearT<T> prepare(const RayT<T>& ray) noexcept {
     const Vec3T<T> size = detail::sizes(ray.direction);
@@ -55,30 +53,30 @@ template <std::same_as<Watertight> Test, std::floating_point T>
             .sy = d[y] / d[z],
             .sz = 1 / static_cast<double>(d[z])};
 }
-/// Where a ray meets a triangle, so that of two triangles with a common edge at least
-/// one is hit by a ray at that edge, and of a fan at least one by a ray at its hub.
+/// Intersects a ray with a triangle, watertight: a ray at a common edge hits at least
+/// one of its two triangles, and a ray at the hub of a fan hits at least one of the
+/// fan.
 ///
-/// The ray becomes the z axis; what is left is whether a triangle of the plane holds
-/// the origin: whether \f$ P_x Q_y - P_y Q_x \f$ has one sign on all three edges. A
-/// vertex gets the same rounded \f$P\f$ in all its triangles; and the products of two
-/// floats are formed in double, where they are exact: the sign is that of exact
-/// arithmetic, with and without fused multiply-adds. Triangles that share their corners
-/// and decide exactly leave no gap \cite woop2013.
-///
+/// The shear maps the ray to the z axis. The projected triangle then contains the
+/// origin if \f$ P_x Q_y - P_y Q_x \f$ has the same sign for all three edges. All
+/// triangles of a vertex round its \f$P\f$ in the same way. Products of two floats are
+/// exact in double, so the sign is exact, with or without fused multiply-adds.
+/// Triangles that share corners and decide exactly leave no gap \cite woop2013.
 /// \tparam Test     Watertight.
-/// \param ray       Any length of direction but zero; hits count in [t_min, t_max].
-/// \param triangle  Any three vertices; one without an area is never hit.
-/// \param shear     Of this ray: what prepare() returned.
+/// \param ray       Its direction may have any length but zero; hits lie in
+///                  [t_min, t_max].
+/// \param triangle  Any three vertices; a triangle without an area is never hit.
+/// \param shear     What prepare() returned for this ray.
 /// \return t, and the barycentric u, v; nothing for a miss or a non-finite input.
-/// \cost Most rays miss after 6 products; one that hits needs 6 more for its edges, one
-///       division, and 7 products for t, u and v.
+/// \cost 6 products for most misses; a hit needs 6 more for its edges, one division,
+///       and 7 products for t, u and v.
 /// \report{Section 3.1.5}
 // [intersect]
 template <std::same_as<Watertight> Test, std::floating_point T>
 [[nodiscard]] std::optional<FlatHitT<T>>
 intersect(const RayT<T>& ray, const TriangleT<T>& triangle,
           const detail::ShearT<T>& shear) noexcept {
-    // Wide enough for the product of two Ts.
+    // Wide enough for an exact product of two Ts.
     using W = std::conditional_t<std::is_same_v<T, float>, double, long double>;
     const T* const o = &ray.origin.x;
     const auto corner = [&](const Vec3T<T>& vertex) {
@@ -91,7 +89,7 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle,
     };
     const Vec3T<T> a = corner(triangle.v1), b = corner(triangle.v2),
                    c = corner(triangle.v3);
-    // Most triangles lie beside the axis, for each of two coordinates.
+    // Most triangles lie beside the axis in x or in y.
     const Vec3T<T> low = glm::min(a, glm::min(b, c)),
                    high = glm::max(a, glm::max(b, c));
     if (low.x > 0 || low.y > 0 || high.x < 0 || high.y < 0) return std::nullopt;
@@ -100,7 +98,7 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle,
         return W(p.x) * W(q.y) - W(p.y) * W(q.x); // edge(q, p) is exactly -edge(p, q)
     };
     const W u = edge(a, c), v = edge(b, a), w = edge(c, b);
-    // Written so that NaN is a miss; on an edge is inside.
+    // NaN is a miss; a point on an edge is inside.
     if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)))
         return std::nullopt;
 
@@ -109,24 +107,24 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle,
     constexpr W max{std::numeric_limits<T>::max()};
     if (!(W(ray.t_min) <= t && t <= W(ray.t_max) && t <= max && shear.sz != 0))
         return std::nullopt;
-    // Sheared and rounded, corners on a line may span a triangle.
+    // Shear and rounding may give collinear corners an area.
     if (!detail::has_area(triangle)) return std::nullopt;
     return FlatHitT<T>{static_cast<T>(t), static_cast<T>(u * inverse),
                        static_cast<T>(v * inverse), 0};
 }
 // [intersect]
 
-// Doxygen takes these two for their namesakes with another precision.
+// Doxygen would take these two for the overloads with a precision.
 /// \cond
-// The same for one triangle alone: two divisions more, which a loop prepares once.
+// For a single triangle; prepares at each call, which costs two divisions.
 template <std::same_as<Watertight> Test, std::floating_point T>
 [[nodiscard]] std::optional<FlatHitT<T>>
 intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
     return intersect<Test>(ray, triangle, prepare<Test>(ray));
 }
 
-// Quads have edges of their own, rounded for each: what their data leave open, no test
-// can close. In double their borders are closed as well as can be.
+// Two quads round a common edge differently, so no test can close the gap in their
+// data. Double keeps it as small as possible.
 template <std::same_as<Watertight> Test, std::floating_point T>
 [[nodiscard]] std::optional<FlatHitT<T>> intersect(const RayT<T>& ray,
                                                    const QuadT<T>& quad) noexcept {

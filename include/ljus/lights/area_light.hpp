@@ -11,30 +11,30 @@ namespace ljus {
 /// \addtogroup light
 /// \{
 
-/// What a lamp is worked out to be once.
+/// Precomputed data of a lamp.
 template <std::floating_point T>
 struct LampT {
-    RgbT<T> radiance{T(0)};  ///< Along the normal's side, W/(m^2 sr).
-    Vec3T<T> normal{T(0)};   ///< Unit; of a flat shape, else 0.
+    RgbT<T> radiance{T(0)};  ///< On the side of the normal, W/(m^2 sr).
+    Vec3T<T> normal{T(0)};   ///< Unit; 0 unless the shape is flat.
     T area = T(0);           ///< In squared scene units.
-    bool inside_out = false; ///< Whether it shines to where its normal does not point.
+    bool inside_out = false; ///< Whether it emits on the other side.
 };
 
-/// A lamp: a shape that emits the same radiance in every direction on the side of its
-/// normal. A scene makes it of an object with a radiance.
+/// A lamp: a shape that emits uniform radiance on the side of its normal. A scene makes
+/// it from an object with a radiance.
 template <Shape S>
 struct AreaLightT {
     using Scalar = ScalarOf<S>; ///< The precision.
-    const S& shape;             ///< Where it is, at any time.
-    const LampT<Scalar>& lamp;  ///< What is known of it.
+    const S& shape;             ///< At the time of the ray.
+    const LampT<Scalar>& lamp;  ///< Precomputed data.
 };
 
 namespace detail {
 
-/// What there is to know of a lamp.
+/// Precomputes the data of a lamp.
 /// \param shape       With an area.
 /// \param radiance    W/(m^2 sr).
-/// \param inside_out  Whether it shines to the other side.
+/// \param inside_out  Whether it emits on the other side.
 /// \throws std::invalid_argument  if its area or its flux is 0 or not finite.
 template <Shape S, std::floating_point T>
 [[nodiscard]] LampT<T> make_lamp(const S& shape, const RgbT<T>& radiance,
@@ -51,23 +51,19 @@ template <Shape S, std::floating_point T>
 /// \name A lamp
 /// \{
 
-/// The flux of a diffuse emitter: its radiance over the hemisphere and its area.
-/// \return pi L A, in W.
+/// The flux of a diffuse emitter: pi L A, in W.
 template <typename S>
 [[nodiscard]] auto power(const AreaLightT<S>& light) noexcept {
     using T = ScalarOf<S>;
     return RgbT<T>{std::numbers::pi_v<T> * light.lamp.area * light.lamp.radiance};
 }
 
-/// Samples a point of the lamp, for a shadow ray.
-///
-/// The sample is filled where it will stand, which avoids a store-forwarding stall.
+/// Samples a point of the lamp for a shadow ray.
 /// \param light  The lamp.
 /// \param from   The lit point.
 /// \param u      Point of the unit square.
-/// \param time   Of the path, in [0, 1].
-/// \return The sample; nothing if the lamp does not shine in this direction: emission
-///         is one-sided, along the normal.
+/// \param time   Time of the path, in [0, 1].
+/// \return The sample; nothing if `from` lies behind the lamp, which emits on one side.
 /// \report{Section 3.2.3}
 /// \erratum{The program behind the report leaves out the light's area and the inverse
 ///          square: a wall ten times as far was lit as brightly.}
@@ -90,17 +86,15 @@ template <typename S, std::floating_point T>
     const T pdf = sample->pdf;
     sample->wi = glm::normalize(point.position - from);
     sample->weight = light.lamp.radiance / pdf;
-    // Written so that NaN, from an observer on the light itself, is no light.
+    // An observer on the lamp gives NaN, which means no light.
     if (!(glm::dot(sample->wi, point.normal) < T(0) && pdf > T(0) &&
           std::isfinite(pdf)))
         sample.reset();
     return sample;
 }
 
-/// Where a photon starts: uniform over the area, the normal where the lamp shines to.
-/// \param light  The lamp.
-/// \param u      Point of the unit square.
-/// \param time   Of the photon, in [0, 1].
+/// Samples the origin of a photon, uniformly over the area; its normal points to the
+/// emitting side.
 template <typename S, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> emission_point(const AreaLightT<S>& light,
                                               const Vec2T<T>& u, T time) {
@@ -109,10 +103,8 @@ template <typename S, std::floating_point T>
     return point;
 }
 
-/// The direction of a photon.
-/// \param point  Of emission_point().
-/// \param u      Point of the unit square.
-/// \return Unit vector, with the density cos / pi.
+/// Samples the unit direction of a photon from an emission_point(), with the density
+/// cos / pi.
 template <typename S, std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_emission(const AreaLightT<S>&,
                                        const SurfacePointT<T>& point,
@@ -120,10 +112,7 @@ template <typename S, std::floating_point T>
     return to_world(frame_around(point.normal), sample_cosine_hemisphere(u));
 }
 
-/// The density of sample_emission().
-/// \param point  Of emission_point().
-/// \param wo     Unit direction away from it.
-/// \return cos / pi per steradian; 0 behind the lamp.
+/// The density of sample_emission(): cos / pi per steradian; 0 behind the lamp.
 template <typename S, std::floating_point T>
 [[nodiscard]] T pdf_emission(const AreaLightT<S>&, const SurfacePointT<T>& point,
                              const Vec3T<T>& wo) noexcept {
@@ -131,19 +120,15 @@ template <typename S, std::floating_point T>
     return cosine > T(0) ? cosine * std::numbers::inv_pi_v<T> : T(0);
 }
 
-/// The hemisphere that a point of the lamp shines into.
+/// The hemisphere into which a point of the lamp emits.
 template <typename S, std::floating_point T>
 [[nodiscard]] detail::ConeT<T> emission_cone(const AreaLightT<S>&,
                                              const SurfacePointT<T>& point) noexcept {
     return {point.normal, T(1)};
 }
 
-/// The form factor from a point to the lamp.
-/// \param light   The lamp.
-/// \param from    The point.
-/// \param normal  Unit, of the surface at the point.
-/// \param time    Of the path, in [0, 1].
-/// \return In [0, 1]; nothing where there is no closed form.
+/// The form factor from a point with a unit normal to the lamp, in [0, 1]; nothing if
+/// there is no closed form.
 template <typename S, std::floating_point T>
 [[nodiscard]] std::optional<T> form_factor(const AreaLightT<S>& light,
                                            const Vec3T<T>& from, const Vec3T<T>& normal,
@@ -156,7 +141,7 @@ template <typename S, std::floating_point T>
         return std::nullopt;
 }
 
-/// The point of the unit square whose sample stands for the whole lamp.
+/// The u for which sample_light() returns the lamp's centre.
 template <typename S>
 [[nodiscard]] auto center_sample(const AreaLightT<S>& light) noexcept {
     return center_sample(light.shape);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/lights/light.hpp
-/// \brief What a light is: what is asked of it by shadow rays, photons and paths.
+/// \brief The interface of a light for shadow rays, photons and paths.
 
 #include <algorithm>
 #include <array>
@@ -17,60 +17,59 @@
 namespace ljus {
 
 /// \defgroup light Lights
-/// \brief Section 3.2.3: what a shadow ray runs to, and where photons start.
+/// \brief Section 3.2.3: the targets of shadow rays and the sources of photons.
 ///
-/// A type of light is a struct with a member type `Scalar` and functions beside it. All
+/// A light is a struct with a member type `Scalar` and free functions beside it. All
 /// lights have three of them:
 ///
 /// | function                           | returns                                     |
 /// |------------------------------------|---------------------------------------------|
-/// | check(light)                       | nothing; throws, and names what is wrong    |
+/// | check(light)                       | nothing; throws, and names the wrong member |
 /// | power(light)                       | the flux that leaves it, W                  |
-/// | sample_light(light, from, u, time) | a LightSampleT: where a shadow ray ends     |
+/// | sample_light(light, from, u, time) | a LightSampleT for a shadow ray             |
 ///
-/// How its photons leave it depends on where it is. A light that is near (NearLight)
-/// has points, and sends photons from them:
-///
+/// There are two kinds of emission. A near light (NearLight) emits photons from its
+/// points:
 /// | function                            | returns                                    |
 /// |-------------------------------------|--------------------------------------------|
 /// | emission_point(light, u, time)      | a point; on a surface a SurfacePointT      |
 /// | sample_emission(light, point, u)    | the unit direction of a photon from there  |
 /// | pdf_emission(light, point, wo)      | the density of that direction, per sr      |
 ///
-/// A light from afar (FarLight) has a member `around`, the sphere around the scene, and
+/// A distant light (FarLight) has a member `around`, the sphere around the scene, and
 ///
 /// | function                            | returns                                    |
 /// |-------------------------------------|--------------------------------------------|
 /// | sample_arrival(light, u)            | a direction of travel, and the irradiance  |
 ///
-/// What a light may have as well, and what happens without it:
+/// The table lists the optional functions, their purpose, and what happens without
+/// them:
 ///
 /// \snippet{lineno} ljus/lights/light.hpp light hooks
 /// \{
 
-/// What arrives at a point from one sampled point of a light, if nothing is between.
+/// The unoccluded light from one sampled point of a light.
 template <std::floating_point T>
 struct LightSampleT {
     SurfacePointT<T> point{}; ///< End of the shadow ray; its error bound is 0 unless it
                               ///< lies on a surface.
     Vec3T<T> wi{T(0)};        ///< Unit direction to the light.
-    RgbT<T> weight{T(0)};     ///< Radiance / pdf; of a point or spot light
-                              ///< intensity / distance^2; of a sun its irradiance.
-    T pdf = T(0);             ///< Per steradian; 0 for what no path can meet.
+    RgbT<T> weight{T(0)};     ///< Radiance / pdf; intensity / distance^2 for a point or
+                              ///< spot light; irradiance for a sun.
+    T pdf = T(0);             ///< Per steradian; 0 if no path can hit the light.
 };
 
-/// Light that arrives from afar.
+/// The light that arrives from a distant light.
 template <std::floating_point T>
 struct ArrivalT {
-    Vec3T<T> direction{T(0)}; ///< Unit, the way it travels.
-    RgbT<T> irradiance{T(0)}; ///< W/m^2 on a surface that faces it, over the density of
-                              ///< the direction where that was sampled.
+    Vec3T<T> direction{T(0)}; ///< Unit direction of travel.
+    RgbT<T> irradiance{T(0)}; ///< W/m^2 on a perpendicular surface; over the density of
+                              ///< the direction if that was sampled.
 };
 
 namespace detail {
 
-/// Refuses a light whose flux is beyond the range of T, though its parts are not.
-/// \param flux  W.
+/// Refuses a flux that is 0 or leaves the range of T.
 /// \throws std::invalid_argument  with the value.
 template <std::floating_point T>
 void require_flux(const RgbT<T>& flux) {
@@ -78,24 +77,21 @@ void require_flux(const RgbT<T>& flux) {
             "finite and above 0");
 }
 
-/// The unit vector along a direction of any length.
+/// Normalises a direction of any length.
 /// \param what  Its name.
-/// \param way   The direction.
-/// \throws std::invalid_argument  if it is not finite, or 0.
+/// \throws std::invalid_argument  if it is 0 or not finite.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> unit_along(std::string_view what, const Vec3T<T>& way) {
     require_finite(what, way);
-    // Scaled first: in float the square of 1e-30 is 0.
+    // Scaled first, because in float the square of 1e-30 is 0.
     const T most = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
     require(most > T(0), what, way, "of a length above 0");
     return glm::normalize(way / most);
 }
 
-/// What a point of a light sends at a distance: intensity / distance^2.
-/// \param position   Of the light.
-/// \param from       The lit point.
+/// The sample of a point-like light: intensity / distance^2.
 /// \param intensity  Called with the unit direction away from the light; W/sr.
-/// \return The sample; nothing where no light arrives.
+/// \return The sample; nothing if no light arrives.
 template <std::floating_point T, typename Intensity>
 [[nodiscard]] std::optional<LightSampleT<T>> sample_point(const Vec3T<T>& position,
                                                           const Vec3T<T>& from,
@@ -113,21 +109,19 @@ template <std::floating_point T, typename Intensity>
 
 } // namespace detail
 
-/// The light as it is within a scene, which may know more of it than its author: a sun
-/// gets the sphere that it shines on, a spot the cosines of its angles.
-/// \param light  As it was added.
-/// \return The light itself, for a type that has no in_scene() of its own.
+/// Prepares a light for its scene: a sun receives the sphere around the scene, a spot
+/// the cosines of its angles. By default the light is unchanged.
 template <typename L, std::floating_point T>
 [[nodiscard]] const L& in_scene(const L& light, const SphereT<T>& /*around*/) noexcept {
     return light;
 }
 
-/// A light as a scene keeps it.
+/// A light as its scene stores it.
 template <typename L>
 using InSceneT = std::remove_cvref_t<decltype(in_scene(
     std::declval<const L&>(), std::declval<const SphereT<typename L::Scalar>&>()))>;
 
-/// A light with points from which its photons leave.
+/// A light that emits photons from its points.
 template <typename L>
 concept NearLight = requires(const L& light, const Vec2T<typename L::Scalar>& u,
                              typename L::Scalar time,
@@ -141,14 +135,14 @@ concept NearLight = requires(const L& light, const Vec2T<typename L::Scalar>& u,
         } -> std::same_as<typename L::Scalar>;
 };
 
-/// A light so far away that only directions matter.
+/// A light so distant that only directions matter.
 template <typename L>
 concept FarLight = requires(const L& light, const Vec2T<typename L::Scalar>& u) {
     { light.around } -> std::convertible_to<SphereT<typename L::Scalar>>;
     { sample_arrival(light, u) } -> std::same_as<ArrivalT<typename L::Scalar>>;
 };
 
-/// A light as a scene keeps it: see the head of this page.
+/// A light as its scene stores it; see the group \ref light.
 template <typename L>
 concept Light = requires(const L& light, const Vec3T<typename L::Scalar>& from,
                          const Vec2T<typename L::Scalar>& u, typename L::Scalar time) {
@@ -159,7 +153,7 @@ concept Light = requires(const L& light, const Vec3T<typename L::Scalar>& from,
     requires NearLight<L> || FarLight<L>;
 };
 
-/// What a program adds to a scene: it has a check(), and within the scene it is a
+/// A light as a program adds it to a scene: it has check(), and in_scene() makes it a
 /// Light.
 template <typename L>
 concept LightSource = requires(const L& light) {
@@ -168,8 +162,7 @@ concept LightSource = requires(const L& light) {
     requires Light<InSceneT<L>>;
 };
 
-/// The radiance that a ray sees which leaves the scene in a direction: 0 for a light
-/// that has no escaped_radiance() of its own.
+/// A light that a ray sees when it leaves the scene: it has escaped_radiance().
 template <typename L>
 concept FillsSky = requires(const L& light,
                             const Vec3T<typename L::Scalar>& direction) {
@@ -179,7 +172,7 @@ concept FillsSky = requires(const L& light,
 
 namespace detail {
 
-/// The hooks of a type of light.
+/// The optional functions of a type of light.
 template <Light L>
 [[nodiscard]] constexpr auto light_hooks() noexcept {
     using T = typename L::Scalar;
@@ -203,8 +196,8 @@ template <Light L>
 // clang-format on
 }
 
-/// The cone that holds all that a point of a light sends; every direction for a light
-/// without an emission_cone().
+/// The cone of all directions into which a point of a light emits; all directions for a
+/// light without emission_cone().
 template <typename L, typename Point>
 [[nodiscard]] ConeT<typename L::Scalar> cone_of_emission(const L& light,
                                                          const Point& point) {
@@ -214,24 +207,19 @@ template <typename L, typename Point>
         return {};
 }
 
-/// The position of a point of a light.
+/// The position of a point of a light, on a surface or not.
 template <std::floating_point T>
 [[nodiscard]] const Vec3T<T>& position_of(const SurfacePointT<T>& point) noexcept {
     return point.position;
 }
-/// Of a point that lies on no surface.
+/// \copydoc position_of
 template <std::floating_point T>
 [[nodiscard]] const Vec3T<T>& position_of(const Vec3T<T>& point) noexcept {
     return point;
 }
 
-/// A ray of a light from afar, through a disc, from the plane where the scene begins.
-/// \param around     The sphere around the scene.
-/// \param direction  Unit, the way the light travels.
-/// \param center     Of the disc.
-/// \param radius     Of the disc.
-/// \param u          Point of the unit square: where in the disc.
-/// \return The ray.
+/// A ray of a distant light through a disc; it starts on a plane outside the scene.
+/// \param u          Point of the unit square; chooses the point of the disc.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> ray_from_afar(const SphereT<T>& around, const Vec3T<T>& direction,
                                     const Vec3T<T>& center, T radius,
@@ -243,7 +231,7 @@ template <std::floating_point T>
             .direction = direction};
 }
 
-/// The area of the disc that a sphere throws as its shadow.
+/// The area of the disc that a sphere casts as its shadow.
 template <std::floating_point T>
 [[nodiscard]] constexpr T disc_area(T radius) noexcept {
     return std::numbers::pi_v<T> * radius * radius;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/lights/point_light.hpp
-/// \brief A light without a size.
+/// \brief A point light.
 
 #include "ljus/lights/light.hpp"
 
@@ -10,19 +10,19 @@ namespace ljus {
 /// \addtogroup light
 /// \{
 
-/// A light without a size: it cannot be seen, and its shadows are hard.
+/// A light without extent: it cannot be seen, and its shadows are hard.
 template <std::floating_point T>
 struct PointLightT {
     using Scalar = T;        ///< The precision.
     Vec3T<T> position{T(0)}; ///< In scene units.
-    RgbT<T> intensity{T(1)}; ///< W/sr, the same in every direction.
+    RgbT<T> intensity{T(1)}; ///< W/sr, equal in all directions.
 };
 using PointLight = PointLightT<float>; ///< PointLightT in float.
 
 /// \name A point light
 /// \{
 
-/// Refuses a light that no picture can be made with.
+/// Refuses an invalid light.
 /// \throws std::invalid_argument  if the position is not finite, or the intensity
 ///         negative or not finite.
 template <std::floating_point T>
@@ -31,16 +31,14 @@ void check(const PointLightT<T>& light) {
     require_radiance("point light.intensity", light.intensity);
 }
 
-/// \return 4 pi I, in W.
+/// The flux: 4 pi I, in W.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> power(const PointLightT<T>& light) noexcept {
     return T(4) * std::numbers::pi_v<T> * light.intensity;
 }
 
-/// Samples the light, for a shadow ray.
-/// \param light  The light.
-/// \param from   The lit point.
-/// \return I / distance^2, and the density 0; nothing at the light itself.
+/// Samples the light for a shadow ray from a point.
+/// \return I / distance^2 with the density 0; nothing at the light itself.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const PointLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>& /*u*/,
@@ -49,25 +47,21 @@ sample_light(const PointLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>& 
                                 [&](const Vec3T<T>&) { return light.intensity; });
 }
 
-/// Where its photons start.
+/// The origin of its photons.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> emission_point(const PointLightT<T>& light, const Vec2T<T>&,
                                       T) noexcept {
     return light.position;
 }
 
-/// The direction of a photon.
-/// \param u  Point of the unit square.
-/// \return Unit vector, uniform over the sphere.
+/// Samples the unit direction of a photon, uniformly over the sphere.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_emission(const PointLightT<T>&, const Vec3T<T>&,
                                        const Vec2T<T>& u) noexcept {
     return sample_uniform_sphere(u);
 }
 
-/// The density of sample_emission().
-/// \param wo  Unit direction away from the light.
-/// \return 1 / (4 pi) per steradian.
+/// The density of sample_emission(): 1 / (4 pi) per steradian.
 template <std::floating_point T>
 [[nodiscard]] T pdf_emission(const PointLightT<T>&, const Vec3T<T>&,
                              const Vec3T<T>& wo) noexcept {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/lights/spot_light.hpp
-/// \brief A light without a size that shines into a cone.
+/// \brief A point light that shines into a cone.
 
 #include "ljus/lights/light.hpp"
 
@@ -10,25 +10,25 @@ namespace ljus {
 /// \addtogroup light
 /// \{
 
-/// A lamp without a size that shines into a cone: evenly up to an inner angle, and from
-/// there less and less, in proportion to the cosine, until it is dark at the outer one.
+/// A light without extent that shines into a cone. Its intensity is constant up to an
+/// inner angle, and then falls linearly in the cosine to 0 at an outer angle.
 template <std::floating_point T>
 struct SpotLightT {
     using Scalar = T;             ///< The precision.
     Vec3T<T> position{T(0)};      ///< In scene units.
-    Vec3T<T> direction{0, -1, 0}; ///< Where it shines to; of any length but 0.
+    Vec3T<T> direction{0, -1, 0}; ///< Axis of the cone; any length but 0.
     RgbT<T> intensity{T(1)};      ///< W/sr within the inner cone.
-    T inner_degrees = T(20);      ///< Half angle of the even part.
-    T outer_degrees = T(30);      ///< Half angle of it all, up to 180.
+    T inner_degrees = T(20);      ///< Half angle of the constant part.
+    T outer_degrees = T(30);      ///< Half angle of the cone, up to 180.
 };
 using SpotLight = SpotLightT<float>; ///< SpotLightT in float.
 
-/// A spot light within a scene.
+/// A spot light as its scene stores it.
 template <std::floating_point T>
 struct SpotInSceneT {
     using Scalar = T;         ///< The precision.
     Vec3T<T> position{T(0)};  ///< In scene units.
-    Vec3T<T> direction{T(0)}; ///< Unit; where it shines to.
+    Vec3T<T> direction{T(0)}; ///< Unit; axis of the cone.
     RgbT<T> intensity{T(0)};  ///< W/sr within the inner cone.
     T inner = T(0);           ///< 1 - cos of the inner angle.
     T outer = T(0);           ///< 1 - cos of the outer angle.
@@ -37,7 +37,7 @@ struct SpotInSceneT {
 /// \name A spot light
 /// \{
 
-/// Refuses a light that no picture can be made with.
+/// Refuses an invalid light.
 /// \throws std::invalid_argument  if a vector is not finite, the direction 0, the
 ///         intensity negative, or an angle out of range.
 template <std::floating_point T>
@@ -52,11 +52,11 @@ void check(const SpotLightT<T>& light) {
     (void)detail::unit_along("spot light.direction", light.direction);
 }
 
-/// The spot light within a scene: its direction of unit length, its angles as 1 - cos.
-/// \param light  The light, checked.
+/// Prepares a checked spot light for its scene: normalises its direction and computes
+/// 1 - cos of its angles.
 template <std::floating_point T>
 [[nodiscard]] SpotInSceneT<T> in_scene(const SpotLightT<T>& light, const SphereT<T>&) {
-    const auto one_minus_cos = [](T degrees) { // by the half angle: no cancellation
+    const auto one_minus_cos = [](T degrees) { // by the half angle: accurate
         const T sine = std::sin(degrees * (std::numbers::pi_v<T> / T(360)));
         return T(2) * sine * sine;
     };
@@ -67,9 +67,9 @@ template <std::floating_point T>
             .outer = one_minus_cos(light.outer_degrees)};
 }
 
-/// With w = 1 - cos, the flux is \f$ 2\pi I \f$ times the area below a curve that is 1
-/// up to the inner w and falls to 0 at the outer one.
-/// \return \f$ \pi I (w_i + w_o) \f$, in W.
+/// The flux: \f$ \pi I (w_i + w_o) \f$, in W, with w = 1 - cos. It is \f$ 2\pi I \f$
+/// times the area below a curve that is 1 up to the inner w and falls to 0 at the outer
+/// one.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> power(const SpotInSceneT<T>& light) noexcept {
     return std::numbers::pi_v<T> * (light.inner + light.outer) * light.intensity;
@@ -78,21 +78,18 @@ template <std::floating_point T>
 namespace detail {
 
 /// The fall-off: the factor of the intensity in a direction.
-/// \param light  The spot light.
 /// \param wo     Unit direction away from it.
-/// \return 1 within the inner cone, 0 outside of the outer one.
+/// \return 1 within the inner cone, 0 outside the outer one.
 template <std::floating_point T>
 [[nodiscard]] T fall_off(const SpotInSceneT<T>& light, const Vec3T<T>& wo) noexcept {
-    // As |a - b|^2 / 2, which keeps the digits of a narrow cone; 1 - cos would not.
+    // 1 - cos as |a - b|^2 / 2, which is accurate for narrow cones.
     const Vec3T<T> apart = wo - light.direction;
     const T w = glm::dot(apart, apart) / T(2);
     if (w <= light.inner) return T(1);
     return w < light.outer ? (light.outer - w) / (light.outer - light.inner) : T(0);
 }
 
-/// 1 - cos of the angle of a photon from the axis, with the density of the intensity:
-/// even up to `inner`, then falling to 0 at `outer`.
-/// \param light  The spot light.
+/// Samples 1 - cos of a photon's angle to the axis, with the density of the intensity.
 /// \param u      In [0, 1).
 /// \return Within [0, outer].
 // [sample_spot]
@@ -107,10 +104,8 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Samples the light, for a shadow ray.
-/// \param light  The light.
-/// \param from   The lit point.
-/// \return Intensity / distance^2, and the density 0; nothing outside of the cone.
+/// Samples the light for a shadow ray from a point.
+/// \return Intensity / distance^2 with the density 0; nothing outside the cone.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const SpotInSceneT<T>& light, const Vec3T<T>& from, const Vec2T<T>& /*u*/,
@@ -120,17 +115,14 @@ sample_light(const SpotInSceneT<T>& light, const Vec3T<T>& from, const Vec2T<T>&
     });
 }
 
-/// Where its photons start.
+/// The origin of its photons.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> emission_point(const SpotInSceneT<T>& light, const Vec2T<T>&,
                                       T) noexcept {
     return light.position;
 }
 
-/// The direction of a photon, with the density of the intensity.
-/// \param light  The light.
-/// \param u      Point of the unit square.
-/// \return Unit vector within the outer cone.
+/// Samples the unit direction of a photon, with the density of the intensity.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_emission(const SpotInSceneT<T>& light, const Vec3T<T>&,
                                        const Vec2T<T>& u) noexcept {
@@ -139,10 +131,7 @@ template <std::floating_point T>
     return to_world(frame_around(light.direction), local);
 }
 
-/// The density of sample_emission(): intensity over flux.
-/// \param light  The light.
-/// \param wo     Unit direction away from it.
-/// \return Per steradian.
+/// The density of sample_emission(): intensity over flux, per steradian.
 template <std::floating_point T>
 [[nodiscard]] T pdf_emission(const SpotInSceneT<T>& light, const Vec3T<T>&,
                              const Vec3T<T>& wo) noexcept {
@@ -150,7 +139,7 @@ template <std::floating_point T>
            (light.inner + light.outer);
 }
 
-/// The cone that it shines into.
+/// The cone into which it shines.
 template <std::floating_point T>
 [[nodiscard]] detail::ConeT<T> emission_cone(const SpotInSceneT<T>& light,
                                              const Vec3T<T>&) noexcept {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/lights/sun_light.hpp
-/// \brief Light that comes from one direction only.
+/// \brief Light from a single direction.
 
 #include "ljus/lights/light.hpp"
 
@@ -10,30 +10,29 @@ namespace ljus {
 /// \addtogroup light
 /// \{
 
-/// Light that comes from one direction only, as from a sun far away. Its flux depends
-/// on what it shines on: it is what falls into the sphere around all shapes of its
-/// scene.
+/// Light from a single direction, as from a distant sun. Its flux is what falls into
+/// the sphere around all shapes of its scene.
 template <std::floating_point T>
 struct SunLightT {
     using Scalar = T;             ///< The precision.
-    Vec3T<T> direction{0, -1, 0}; ///< Where it shines to; of any length but 0.
-    RgbT<T> irradiance{T(1)};     ///< W/m^2 on a surface that faces it.
+    Vec3T<T> direction{0, -1, 0}; ///< Direction of travel; any length but 0.
+    RgbT<T> irradiance{T(1)};     ///< W/m^2 on a perpendicular surface.
 };
 using SunLight = SunLightT<float>; ///< SunLightT in float.
 
-/// A sun within a scene.
+/// A sun as its scene stores it.
 template <std::floating_point T>
 struct SunInSceneT {
     using Scalar = T;         ///< The precision.
-    Vec3T<T> direction{T(0)}; ///< Unit; where it shines to.
-    RgbT<T> irradiance{T(0)}; ///< W/m^2 on a surface that faces it.
+    Vec3T<T> direction{T(0)}; ///< Unit direction of travel.
+    RgbT<T> irradiance{T(0)}; ///< W/m^2 on a perpendicular surface.
     SphereT<T> around{};      ///< The sphere around the scene.
 };
 
 /// \name A sun
 /// \{
 
-/// Refuses a light that no picture can be made with.
+/// Refuses an invalid light.
 /// \throws std::invalid_argument  if the direction is 0 or not finite, or the
 ///         irradiance negative or not finite.
 template <std::floating_point T>
@@ -42,9 +41,7 @@ void check(const SunLightT<T>& light) {
     (void)detail::unit_along("sun light.direction", light.direction);
 }
 
-/// The sun within a scene.
-/// \param light   The light, checked.
-/// \param around  The sphere around the scene.
+/// Prepares a checked sun for its scene.
 template <std::floating_point T>
 [[nodiscard]] SunInSceneT<T> in_scene(const SunLightT<T>& light,
                                       const SphereT<T>& around) {
@@ -53,17 +50,17 @@ template <std::floating_point T>
             .around = around};
 }
 
-/// \return E pi R^2, in W: what falls into the sphere around the scene.
+/// The flux into the sphere around the scene: E pi R^2, in W.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> power(const SunInSceneT<T>& light) noexcept {
     return detail::disc_area(light.around.radius) * light.irradiance;
 }
 
-/// Samples the light, for a shadow ray, which ends where photons start: on a plane
-/// beside the scene.
+/// Samples the light for a shadow ray, which ends on the plane outside the scene where
+/// photons start.
 /// \param light  The light.
 /// \param from   The lit point, within the sphere around the scene.
-/// \return The irradiance, and the density 0.
+/// \return The irradiance with the density 0.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const SunInSceneT<T>& light, const Vec3T<T>& from, const Vec2T<T>& /*u*/,
@@ -76,7 +73,7 @@ sample_light(const SunInSceneT<T>& light, const Vec3T<T>& from, const Vec2T<T>& 
                            .weight = light.irradiance};
 }
 
-/// The direction and the irradiance of its photons: always the same.
+/// The direction and the irradiance of its photons, which are constant.
 template <std::floating_point T>
 [[nodiscard]] ArrivalT<T> sample_arrival(const SunInSceneT<T>& light,
                                          const Vec2T<T>&) noexcept {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/path/all_lights.hpp
-/// \brief The direct light of all lights at a vertex, in three ways.
+/// \brief The direct light of all lights at a vertex, by one of three methods.
 
 #include <cmath>
 #include <optional>
@@ -16,31 +16,27 @@ namespace ljus {
 /// \addtogroup direct_light
 /// \{
 
-/// How the direct light of a surface is found. All three have the same mean, but for
-/// the bias of the closed form in penumbrae.
+/// Methods for the direct light of a surface. They have the same mean, except for the
+/// bias of the closed form in penumbrae.
 enum class DirectLight : std::uint8_t {
     sampled,  ///< Shadow rays alone.
-    analytic, ///< On a Lambertian surface the closed form of a lamp's light, of which
-              ///< shadow rays tell the visible share, or shadow rays alone if there is
-              ///< none; on any other surface as mis.
-    mis ///< Shadow rays, and a ray in a direction that the material samples: each with
-        ///< its weight of multiple importance sampling. For lamps that are walls.
+    analytic, ///< On Lambertian surfaces, a lamp's closed form times the fraction that
+              ///< shadow rays find visible; shadow rays alone if there is no closed
+              ///< form. On other surfaces the same as mis.
+    mis ///< Shadow rays and a ray sampled by the material, with the weights of multiple
+        ///< importance sampling. For lamps as large as walls.
 };
 
 namespace detail {
 
-/// A lamp of which it is known how much of the hemisphere over a vertex it fills.
+/// A lamp whose form factor at a vertex is known.
 template <std::floating_point T>
 struct SeenLampT {
-    T form_factor = T(0);   ///< For the side of `wo`.
+    T form_factor = T(0);   ///< On the side of `wo`.
     RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
 };
 
-/// How much of the hemisphere over a vertex a light fills, if that is known in closed
-/// form.
-/// \param world   The closed scene.
-/// \param light   The number of one of its lights.
-/// \param vertex  The surface.
+/// The form factor and the radiance of a light at a vertex.
 /// \return The lamp; nothing for lights without a form_factor().
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<SeenLampT<T>> seen_lamp(const W& world, std::uint32_t light,
@@ -56,24 +52,16 @@ template <AnyWorld W, std::floating_point T>
         });
 }
 
-/// The light of one lamp at a Lambertian surface: what would come if nothing stood in
-/// the way, in closed form, times the share of it that shadow rays find visible,
+/// The light of one lamp at a Lambertian surface: its unoccluded light in closed form,
+/// times the fraction of it that shadow rays find visible,
 ///
 /// \f[ \varrho\,L_e\,F \cdot \frac{\sum_i f_i V_i}{\sum_i f_i} \f]
 ///
-/// with \f$f_i\f$ the light of the i-th sample. Where all of the lamp is seen, or
-/// nothing of it, there is no noise. In a penumbra a quotient of two random sums is
-/// biased, by the order of the variance of \f$f\f$ over the number of rays.
-/// \param world     The closed scene.
-/// \param light     The number of one of its lights.
-/// \param lamp      seen_lamp() of it.
-/// \param vertex    The surface.
-/// \param material  What it is made of.
-/// \param rays      Shadow rays, at least 1.
-/// \param place     Called as place(i) for the point of the unit square that the i-th
-///                  of them asks.
-/// \param counts    Counts the rays.
-/// \param verdict   What is known of the lamp before a ray is cast.
+/// with \f$f_i\f$ the light of the i-th sample. If all of the lamp is visible, or none
+/// of it, there is no noise. In a penumbra the ratio of two random sums has a bias of
+/// the order of the variance of \f$f\f$ over the number of rays.
+/// \param rays      Number of shadow rays, at least 1.
+/// \param place     Called as place(i) for the i-th sample's point of the unit square.
 /// \return Radiance towards wo.
 /// \cite heitz2018shadows
 // [analytic_light]
@@ -97,13 +85,10 @@ analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
 }
 // [analytic_light]
 
-/// The light of lamps and of the sky that a ray meets whose direction the material
-/// samples, with the weight that the shadow rays leave it. It is a path of its own:
-/// anything else that it meets adds nothing.
-/// \param world     The closed scene.
-/// \param vertex    The surface.
-/// \param material  What it is made of.
-/// \param rays      Shadow rays to each light.
+/// The emission that a ray sampled by the material finds, of lamps and of the sky, with
+/// its weight of multiple importance sampling. The ray ends there; it carries no other
+/// light.
+/// \param rays      Shadow rays per light.
 /// \param context   Three numbers are drawn; the ray is counted.
 /// \return Radiance towards wo.
 // [found_light]
@@ -120,7 +105,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
                        .medium_known = true,
                        .depth = 1,
                        .branch = std::uint64_t(1) << 44};
-    auto numbers = context.stream; // next_vertex() moves them to the ray's own place
+    auto numbers = context.stream; // next_vertex() moves the copy
     ++context.counts.shadow_rays;
     const auto lamp = next_vertex(world, path, numbers);
     const auto share = [&](T pdf) {
@@ -141,9 +126,9 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
 }
 // [found_light]
 
-/// Knows nothing of any light: every shadow ray is cast.
+/// Unknown visibility of all lights: every shadow ray is cast.
 struct NoVerdicts {
-    /// Of the light with this number.
+    /// Verdict::unknown for every light.
     constexpr Verdict operator()(std::size_t) const noexcept {
         return Verdict::unknown;
     }
@@ -151,23 +136,22 @@ struct NoVerdicts {
 
 } // namespace detail
 
-/// How the direct light of a surface is found: in which of the three ways, and by how
-/// many rays.
+/// Method and number of rays for direct light.
 struct DirectLightSettings {
-    DirectLight how = DirectLight::sampled; ///< In which of the three ways.
-    int rays = 1;                           ///< Shadow rays to each light, at least 1.
+    DirectLight how = DirectLight::sampled; ///< The method.
+    int rays = 1;                           ///< Shadow rays per light, at least 1.
 };
 
 /// The light of all lights at a surface.
 /// \param world     The closed scene.
 /// \param vertex    The surface.
-/// \param material  What it is made of.
-/// \param settings  How; with n rays each light has as many cells.
-/// \param context   Two numbers are drawn per light: the position in the cells, the
-///                  same in all. The rays of a pixel share out a cell as they would
-///                  share out the light. Rays are counted; in shadow, as many as would
-///                  have been cast if the surface faces all of the light.
-/// \param verdicts  Called with a light's number: what is known of it here.
+/// \param material  Its material.
+/// \param settings  Method and rays. n rays divide each light into n cells.
+/// \param context   Draws two numbers per light: the position in its cells, the same in
+///                  all of them; the rays of a pixel stratify a cell. Rays are counted.
+///                  In shadow as many are counted as for a surface that faces the whole
+///                  light.
+/// \param verdicts  Called with a light's index; returns its known visibility.
 /// \return Radiance towards wo.
 /// \report{Section 3.2.3}
 // [sample_all_lights]
@@ -195,7 +179,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
             context.counts.skipped_rays += std::uint64_t(rays);
             continue;
         }
-        const auto place = [&](int i) { // a single ray needs no cells
+        const auto place = [&](int i) { // one ray needs no cells
             if (settings.rays == 1) return u;
             const std::uint64_t key =
                 context.stream.key + std::uint32_t(u.x * T(0x1p24));

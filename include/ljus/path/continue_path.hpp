@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/path/continue_path.hpp
-/// \brief How a path goes on from a vertex, be it radiance or flux.
+/// \brief How a path continues from a vertex, with radiance or flux.
 
 #include "ljus/math/random.hpp"
 #include "ljus/path/next_vertex.hpp"
@@ -12,40 +12,40 @@ namespace ljus {
 /// \defgroup continue_path Continuing a path
 /// \brief Section 3.2.4: reflected, refracted and indirect rays.
 ///
-/// A surface may have two normals, its own and the one it is shaded with, as where
-/// smooth normals meet flat triangles \cite veach1997. The geometric normal decides the
-/// side of every direction, the shading normal turns the frame of the material. Where
-/// they disagree about a direction:
+/// A surface may have two normals, as where smooth normals meet flat triangles
+/// \cite veach1997. The geometric normal decides the side of every direction; the
+/// shading normal sets the frame of the material. Where they disagree about the side of
+/// a direction:
 ///
-/// | direction                        | rule                                         |
-/// |----------------------------------|----------------------------------------------|
-/// | a camera path comes from         | the frame is around the geometric normal     |
-/// | a photon comes from              | the same; diffuse parts absorb it            |
-/// | of a shadow ray, a photon's mark | no light                                     |
-/// | sampled, of a mirror or of glass | sampled again, around the geometric normal   |
-/// | sampled, of any other part       | the path ends                                |
+/// | direction                        | rule                                          |
+/// |----------------------------------|-----------------------------------------------|
+/// | wo of a camera path              | the frame is around the geometric normal      |
+/// | wo of a photon                   | the same; non-specular lobes absorb it        |
+/// | of a shadow ray, a stored photon | no light                                      |
+/// | sampled, of a mirror or of glass | sampled again, around the geometric normal    |
+/// | sampled, of any other lobe       | the path ends                                 |
 /// \{
 
 /// A scattered direction.
 template <std::floating_point T>
 struct ScatteredT {
-    BsdfSampleT<T> sample{}; ///< In the frame; the z of `wi` tells the side.
+    BsdfSampleT<T> sample{}; ///< In the frame; z of `wi` gives the side.
     Vec3T<T> wi{T(0)};       ///< The direction in the world.
 };
 
-/// Samples a direction, with both normals of the surface kept in mind.
+/// Samples a direction and respects both normals of the surface.
 ///
-/// A photon's flux is multiplied by the factor of the adjoint,
+/// The flux of a photon is multiplied by the adjoint correction
 /// \f[ \frac{|\omega_o \cdot N_s|\,|\omega_i \cdot N_g|}
 ///          {|\omega_o \cdot N_g|\,|\omega_i \cdot N_s|} \f]
-/// (Veach's Eq. 5.19, \f$\omega_o\f$ to where the photon came from): without it, camera
-/// paths and photons do not see the same scene.
-/// \param vertex     Where.
-/// \param material   What the surface is made of there; see visit_material_at().
+/// (Veach's Eq. 5.19; \f$\omega_o\f$ points back along the photon's path). Without it,
+/// camera paths and photons would see different scenes.
+/// \param vertex     The surface.
+/// \param material   Its material at the vertex; see visit_material_at().
 /// \param u          Point of [0,1)^3.
 /// \param transport  What the path carries.
-/// \param which      The parts to sample from.
-/// \return The direction; nothing if the path ends here.
+/// \param which      The lobes to sample.
+/// \return The direction; nothing if the path ends.
 /// \cite veach1997
 // [scatter]
 template <std::floating_point T, Material M>
@@ -78,12 +78,9 @@ scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
 
 namespace detail {
 
-/// Continues a path in a direction that is known.
-/// \param path      Gets its new ray, throughput and medium.
-/// \param vertex    Where it is.
-/// \param material  What the surface is made of.
-/// \param next      The direction, its weight, its density.
-/// \param wi        The same direction in the world.
+/// Continues a path in a given direction.
+/// \param path      Receives its new ray, throughput and medium.
+/// \param wi        The direction in the world.
 template <std::floating_point T, Material M>
 void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
             const BsdfSampleT<T>& next, const Vec3T<T>& wi) noexcept {
@@ -91,7 +88,7 @@ void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
     if (vertex.stop_probability < T(1)) path.throughput /= vertex.stop_probability;
     path.eta_scale *= next.eta_scale;
     path.medium = medium_beyond(path.medium, material, vertex.wo, next.wi);
-    if constexpr (MayAbsorb<M>) // who comes out may be in another body
+    if constexpr (MayAbsorb<M>) // it may leave into another body
         path.medium_known = !(vertex.wo.z < T(0) && next.wi.z > T(0));
     path.previous = vertex.point.position;
     path.pdf = next.pdf;
@@ -102,21 +99,21 @@ void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
 
 } // namespace detail
 
-/// Continues a path in a direction that the material samples.
-/// \param path       Gets its new ray, throughput and medium.
-/// \param vertex     Where it is.
-/// \param material   What the surface is made of.
-/// \param transport  What the path carries: radiance from the camera, or flux.
-/// \param which      The lobes to sample from.
+/// Continues a path in a direction sampled by the material.
+/// \param path       Receives its new ray, throughput and medium.
+/// \param vertex     The vertex.
+/// \param material   Its material.
+/// \param transport  Radiance from the camera, or flux.
+/// \param which      The lobes to sample.
 /// \param stream     Three numbers are drawn.
-/// \return False if the path ends here: its light is absorbed.
+/// \return False if the path ends because its light is absorbed.
 /// \report{Section 3.2.4}
 template <std::floating_point T, Material M, StreamLike Stream>
 [[nodiscard]] bool continue_path(PathStateT<T>& path, const VertexT<T>& vertex,
                                  const M& material, Transport transport, Lobes which,
                                  Stream& stream) {
     const Vec3T<T> u = next_3d<T>(stream);
-    if (!vertex.smooth) { // as scatter() does it, without its copies
+    if (!vertex.smooth) { // as scatter(), without copies
         const auto next = sample(material, vertex.wo, u, transport, which);
         if (!next) return false;
         detail::follow(path, vertex, material, *next, to_world(vertex.frame, next->wi));
@@ -128,13 +125,9 @@ template <std::floating_point T, Material M, StreamLike Stream>
     return true;
 }
 
-/// Continues a camera path both ways at a boundary: the path itself is reflected, a
-/// copy of it refracted.
-/// \param path      The path.
-/// \param vertex    Where it is.
-/// \param material  What the surface is made of.
-/// \return The copy, with random numbers of its own; nothing, and the path as it was,
-///         where there is one way only.
+/// Splits a camera path at a boundary: the path is reflected, a copy of it refracted.
+/// \return The copy, with its own random numbers; nothing if there is only one
+///         direction, and then the path is unchanged.
 /// \report{Section 3.2.5}
 template <std::floating_point T, Material M>
 [[nodiscard]] std::optional<PathStateT<T>>
@@ -144,7 +137,8 @@ split_path(PathStateT<T>& path, const VertexT<T>& vertex, const M& material) {
         if (!both || vertex.smooth) return std::nullopt;
         const auto& [reflected, refracted] = *both;
         PathStateT<T> other = path;
-        // A path splits once per depth: its place in the tree is a bit for each.
+        // A path splits at most once per depth; one bit per depth identifies the
+        // branch.
         other.branch += std::uint64_t(1) << (16 + path.depth % 32);
         detail::follow(other, vertex, material, refracted,
                        to_world(vertex.frame, refracted.wi));

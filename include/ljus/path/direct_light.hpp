@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/path/direct_light.hpp
-/// \brief Light that comes straight from a light: shadow rays.
+/// \brief Direct light by shadow rays.
 
 #include "ljus/path/next_vertex.hpp"
 #include "ljus/path/renderer.hpp"
@@ -12,73 +12,63 @@ namespace ljus {
 /// \brief Section 3.2.3: a shadow ray toward each light source.
 /// \{
 
-/// What is known of the way from a surface to a light before a ray is cast.
+/// The known visibility of a light from a surface, before a ray is cast.
 enum class Verdict : std::uint8_t {
-    unknown, ///< Nothing: a shadow ray finds V.
-    lit,     ///< Nothing stands in the way: V = 1.
-    shadow   ///< All of the light is hidden: V = 0.
+    unknown, ///< A shadow ray must find V.
+    lit,     ///< Unoccluded: V = 1.
+    shadow   ///< Fully occluded: V = 0.
 };
 
-/// How light that both a shadow ray and a scattered ray can find is divided between the
-/// two: the weights of multiple importance sampling \cite veach1997.
+/// Weights of multiple importance sampling \cite veach1997. They divide light that both
+/// a shadow ray and a scattered ray can find between the two.
 enum class MisHeuristic : std::uint8_t {
-    balance,    ///< In proportion to each one's pdf.
-    power,      ///< In proportion to the square of the pdf.
-    shadow_rays ///< All to the shadow ray: next-event estimation alone.
+    balance,    ///< Proportional to the pdf.
+    power,      ///< Proportional to the square of the pdf.
+    shadow_rays ///< The shadow ray takes all: next-event estimation alone.
 };
 
-/// The balance heuristic: the share of one of two strategies that could have made the
-/// same sample \cite veach1997.
-/// \param pdf    Of the strategy that did.
-/// \param other  Of the one that could have.
+/// The balance heuristic: the weight of the first of two strategies that could have
+/// made the same sample \cite veach1997.
+/// \param pdf    The strategy that made it.
+/// \param other  The other strategy.
 /// \return In [0, 1].
 // [heuristics]
 template <std::floating_point T>
 [[nodiscard]] constexpr T balance_heuristic(T pdf, T other) noexcept {
-    // Not pdf / (pdf + other), which is NaN for two infinities.
+    // pdf / (pdf + other) would be NaN for two infinities.
     return pdf > other ? T(1) / (T(1) + other / pdf)
                        : pdf / other / (T(1) + pdf / other);
 }
 
-/// The power heuristic: the same by the squares of the densities, so that the surer of
-/// the two is believed even more \cite veach1995.
-/// \param pdf    Of the strategy that did.
-/// \param other  Of the one that could have.
-/// \return In [0, 1].
+/// The power heuristic: as balance_heuristic(), with squared densities, which favours
+/// the better of the two strategies \cite veach1995.
 template <std::floating_point T>
 [[nodiscard]] constexpr T power_heuristic(T pdf, T other) noexcept {
-    // Squares of quotients, for the squares of densities overflow.
+    // The square of a ratio does not overflow.
     const T q = pdf > other ? other / pdf : pdf / other;
     return (pdf > other ? T(1) : q * q) / (T(1) + q * q);
 }
 // [heuristics]
 
-/// The weight of one of two strategies.
-/// \param heuristic  balance or power.
-/// \param pdf        Of the strategy that made the sample.
-/// \param other      Of the one that could have.
-/// \return In [0, 1].
+/// The weight of the first of two strategies by a heuristic, balance or power; in
+/// [0, 1].
 template <std::floating_point T>
 [[nodiscard]] constexpr T mis_weight(MisHeuristic heuristic, T pdf, T other) noexcept {
     return heuristic == MisHeuristic::power ? power_heuristic(pdf, other)
                                             : balance_heuristic(pdf, other);
 }
 
-/// How a shadow ray shares light with a scattered ray.
+/// The division of light between a shadow ray and a scattered ray.
 template <std::floating_point T>
 struct MisT {
-    MisHeuristic heuristic = MisHeuristic::shadow_rays; ///< Which weights.
-    T factor = T(1); ///< Of the sample's pdf: how many shadow rays are cast, or the
-                     ///< probability that the light is chosen.
-    Lobes lobes = Lobes::all; ///< Those that the scattered ray is sampled from.
+    MisHeuristic heuristic = MisHeuristic::shadow_rays; ///< Method.
+    T factor = T(1); ///< Of the sample's pdf: the number of shadow rays, or the
+                     ///< probability of choosing the light.
+    Lobes lobes = Lobes::all; ///< Those that the scattered ray samples.
 };
 
-/// The density with which a shadow ray to a lamp chooses the point of it that a path
-/// has met.
-/// \param world  The closed scene.
-/// \param from   Where the shadow ray would start.
-/// \param lamp   The point of the lamp.
-/// \return Per steradian, as seen from there.
+/// The density with which a shadow ray from `from` would choose the point of a lamp
+/// that a path hit; per steradian.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] T pdf_of_lamp_point(const W& world, const Vec3T<T>& from,
                                   const VertexT<T>& lamp) {
@@ -87,12 +77,11 @@ template <AnyWorld W, std::floating_point T>
     });
 }
 
-/// What a light fills the sky with, in one direction.
+/// The sky of one light, in one direction.
 template <std::floating_point T>
 struct SkyT {
     RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
-    T pdf = T(0); ///< With which a shadow ray to it chooses the direction, per
-                  ///< steradian.
+    T pdf = T(0); ///< Density of the direction for a shadow ray to it, per steradian.
 };
 
 namespace detail {
@@ -103,11 +92,8 @@ inline constexpr bool has_sky = W::any_light([]<typename L>() { return FillsSky<
 
 } // namespace detail
 
-/// What a ray that leaves the scene sees of one light.
-/// \param world      The closed scene.
-/// \param light      The number of the light.
-/// \param direction  Of the ray, unit.
-/// \return Black for a light that does not fill the sky.
+/// The sky of one light, as seen by a ray that leaves the scene in a unit direction. It
+/// is black for a light that does not fill the sky.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] SkyT<T> sky_of(const W& world, std::uint32_t light,
                              const Vec3T<T>& direction) {
@@ -119,11 +105,9 @@ template <AnyWorld W, std::floating_point T>
     });
 }
 
-/// The radiance that a ray sees which leaves the scene: of all lights that fill the
-/// sky. Nothing is compiled where no such type is listed.
-/// \param world      The closed scene.
-/// \param direction  Of the ray, unit.
-/// \return W/(m^2 sr).
+/// The radiance of the sky, W/(m^2 sr), summed over all lights, for a ray that leaves
+/// the scene in a unit direction. It costs nothing for a scene that lists no such
+/// light.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> sky_radiance(const W& world, const Vec3T<T>& direction) {
     RgbT<T> sum{T(0)};
@@ -135,14 +119,14 @@ template <AnyWorld W, std::floating_point T>
 
 namespace detail {
 
-/// The light of one point of a light: as it is sent, and what of it arrives.
+/// The light of one sampled point of a light, without and with occlusion.
 template <std::floating_point T>
 struct LightShareT {
-    RgbT<T> sent{T(0)};    ///< If nothing lay between.
-    RgbT<T> arrived{T(0)}; ///< Less what the medium and all objects between take.
+    RgbT<T> sent{T(0)};    ///< Unoccluded.
+    RgbT<T> arrived{T(0)}; ///< After occlusion and absorption.
 };
 
-/// What direct_light() returns, and what it would return if nothing lay between.
+/// The result of direct_light(), and its value without occlusion.
 template <AnyWorld W, std::floating_point T, Material M>
 [[nodiscard]] LightShareT<T> light_share(const W& world, std::uint32_t light,
                                          const VertexT<T>& vertex, const M& material,
@@ -180,16 +164,16 @@ template <AnyWorld W, std::floating_point T, Material M>
 
 } // namespace detail
 
-/// The light of one light at a surface, by one shadow ray to one point of it:
+/// The light of one light at a surface, by one shadow ray:
 /// \f$ f\,|\cos|\,L_e\,V / p \f$.
 /// \param world     The closed scene.
-/// \param light     The number of one of its lights.
+/// \param light     The index of the light.
 /// \param vertex    The surface.
-/// \param material  What it is made of.
-/// \param u         Point of the unit square: which point of the light.
-/// \param mis       What of the light is left to a scattered ray.
-/// \param counts    Counts the ray; none is cast where the surface cannot reflect.
-/// \param verdict   With Verdict::lit no ray is cast, and V = 1.
+/// \param material  Its material.
+/// \param u         Point of the unit square; chooses the point of the light.
+/// \param mis       The weight that a scattered ray takes.
+/// \param counts    Counts the ray; none is cast if the surface cannot reflect.
+/// \param verdict   The known visibility; Verdict::lit casts no ray.
 /// \return Radiance towards wo.
 /// \report{Section 3.2.3}
 /// \erratum{The report's program divides the sum over the lights by their number, so
@@ -204,12 +188,12 @@ template <AnyWorld W, std::floating_point T, Material M>
 }
 
 /// The light of one light, chosen by power, at a vertex of a path: by a shadow ray,
-/// with the weight that it leaves to the path itself.
+/// with its weight of multiple importance sampling.
 /// \param world      The closed scene, with at least one light.
 /// \param path       The path.
 /// \param vertex     The surface.
-/// \param material   What it is made of.
-/// \param heuristic  How the light is shared with the path.
+/// \param material   Its material.
+/// \param heuristic  The weights.
 /// \param context    Three numbers are drawn; the ray is counted.
 /// \return Throughput times radiance times the weight.
 /// \report{Section 3.2.3}

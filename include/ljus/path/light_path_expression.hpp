@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/path/light_path_expression.hpp
-/// \brief Sets of light paths, written in Heckbert's letters: E S*D?L.
+/// \brief Sets of light paths, written in Heckbert's notation: E S*D?L.
 
 #include <array>
 #include <bit>
@@ -15,25 +15,24 @@
 namespace ljus {
 
 /// \defgroup light_path_expression Classes of light paths
-/// \brief Eq. 1 is a sum over paths; a renderer is known by those it leaves out.
-/// Chapter: \ref ch_light_transport.
+/// \brief Eq. 1 is a sum over paths; a renderer is characterised by those it leaves
+/// out. Chapter: \ref ch_light_transport.
 ///
-/// A path is a word: E the eye, D a diffuse or a glossy surface, S a mirror or a
-/// boundary of glass, L the light. A class of paths is a regular expression over these
-/// letters, after Heckbert \cite heckbert1990, who writes from the light to the eye.
+/// A path is a word: E is the eye, D a diffuse or glossy surface, S a mirror or a
+/// boundary of glass, and L the light. A class of paths is a regular expression over
+/// these letters, from the eye to the light; Heckbert \cite heckbert1990 writes them in
+/// the opposite order.
 /// \{
 
-/// A class of paths, ready to be asked: the automaton of Glushkov, in which each letter
-/// of the expression is a state and a bit.
+/// A compiled class of paths: Glushkov's automaton, in which each letter of the
+/// expression is a state and a bit.
 struct LightPathExpression {
-    std::array<std::uint64_t, 64> follow{}; ///< What may come after each; 0 begins.
-    std::array<char, 64> letter{};          ///< Of each state: E, D, S, L or '.'.
-    std::uint64_t last = 0;                 ///< The states in which a path may end.
+    std::array<std::uint64_t, 64> follow{}; ///< Successors by state; 0: start.
+    std::array<char, 64> letter{}; ///< Letter of each state: E, D, S, L or '.'.
+    std::uint64_t last = 0;        ///< Accepting states.
 
-    /// The states after one more letter of a path.
-    /// \param states  A bit each.
-    /// \param next    E, D, S or L.
-    /// \return Those that are possible; none if the path is not in the class.
+    /// The possible states after one more letter of a path: E, D, S or L. There is one
+    /// bit per state; none is set if the path is not in the class.
     [[nodiscard]] constexpr std::uint64_t step(std::uint64_t states,
                                                char next) const noexcept {
         std::uint64_t possible = 0;
@@ -51,24 +50,23 @@ struct LightPathExpression {
 
 namespace detail {
 
-// Reads an expression from the left, and notes which letter may follow which.
+// Parses an expression, and records which letter may follow which.
 struct LightPathExpressionReader {
-    // A part of the expression: where it may begin and end, and whether it may be
-    // empty.
+    // A subexpression: its first and last states, and whether it may be empty.
     struct Part {
         std::uint64_t first = 0, last = 0;
         bool empty = true;
     };
     LightPathExpression& result;
     std::string_view expression, rest;
-    std::size_t letters = 0; // so far; state 0 is the beginning
+    std::size_t letters = 0; // so far; state 0 is the start
 
     [[noreturn]] void refuse(const char* what) const {
         const std::size_t place = expression.size() - rest.size();
         throw std::invalid_argument(
             std::string("The class of paths '").append(expression) + "' has " + what +
-            " at place " + std::to_string(place + 1) +
-            "; it is made of E, D, S, L, '.' for D or S, and | ( ) * + ?.");
+            " at position " + std::to_string(place + 1) +
+            "; it may contain E, D, S, L, '.' for D or S, and | ( ) * + ?.");
     }
     [[nodiscard]] constexpr bool at(std::string_view set) const {
         return !rest.empty() && set.find(rest.front()) != std::string_view::npos;
@@ -119,8 +117,8 @@ struct LightPathExpressionReader {
             take();
             return inside;
         }
-        if (!at("EDSL.")) refuse("something else");
-        if (++letters == 64) refuse("its 64th letter");
+        if (!at("EDSL.")) refuse("an unexpected character");
+        if (++letters == 64) refuse("more than 63 letters");
         result.letter[letters] = take();
         const std::uint64_t bit = std::uint64_t(1) << letters;
         return {bit, bit, false};
@@ -129,18 +127,17 @@ struct LightPathExpressionReader {
 
 } // namespace detail
 
-/// Makes a class of paths ready.
+/// Compiles a class of paths; constexpr if the result is.
 /// \param expression  As "ES*D?L": E, D, S, L, '.' for D or S, and | ( ) * + ? as
 ///                    usual; at most 63 letters.
-/// \return The class; the compiler makes it, if it is constexpr.
-/// \throws std::invalid_argument  for a text that is no such expression, with the place
-///         of the mistake.
+/// \throws std::invalid_argument  for an invalid expression, with the position of the
+///         error.
 [[nodiscard]] constexpr LightPathExpression
 light_path_expression(std::string_view expression) {
     LightPathExpression result;
     detail::LightPathExpressionReader reader{result, expression, expression};
     const auto whole = reader.alternatives();
-    if (!reader.rest.empty()) reader.refuse("a bracket that closes nothing");
+    if (!reader.rest.empty()) reader.refuse("an unmatched closing bracket");
     result.follow[0] = whole.first;
     result.last = whole.last | (whole.empty ? 1u : 0u);
     return result;
@@ -148,10 +145,7 @@ light_path_expression(std::string_view expression) {
 
 namespace detail {
 
-/// Whether a path belongs to a class.
-/// \param paths  The class.
-/// \param path   As "EDSSL".
-/// \return True if the whole path matches.
+/// Whether a whole path, as "EDSSL", belongs to a class.
 /// \cost A few bit operations per letter; no memory.
 // [contains]
 [[nodiscard]] constexpr bool contains(const LightPathExpression& paths,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/path/light_transport.hpp
-/// \brief Renderers that carry some of all light paths, and the g of Eq. 1.
+/// \brief Renderers that carry a subset of all light paths, and the g of Eq. 1.
 
 #include "ljus/path/light_path_expression.hpp"
 #include "ljus/path/renderer.hpp"
@@ -11,18 +11,13 @@
 namespace ljus {
 
 /// \defgroup light_transport Light transport
-/// \brief Section 2, Eq. 1: the rendering equation, and renderers that leave something
-/// of it out. Chapter: \ref ch_light_transport.
+/// \brief Section 2, Eq. 1: the rendering equation, and renderers that leave out some
+/// of its terms. Chapter: \ref ch_light_transport.
 /// \{
 
-/// The factor g of Eq. 1: what distance and other things leave of the light between two
-/// points.
-/// \param world  The closed scene.
-/// \param x      One point of a surface.
-/// \param other  Another one.
-/// \return 0 if something stands between them, glass too, or if they are the same
-///         point; else 1/r^2, per square of scene units. The same if they are
-///         exchanged.
+/// The factor g of Eq. 1: visibility over squared distance, between two points on
+/// surfaces. It is 0 if anything occludes one from the other, even glass, or if they
+/// coincide; otherwise 1/r^2, per squared scene unit. It is symmetric.
 /// \report{Eq. (1)}
 /// \erratum{The report has 1/r^2 only, so that no surface casts a shadow.}
 // [transport_factor]
@@ -38,25 +33,24 @@ template <AnyWorld W, std::floating_point T>
 
 namespace detail {
 
-/// A log that adds up the terms of one class of paths and forgets all others.
+/// A log that sums the terms of one class of paths.
 template <std::floating_point T>
 struct ExpressionLog {
-    const LightPathExpression& wanted; ///< Which paths.
-    RgbT<T> sum{T(0)};                 ///< Of their terms.
-    std::uint64_t states = 0;          ///< Where the path is in the expression.
+    const LightPathExpression& wanted; ///< The class.
+    RgbT<T> sum{T(0)};                 ///< Sum of its terms.
+    std::uint64_t states = 0;          ///< States of the current path.
 
-    /// A path begins, at the eye.
+    /// Starts a path at the eye.
     void begin() noexcept { states = wanted.step(1, 'E'); }
 
-    /// The path was scattered.
+    /// Adds the letter of a scattering.
     void vertex(char letter, const Vec3T<T>&, const RgbT<T>&, T) noexcept {
         states = wanted.step(states, letter);
     }
 
-    /// Radiance was added.
-    /// \param letters  From here to the light. Where a photon map answers for a whole
-    ///                 class at once, as "DS+L", its shortest path decides.
-    /// \param value    The radiance.
+    /// Adds radiance.
+    /// \param letters  From here to the light. If a photon map stands for a whole
+    ///                 class, as "DS+L", its shortest path decides.
     void term(std::string_view, std::string_view letters,
               const RgbT<T>& value) noexcept {
         std::uint64_t here = states;
@@ -70,24 +64,24 @@ struct ExpressionLog {
 
 } // namespace detail
 
-/// A renderer that carries only some of the paths of another one, which must outlive
-/// it. Expressions that share no path and together hold all of them give pictures that
-/// add up to the whole one: the random paths are the same, only what is added differs.
+/// A renderer that carries only some of the paths of another renderer, which must
+/// outlive it. Pictures of disjoint classes that together contain all paths add up to
+/// the whole picture: the random paths are the same, and only the sums differ.
 ///
 ///     render(OnlyPaths(tracer, "ES*DS+L"), camera, picture)
 template <typename R>
 class OnlyPaths {
 public:
-    using Stream = typename R::Stream; ///< The same numbers, so the same paths.
+    using Stream = typename R::Stream; ///< Same numbers, so the same paths.
 
-    /// \param whole    The renderer that does the work.
-    /// \param carried  Which of its paths count, as light_path_expression() takes it.
+    /// \param whole    The renderer that traces the paths.
+    /// \param carried  The class of paths, as for light_path_expression().
     /// \throws std::invalid_argument  as light_path_expression().
     OnlyPaths(Ref<R> whole, std::string_view carried)
         : whole_(whole), carried_(light_path_expression(carried)) {}
-    /// The renderer that does the work.
+    /// The renderer that traces the paths.
     [[nodiscard]] const R& whole() const noexcept { return whole_.get(); }
-    /// Which of its paths count.
+    /// The class of paths.
     [[nodiscard]] const LightPathExpression& carried() const noexcept {
         return carried_;
     }
@@ -100,12 +94,8 @@ private:
 template <typename R>
 OnlyPaths(const R&, std::string_view) -> OnlyPaths<R>;
 
-/// The radiance of one camera path, as far as the filter lets it through.
-/// \param renderer  The renderer and its filter.
-/// \param ray       A primary ray.
-/// \param context   The numbers of this path; counts its rays.
-/// \return Radiance, W/(m^2 sr).
-/// \cost As much as the whole renderer: nothing is left out but the sums.
+/// The radiance of one camera path, restricted to the class.
+/// \cost That of the whole renderer.
 template <typename R, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> radiance(const OnlyPaths<R>& renderer, const RayT<T>& ray,
                                Context& context) {

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/path/next_vertex.hpp
-/// \brief The vertex of a path: what is met next, all that is known of it, and how much
-/// of the light between two points arrives.
+/// \brief The vertices of a path: the next intersection, its shading data, and the
+/// visibility between two points.
 
 #include <algorithm>
 #include <array>
@@ -20,26 +20,26 @@
 namespace ljus {
 
 /// \defgroup vertex Vertices
-/// \brief Section 3.2: where a ray has arrived, ready to be shaded.
+/// \brief Section 3.2: a ray's hit, with all that shading needs.
 /// \{
 
-/// Where a path arrived. Every renderer and the photon pass see a surface as this.
+/// A vertex of a path, as all renderers and the photon pass use it.
 template <std::floating_point T>
 struct VertexT {
     SurfacePointT<T> point{};      ///< Position, rounding error, geometric normal.
-    FrameT<T> frame{};             ///< Around the shading normal; materials work in it.
-    Vec3T<T> wo{T(0), T(0), T(1)}; ///< To the vertex before: unit, in the frame.
-    Vec2T<T> uv{T(0)};             ///< Of texture_coordinates(), if a material uses it.
-    ObjectId id{};                 ///< Which object.
-    ObjectT<T> object{};           ///< What it is made of, and whether it emits.
-    RgbT<T> medium{T(0)};          ///< Absorption before it, per scene unit.
-    T distance = T(0);             ///< From the vertex before, in scene units.
-    T time = T(0);                 ///< Of the path, in [0, 1].
-    T stop_probability = T(1);     ///< Of stopping here, at a thin surface.
-    bool smooth = false; ///< Whether the shading normal is not the geometric one.
-    bool turned = false; ///< Whether `wo` lies on different sides of the two.
+    FrameT<T> frame{};             ///< Shading frame, in which materials work.
+    Vec3T<T> wo{T(0), T(0), T(1)}; ///< To the previous vertex; unit, in the frame.
+    Vec2T<T> uv{T(0)};         ///< texture_coordinates(), if the material uses them.
+    ObjectId id{};             ///< Identity of the object.
+    ObjectT<T> object{};       ///< Its material and emission.
+    RgbT<T> medium{T(0)};      ///< Absorption before it, per scene unit.
+    T distance = T(0);         ///< From the previous vertex, in scene units.
+    T time = T(0);             ///< Time of the path, in [0, 1].
+    T stop_probability = T(1); ///< Probability of not passing a thin surface.
+    bool smooth = false; ///< Whether the shading normal differs from the geometric one.
+    bool turned = false; ///< Whether the normals disagree about the side of `wo`.
 
-    /// Whether the surface emits towards `wo`: emission is one-sided.
+    /// Whether the surface emits towards `wo`; emission is one-sided.
     [[nodiscard]] bool emits() const noexcept {
         return wo.z > T(0) && !is_black(object.emission);
     }
@@ -48,10 +48,8 @@ using Vertex = VertexT<float>; ///< VertexT in float.
 
 namespace detail {
 
-/// Whether a material looks up by texture coordinates; a comparison in a scene that
-/// lists such a type, and nothing in any other.
-/// \param world     The closed scene.
-/// \param material  One of its materials.
+/// Whether a material uses texture coordinates. It costs a comparison if the scene
+/// lists such a type of material, otherwise nothing.
 template <AnyWorld W>
 [[nodiscard]] bool uses_uv(const W& world, MaterialId material) {
     if constexpr (W::any_material([]<typename M>() { return UsesUv<M>; }))
@@ -62,10 +60,9 @@ template <AnyWorld W>
         return false;
 }
 
-/// Sets the frame of a vertex where two normals may differ.
+/// Sets the frame of a vertex on a shape with shading normals.
 /// \param vertex  Its point and its object are set.
-/// \param ray     The ray that hit.
-/// \param normal  The shading normal, as the shape has it.
+/// \param normal  The shape's shading normal.
 // [set_frame]
 template <std::floating_point T>
 inline void set_frame(VertexT<T>& vertex, const RayT<T>& ray, Vec3T<T> normal) {
@@ -84,12 +81,10 @@ inline void set_frame(VertexT<T>& vertex, const RayT<T>& ray, Vec3T<T> normal) {
 }
 // [set_frame]
 
-/// Sets a vertex to what vertex_at() returns. next_vertex() has the vertex in the
-/// optional that it returns: a copy of these 160 bytes for each ray is slow.
-/// \param vertex  A new one; all but its medium is set.
-/// \param world   The closed scene.
-/// \param ray     The ray that hit; its direction of unit length.
-/// \param hit     What closest_hit() returned.
+/// Sets a vertex to the result of vertex_at(), in place: next_vertex() would otherwise
+/// copy 160 bytes per ray.
+/// \param vertex  A new vertex; all members except its medium are set.
+/// \param ray     The ray that hit, with a direction of unit length.
 template <AnyWorld W, std::floating_point T>
 inline void fill_vertex(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
                         const SceneHitT<T>& hit) {
@@ -119,15 +114,11 @@ inline void fill_vertex(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
 
 } // namespace detail
 
-/// The vertex at a hit.
+/// The vertex at a hit, without its medium. The ray has a direction of unit length.
 ///
-/// The geometric normal decides on which side a direction is. A ray that comes from
-/// different sides of the two normals finds the frame around the geometric one: so the
-/// z of `wo` always tells the side, and no surface is seen from behind.
-/// \param world  The closed scene.
-/// \param ray    The ray that hit; its direction of unit length.
-/// \param hit    What closest_hit() returned.
-/// \return The vertex; its medium is not known yet.
+/// The geometric normal decides the side of a direction. If the two normals disagree
+/// about the side of the ray, the frame is set around the geometric one, so that the z
+/// of `wo` always gives the side and no surface is seen from behind.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] VertexT<T> vertex_at(const W& world, const RayT<T>& ray,
                                    const SceneHitT<T>& hit) {
@@ -136,12 +127,9 @@ template <AnyWorld W, std::floating_point T>
     return vertex;
 }
 
-/// Calls f(material) with what a surface is made of at a vertex: what visit_material()
-/// does for an object, this does for a place of it. A textured material is its base in
-/// another colour there, a soap film as thick as it is there; others are themselves.
-/// \param world   The closed scene.
-/// \param vertex  The place.
-/// \param f       Called with the material, as its own type.
+/// Calls f(material) with the material of a vertex. A textured material is its base
+/// with the colour at the vertex, and a soap film has its thickness at the vertex;
+/// other materials are the same everywhere.
 // [visit_material_at]
 template <AnyWorld W, std::floating_point T, typename F>
 decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f) {
@@ -153,10 +141,9 @@ decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f
 
 namespace detail {
 
-/// Whether a direction lies on the same side of a surface by both its normals.
-/// \param vertex  A point of the surface.
+/// Whether both normals of a vertex agree about the side of a direction.
 /// \param local   The direction in the surface's frame.
-/// \param world   The same in the world.
+/// \param world   The direction in the world.
 template <std::floating_point T>
 [[nodiscard]] bool agrees(const VertexT<T>& vertex, const Vec3T<T>& local,
                           const Vec3T<T>& world) noexcept {
@@ -165,11 +152,10 @@ template <std::floating_point T>
     return (side > T(0) && local.z > T(0)) || (side < T(0) && local.z < T(0));
 }
 
-/// What a photon's flux counts for where it lands: the flux is that of the triangle,
-/// but the material reflects what the shading normal's cosine says.
-/// \param vertex     Where it lands.
+/// The correction of a photon's flux where it lands: its flux density follows the
+/// geometric normal, but the material reflects by the cosine of the shading normal.
 /// \param direction  The photon's direction of travel.
-/// \return \f$ |\omega \cdot N_s| / |\omega \cdot N_g| \f$; 0 if they disagree.
+/// \return \f$ |\omega \cdot N_s| / |\omega \cdot N_g| \f$; 0 if the normals disagree.
 template <std::floating_point T>
 [[nodiscard]] T landing_factor(const VertexT<T>& vertex,
                                const Vec3T<T>& direction) noexcept {
@@ -183,24 +169,23 @@ template <std::floating_point T>
 /// \}
 
 /// \defgroup next_vertex The next vertex
-/// \brief Intersection, media, thin surfaces and the shutter behind one call.
+/// \brief Intersection, media, thin surfaces and the shutter in one function.
 ///
-/// A thin surface, as a soap film, reflects some light and lets the rest pass straight
-/// through. Passing is not scattering: a path keeps its letters (a photon that came
-/// straight from its lamp is still direct), its density and its depth; only what the
-/// surface reflects is S. So a path that passes has no vertex there:
+/// A thin surface, such as a soap film, reflects some light and transmits the rest
+/// without deflection. Transmission is not scattering: the path keeps its letters, its
+/// density and its depth, and gets no vertex there; only reflection is S.
 ///
 /// | question                          | answered by                                  |
 /// |-----------------------------------|----------------------------------------------|
-/// | how much of a lamp is seen        | visibility(): the product of T               |
-/// | what a path meets                 | next_vertex(): chance decides between T and R|
+/// | how much of a lamp is visible     | visibility(): the product of transmittances  |
+/// | what a path hits                  | next_vertex(): chance decides between T and R|
 ///
-/// In a scene that lists no such material nothing of this is compiled; in one that
-/// lists some and has none it is a comparison per ray.
+/// A scene that lists no such material pays nothing; one that lists some but has none
+/// pays a comparison per ray.
 /// \{
 
-/// A material that light passes straight through, as far as it does not reflect it:
-/// `pass_through(m, position, wo)` says how much. Its sample() reflects, nothing else.
+/// A material that transmits light without deflection: `pass_through(m, position, wo)`
+/// returns the transmittance. Its sample() only reflects.
 template <typename M>
 concept ThinSurface = requires(const M& m, const Vec3T<typename M::Scalar>& v) {
     { pass_through(m, v, v) } -> std::same_as<RgbT<typename M::Scalar>>;
@@ -220,12 +205,10 @@ inline constexpr bool lists_moving = W::any_shape([]<typename G>() {
     return detail::is_moving<G>;
 });
 
-/// Where a vertex of a moving shape was at time 0, when the shutter opened. There photons
-/// are kept, and asked for: those of all times then lie together on what moves, and each
-/// place of it receives the mean of what falls on it while the shutter is open.
-/// \param world   The closed scene.
-/// \param vertex  Any.
-/// \return The vertex, its position at time 0; itself in a scene in which nothing moves.
+/// A vertex of a moving shape, moved back to its position at time 0. Photons of all
+/// times are stored and looked up there, so that each point of the shape receives its
+/// mean irradiance while the shutter is open.
+/// \return The vertex at time 0; unchanged on a shape at rest.
 // [at_rest]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] decltype(auto) at_rest(const W& world, const VertexT<T>& vertex) {
@@ -242,9 +225,8 @@ template <AnyWorld W, std::floating_point T>
 }
 // [at_rest]
 
-/// Whether a scene has a thin surface among its materials: the pass is on.
-/// \param world  The closed scene.
-/// \return False also if it only lists such a type, and has none.
+/// Whether a scene has a material that is a thin surface; false if it only lists such a
+/// type.
 template <AnyWorld W>
 [[nodiscard]] bool has_thin_surfaces(const W& world) noexcept {
     return std::apply(
@@ -257,8 +239,8 @@ template <AnyWorld W>
         world.materials());
 }
 
-/// The time of a new path while the shutter is open \cite cook1984.
-/// \param stream  One number is drawn if the scene lists a shape that moves.
+/// Samples the time of a new path while the shutter is open \cite cook1984.
+/// \param stream  One number is drawn if the scene lists a moving shape.
 /// \return In [0, 1); 0 if nothing can move.
 /// \report{Section 2.1}
 template <AnyWorld W, StreamLike Stream>
@@ -269,11 +251,8 @@ template <AnyWorld W, StreamLike Stream>
 
 } // namespace detail
 
-/// The path of a camera ray, at a time of its own.
-/// \param world   The closed scene.
-/// \param ray     A primary ray.
-/// \param stream  See path_time().
-/// \return A path without a vertex.
+/// Starts the path of a camera ray at a random time. One number is drawn if the scene
+/// lists a moving shape.
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] PathStateT<T> camera_path(const W& world, const RayT<T>& ray,
                                         Stream& stream) {
@@ -284,10 +263,7 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
 
 namespace detail {
 
-/// What passes straight through a surface.
-/// \param world   The closed scene.
-/// \param vertex  A point of the surface.
-/// \return T for each channel; nothing if the surface is no thin one.
+/// The transmittance of a surface, per channel; nothing if it is not thin.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<RgbT<T>> passed_through(const W& world,
                                                     const VertexT<T>& vertex) {
@@ -300,7 +276,7 @@ template <AnyWorld W, std::floating_point T>
         });
 }
 
-/// How many thin surfaces a ray passes at most; then its way counts as blocked.
+/// After more thin surfaces than this a ray counts as blocked.
 inline constexpr int max_thin_surfaces = 1000;
 
 // visibility() in a scene with thin surfaces.
@@ -315,7 +291,7 @@ template <AnyWorld W, std::floating_point T>
         const auto hit = closest_hit(world, ray);
         if (!hit) return through;
         VertexT<T> vertex = vertex_at(world, ray, *hit);
-        vertex.wo = glm::normalize(vertex.wo); // the ray is as long as the way
+        vertex.wo = glm::normalize(vertex.wo); // the ray is as long as the distance
         const auto passed = passed_through(world, vertex);
         if (!passed) break;
         through *= *passed;
@@ -327,15 +303,10 @@ template <AnyWorld W, std::floating_point T>
 
 } // namespace detail
 
-/// How much of the light from one point arrives at another.
-/// \param world  The closed scene.
-/// \param from   A point of a surface.
-/// \param to     Another.
-/// \param time   Of the path, in [0, 1].
-/// \return 0 if anything is between them, else the product of what the thin surfaces on
-///         the way let through.
-/// \cost Without thin surfaces that of occluded(); with them a closest_hit() for each,
-///       and one more.
+/// The fraction of light that arrives from one point at another.
+/// \return 0 if anything occludes it; otherwise the product of the transmittances of
+///         the thin surfaces between them.
+/// \cost That of occluded(); with thin surfaces a closest_hit() for each, and one more.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> visibility(const W& world, const SurfacePointT<T>& from,
                                  const SurfacePointT<T>& to, T time = T(0)) {
@@ -347,22 +318,19 @@ template <AnyWorld W, std::floating_point T>
 
 namespace detail {
 
-/// What thin surfaces have done to a path between two vertices.
+/// The effect of the thin surfaces between two vertices.
 template <std::floating_point T>
 struct PassageT {
-    RgbT<T> through{T(1)};     ///< What they let through, over its probability.
-    T distance = T(0);         ///< From the vertex to the last of them.
-    T stop_probability = T(1); ///< Of stopping at the one where the path is, if it is.
+    RgbT<T> through{T(1)};     ///< Transmittance over its probability.
+    T distance = T(0);         ///< From the vertex to the last thin surface.
+    T stop_probability = T(1); ///< Of reflection, if the path stopped at one.
 };
 
-/// Takes a ray through the thin surfaces in its way. At each, chance decides with the
-/// mean of R over the channels whether the path stops there, to be reflected, or
-/// passes.
-/// \param world   The closed scene.
-/// \param ray     Gets its last part.
-/// \param hit     What the ray meets first; becomes what its last part meets.
-/// \param stream  A number is drawn for each thin surface.
-/// \return What they left.
+/// Traces a ray through thin surfaces. At each one the path stops for reflection with
+/// the mean reflectance of the channels as probability, or passes.
+/// \param ray     Receives its last segment.
+/// \param hit     The first hit of the ray; receives that of its last segment.
+/// \param stream  One number is drawn per thin surface.
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] PassageT<T> pass_thin_surfaces(const W& world, RayT<T>& ray,
                                              std::optional<SceneHitT<T>>& hit,
@@ -390,7 +358,7 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
 
 namespace detail {
 
-/// Whether a type of scene lists a material with a medium inside.
+/// Whether a type of scene lists a material with an absorbing interior.
 template <AnyWorld W>
 inline constexpr bool lists_media = W::any_material([]<typename M>() {
     return MayAbsorb<M>;
@@ -398,14 +366,12 @@ inline constexpr bool lists_media = W::any_material([]<typename M>() {
 
 } // namespace detail
 
-/// The absorption of what a ray begins in: of the innermost body around its origin. A
-/// body whose surface it leaves without having entered it is around the origin; what is
-/// opaque is looked through. Bodies are closed, of one shape or of several.
-/// \param world  The closed scene.
-/// \param ray    Any ray from there, of unit direction.
-/// \return Per scene unit; 0 outside of all bodies.
-/// \cost A comparison outside of a box around all that absorbs; inside of it a ray for
-///       each surface up to the end of the body.
+/// The absorption at a ray's origin: that of the innermost body around it. A body
+/// contains the origin if the ray leaves its surface without having entered it. Opaque
+/// surfaces are ignored. Bodies are closed, and consist of one shape or several.
+/// \return Per scene unit; 0 outside all bodies.
+/// \cost A comparison outside the bounding box of all absorbing objects; inside it a
+///       ray per surface up to the end of the body.
 // [medium_at]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> medium_at(const W& world, RayT<T> ray) {
@@ -441,13 +407,10 @@ template <AnyWorld W, std::floating_point T>
 
 namespace detail {
 
-/// The absorption beyond a surface where light is scattered: of the material's inside,
-/// if the light comes from there; none, if it comes from outside; else what it is on
-/// the side of `wo`.
-/// \param medium    On that side, per scene unit.
-/// \param material  Of the surface.
-/// \param wo        Unit vector in the surface's frame, to where the light goes.
-/// \param wi        Unit vector in the surface's frame, to where it comes from.
+/// The absorption on the side of `wi` at a surface that scatters light: `medium` if
+/// `wo` lies on the same side, otherwise that of the material's interior, or none
+/// outside.
+/// \param medium    Absorption on the side of `wo`, per scene unit.
 /// \return Per scene unit.
 template <typename M, std::floating_point T>
 [[nodiscard]] RgbT<T> medium_beyond(const RgbT<T>& medium, const M& material,
@@ -458,14 +421,14 @@ template <typename M, std::floating_point T>
 
 } // namespace detail
 
-/// Sends a path to its next vertex. Media and thin surfaces on the way take their part
-/// of the throughput. Where a path begins, and where it leaves a body that may lie in
-/// another one, medium_at() says what it is in.
+/// Advances a path to its next vertex. Its throughput is attenuated by media and thin
+/// surfaces. medium_at() finds the medium at the start of a path, and where the path
+/// leaves a body that may lie inside another.
 /// \param world   The closed scene.
-/// \param path    Gets its depth, the last part of its ray and its throughput.
-/// \param stream  Moved to the start of the bounce; a number is drawn for each thin
-///                surface, and none without.
-/// \return The vertex; nothing if the path leaves the scene, along its ray.
+/// \param path    Receives its depth, the last segment of its ray and its throughput.
+/// \param stream  Advanced to the start of the bounce; one number is drawn per thin
+///                surface.
+/// \return The vertex; nothing if the path leaves the scene along its ray.
 // [next_vertex]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] std::optional<VertexT<T>> next_vertex(const W& world, PathStateT<T>& path,

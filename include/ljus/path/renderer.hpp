@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/path/renderer.hpp
-/// \brief What a renderer is, and what travels with each of its camera rays.
+/// \brief The interface of a renderer, and the context of its camera rays.
 
 #include <concepts>
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace ljus {
 
 /// \defgroup counts Counts
-/// \brief What the renderers count: the same on every machine.
+/// \brief Counters of the renderers; they are the same on every machine.
 /// \{
 
 /// Rays and photons of a rendering.
@@ -21,20 +21,20 @@ struct Counts {
     std::uint64_t camera_rays = 0;     ///< Primary rays.
     std::uint64_t bounce_rays = 0;     ///< Reflected, refracted and indirect rays.
     std::uint64_t shadow_rays = 0;     ///< Rays to lights.
-    std::uint64_t map_queries = 0;     ///< Estimates asked of a photon map.
-    std::uint64_t map_photons = 0;     ///< Photons summed in them.
-    std::uint64_t skipped_rays = 0;    ///< Shadow rays that photons have made needless.
-    std::uint64_t skipped_bounces = 0; ///< Indirect rays left out where it is dark.
-    std::uint64_t rejected = 0;        ///< Samples that were not finite and left out.
+    std::uint64_t map_queries = 0;     ///< Density estimates of photon maps.
+    std::uint64_t map_photons = 0;     ///< Photons summed by them.
+    std::uint64_t skipped_rays = 0;    ///< Shadow rays that photons made unnecessary.
+    std::uint64_t skipped_bounces = 0; ///< Indirect rays omitted in the dark.
+    std::uint64_t rejected = 0;        ///< Non-finite samples, which were omitted.
     std::uint64_t cut_paths =
-        0; ///< Ended by the limit of depth: their light is missing.
+        0; ///< Paths ended by the depth limit; their light is missing.
 
     /// All rays.
     [[nodiscard]] constexpr std::uint64_t rays() const noexcept {
         return camera_rays + bounce_rays + shadow_rays;
     }
 
-    /// Adds another account.
+    /// Adds other counts.
     constexpr Counts& operator+=(const Counts& other) noexcept {
         camera_rays += other.camera_rays;
         bounce_rays += other.bounce_rays;
@@ -51,10 +51,7 @@ struct Counts {
 
 namespace detail {
 
-/// Counts a path that is cut, if it is.
-/// \param cut     Whether the limit of depth ends it.
-/// \param counts  Gets one more.
-/// \return `cut`.
+/// Counts a path if the depth limit cuts it, and returns whether it does.
 constexpr bool cut_if(bool cut, Counts& counts) noexcept {
     counts.cut_paths += cut ? 1u : 0u;
     return cut;
@@ -64,13 +61,13 @@ constexpr bool cut_if(bool cut, Counts& counts) noexcept {
 
 /// \}
 
-/// \defgroup renderer What a renderer is
+/// \defgroup renderer The interface of a renderer
 /// \brief One function, called for each primary ray.
 /// \{
 
-/// What a renderer reports a path to, in Heckbert's letters: its beginning, each vertex
-/// where it was scattered, and each term of radiance. A log may have an
-/// `arrive(position)` as well, which is told of each surface that the path comes to.
+/// A receiver of a path's events, in Heckbert's notation: its start, each scattering
+/// and each term of radiance. A log may also have `arrive(position)`, which is called
+/// for each surface that the path hits.
 template <typename L, typename T = float>
 concept LogLike = requires(L& log, const Vec3T<T>& v, T pdf) {
     log.begin();
@@ -78,33 +75,32 @@ concept LogLike = requires(L& log, const Vec3T<T>& v, T pdf) {
     log.term(std::string_view{}, std::string_view{}, v);
 };
 
-/// Takes nothing and costs nothing: the log of a picture.
+/// The log that ignores all events, for rendering pictures.
 struct NoLog {
-    /// A path begins.
+    /// Ignores the start of a path.
     constexpr void begin() const noexcept {}
-    /// The path was scattered at a vertex.
+    /// Ignores a scattering.
     template <std::floating_point T>
     constexpr void vertex(char, const Vec3T<T>&, const RgbT<T>&, T) const noexcept {}
-    /// Radiance was added.
+    /// Ignores a term.
     template <std::floating_point T>
     constexpr void term(std::string_view, std::string_view,
                         const RgbT<T>&) const noexcept {}
 };
 
-/// No questions are put off.
+/// The batch for renderers that defer nothing.
 struct NoBatch {};
 
-/// What travels with a camera ray from its first vertex to its last.
+/// The context of a camera ray, from its first vertex to its last.
 /// \tparam S  The stream.
-/// \tparam L  The log; most often a NoLog.
-/// \tparam B  Questions that are put off, to be answered for many rays together; most
-///            often a NoBatch.
+/// \tparam L  The log; usually a NoLog.
+/// \tparam B  Deferred estimates, computed for many rays together; usually a NoBatch.
 template <StreamLike S, typename L = const NoLog, typename B = const NoBatch>
 struct Context {
-    S& stream;      ///< The numbers of this ray.
-    Counts& counts; ///< What it costs.
-    L& log;         ///< Told of each vertex and each term.
-    B& batch;       ///< Takes what need not be answered at once.
+    S& stream;      ///< Random numbers of this ray.
+    Counts& counts; ///< Its counters.
+    L& log;         ///< Receives each vertex and each term.
+    B& batch;       ///< Receives deferred estimates.
 };
 /// Deduces the types from the values.
 template <StreamLike S, typename L, typename B>
@@ -112,42 +108,36 @@ Context(S&, Counts&, L&, B&) -> Context<S, L, B>;
 
 namespace detail {
 
-/// A NoLog with a name, for a Context to refer to.
+/// A NoLog object for a Context to refer to.
 inline constexpr NoLog no_log{};
-/// A NoBatch with a name.
+/// A NoBatch object for a Context to refer to.
 inline constexpr NoBatch no_batch{};
 
 } // namespace detail
 
-/// The context of a ray that reports to a log, or to none.
-/// \param stream  The numbers of this ray.
-/// \param counts  What it costs.
-/// \param log     Told of each vertex and each term.
+/// The context of a ray, with a log or without.
 template <StreamLike S, typename L = const NoLog>
 [[nodiscard]] Context<S, L> context_of(S& stream, Counts& counts,
                                        L& log = detail::no_log) noexcept {
     return {stream, counts, log, detail::no_batch};
 }
 
-/// Adds terms to the radiance of a path, and tells a log of them.
+/// Adds terms to the radiance of a path, and reports them to a log.
 template <std::floating_point T, typename L>
 struct RadianceSum {
-    RgbT<T>& sum;              ///< Of the path.
-    const RgbT<T>& throughput; ///< Of the path, as far as it has come.
-    L& log;                    ///< Told of each term.
+    RgbT<T>& sum;              ///< Radiance of the path.
+    const RgbT<T>& throughput; ///< Throughput of the path so far.
+    L& log;                    ///< Receives each term.
 
-    /// Adds the light of a surface, times the throughput.
-    /// \param owner    Who carries it: "emission", "shadow ray", "caustics map", ...
+    /// Adds radiance times the throughput.
+    /// \param owner    Its estimator: "emission", "shadow ray", "caustics map", ...
     /// \param letters  From here to the light.
-    /// \param light    Radiance, before the throughput.
+    /// \param light    Radiance, without the throughput.
     void operator()(const char* owner, const char* letters,
                     const RgbT<T>& light) const {
         add(owner, letters, throughput * light);
     }
-    /// Adds a term that holds the throughput.
-    /// \param owner    Who carries it.
-    /// \param letters  From here to the light.
-    /// \param term     Throughput times radiance.
+    /// Adds a term that already contains the throughput.
     void add(const char* owner, const char* letters, const RgbT<T>& term) const {
         log.term(owner, letters, term);
         sum += term;
@@ -157,13 +147,13 @@ struct RadianceSum {
 template <std::floating_point T, typename L>
 RadianceSum(RgbT<T>&, const RgbT<T>&, L&) -> RadianceSum<T, L>;
 
-/// A renderer in the precision of a camera: a struct that names the random stream which
-/// it draws from,
+/// A renderer in the precision of a camera. It is a struct that names its random
+/// stream,
 ///
 ///     using Stream = RandomStream; // or StratifiedStream
 ///
-/// and, beside it, a function that returns the radiance of a camera ray, W/(m^2 sr),
-/// and tells the context's log what it adds:
+/// and has a function that returns the radiance of a camera ray, W/(m^2 sr), and
+/// reports each term to the context's log:
 ///
 ///     Rgb radiance(const MyRenderer&, const Ray&, auto& context);
 template <typename R, typename T = float>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/aiming.hpp
-/// \brief Photons that are sent where mirrors and glass are.
+/// \brief Photons aimed at mirrors and glass.
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +20,8 @@ namespace ljus {
 /// \addtogroup emission
 /// \{
 
-/// The objects that mirror or refract, for photons to be aimed at.
-/// \param world  The closed scene.
-/// \return Their numbers, in the order of the scene.
+/// The objects with specular lobes, in the order of the scene: the targets of aimed
+/// photons.
 template <AnyWorld W>
 [[nodiscard]] std::vector<ObjectId> specular_objects(const W& world) {
     std::vector<ObjectId> targets;
@@ -35,19 +34,19 @@ template <AnyWorld W>
     return targets;
 }
 
-/// A photon that was aimed at an object.
+/// A photon aimed at an object.
 template <std::floating_point T>
 struct AimedPhotonT {
     EmittedPhotonT<T> photon; ///< The photon.
-    ObjectId target;          ///< It counts only if this is what it meets first.
+    ObjectId target;          ///< The photon counts only if this is its first hit.
 };
 
-/// A photon of a point light, aimed at one ball: the plain twin of aim(). The light
-/// sends \f$1/4\pi\f$ of its flux into each steradian, and the ball is seen in a cone
-/// of \f$2\pi(1 - \cos\theta)\f$ of them, which the photons share.
+/// Aims a photon of a point light at a ball: the plain counterpart of aim(). The light
+/// emits \f$1/4\pi\f$ of its flux per steradian, and the photons share the cone of
+/// \f$2\pi(1 - \cos\theta)\f$ steradians in which it sees the ball.
 /// \param light  A point light.
-/// \param ball   The target; the light is outside of it.
-/// \param u      Point of the unit square: where in the cone.
+/// \param ball   The target; the light is outside it.
+/// \param u      Point of the unit square; chooses the direction in the cone.
 /// \return The photon; its flux is that of all paths together.
 /// \report{Section 3.2.2.2}
 // [aim_at_ball]
@@ -68,19 +67,15 @@ namespace detail {
 /// How a point of a light aims at an object.
 template <std::floating_point T>
 struct AimT {
-    ConeT<T> cone{};      ///< In which it sees the object's bounding sphere.
-    bool at_area = false; ///< At points of the object's area instead of the cone.
-    T size = T(0);        ///< About the solid angle over 2 pi: how often it is chosen.
+    ConeT<T> cone{};      ///< Of the object's bounding sphere.
+    bool at_area = false; ///< Whether it aims at the object's area instead.
+    T size = T(0); ///< About the solid angle over 2 pi: the weight of the choice.
 };
 
-/// How a point of a light aims at an object: at the cone in which it sees the object's
-/// bounding sphere, or at the points of a flat one. A light that shines into a narrower
-/// cone aims at all that it lights: a spot, or a lamp inside of the sphere.
-/// \param world     The closed scene.
-/// \param emission  The cone that holds all that the point sends.
-/// \param from      Where the point is.
-/// \param target    The object.
-/// \return The aim.
+/// Chooses how a point of a light aims at an object: at the cone of its bounding
+/// sphere, or at the area of a flat object. If the light emits into a narrower cone, as
+/// a spot or a lamp inside the sphere does, it aims at that cone.
+/// \param emission  The cone of all directions of emission.
 // [aim_at]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] AimT<T> aim_at(const W& world, const ConeT<T>& emission,
@@ -102,24 +97,23 @@ template <AnyWorld W, std::floating_point T>
 }
 // [aim_at]
 
-/// A target that was chosen.
+/// A chosen target.
 template <std::floating_point T>
 struct ChosenTargetT {
-    ObjectId target; ///< Its number.
-    T sum = T(0);    ///< The sizes of all targets together.
+    ObjectId target; ///< The object.
+    T sum = T(0);    ///< Sum of the weights of all targets.
 };
 
-/// Chooses a target in proportion to its size, as seen by a light.
-/// \param targets   The objects.
-/// \param size_of   Called with each; 0 leaves it out.
+/// Chooses a target in proportion to its weight.
+/// \param size_of   Called with each; returns its weight, or 0 to exclude it.
 /// \param u_target  In [0, 1).
-/// \return The target; nothing if none has a size.
+/// \return The target; nothing if all weights are 0.
 template <std::floating_point T, typename SizeOf>
 [[nodiscard]] std::optional<ChosenTargetT<T>>
 choose_target(std::span<const ObjectId> targets, SizeOf size_of, T u_target) {
     ChosenTargetT<T> chosen;
-    // Each takes the place of the one before with its share of the sum so far, and u is
-    // stretched to [0, 1) again.
+    // Reservoir sampling: each target replaces the previous one with a probability of
+    // its weight over the sum so far, and u is remapped to [0, 1).
     for (const ObjectId candidate : targets) {
         const T size = size_of(candidate);
         if (!(size > T(0))) continue;
@@ -136,23 +130,17 @@ choose_target(std::span<const ObjectId> targets, SizeOf size_of, T u_target) {
     return chosen;
 }
 
-/// A direction towards an object, and its density.
+/// A direction towards an object, with its density.
 template <std::floating_point T>
 struct AimedDirectionT {
     Vec3T<T> direction{T(0)}; ///< Unit.
     T pdf = T(0);             ///< Per steradian.
 };
 
-/// Samples a direction as an aim says: uniform in the cone, or by the area of a flat
-/// object.
-/// \param world   The closed scene.
-/// \param aim     aim_at() the target.
+/// Samples a direction: uniformly in the cone, or by the area of a flat object.
 /// \param from    The point of the light.
-/// \param target  The object.
-/// \param u       Point of the unit square.
-/// \param time    Of the photon, in [0, 1].
-/// \return The direction; its density may be 0 or infinite for points of an object that
-///         is seen edge-on, or in which the light's point lies.
+/// \return The direction. Its density may be 0 or infinite if the object is seen
+///         edge-on or contains `from`.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] AimedDirectionT<T> sample_aim(const W& world, const AimT<T>& aim,
                                             const Vec3T<T>& from, ObjectId target,
@@ -168,26 +156,25 @@ template <AnyWorld W, std::floating_point T>
             pdf_uniform_cone(aim.cone.one_minus_cos)};
 }
 
-/// The numbers that an aimed photon takes, in the order in which they are drawn.
+/// The random numbers of an aimed photon, in the order in which they are drawn.
 template <std::floating_point T>
 struct AimNumbersT {
-    T probability;        ///< Of its light, which was chosen first.
-    Vec2T<T> u_point;     ///< Where on the light, or where in a disc before the target.
-    T u_target;           ///< Which target.
-    Vec2T<T> u_direction; ///< Where to.
-    T time;               ///< Of the photon.
+    T probability;        ///< Of its light, which was chosen before.
+    Vec2T<T> u_point;     ///< Point of the light, or of a disc before the target.
+    T u_target;           ///< Chooses the target.
+    Vec2T<T> u_direction; ///< Chooses the direction.
+    T time;               ///< Time of the photon.
 };
 
 /// A photon that leaves a light for an object.
 template <std::floating_point T>
 struct LeavingAimedT {
-    LeavingPhotonT<T> photon{}; ///< Its ray, and its flux over the light's probability.
-    ObjectId target{};          ///< Where it is aimed.
+    LeavingPhotonT<T> photon{}; ///< Its flux is over the light's probability.
+    ObjectId target{};          ///< The object at which it is aimed.
 };
 
-/// Aims a photon of a light from afar, at the discs that the bounding spheres of the
-/// targets throw as their shadows.
-/// \return Nothing if all targets are points.
+/// Aims a photon of a distant light at the discs that the targets' bounding spheres
+/// cast as shadows. Returns nothing if all targets have the radius 0.
 template <AnyWorld W, FarLight L, std::floating_point T>
 [[nodiscard]] std::optional<LeavingAimedT<T>>
 aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
@@ -206,8 +193,8 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
                             aimed->target};
 }
 
-/// Aims a photon of a light that has points.
-/// \return Nothing behind the light, or if all targets are points.
+/// Aims a photon of a near light. Returns nothing if the target lies behind the light,
+/// or if all targets have the radius 0.
 template <AnyWorld W, NearLight L, std::floating_point T>
 [[nodiscard]] std::optional<LeavingAimedT<T>>
 aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
@@ -235,27 +222,27 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 
 } // namespace detail
 
-/// A photon aimed at one of several objects: at the cone in which the light's point
-/// sees the object's bounding sphere, uniformly; a wide cone is chosen more often, so
-/// that the density is the same, one over the sum of the cones, in all of them. A flat
-/// object is aimed at point by point of its area instead.
+/// Aims a photon at one of several objects, uniformly in the cone of the object's
+/// bounding sphere as seen from a point of the light. Wide cones are chosen more often,
+/// so that the density in all cones is one over the sum of the cones. A flat object is
+/// sampled by area instead.
 ///
-/// The flux makes up for the density of the direction: it is multiplied by
+/// The flux is divided by the density of the direction: for a lamp it is multiplied by
 /// \f$ (\cos\theta / \pi) / p(\omega) \f$, for a point light by
-/// \f$ (1/4\pi) / p(\omega) \f$. A sun aims at the discs that the bounding spheres
-/// throw as shadows. Where objects overlap, each ray belongs to the one that is met
-/// first; the caller drops the photons that were aimed at another.
+/// \f$ (1/4\pi) / p(\omega) \f$. A sun aims at the discs that the bounding spheres cast
+/// as shadows. Where objects overlap, a ray belongs to the first one that it hits; the
+/// caller drops photons that were aimed at another.
 /// \param world    The closed scene.
-/// \param choice   Of its lights; at least one.
+/// \param choice   The distribution of its lights; at least one.
 /// \param targets  The objects; at least one.
 /// \param stream   Six numbers are drawn.
-/// \return The photon; nothing behind the light, or if all targets are points.
+/// \return The photon; nothing if the target lies behind the light, or if all targets
+///         have the radius 0.
 /// \cost One cone per target.
 /// \report{Section 3.2.2.2} \cite jensen1996
-/// \erratum{The program behind the report does not correct for the density of the
-///          direction, and divides by the photons that were stored: a caustic's
-///          brightness did not depend on how much light met the glass.}
-// [aim]
+/// \erratum{The report's program does not divide by the density of the direction, and
+///          divides by the number of stored photons: a caustic's brightness did not
+///          depend on how much light reached the glass.}
 template <AnyWorld W, StreamLike Stream>
 [[nodiscard]] std::optional<AimedPhotonT<typename W::Scalar>>
 aim(const W& world, const LightChoice& choice, std::span<const ObjectId> targets,
@@ -280,15 +267,14 @@ aim(const W& world, const LightChoice& choice, std::span<const ObjectId> targets
 }
 // [aim]
 
-/// Refuses numbers that are no shares of a whole.
-/// \param shares   A number for each target, or none at all.
-/// \param targets  How many.
-/// \throws std::invalid_argument  with the number that is wrong.
+/// Refuses fractions that do not add up to 1.
+/// \param shares   One per target, or none at all.
+/// \param targets  Number of targets.
+/// \throws std::invalid_argument  with the wrong value.
 inline void check_shares(std::span<const double> shares, std::size_t targets) {
     if (shares.empty()) return;
     require(shares.size() == targets, "the number of shares",
-            static_cast<long long>(shares.size()),
-            "that of the objects that mirror or refract");
+            static_cast<long long>(shares.size()), "the number of specular objects");
     double sum = 0;
     for (const double share : shares) {
         require(share >= 0 && share <= 1, "a share of the photons", share,
@@ -298,12 +284,12 @@ inline void check_shares(std::span<const double> shares, std::size_t targets) {
     require(std::abs(sum - 1) < 1e-6, "the sum of all shares", sum, "1");
 }
 
-/// A photon aimed at one of several objects, each chosen with its share; its flux is
-/// divided by that share, so that any shares above 0 give the same mean.
+/// Aims a photon at one of several objects, chosen with the given probabilities. The
+/// flux is divided by the probability, so that the mean does not depend on it.
 /// \param world    The closed scene.
-/// \param choice   Of its lights.
+/// \param choice   The distribution of its lights.
 /// \param targets  The objects.
-/// \param shares   As check_shares() lets pass; none: aim().
+/// \param shares   Probabilities, as check_shares() accepts; if empty, as aim().
 /// \param stream   One number more is drawn than by aim().
 /// \return As aim().
 // [aim_by_share]
@@ -317,7 +303,7 @@ aim_by_share(const W& world, const LightChoice& choice,
     double left = double(next_1d<T>(stream));
     std::size_t chosen = 0;
     for (std::size_t k = 0; k < shares.size(); ++k) {
-        if (!(shares[k] > 0)) continue; // not even if rounding leaves something over
+        if (!(shares[k] > 0)) continue; // never chosen, even by rounding
         chosen = k;
         if (left < shares[k]) break;
         left -= shares[k];

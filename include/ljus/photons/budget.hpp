@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/budget.hpp
-/// \brief How many caustic photons each mirror and each glass gets.
+/// \brief The distribution of caustic photons among mirrors and glass objects.
 
 #include <cmath>
 #include <span>
@@ -18,14 +18,15 @@ namespace ljus {
 /// refractivity". Chapter: \ref ch_caustic_budget.
 /// \{
 
-/// Shares that make a sum of variances least. With n_k photons object k adds the
-/// variance \f$ a_k^2 / n_k \f$; the sum, with all n_k together given, is least for
-/// \f$ n_k \propto a_k \f$ (Neyman). A part of the photons is shared out equally, for
-/// a pilot can be wrong: the variance is then at most 1/(1 - floor) of the least.
+/// The fractions that minimise a sum of variances. If n_k photons give object k the
+/// variance \f$ a_k^2 / n_k \f$, the sum for a given total is least for
+/// \f$ n_k \propto a_k \f$ (Neyman). Because the pilot's a_k may be wrong, some photons
+/// are distributed evenly; the variance is then at most 1/(1 - floor) of the least.
 /// \param scatter  The a_k: finite, at least 0.
-/// \param floor    The part that is shared out equally, in [0, 1].
-/// \return Shares with the sum 1, none below floor / size; equal ones if all a_k are 0.
-/// \throws std::invalid_argument  with the number that is wrong.
+/// \param floor    Fraction distributed evenly, in [0, 1].
+/// \return Fractions with the sum 1, at least floor / size each; equal if all a_k are
+///         0.
+/// \throws std::invalid_argument  with the wrong value.
 // [share_out]
 [[nodiscard]] inline std::vector<double> share_out(std::span<const double> scatter,
                                                    double floor = 0.1) {
@@ -38,31 +39,31 @@ namespace ljus {
     std::vector<double> shares;
     for (const double a : scatter) {
         const double equal = 1 / double(scatter.size());
-        // The part of one that is alone is 1, not a little more.
+        // Written so that a single object gets exactly 1.
         shares.push_back(sum > 0 ? floor * equal + (1 - floor) * (a / sum) : equal);
     }
     return shares;
 }
 // [share_out]
 
-/// What a pilot pass found out about one object. Scatters are the a_k of share_out().
+/// The results of a pilot pass for one object; its scatters are the a_k of share_out().
 struct CausticPilot {
-    ObjectId object{};      ///< Which object.
-    std::size_t stored = 0; ///< Photons of the pilot that came to a diffuse surface.
-    double flux = 0;        ///< Luminous part of the flux that it throws, W.
-    double area = 0;        ///< Flux over its mean irradiance: on how much it lies.
-    double absolute = 0;    ///< Scatter of the light on surfaces, W.
-    double relative = 0;    ///< Scatter relative to its own mean light, as an area.
+    ObjectId object{};      ///< The object.
+    std::size_t stored = 0; ///< Photons of the pilot on diffuse surfaces.
+    double flux = 0;        ///< Luminous part of the object's caustic, W.
+    double area = 0;        ///< Flux over mean irradiance: the caustic's size.
+    double absolute = 0;    ///< Scatter of the irradiance on surfaces, W.
+    double relative = 0;    ///< Scatter relative to its own mean, as an area.
     double visible = 0;     ///< Scatter relative to all light, as an area.
 };
 
 namespace detail {
 
-/// The irradiance around a photon, by the photons of a map on its side of its surface.
+/// The irradiance around a photon, from the photons of a map on its side of the
+/// surface.
 /// \param map     The photons; shadow photons do not count.
-/// \param at      Where.
-/// \param radius  Of the disc.
-/// \return The luminance of W/m^2.
+/// \param radius  Radius of the disc, in scene units.
+/// \return Luminance of the irradiance, in W/m^2.
 template <std::floating_point T>
 [[nodiscard]] double irradiance_around(const PhotonMapT<T>& map, const PhotonT<T>& at,
                                        T radius) {
@@ -78,7 +79,7 @@ template <std::floating_point T>
     return sum / (std::numbers::pi * double(radius) * double(radius));
 }
 
-/// The mean irradiance that photons meet in a map, by some thousand of them.
+/// The mean irradiance at photons of a map, from some thousand samples.
 template <std::floating_point T>
 [[nodiscard]] double mean_irradiance(const PhotonMapT<T>& map,
                                      const std::vector<PhotonT<T>>& photons, T radius) {
@@ -92,8 +93,8 @@ template <std::floating_point T>
     return flux > 0 ? lit / flux : 0;
 }
 
-/// The photons of a pilot for one object: as many of a pass as `paths`, aimed at it
-/// alone, from streams that no pass of the picture draws from.
+/// Traces the pilot of one object: `paths` photons aimed at it alone, with random
+/// streams that no pass of the picture uses.
 template <AnyWorld W>
 [[nodiscard]] TracedPhotonsT<typename W::Scalar>
 trace_pilot(const W& world, PhotonPassSettings pass, std::size_t object,
@@ -106,19 +107,18 @@ trace_pilot(const W& world, PhotonPassSettings pass, std::size_t object,
     return trace_photons(world, MapType::caustics, pass);
 }
 
-/// What the photons of a pilot say of their object.
+/// Evaluates the photons of a pilot.
 template <std::floating_point T>
 struct PilotLightT {
-    const PhotonMapT<T>& caustics; ///< The photons of all pilots.
-    const PhotonMapT<T>& rest;     ///< What else lights the scene.
-    T radius = T(0);               ///< The caustics are asked within it.
-    T wide = T(0);                 ///< The rest is asked within it.
-    double dark = 0;               ///< A tenth of the mean light, W/m^2.
+    const PhotonMapT<T>& caustics; ///< Photons of all pilots.
+    const PhotonMapT<T>& rest;     ///< Photons of all other light.
+    T radius = T(0);               ///< Search radius for the caustics.
+    T wide = T(0);                 ///< Search radius for the rest.
+    double dark = 0;               ///< A tenth of the mean irradiance, W/m^2.
 
-    /// Adds up what an object throws, and how that scatters.
-    /// \param object   The object.
-    /// \param photons  Of its pilot, as they were stored.
-    /// \param paths    How many were sent.
+    /// Sums the flux and the scatters of an object.
+    /// \param photons  The stored photons of its pilot.
+    /// \param paths    Number of paths of its pilot.
     [[nodiscard]] CausticPilot judge(ObjectId object,
                                      const std::vector<PhotonT<T>>& photons,
                                      long long paths) const {
@@ -126,7 +126,7 @@ struct PilotLightT {
         double lit = 0; // flux times irradiance
         for (const PhotonT<T>& photon : photons) {
             const double flux = luminance(RgbT<double>(photon.flux));
-            if (!(flux > 0)) continue; // what follows is above 0 as well
+            if (!(flux > 0)) continue; // E is above 0 below
             const double own = irradiance_around(caustics, photon, radius);
             const double visible =
                 flux / (own + dark + irradiance_around(rest, photon, wide));
@@ -147,26 +147,25 @@ struct PilotLightT {
 
 } // namespace detail
 
-/// Traces a few photons to each mirror and each glass, to learn what it throws and how
-/// it scatters. They are not used again: what decides about a share must not count in
-/// it, or the mean is wrong.
+/// Traces a few photons to each mirror and each glass object, to measure the flux and
+/// the scatter of its caustic. The photons are not used again: an estimate whose
+/// fractions depend on its own photons would be biased.
 ///
-/// An estimate sums photons of the flux \f$ \varphi_i \f$, with a variance that over
-/// the whole picture is \f$ \propto \sum_i \varphi_i^2 \f$. Where the error counts
-/// relative to a light E, each counts as \f$ (\varphi_i / E(x_i))^2 \f$. So of the n
-/// photons that were sent to object k
-/// \f$ a_k^2 = n \sum_i (\varphi_i / E(x_i))^2 \f$. E is 1, or the mean light of its
-/// caustic, or all light and a tenth of its mean: in the dark no error is relative to
-/// nothing.
+/// An estimate that sums photons of the flux \f$ \varphi_i \f$ has a variance that over
+/// the whole picture is \f$ \propto \sum_i \varphi_i^2 \f$. If errors count relative to
+/// a light E, each photon contributes \f$ (\varphi_i / E(x_i))^2 \f$. For object k with
+/// n photons, \f$ a_k^2 = n \sum_i (\varphi_i / E(x_i))^2 \f$. E is 1, or the mean
+/// light of its caustic, or all light plus a tenth of its mean; the tenth bounds errors
+/// in the dark.
 /// \param world   The closed scene.
-/// \param pass    Of the picture; a twentieth of its photons is sent, at least 500 and
-///                at most 20 000 to each object.
-/// \param radius  Of the estimates of the picture, in scene units; twice of it is used.
-///                0: that in which 32 photons of the picture lie typically.
-/// \param light   What else lights the scene: photons of a general map, or none; shadow
-///                photons are no light, and do not count.
-/// \param wide    The radius that they are asked with; 0: that of 64 of them.
-/// \return One for each of specular_objects().
+/// \param pass    The picture's pass; the pilot sends a twentieth of its photons, 500
+///                to 20 000 per object.
+/// \param radius  Radius of the picture's estimates, in scene units; the pilot uses
+///                twice of it. 0: the typical radius of 32 photons of the picture.
+/// \param light   All other light: photons of a general map, or none. Shadow photons do
+///                not count.
+/// \param wide    Search radius in `light`; 0: the typical radius of 64 of its photons.
+/// \return One per element of specular_objects().
 template <AnyWorld W, std::floating_point T = typename W::Scalar>
 [[nodiscard]] std::vector<CausticPilot>
 pilot_caustics(const W& world, const PhotonPassSettings& pass, T radius,
@@ -185,7 +184,7 @@ pilot_caustics(const W& world, const PhotonPassSettings& pass, T radius,
     }
     const PhotonMapT<T> caustics = make_photon_map(all, pass.threads);
     const PhotonMapT<T> rest = make_photon_map(light, pass.threads);
-    if (radius == 0) // the picture's photons lie denser than those of the pilot
+    if (radius == 0) // the picture's photons are denser than the pilot's
         radius =
             typical_radius(caustics, 32) *
             T(std::sqrt(double(paths * count) / double(std::max(pass.photons, 1LL))));
@@ -200,10 +199,8 @@ pilot_caustics(const W& world, const PhotonPassSettings& pass, T radius,
     return pilots;
 }
 
-/// The shares of a budget, for PhotonPassSettings::shares.
-/// \param budget  What the photons are shared out by.
-/// \param pilots  Of pilot_caustics().
-/// \return One for each object; none at all for CausticBudget::as_seen.
+/// Computes PhotonPassSettings::shares.
+/// \return One fraction per object; none for CausticBudget::as_seen.
 [[nodiscard]] inline std::vector<double>
 caustic_shares(CausticBudget budget, std::span<const CausticPilot> pilots) {
     if (budget == CausticBudget::as_seen) return {};

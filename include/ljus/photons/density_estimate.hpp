@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/density_estimate.hpp
-/// \brief The radiance that the photons around a point stand for.
+/// \brief The radiance estimate from the photons around a point.
 
 #include <numbers>
 
@@ -16,9 +16,8 @@ namespace ljus {
 
 namespace detail {
 
-/// Whether an estimate runs eight photons at a time: on a matt surface, unless the
-/// radius is of a size whose square no float can hold.
-/// \param gather  How.
+/// Whether an estimate processes eight photons at a time: on a Lambertian surface,
+/// unless the square of the radius leaves the range of float.
 template <typename Material, typename K>
 [[nodiscard]] constexpr bool in_lanes(const DensityEstimateOf<K>& gather) noexcept {
     return std::same_as<Material, LambertianT<typename Material::Scalar>> &&
@@ -27,16 +26,15 @@ template <typename Material, typename K>
 
 } // namespace detail
 
-/// The plain twin of estimate_radiance() with all photons within the radius: photon by
-/// photon, for any material. What the chapter shows, what the fast one is tested
-/// against, and what runs where that would not be faster.
+/// The plain counterpart of estimate_radiance() with a fixed radius: one photon at a
+/// time, for any material.
 /// \param map       The photons.
-/// \param surface   Where they are gathered.
-/// \param material  What the surface is made of.
-/// \param wo        Unit vector in the surface's frame, to where the light goes.
+/// \param surface   The vertex.
+/// \param material  Its material.
+/// \param wo        Outgoing direction, in the surface's frame.
 /// \param gather    Radius, kernel, thickness.
-/// \param kinds     Which kinds count.
-/// \param gathered  Counts the photons that were summed.
+/// \param kinds     The kinds that count.
+/// \param gathered  Counts the summed photons.
 /// \return Radiance, W/(m^2 sr).
 // [plain estimate]
 template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
@@ -48,7 +46,7 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
     const glm::dvec3 x(surface.point.position), n(surface.point.normal);
     const double r2 = double(gather.radius) * double(gather.radius);
     const double height2 = double(gather.thickness) * double(gather.thickness) * r2;
-    RgbT<double> sum{0}; // many small terms: a float would lose the last of them
+    RgbT<double> sum{0}; // float would lose the last terms
     const auto add = [&](std::uint32_t i, double distance2) {
         const detail::PhotonRecordT<T> photon = map.records[i];
         const double height = glm::dot(glm::dvec3(map.tree.point(i)) - x, n);
@@ -65,35 +63,33 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
 }
 // [plain estimate]
 
-/// The radiance that the photons around a point send towards an observer:
+/// The radiance that the photons around a point give towards an observer:
 ///
 /// \f[ L(x, \omega_o) = \frac{1}{\pi r^2} \sum_i w_i\, f(\omega_o, \omega_i)\,
 ///     \Delta\Phi_i \f]
 ///
-/// With the k nearest, the k-th sets the radius and is left out of the sum: counting it
-/// would be too bright by k/(k-1). Fewer than k within the radius are summed over the
-/// whole disc, and the mean stays right.
+/// The k-th of the k nearest photons only sets the radius; with it in the sum, the
+/// estimate would be too bright by k/(k-1). If there are fewer than k within the
+/// maximum radius, all of them are summed over its disc, and the mean is still right.
 ///
-/// Only photons of the same surface count: those whose surface is turned by less than
-/// 60 degrees, in a disc of the thickness. A photon whose `normal` is left 0 matches
-/// every surface. On a ball the cap within r of a point of it
-/// has the area \f$ \pi r^2 \f$, as a plane has, so that nothing is lost on a ball of
-/// radius r or more. At a surface's edge half of the disc lies beside it, in a corner
-/// three quarters, and the estimate reads 1/2 and 1/4 of what it should.
-///
+/// A photon counts if its normal is within 60 degrees of the surface's and if it lies
+/// in a disc of the given thickness. A photon whose `normal` is 0 matches every
+/// surface. On a ball of radius r or more, the cap within r of a point has the area
+/// \f$ \pi r^2 \f$ of the disc, so the estimate is unbiased. At the edge of a surface
+/// half of the disc lies outside, in a corner three quarters, and the estimate is 1/2
+/// and 1/4 of the right value.
 /// \param map       The photons.
-/// \param surface   Where they are gathered: of the vertex only point.position,
-///                  point.normal and frame are read.
-/// \param material  What the surface is made of.
-/// \param wo        Unit vector in the surface's frame, to where the light goes.
-/// \param gather    Radius, k, kernel.
-/// \param kinds     Which kinds count.
-/// \param gathered  Counts the photons that were summed.
-/// \return Radiance, W/(m^2 sr); 0 if the k nearest photons all lie at x itself, or
-///         within 1e-15 of the radius of it: a disc without an area.
+/// \param surface   The vertex; only point.position, point.normal and frame are used.
+/// \param material  Its material.
+/// \param wo        Outgoing direction, in the surface's frame.
+/// \param gather    Radius, k, kernel, thickness.
+/// \param kinds     The kinds that count.
+/// \param gathered  Counts the summed photons.
+/// \return Radiance, W/(m^2 sr); 0 if the k nearest photons all lie within 1e-15 of the
+///         radius from x, where the disc has no area.
 /// \report{Section 3.2.6}
-/// \erratum{The report's R_i is called a radiance; it is the BRDF times the photon's
-///          flux. There is no cosine: the flux that arrives on the surface holds it.}
+/// \erratum{The report calls R_i a radiance; it is the BRDF times the photon's flux.
+///          There is no cosine: the flux that arrives on the surface contains it.}
 template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
 [[nodiscard]] RgbT<T> estimate_radiance(const PhotonMapT<T>& map,
                                         const VertexT<T>& surface,
@@ -113,7 +109,7 @@ template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
     if (!detail::in_lanes<Material>(gather))
         return estimate_radiance_plain(map, surface, material, wo, gather, kinds,
                                        gathered);
-    // A matt surface sends back the same share of all: the irradiance times its BRDF.
+    // On a Lambertian surface the radiance is the irradiance times the BRDF.
     const Vec3T<T> side = std::copysign(T(1), wo.z) * surface.frame.normal;
     const auto [flux, radius2] =
         detail::flux_within(map, surface.point, side, gather, kinds, gathered);

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/photons/irradiance_estimate.hpp
-/// \brief How photons are gathered, and the irradiance that those around a point stand
-/// for.
+/// \brief Settings of density estimates, and the irradiance estimate from the photons
+/// around a point.
 
 #include <array>
 #include <cmath>
@@ -20,38 +20,37 @@ namespace ljus {
 /// \addtogroup photon_map
 /// \{
 
-/// The most photons that an estimate with the k nearest takes.
+/// Largest k of an estimate with the k nearest photons.
 inline constexpr std::size_t max_nearest = 512;
 
 namespace detail {
 
-/// The kernel of settings that name none.
+/// The default kernel of a type of kernels.
 template <typename K>
 inline constexpr K default_kernel{};
-/// Of the kernels of the library, that of the least variance.
+/// The library's kernel of least variance.
 template <>
 inline constexpr Kernel default_kernel<Kernel> = Kernel::epanechnikov;
 
 } // namespace detail
 
-/// How photons are gathered.
-/// \tparam K  Kernel, for one of the library's, chosen when the program runs; or a type
-///            that is a kernel: see KernelLike.
+/// Settings of a density estimate.
+/// \tparam K  Kernel, for one of the library's, chosen at run time; or a type of your
+///            own that is a kernel: see KernelLike.
 template <KernelLike K>
 struct DensityEstimateOf {
-    float radius = 0.1f;                  ///< In scene units, from 1e-15 to 1e15.
-    std::size_t nearest = 0;              ///< k within the radius; 0: all within it.
-    K kernel = detail::default_kernel<K>; ///< The weight by distance.
-    float thickness = 0.5f; ///< Half the height of the disc over its radius: photons of
-                            ///< a parallel wall lie outside. With 0.5 the disc holds
-                            ///< all that a ball no smaller than it has within it.
+    float radius = 0.1f;     ///< In scene units, from 1e-15 to 1e15.
+    std::size_t nearest = 0; ///< k, at most this many within the radius; 0: all.
+    K kernel = detail::default_kernel<K>; ///< Weight by distance.
+    float thickness = 0.5f; ///< Half the height of the disc over its radius; excludes
+                            ///< photons of parallel walls. At 0.5 the disc contains the
+                            ///< surface of any ball of its radius or larger.
 };
 using DensityEstimateSettings = DensityEstimateOf<Kernel>; ///< With a listed kernel.
 
-/// Refuses a way to gather that gives no estimate.
-/// \param gather  The settings.
-/// \throws std::invalid_argument  with name and value; also for a kernel of the user's
-///         own that makes or loses light.
+/// Refuses settings that give no estimate.
+/// \throws std::invalid_argument  with name and value; also for a user's kernel whose
+///         mean is not 1.
 template <typename K>
 void check(const DensityEstimateOf<K>& gather) {
     require(gather.radius >= 1e-15f && gather.radius <= 1e15f, "gather.radius",
@@ -61,35 +60,34 @@ void check(const DensityEstimateOf<K>& gather) {
             static_cast<long long>(gather.nearest),
             "0 for all within the radius, or 2 to 512 (one photon sets the radius)");
     if constexpr (!std::same_as<K, Kernel>) {
-        double mean = 0; // by the middles of a thousand rings of the same area
+        double mean = 0; // averaged over a thousand rings of equal area
         for (int i = 0; i < 1000; ++i)
             mean +=
                 double(kernel_weight(gather.kernel, (float(i) + 0.5f) / 1000)) / 1000;
         require(std::abs(mean - 1) < 0.01, "the mean of gather.kernel over the disc",
-                mean, "1, or light is made or lost");
+                mean, "1, so that the estimate conserves flux");
     }
 }
 
 namespace detail {
 
-/// What is summed over the photons of a disc.
+/// A sum over the photons of a disc.
 struct DiscSum {
-    RgbT<double> sum{0}; ///< Many small terms: a float would lose the last of them.
-    double radius2 = 1;  ///< Of the disc, squared.
+    RgbT<double> sum{0}; ///< In double: float would lose the last terms.
+    double radius2 = 1;  ///< Squared radius of the disc.
 };
 
-/// A sum over a disc, as a density: over the disc's area.
-/// \param sum      Of weight times flux, W; or of that times a BRDF.
-/// \param radius2  Of the disc, squared.
+/// Divides a sum over a disc by the disc's area.
+/// \param sum      Sum of weight times flux, W; possibly times a BRDF.
 /// \return W/m^2; or W/(m^2 sr).
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> per_area(const RgbT<double>& sum, double radius2) noexcept {
     return RgbT<T>(sum / (std::numbers::pi * radius2));
 }
 
-/// Wants the photons of some kinds: see nearest_photons().
+/// A filter for nearest_photons(): accepts photons by kind.
 struct OfKinds {
-    PhotonKinds kinds; ///< Which kinds count.
+    PhotonKinds kinds; ///< The kinds that count.
     /// Whether a photon counts.
     template <std::floating_point T>
     [[nodiscard]] bool operator()(std::uint32_t /*index*/,
@@ -98,21 +96,18 @@ struct OfKinds {
     }
 };
 
-/// The photons that an estimate with the k nearest sums.
+/// The photons of an estimate with the k nearest.
 struct NearestPhotons {
-    std::span<const Neighbor> photons{}; ///< They, in any order.
-    double radius2 = 0;                  ///< Of the disc that they lie in, squared.
+    std::span<const Neighbor> photons{}; ///< Unsorted.
+    double radius2 = 0;                  ///< Squared radius of their disc.
 };
 
-/// The k nearest photons at a point: the one search of all estimates with them. The
-/// k-th sets the radius and is left out of the sum. Fewer than k are all that there are
-/// in the whole disc, and none of them is left out.
-/// \param map     The photons.
-/// \param point   Of a surface: position and normal are read.
-/// \param radius  They lie within it.
-/// \param room    Room for k, at most max_nearest.
-/// \param wanted  Called as wanted(index, record): whether that photon counts. Those
-///                that are turned_away() do not.
+/// Finds the k nearest photons for an estimate. The k-th sets the radius and is left
+/// out. If there are fewer than k within `radius`, it returns all of them.
+/// \param point   Point of a surface; its position and normal are used.
+/// \param room    Has k elements, at most max_nearest.
+/// \param wanted  Called as wanted(index, record); whether the photon counts. Photons
+///                that are turned_away() never count.
 template <std::floating_point T, typename Wanted>
 [[nodiscard]] NearestPhotons
 nearest_photons(const PhotonMapT<T>& map, const SurfacePointT<T>& point, T radius,
@@ -129,16 +124,10 @@ nearest_photons(const PhotonMapT<T>& map, const SurfacePointT<T>& point, T radiu
             full ? room[0].distance2 : double(radius) * double(radius)};
 }
 
-/// Sums over the k nearest photons in their disc, one by one.
-/// \param map       The photons.
-/// \param point     Where: position and normal are read.
-/// \param gather    Radius, k, kernel, thickness.
-/// \param kinds     Which kinds count.
-/// \param gathered  Counts the photons that were summed.
-/// \param factor    Called with a PhotonRecordT; returns what the flux is multiplied by
-///                  besides its weight.
-/// \return A sum of 0 if the k photons all lie in one point: they have no area, and
-///         there is no estimate.
+/// Sums over the k nearest photons, one by one.
+/// \param point     The point; its position and normal are used.
+/// \param factor    Called with a PhotonRecordT; returns a factor of its flux.
+/// \return The sum; 0 if all k photons lie at one point and the disc has no area.
 template <std::floating_point T, KernelLike<T> K, typename Factor>
 [[nodiscard]] DiscSum
 sum_of_nearest(const PhotonMapT<T>& map, const SurfacePointT<T>& point,
@@ -165,11 +154,7 @@ sum_of_nearest(const PhotonMapT<T>& map, const SurfacePointT<T>& point,
     return disc;
 }
 
-/// The disc of an estimate with all photons within the radius.
-/// \param point   Where: position and normal are read.
-/// \param side    Unit: photons that travel against it count.
-/// \param gather  Radius, kernel, thickness.
-/// \param kinds   Which kinds count.
+/// The disc of an estimate with a fixed radius.
 template <std::floating_point T, KernelLike<T> K>
 [[nodiscard]] FluxDiscT<T, K>
 flux_disc(const Vec3T<T>& position, const Vec3T<T>& normal, const Vec3T<T>& side,
@@ -183,14 +168,10 @@ flux_disc(const Vec3T<T>& position, const Vec3T<T>& normal, const Vec3T<T>& side
             .kinds = kinds};
 }
 
-/// The flux within the radius that arrives on one side of a surface, eight photons at a
-/// time.
-/// \param map       The photons.
-/// \param point     Where: position and normal are read.
-/// \param side      Unit: photons that travel against it count.
-/// \param gather    Radius, kernel, thickness.
-/// \param kinds     Which kinds count.
-/// \param gathered  Counts the photons in the disc, of either side.
+/// Sums the flux that arrives on one side of a surface within a fixed radius, eight
+/// photons at a time.
+/// \param side      Unit vector; photons that travel against it count.
+/// \param gathered  Counts the photons in the disc, on either side.
 template <std::floating_point T, KernelLike<T> K>
 [[nodiscard]] DiscSum flux_within(const PhotonMapT<T>& map,
                                   const SurfacePointT<T>& point, const Vec3T<T>& side,
@@ -204,27 +185,25 @@ template <std::floating_point T, KernelLike<T> K>
 
 } // namespace detail
 
-/// The irradiance that the photons around a point bring to one side of its surface:
+/// The irradiance on one side of a surface, from the photons around a point:
 ///
 /// \f[ E(x) = \frac{1}{\pi r^2} \sum_i w_i\, \Delta\Phi_i \f]
 ///
-/// estimate_radiance() of a matt surface is this times its BRDF, and says which photons
-/// count. No scene, no material and no vertex are asked for, so that photons of your
-/// own will do: position, direction, flux and kind, and nothing else. One whose
-/// `normal` is left 0 matches every surface.
+/// estimate_radiance() documents which photons count; on a Lambertian surface it is
+/// this irradiance times the BRDF. No scene, material or vertex is needed, so photons
+/// of your own will do, with position, direction, flux and kind:
 ///
 ///     const PhotonMap map = make_photon_map(photons);
 ///     const Rgb E = estimate_irradiance(map, {.position = x, .normal = n}, n,
 ///                                       DensityEstimateSettings{.radius = 0.1f});
-///     const Rgb L = albedo / pi * E; // what a matt surface sends back
-///
+///     const Rgb L = albedo / pi * E; // radiance of a Lambertian surface
 /// \param map     The photons.
-/// \param point   Where: its position and its normal are read, which is compared with
-///                the normals of photons.
-/// \param side    Unit, on the side that is asked about: the point's normal, or its
-///                opposite. Photons that travel against it count.
+/// \param point   The point; its position is used, and its normal is compared with
+///                those of the photons.
+/// \param side    The point's normal or its opposite; photons that travel against it
+///                count.
 /// \param gather  Radius, k, kernel, thickness.
-/// \param kinds   Which kinds count.
+/// \param kinds   The kinds that count.
 /// \return W/m^2; 0 without photons.
 /// \report{Section 3.2.6}
 template <std::floating_point T, KernelLike<T> K = Kernel>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/irradiance_points.hpp
-/// \brief Irradiance, worked out once at some of the photons, for rays to look up.
+/// \brief Irradiance precomputed at some photons, for gather rays to look up.
 
 #include <array>
 #include <cmath>
@@ -17,47 +17,42 @@
 namespace ljus {
 
 /// \defgroup irradiance_points Precomputed irradiance
-/// \brief Christensen's shortcut for final gathering: a gather ray looks up one number
-/// in place of a density estimate \cite christensen1999. Chapter:
+/// \brief Christensen's acceleration of final gathering: a gather ray looks up one
+/// value instead of a density estimate \cite christensen1999. Chapter:
 /// \ref ch_final_gathering.
 /// \{
 
-/// A point of a surface where the irradiance is known.
+/// The irradiance at a point of a surface.
 template <std::floating_point T>
 struct IrradianceAtT {
-    RgbT<T> irradiance{T(0)};          ///< Of all light, direct light too; W/m^2.
+    RgbT<T> irradiance{T(0)};          ///< Of all light, including direct; W/m^2.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit, on the lit side.
 };
 
-/// Points where the irradiance is known, ordered for searching.
+/// Points with known irradiance, in a tree.
 template <std::floating_point T>
 struct IrradiancePointsT {
-    KdTree8T<T> tree;                      ///< Where they are.
-    std::vector<IrradianceAtT<T>> records; ///< What is known, in the tree's order.
-    T radius = T(0); ///< A point says nothing of what is farther from it.
+    KdTree8T<T> tree;                      ///< Positions.
+    std::vector<IrradianceAtT<T>> records; ///< In the tree's order.
+    T radius = T(0); ///< A lookup uses no point farther away than this.
 
-    /// Whether there are none.
+    /// Whether there are no points.
     [[nodiscard]] bool empty() const noexcept { return records.empty(); }
 };
 using IrradiancePoints = IrradiancePointsT<float>; ///< IrradiancePointsT in float.
 
 namespace detail {
 
-/// Whether a photon of a map is of some kind.
+/// Whether a photon of a map has a kind.
 template <std::floating_point T>
 [[nodiscard]] bool is_of_kind(const PhotonMapT<T>& map, std::uint32_t index,
                               PhotonKind kind) {
     return PhotonRecordT<T>(map.records[index]).kind == kind;
 }
 
-/// Whether a photon of a map becomes a point: every so many of them.
-///
-/// They are counted in the order of emission, which is chance. In the tree's order
-/// there would be more points where there are too many photons, and the mean over a
-/// surface would be too small.
-/// \param map    The general map.
-/// \param index  Of the photon, in the tree's order.
-/// \param every  One of so many is a point.
+/// Whether a photon of a map becomes a lookup point: every n-th one in the order of
+/// emission, which is random. In the tree's order, dense regions would have too many
+/// points, and the mean over a surface would be too small.
 template <std::floating_point T>
 [[nodiscard]] bool is_point(const PhotonMapT<T>& map, std::size_t index, int every) {
     return map.tree.point_ids()[index] % static_cast<std::size_t>(every) == 0;
@@ -65,16 +60,16 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The irradiance on one side of a surface that the nearest photons make, by
-/// Epanechnikov's kernel, with edges made up for: estimate_irradiance() for those who
-/// know the scene.
+/// The irradiance on one side of a surface from the nearest photons, with
+/// Epanechnikov's kernel. Unlike the overload without a scene, it can correct for edges
+/// of the surface.
 /// \param world     The closed scene.
 /// \param map       The photons.
-/// \param vertex    Where.
-/// \param normal    Unit, on the side that is asked about.
-/// \param settings  How many photons, and whether edges are made up for.
-/// \param radius    The largest distance at which they count, in scene units.
-/// \param wanted    Says of the index of a record whether that photon counts.
+/// \param vertex    The point.
+/// \param normal    Unit vector on the side of the irradiance.
+/// \param settings  Number of photons; whether to correct for edges.
+/// \param radius    Maximum radius, in scene units.
+/// \param wanted    Called with the index of a record; whether the photon counts.
 /// \return W/m^2.
 template <AnyWorld W, std::floating_point T, typename Wanted>
 [[nodiscard]] RgbT<T>
@@ -82,7 +77,7 @@ estimate_irradiance(const W& world, const PhotonMapT<T>& map, const VertexT<T>& 
                     const Vec3T<T>& normal, const IrradiancePointSettings& settings,
                     T radius, const Wanted& wanted) {
     // [estimate_irradiance]
-    // By the shape's own normal, as photons have it; the side is told by where they go.
+    // The shape's own normal, as for photons; their directions tell the side.
     const auto counts = [&](std::uint32_t i, const auto&) { return wanted(i); };
     std::array<Neighbor, max_nearest> room;
     const auto [photons, radius2] = detail::nearest_photons(
@@ -105,16 +100,13 @@ estimate_irradiance(const W& world, const PhotonMapT<T>& map, const VertexT<T>& 
 
 namespace detail {
 
-/// The irradiance at a point: direct light by shadow rays, which know where its shadows
-/// end; caustics and indirect light from the maps.
-/// \param world     The closed scene.
-/// \param general   The general map, of whose indirect photons those count that are not
-///                  points themselves.
+/// The irradiance at a lookup point: direct light by shadow rays, which give sharp
+/// shadows; caustics and indirect light from the maps.
+/// \param general   The general map; its indirect photons count, unless they are lookup
+///                  points.
 /// \param caustics  The caustics map; may be empty.
-/// \param vertex    The point, seen from the side that is asked about.
-/// \param settings  How.
-/// \param radius    Within which the photons of an estimate lie, in scene units.
-/// \param stream    The numbers of the shadow rays.
+/// \param vertex    The point, seen from the side of the irradiance.
+/// \param radius    Maximum radius of an estimate, in scene units.
 /// \return W/m^2.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> irradiance_of_point(const W& world, const PhotonMapT<T>& general,
@@ -152,12 +144,12 @@ template <AnyWorld W, std::floating_point T>
 
 } // namespace detail
 
-/// Works out the irradiance at every so many photons of a map.
+/// Precomputes the irradiance at every n-th photon of a map.
 /// \param world     The closed scene.
-/// \param general   The general map: where the points are, and its indirect photons.
+/// \param general   The general map: the points, and their indirect light.
 /// \param caustics  The caustics map; may be empty.
-/// \param settings  How.
-/// \param seed      Of the shadow rays.
+/// \param settings  The settings.
+/// \param seed      Seed of the shadow rays.
 /// \param threads   As in ParallelSettings.
 /// \return The points, the same for any number of threads.
 /// \cost About 10 microseconds per point.
@@ -180,7 +172,7 @@ template <AnyWorld W, std::floating_point T>
         Vec3T<T> normal = glm::normalize(Vec3T<T>(record.normal));
         if (photon_side(record.direction, normal) < 0) normal = -normal;
         records[i].normal = normal;
-        // What stands there is asked of the scene: a photon does not remember.
+        // A photon does not store its surface; a short ray finds it.
         const auto vertex =
             detail::vertex_below(world, positions[i], normal, T(1e-3) * radius);
         if (!vertex) return;
@@ -199,11 +191,9 @@ template <AnyWorld W, std::floating_point T>
     return points;
 }
 
-/// The irradiance at the nearest point with a like normal.
-/// \param points    The points.
-/// \param position  Where it is asked for.
-/// \param normal    Unit, on the side that is asked about.
-/// \return W/m^2; 0 if there is none: where no photon came, it is dark.
+/// The irradiance at the nearest lookup point with a similar normal. `normal` is a unit
+/// vector on the side in question.
+/// \return W/m^2; 0 if there is none nearby, because photons reach every lit surface.
 // [irradiance_at]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> irradiance_at(const IrradiancePointsT<T>& points,

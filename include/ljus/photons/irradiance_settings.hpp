@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/irradiance_settings.hpp
-/// \brief How irradiance is precomputed at photons.
+/// \brief Settings of precomputed irradiance.
 
 #include <cstddef>
 
@@ -12,15 +12,15 @@ namespace ljus {
 /// \addtogroup irradiance_points
 /// \{
 
-/// How irradiance is precomputed.
+/// Settings of precomputed irradiance.
 struct IrradiancePointSettings {
-    int every = 6; ///< Every n-th photon becomes a lookup point, and is left out of the
+    int every = 6; ///< Every n-th photon becomes a lookup point and is left out of the
                    ///< estimates; at least 2.
-    std::size_t nearest = 32; ///< Photons of an estimate, 2 to 512.
-    float radius = 0; ///< Within which they lie, at most, in scene units; 0: four times
-                      ///< as far as they lie typically.
-    int shadow_rays = 4; ///< To each light, for the direct part; at least 1.
-    bool edges = true;   ///< Divide by the part of the disc that is on the shape.
+    std::size_t nearest = 32; ///< Photons per estimate, 2 to 512.
+    float radius = 0;    ///< Their maximum radius, in scene units; 0: four times their
+                         ///< typical radius.
+    int shadow_rays = 4; ///< Per light, for direct light; at least 1.
+    bool edges = true;   ///< Divide by the fraction of the disc on the shape.
 };
 
 /// \}

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/photon.hpp
-/// \brief The photon: a packet of flux that has come to a surface.
+/// \brief The photon: a packet of flux at a surface.
 
 #include <cstdint>
 
@@ -13,23 +13,22 @@
 namespace ljus {
 
 /// \defgroup photon Photons
-/// \brief Section 2.3: what a photon map keeps.
+/// \brief Section 2.3: the content of a photon map.
 /// \{
 
-/// What has happened to a photon, in Heckbert's letters \cite heckbert1990.
+/// The path of a photon, in Heckbert's notation \cite heckbert1990.
 enum class PhotonKind : std::uint8_t {
-    direct,   ///< L D: it comes straight from its light.
-    caustic,  ///< L S+ D: only mirrors and glass lie between.
-    indirect, ///< L ... D ... D: it has met a diffuse surface before.
-    shadow ///< Not light: the first surface in its way hides this one from the light.
+    direct,   ///< L D: straight from its light.
+    caustic,  ///< L S+ D: by mirrors and glass only.
+    indirect, ///< L ... D ... D: by a diffuse surface before.
+    shadow    ///< Carries no flux; marks a surface that is in shadow.
 };
 
-/// Some of the kinds, as a bit each: 1 for direct, 2 for caustic, 4 for indirect, 8 for
-/// shadow.
+/// A set of kinds, one bit each: 1 direct, 2 caustic, 4 indirect, 8 shadow.
 struct PhotonKinds {
-    std::uint8_t bits = 0; ///< Those that are meant.
+    std::uint8_t bits = 0; ///< The kinds in the set.
 
-    /// Whether a kind is one of them.
+    /// Whether a kind is in the set.
     [[nodiscard]] constexpr bool has(PhotonKind kind) const noexcept {
         return (bits >> static_cast<int>(kind) & 1) != 0;
     }
@@ -37,22 +36,20 @@ struct PhotonKinds {
 inline constexpr PhotonKinds all_kinds{15};  ///< Every photon.
 inline constexpr PhotonKinds light_kinds{7}; ///< All but shadow photons.
 
-/// One kind alone.
+/// The set of a single kind.
 [[nodiscard]] constexpr PhotonKinds one_kind(PhotonKind kind) noexcept {
     return {static_cast<std::uint8_t>(1 << static_cast<int>(kind))};
 }
 
 namespace detail {
 
-/// A surface's normal in three bytes, in steps of 1/127: less than half a degree wrong.
-/// Zero, of a photon whose surface is not known, matches every surface.
+/// A normal in three bytes, in steps of 1/127: its error is below half a degree. Zero,
+/// for a photon of unknown surface, matches every surface.
 using SmallNormal = glm::vec<3, std::int8_t>;
 
 } // namespace detail
 
-/// A normal, rounded to three bytes.
-/// \param normal  Unit vector.
-/// \return The nearest small normal.
+/// Rounds a unit normal to three bytes.
 template <std::floating_point T>
 [[nodiscard]] detail::SmallNormal small_normal(const Vec3T<T>& normal) noexcept {
     return detail::SmallNormal(glm::round(T(127) * normal));
@@ -60,12 +57,11 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Whether a photon's surface is turned away from another by 60 degrees or more: the
-/// next wall of a corner, the other side of a thin wall. On a ball, photons as far as
-/// its radius are of the same surface.
-/// \param photon  The normal where the photon is.
-/// \param normal  Unit vector, where it is asked for.
-/// \return Never true of a zero photon normal.
+/// Whether a photon's normal differs by 60 degrees or more from another one, as on the
+/// next wall of a corner or on the back of a thin wall. On a ball, photons up to a
+/// radius away belong to the same surface.
+/// \param photon  Normal of the photon; if it is 0, the result is false.
+/// \param normal  Unit normal.
 // [turned_away]
 template <std::floating_point T>
 [[nodiscard]] bool turned_away(const SmallNormal& photon,
@@ -77,24 +73,22 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// A photon where it met a surface.
+/// A photon at a surface.
 /// \report{Section 2.3}
 /// \erratum{The report gives a photon a radiance; it carries flux, in W.}
 template <std::floating_point T>
 struct PhotonT {
     Vec3T<T> position{T(0)};  ///< In scene units.
-    Vec3T<T> direction{T(0)}; ///< Unit, the way it travels.
-    RgbT<T> flux{T(0)};       ///< W that arrive; of a shadow photon, that do not.
-    std::uint16_t light = 0;  ///< The number of the light it comes from.
-    PhotonKind kind = PhotonKind::direct; ///< What has happened to it.
-    detail::SmallNormal normal{0};        ///< Of the surface that it met.
+    Vec3T<T> direction{T(0)}; ///< Unit direction of travel.
+    RgbT<T> flux{T(0)};       ///< W that arrive; for a shadow photon, W occluded.
+    std::uint16_t light = 0;  ///< Index of its light.
+    PhotonKind kind = PhotonKind::direct; ///< Its path so far.
+    detail::SmallNormal normal{0};        ///< Normal of the surface.
 };
 using Photon = PhotonT<float>; ///< PhotonT in float: 44 bytes.
 
-/// The side of a surface that a photon has come to.
-/// \param direction  The way the photon travels.
-/// \param normal     Of the surface.
-/// \return +1 if it is the side that the normal points to, -1 if it is the other.
+/// The side of a surface on which a photon arrives: +1 for that of the normal, -1 for
+/// the other.
 // [photon_side]
 template <std::floating_point T>
 [[nodiscard]] int photon_side(const Vec3T<T>& direction,
@@ -103,19 +97,18 @@ template <std::floating_point T>
 }
 // [photon_side]
 
-/// Where the emitted flux of a photon pass has gone; in W, added in double.
+/// Where the emitted flux of a photon pass went; in W, summed in double.
 ///
-/// Path by path, absorbed + escaped + cut + roulette = emitted: the first three are
-/// what materials took, what left the scene, and what a depth limit threw away;
-/// `roulette` is what the dead lost less what the survivors gained, and has the mean 0.
+/// For each path, absorbed + escaped + cut + roulette = emitted. `roulette` is what
+/// terminated photons lost minus what survivors gained; its mean is 0.
 struct FluxAudit {
     RgbT<double> emitted{0};  ///< By the lights.
     RgbT<double> absorbed{0}; ///< By materials and media.
-    RgbT<double> escaped{0};  ///< Past all objects.
-    RgbT<double> cut{0};      ///< By the limit of bounces.
-    RgbT<double> roulette{0}; ///< Lost by the dead, less what the survivors gained.
+    RgbT<double> escaped{0};  ///< Left the scene.
+    RgbT<double> cut{0};      ///< Lost at the depth limit.
+    RgbT<double> roulette{0}; ///< Lost minus gained by roulette.
 
-    /// Adds another account.
+    /// Adds another audit.
     FluxAudit& operator+=(const FluxAudit& other) noexcept {
         emitted += other.emitted;
         absorbed += other.absorbed;
@@ -125,7 +118,7 @@ struct FluxAudit {
         return *this;
     }
 
-    /// As if so many times as much had been emitted.
+    /// Scales all flux.
     FluxAudit& operator*=(double factor) noexcept {
         emitted *= factor;
         absorbed *= factor;

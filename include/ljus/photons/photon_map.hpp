@@ -15,21 +15,21 @@ namespace ljus {
 /// \brief Sections 3.2.2 and 3.2.6: the general map and the caustics map.
 /// \{
 
-/// Photons, ordered for searching. The general map and the caustics map differ in what
-/// was traced into them, not in what they are.
+/// Photons in a k-d tree. The general map and the caustics map have this type; they
+/// differ in the photons traced into them.
 template <std::floating_point T>
 struct PhotonMapT {
     KdTree8T<T> tree;                  ///< The positions.
-    detail::PhotonRecordsT<T> records; ///< The rest, in the order of the tree.
+    detail::PhotonRecordsT<T> records; ///< All but the positions, in the tree's order.
 
-    /// Whether there is nothing to be found.
+    /// Whether the map has no photons.
     [[nodiscard]] bool empty() const noexcept { return records.empty(); }
 };
 using PhotonMap = PhotonMapT<float>; ///< PhotonMapT in float.
 
 namespace detail {
 
-// Where photons are, if all that they carry is finite.
+// The positions of photons whose members are all finite.
 template <std::floating_point T>
 [[nodiscard]] std::vector<Vec3T<T>>
 checked_positions(const std::vector<PhotonT<T>>& photons) {
@@ -45,7 +45,7 @@ checked_positions(const std::vector<PhotonT<T>>& photons) {
 } // namespace detail
 
 /// Builds a map.
-/// \param photons  In any order, which it does not keep.
+/// \param photons  In any order.
 /// \param threads  As in ParallelSettings.
 /// \return The map, the same for any number of threads.
 /// \throws std::invalid_argument  if a position, a direction or a flux is not finite.
@@ -58,17 +58,16 @@ template <std::floating_point T>
     return map;
 }
 
-/// The radius of a disc that holds so many photons: the geometric mean over the photons
-/// of a map, which lies between the focus of a caustic and the faint light around it.
+/// The typical radius of a disc with a given number of photons: the geometric mean over
+/// the photons of a map, between that of a caustic's focus and that of faint light.
 /// \param map    The photons.
-/// \param count  How many, at least 1; at most 511.
-/// \return In scene units; 1 if the photons do not tell, because there are none, or all
-///         lie in one point.
+/// \param count  Number of photons, 1 to 511.
+/// \return In scene units; 1 if there are no photons, or if all lie at one point.
 /// \cost At most 255 searches.
 template <std::floating_point T>
 [[nodiscard]] T typical_radius(const PhotonMapT<T>& map, std::size_t count) {
     std::array<Neighbor, 512> room;
-    const std::span<Neighbor> found(room.data(), count + 1); // and the photon itself
+    const std::span<Neighbor> found(room.data(), count + 1); // with the photon itself
     const std::size_t step = map.records.size() / 255 + 1;
     double logarithms = 0, photons = 0;
     for (std::size_t i = 0; i < map.records.size(); i += step) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/photon_pass.hpp
-/// \brief What a pass of photons is asked for, what it brings, and when it gives up.
+/// \brief Settings and results of a photon pass, and its limits.
 
 #include <cmath>
 #include <cstdio>
@@ -17,49 +17,48 @@ namespace ljus {
 /// \addtogroup tracing
 /// \{
 
-/// Which map photons are traced for: how they scatter, and where they are stored.
+/// The two kinds of maps, which differ in scattering and storage of photons.
 enum class MapType : std::uint8_t {
     general, ///< Any scattering; stored: L D and L ... D ... D, not L S+ D.
     caustics ///< Mirrors and glass only; stored: L S+ D.
 };
 
-/// What the photons of the caustics map are shared out by; see \ref budget.
+/// Criteria for the distribution of caustic photons; see \ref budget.
 enum class CausticBudget : std::uint8_t {
-    as_seen,   ///< The cones in which lights see the objects; no pilot.
-    equal,     ///< Nothing: each object gets as many.
-    flux,      ///< Least squared error of the light on surfaces, in (W/m^2)^2.
-    area,      ///< Least squared error relative to each caustic's own mean light.
-    brightness ///< Least squared error relative to all light: what the eye sees.
+    as_seen,   ///< By the cones in which lights see the objects; no pilot.
+    equal,     ///< The same number for each object.
+    flux,      ///< Least squared error of the irradiance, in (W/m^2)^2.
+    area,      ///< Least squared error relative to each caustic's mean.
+    brightness ///< Least squared error relative to all light, as seen by the eye.
 };
 
-/// Where the numbers of photons come from.
+/// Sources of a photon's random numbers.
 enum class PhotonSampling : std::uint8_t {
-    random, ///< Chance; see \ref random.
-    sobol ///< Evenly spread, as long as the dimensions last; see \ref low_discrepancy.
+    random, ///< Pseudo-random; see \ref random.
+    sobol   ///< Low-discrepancy, in the first dimensions; see \ref low_discrepancy.
 };
 
-/// How photons are made.
+/// Settings of a photon pass.
 struct PhotonPassSettings {
-    long long photons = 100000;  ///< How many are emitted; N of the estimate.
-    std::uint64_t seed = 1;      ///< Of the random streams.
-    std::uint64_t iteration = 0; ///< Which repetition of the pass.
-    int max_bounces = 1000; ///< Surfaces a photon may meet; roulette ends it before.
-    bool shadow_photons = true;     ///< Whether the general map keeps them.
-    PhotonKinds keep = light_kinds; ///< Which others it keeps.
-    bool equal_lights = false;      ///< As many from each light, not as its power: for
-        ///< what each light hides rather than what it sends.
-    PhotonSampling numbers = PhotonSampling::random; ///< Chance, or better than chance.
-    /// Of the caustics' photons: an object each, in the order of specular_objects(),
-    /// with the sum 1; none: as lights see them. See \ref budget.
+    long long photons = 100000;  ///< Paths to emit; N of the estimate.
+    std::uint64_t seed = 1;      ///< Seed of the random streams.
+    std::uint64_t iteration = 0; ///< Index of the repetition.
+    int max_bounces = 1000;      ///< Surfaces per photon; roulette ends paths earlier.
+    bool shadow_photons = true;  ///< Whether the general map stores them.
+    PhotonKinds keep = light_kinds; ///< The other kinds that it stores.
+    bool equal_lights = false;      ///< The same number from every light instead of by
+        ///< power, for shadow photons.
+    PhotonSampling numbers = PhotonSampling::random; ///< Pseudo-random or Sobol.
+    /// Fractions of the caustic photons, one per object of specular_objects(), with the
+    /// sum 1; empty: by the cones that lights see. See \ref budget.
     std::vector<double> shares = {};
-    double max_memory = 4e9;         ///< Bytes that the photons may take while traced.
-    long long give_up = 1LL << 20;   ///< Ends after so many paths if none was stored.
-    int threads = 0;                 ///< 0: all that there are.
+    double max_memory = 4e9;         ///< Bytes for photons during the pass.
+    long long give_up = 1LL << 20;   ///< Ends after as many paths if none was stored.
+    int threads = 0;                 ///< 0: all processors.
     Progress progress = no_progress; ///< Called with (done, total); false stops.
 };
 
-/// Refuses a pass that cannot be made.
-/// \param pass  The settings.
+/// Refuses invalid settings.
 /// \throws std::invalid_argument  with name and value.
 inline void check(const PhotonPassSettings& pass) {
     require_at_least("the number of photons", pass.photons, 0);
@@ -68,37 +67,35 @@ inline void check(const PhotonPassSettings& pass) {
     require_at_least("the number of paths without a photon", pass.give_up, 1);
 }
 
-/// What a photon pass brings.
+/// The result of a photon pass.
 template <std::floating_point T>
 struct TracedPhotonsT {
     std::vector<PhotonT<T>> photons{}; ///< In the order of emission.
-    FluxAudit audit{};                 ///< Where the flux has gone.
-    long long emitted = 0;             ///< Paths, with the ones that marked nothing.
-    bool complete = true; ///< False if the progress callback stopped the pass.
-    std::string remark{}; ///< Why it gave up, if it did: one sentence.
+    FluxAudit audit{};                 ///< Where the flux went.
+    long long emitted = 0; ///< Paths emitted, including those that stored nothing.
+    bool complete = true;  ///< False if the progress callback stopped the pass.
+    std::string remark{};  ///< If the pass gave up, one sentence why.
 };
 
 namespace detail {
 
-/// The photons of some paths, next to each other in the order of emission.
+/// The photons of a block of paths, in the order of emission.
 template <std::floating_point T>
 struct PhotonBlockT {
-    std::vector<PhotonT<T>> photons{}; ///< What they stored.
+    std::vector<PhotonT<T>> photons{}; ///< Stored photons.
     FluxAudit audit{};                 ///< Where their flux went.
-    long long unsent = 0; ///< Paths that no light could send: targets behind it.
+    long long unsent = 0; ///< Paths not emitted: no target before the light.
 };
 
-/// Paths in a block.
+/// Number of paths per block.
 inline constexpr long long photon_block = 512;
 
-/// Paths that are traced before the memory for all of them is foretold.
+/// Number of paths before the memory of the whole pass is predicted.
 inline constexpr long long pilot_paths = 4 * photon_block;
 
-/// The memory that a pass will take: twice what it stores, because the blocks are
-/// joined when all are there, and the blocks themselves.
-/// \param photons  Paths in all.
-/// \param mean     Photons stored a path, as seen so far.
-/// \return Bytes.
+/// Predicts the memory of a pass in bytes: twice its photons, because all blocks are
+/// joined at the end, plus the blocks.
+/// \param mean     Stored photons per path so far.
 template <std::floating_point T>
 [[nodiscard]] double expected_bytes(long long photons, double mean) noexcept {
     const auto blocks = static_cast<double>(block_count(photons, photon_block));
@@ -106,10 +103,9 @@ template <std::floating_point T>
            blocks * sizeof(PhotonBlockT<T>);
 }
 
-/// Refuses a pass that will need more memory than it may take.
-/// \param pass  The pass.
-/// \param mean  Photons stored a path, as seen so far.
-/// \throws std::invalid_argument  with both numbers, in a sentence.
+/// Refuses a pass that would exceed its memory.
+/// \param mean  Stored photons per path so far.
+/// \throws std::invalid_argument  with both numbers.
 template <std::floating_point T>
 void require_memory(const PhotonPassSettings& pass, double mean) {
     const double bytes = expected_bytes<T>(pass.photons, mean);
@@ -117,18 +113,13 @@ void require_memory(const PhotonPassSettings& pass, double mean) {
     char text[256];
     std::snprintf(text, sizeof text,
                   "The number of photons is %lld, which would take %.3g GB at %.3g "
-                  "stored a path; max_memory allows %.3g GB.",
+                  "stored per path; max_memory allows %.3g GB.",
                   pass.photons, bytes * 1e-9, mean, pass.max_memory * 1e-9);
     throw std::invalid_argument(text);
 }
 
-/// Says why a pass that has stored nothing gives up.
-/// \param pass    The pass.
-/// \param map     For which map it was.
-/// \param paths   Paths so far.
-/// \param unsent  Those of them that no light could send.
-/// \param audit   Where their flux went.
-/// \return One sentence.
+/// Explains in one sentence why a pass that has stored nothing gives up.
+/// \param unsent  Paths that no light could emit.
 [[nodiscard]] inline std::string why_nothing(const PhotonPassSettings& pass,
                                              MapType map, long long paths,
                                              long long unsent, const FluxAudit& audit) {

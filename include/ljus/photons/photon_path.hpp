@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/photons/photon_path.hpp
-/// \brief One photon from beginning to end: it leaves its light, is stored, is
-/// scattered, until it is absorbed or leaves the scene.
+/// \brief The path of a photon: emission, storage and scattering, until it is absorbed
+/// or leaves the scene.
 
 #include <algorithm>
 #include <optional>
@@ -21,13 +21,13 @@ namespace ljus {
 
 namespace detail {
 
-/// A ray that leaves a light: from a surface safely, from a point as it is.
+/// The ray of a photon that leaves a light, from a surface or from a point.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> leave(const SurfacePointT<T>& point,
                             const Vec3T<T>& direction) noexcept {
     return spawn_ray(point, direction);
 }
-/// From a point that lies on no surface.
+/// \copydoc leave
 template <std::floating_point T>
 [[nodiscard]] RayT<T> leave(const Vec3T<T>& point, const Vec3T<T>& direction) noexcept {
     return {.origin = point, .direction = direction};
@@ -35,22 +35,21 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// A photon as it leaves one light.
+/// A photon that leaves a given light.
 template <std::floating_point T>
 struct LeavingPhotonT {
-    RayT<T> ray{};      ///< Where it is and where it goes; its time is still to be set.
+    RayT<T> ray{};      ///< Origin and direction; its time is not set.
     RgbT<T> flux{T(0)}; ///< W, of all photons of the light together.
 };
 
-/// A photon of a light, with the density of what the light sends: uniform over a lamp's
-/// area and with cos / pi in direction; uniform over the sphere from a point; as the
-/// intensity from a spot; and from afar side by side, over the disc that the sphere
-/// around the scene throws as its shadow.
-/// \param light        The light, as its scene keeps it.
-/// \param u_point      Point of the unit square: where on the light.
-/// \param u_direction  Point of the unit square: where to.
-/// \param time         Of the photon, in [0, 1].
-/// \return Ray and flux.
+/// Emits a photon of a light, with the density of the light's emission: uniform over a
+/// lamp's area with cos / pi in direction; uniform over the sphere from a point; by
+/// intensity from a spot; parallel from a distant light, uniform over the disc that the
+/// sphere around the scene casts as its shadow.
+/// \param light        The light, as its scene stores it.
+/// \param u_point      Point of the unit square; chooses the origin.
+/// \param u_direction  Point of the unit square; chooses the direction.
+/// \param time         Time of the photon, in [0, 1].
 // [emit_photon]
 template <Light L, std::floating_point T>
 [[nodiscard]] LeavingPhotonT<T> emit_photon(const L& light, const Vec2T<T>& u_point,
@@ -69,21 +68,22 @@ template <Light L, std::floating_point T>
 }
 // [emit_photon]
 
-/// A photon as it leaves its light.
+/// A photon that leaves the lights.
 template <std::floating_point T>
 struct EmittedPhotonT {
-    RayT<T> ray{};      ///< Where it is, where it goes, and when.
-    RgbT<T> flux{T(0)}; ///< W, of all paths together: divide by how many are emitted.
-    std::uint16_t light = 0; ///< The number of its light.
+    RayT<T> ray{};      ///< Origin, direction and time.
+    RgbT<T> flux{T(0)}; ///< W, of all paths together: to be divided by their number.
+    std::uint16_t light = 0; ///< Index of its light.
 };
 
-/// A photon of a light chosen by power, see emit_photon().
+/// Emits a photon of a light chosen by power; see emit_photon().
 ///
-/// Each photon of a white light then carries the same flux, the scene's whole flux over
-/// the number of photons; a coloured light's differs in its channels only.
+/// Each photon of a white light carries the same flux, the scene's total flux over the
+/// number of photons; that of a coloured light differs only between its channels.
 /// \param world   The closed scene.
-/// \param choice  Of its lights, at least one: World::light_choice(), or another.
-/// \param stream  Five numbers are drawn; of any kind, see \ref low_discrepancy.
+/// \param choice  The distribution of its lights, at least one: World::light_choice()
+///                or another.
+/// \param stream  Five numbers are drawn from a stream of any kind.
 /// \return The photon; its flux is that of all paths together.
 /// \report{Section 3.2.2}
 /// \erratum{The program behind the report gives every light the same number of photons
@@ -114,13 +114,13 @@ emit(const W& world, const LightChoice& choice, Stream& stream) {
 /// \brief Section 3.2.2: photons bounce "until Russian roulette decides otherwise".
 /// \{
 
-/// Compensated Russian roulette: a photon survives with the probability of its
-/// reflection, and a survivor carries what the others had \cite arvo1990.
-/// \param flux    Before the surface; not black.
+/// Compensated Russian roulette: a photon survives with its reflectance as probability,
+/// and a survivor takes over the flux of the others \cite arvo1990.
+/// \param flux    Flux before the surface; not black.
 /// \param weight  f |cos| / pdf of the new direction.
 /// \param u       In [0, 1).
-/// \param audit   Takes what was absorbed, and what roulette moved.
-/// \return The flux that goes on; nothing if the photon ends here.
+/// \param audit   Receives the absorbed flux, and what roulette moved.
+/// \return The new flux; nothing if the photon is absorbed.
 /// \report{Section 3.2.2}
 /// \erratum{The report does not say that a survivor must be divided by its probability;
 ///          its program did not, and lost the absorbed part twice.}
@@ -145,22 +145,14 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Stores shadow photons on the matt surfaces behind the first one that a photon meets.
+/// Stores shadow photons on the diffuse surfaces behind the first hit of a photon.
 ///
-/// A surface has two sides, and what a side does not get is the light whose cosine with
-/// *that side's* normal is positive. A ray that goes straight on comes to one side of
-/// each surface, and the cosine is positive there, wherever the surface's own normal
-/// points. So nothing is asked of the normal, as nothing is asked of it for a direct
-/// photon; whoever reads the map asks photon_side(). Direct and shadow photons together
-/// are then, on each side, all the light that would come if nothing stood in its way.
-/// \param world   The closed scene.
-/// \param photon  As it left its light.
-/// \param first   The first surface it met.
-/// \param stream  A copy: the photon's own path draws from where it was. A number is
-///                drawn for each thin surface.
-/// \param out     Takes the photons.
-/// \cost One search for the closest surface for each surface behind the first, and one
-///       more; it ends after 1000.
+/// A shadow photon belongs to the side of a surface on which it arrives, wherever the
+/// normal points; photon_side() tells which it is. The direct and shadow photons of a
+/// side together are its unoccluded light.
+/// \param stream  A copy, so that the photon's own numbers do not change. One number is
+///                drawn per thin surface.
+/// \cost A closest hit for each surface behind the first, and one more; at most 1000.
 /// \report{Section 3.2.2.1} \cite jensen1995
 // [trace_shadow]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
@@ -186,24 +178,16 @@ void trace_shadow(const W& world, const EmittedPhotonT<T>& photon,
 }
 // [trace_shadow]
 
-/// What kind of photon a path would leave where it is now.
-/// \param path  The path of a photon.
-/// \return Its kind; never a shadow.
+/// The kind of photon that a path would store at its current vertex; never a shadow
+/// photon.
 template <std::floating_point T>
 [[nodiscard]] PhotonKind kind_of(const PathStateT<T>& path) noexcept {
     if (path.met_diffuse) return PhotonKind::indirect;
     return path.met_specular ? PhotonKind::caustic : PhotonKind::direct;
 }
 
-/// Stores a photon, if the surface is diffuse and the map keeps photons of its kind.
-/// \param world     The closed scene.
+/// Stores a photon, if the surface is diffuse and the map stores its kind.
 /// \param path      The path of the photon; its throughput is the flux.
-/// \param vertex    Where it is.
-/// \param material  What the surface is made of.
-/// \param light     The number of its light.
-/// \param map       For which map.
-/// \param keep      Which kinds are kept.
-/// \param out       Takes it.
 template <AnyWorld W, std::floating_point T, Material M>
 void store_photon(const W& world, const PathStateT<T>& path, const VertexT<T>& vertex,
                   const M& material, std::uint16_t light, MapType map, PhotonKinds keep,
@@ -219,14 +203,12 @@ void store_photon(const W& world, const PathStateT<T>& path, const VertexT<T>& v
                    small_normal(vertex.point.normal)});
 }
 
-/// Scatters a photon at a vertex, unless roulette ends it there.
-/// \param path      Gets its new ray, flux and medium.
-/// \param vertex    Where it is.
-/// \param material  What the surface is made of.
-/// \param map       For which map: caustics photons go on by mirrors and glass only.
+/// Scatters a photon at a vertex, unless roulette ends it.
+/// \param path      Receives its new ray, flux and medium.
+/// \param map       The kind of map: for caustics only specular lobes are sampled.
 /// \param stream    Four numbers are drawn.
-/// \param audit     Takes what was absorbed, and what roulette moved.
-/// \return Whether it goes on.
+/// \param audit     Receives the absorbed flux, and what roulette moved.
+/// \return Whether the path continues.
 template <std::floating_point T, Material M, StreamLike Stream>
 [[nodiscard]] bool scatter_photon(PathStateT<T>& path, const VertexT<T>& vertex,
                                   const M& material, MapType map, Stream& stream,
@@ -234,7 +216,7 @@ template <std::floating_point T, Material M, StreamLike Stream>
     const RgbT<T> flux = path.throughput;
     const bool only_specular = map == MapType::caustics || vertex.turned;
     const Lobes which = only_specular ? Lobes::specular : Lobes::all;
-    path.throughput = RgbT<T>{T(1)}; // so that what is left is the weight alone
+    path.throughput = RgbT<T>{T(1)}; // then the throughput becomes the weight
     if (!continue_path(path, vertex, material, Transport::flux, which, stream)) {
         audit.absorbed += RgbT<double>(flux);
         return false;
@@ -246,25 +228,20 @@ template <std::floating_point T, Material M, StreamLike Stream>
     return true;
 }
 
-/// A photon as a pass sends it.
+/// A photon as a pass emits it.
 template <std::floating_point T>
 struct SentPhotonT {
     EmittedPhotonT<T> photon{};       ///< As it leaves its light.
-    std::optional<ObjectId> target{}; ///< Where it was aimed, if it was; another first
-                                      ///< hit ends it.
+    std::optional<ObjectId> target{}; ///< The object at which it was aimed, if any; any
+                                      ///< other first hit ends it.
 };
 
-/// Follows one photon and stores it at every diffuse surface where its map keeps it.
+/// Traces a photon and stores it at each diffuse surface.
 ///
-/// A photon that has met nothing but mirrors and glass is a caustic one: the caustics
-/// map holds it, and the general map leaves it out, so that no light is counted twice.
-/// \param world   The closed scene.
-/// \param map     For which map.
-/// \param sent    As it leaves its light, its flux already divided by the number of
-///                paths.
-/// \param pass    Limits.
-/// \param stream  Four numbers per bounce.
-/// \param block   Takes the photons and the flux.
+/// A photon that has met only mirrors and glass is stored in the caustics map alone, so
+/// that no light counts twice.
+/// \param sent    The photon; its flux is divided by the number of paths.
+/// \param stream  Four numbers are drawn per bounce.
 // [trace]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 void trace_photon(const W& world, MapType map, const SentPhotonT<T>& sent,
@@ -288,8 +265,7 @@ void trace_photon(const W& world, MapType map, const SentPhotonT<T>& sent,
         }
         if (first && map == MapType::general && pass.shadow_photons)
             trace_shadow(world, photon, vertex->point, stream, block.photons);
-        audit.absorbed +=
-            before - RgbT<double>(path.throughput); // by what lies between
+        audit.absorbed += before - RgbT<double>(path.throughput); // absorbed by media
         if (is_black(path.throughput)) return;
 
         const auto at_material = [&]<typename M>(const M& material) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/shadow_verdict.hpp
-/// \brief What direct and shadow photons say of a shadow ray: is it needed?
+/// \brief Decides from direct and shadow photons whether a shadow ray is needed.
 
 #include <cmath>
 #include <cstdint>
@@ -13,29 +13,28 @@
 namespace ljus {
 
 /// \defgroup shadow_photons Shadow photons
-/// \brief Sections 3.2.2.1 and 3.2.3: which shadow rays and indirect rays are needless.
+/// \brief Sections 3.2.2.1 and 3.2.3: which shadow rays and indirect rays to skip.
 /// Chapter: \ref ch_shadow_photons.
 /// \{
 
-/// How many photons of which kind make a shadow ray needless.
+/// Rules for photons that make a shadow ray unnecessary.
 enum class SkipRule : std::uint8_t {
     none,   ///< Every shadow ray is cast.
-    report, ///< The report's: many of one kind and few of the other, all lights alike.
+    report, ///< The report's: many of one kind, few of the other; lights combined.
     any,    ///< One or more of one kind, none of the other \cite jensen1995.
-    enough  ///< None of the other kind among so many that chance is no excuse.
+    enough  ///< None of the other kind among statistically enough.
 };
 
-/// How rays are skipped. The rest of the numbers belong to SkipRule::enough.
+/// Settings for skipping rays. All but the first three are for SkipRule::enough.
 struct SkipSettings {
-    SkipRule rule = SkipRule::none; ///< For shadow rays.
-    bool indirect_rays = false;     ///< Send none where no indirect photon is near.
-    float radius = 0;        ///< In scene units; 0: as far as enough photons lie.
-    float tolerance = 0.05f; ///< The hidden share of a light that does not matter.
-    float risk = 0.05f; ///< Of calling a point lit whose share is above the tolerance.
+    SkipRule rule = SkipRule::none; ///< Rule for shadow rays.
+    bool indirect_rays = false;     ///< Skip those without an indirect photon near.
+    float radius = 0;        ///< In scene units; 0: large enough for enough photons.
+    float tolerance = 0.05f; ///< Hidden fraction of a light that may be ignored.
+    float risk = 0.05f;      ///< Probability of ignoring a larger fraction.
 };
 
-/// Refuses settings that make no sense.
-/// \param skip  The settings.
+/// Refuses invalid settings.
 /// \throws std::invalid_argument  with name and value.
 inline void check(const SkipSettings& skip) {
     require(skip.radius >= 0 && std::isfinite(skip.radius), "skip.radius",
@@ -46,13 +45,12 @@ inline void check(const SkipSettings& skip) {
             "above 0 and below 1");
 }
 
-/// How many photons around a point a rule asks for before it says anything.
+/// The number of photons around a point that a rule needs.
 ///
-/// If a share above tau of a light is hidden, each of its photons is a shadow photon
+/// If a fraction above tau of a light is hidden, each of its photons is a shadow photon
 /// with a probability above tau, and n of them are all direct with one below
-/// \f$ (1-\tau)^n \f$. That is at most the risk alpha from
-/// \f$ n = \ln\alpha / \ln(1-\tau) \f$ on.
-/// \param skip  The settings.
+/// \f$ (1-\tau)^n \f$. This is at most the risk alpha for
+/// \f$ n \ge \ln\alpha / \ln(1-\tau) \f$.
 /// \return At least 1.
 // [photons_needed]
 [[nodiscard]] inline std::uint32_t photons_needed(const SkipSettings& skip) noexcept {
@@ -66,17 +64,16 @@ inline void check(const SkipSettings& skip) {
 
 namespace detail {
 
-/// The photons of a light around a point.
+/// Numbers of a light's photons around a point.
 struct PhotonCounts {
-    std::uint32_t direct = 0; ///< They came.
-    std::uint32_t shadow = 0; ///< Something stood in their way.
+    std::uint32_t direct = 0; ///< Photons that arrived.
+    std::uint32_t shadow = 0; ///< Photons that were occluded.
 };
 
-/// The report's "nearly none": one in so many, by its program.
+/// The report's program ignores one photon in as many.
 inline constexpr std::uint64_t report_ratio = 1200;
 
-/// What photons say.
-/// \param found   The photons around a point.
+/// The verdict of the photons around a point.
 /// \param rule    Any but SkipRule::none.
 /// \param needed  photons_needed() by this rule.
 // [judge]
@@ -91,13 +88,12 @@ inline constexpr std::uint64_t report_ratio = 1200;
 }
 // [judge]
 
-/// Which way a surface faces: the axis to which its normal is nearest, and which way
-/// along it. In steps of 1/127, as photons keep normals: so the points and the photons
-/// of a plane face the same way, however it is tilted.
-/// \param x,y,z  The sizes of the normal's coordinates in these steps.
-/// \param n      The normal.
-/// \param side   +1, or -1 for the side that the normal does not point to.
-/// \return 0 to 5: x, y, z, and 3 more for the negative direction.
+/// The facing of a surface: the axis nearest to its normal, and the sign along it. It
+/// is computed from normals rounded to 1/127, as photons store them, so that all points
+/// and photons of a plane have the same facing.
+/// \param x,y,z  Magnitudes of the normal's coordinates in these steps.
+/// \param side   +1 for the side of the normal, -1 for the other.
+/// \return 0 to 5: x, y, z, then the same for negative directions.
 // [facing]
 template <typename N>
 [[nodiscard]] constexpr int facing(int x, int y, int z, const N& n, int side) noexcept {
@@ -107,11 +103,11 @@ template <typename N>
 }
 // [facing]
 
-/// Which way a side faces, by a photon's normal.
+/// The facing of a side, from a photon's normal.
 [[nodiscard]] inline int facing(const SmallNormal& n, int side) noexcept {
     return facing(std::abs(n.x), std::abs(n.y), std::abs(n.z), n, side);
 }
-/// Which way a side faces, by a unit vector: rounded as in small_normal(), but faster.
+/// The facing of a side, from a unit normal; faster than small_normal().
 template <std::floating_point T>
 [[nodiscard]] int facing(const Vec3T<T>& n, int side) noexcept {
     const auto size = [](T c) { return int(T(127) * std::abs(c) + T(0.5)); };
@@ -120,15 +116,14 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The plain twin: asks the map what is known of a light at a point. A search for each
-/// question costs more than the ray that it saves; see VerdictGridT.
-/// \param map     With direct and shadow photons.
-/// \param point   Of a surface.
-/// \param side    Which side of it: +1 if the normal points to it, else -1.
-/// \param light   The number of the light.
-/// \param radius  Photons count as far as that, in scene units.
+/// The plain counterpart of VerdictGridT: searches the map for each verdict, which
+/// costs more than the ray that it may save.
+/// \param map     Contains direct and shadow photons.
+/// \param point   Point of a surface.
+/// \param side    +1 for the side of its normal, -1 for the other.
+/// \param light   Index of the light.
+/// \param radius  Search radius, in scene units.
 /// \param skip    The rule.
-/// \return The verdict.
 // [verdict_at]
 template <std::floating_point T>
 [[nodiscard]] Verdict
@@ -150,15 +145,15 @@ verdict_at(const PhotonMapT<T>& map, const SurfacePointT<T>& point, int side,
 }
 // [verdict_at]
 
-/// The irradiance that may be there though no photon is seen.
+/// An upper bound of the irradiance where no photon is found.
 ///
-/// The photons in a disc are Poisson distributed. If their mean is m, there is none
-/// with the probability \f$ e^{-m} \f$: below 5 % for a mean above 3. So, but for one
-/// case in twenty,
+/// The number of photons in a disc has a Poisson distribution. If its mean is m, it is
+/// 0 with the probability \f$ e^{-m} \f$, which is below 5 % for m above 3. So, except
+/// with this probability,
 /// \f[ E \le \frac{3\,\Delta\Phi}{\pi r^2} \f]
-/// \param flux    Of one photon, in W.
-/// \param radius  Of the disc, in scene units; all of it on the surface.
-/// \param risk    How often the bound may be wrong.
+/// \param flux    Flux of a photon, in W.
+/// \param radius  Radius of the disc, in scene units; all of it on the surface.
+/// \param risk    Probability that the bound is wrong.
 /// \return W over squared scene units.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> unseen_irradiance(const RgbT<T>& flux, T radius,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/tracing.hpp
-/// \brief A pass of photons: sent by the lights, traced, kept in order.
+/// \brief A photon pass: emission and tracing by several threads, in a fixed order.
 
 #include <algorithm>
 #include <utility>
@@ -18,14 +18,7 @@ namespace ljus {
 
 namespace detail {
 
-/// Sends and traces the paths of one block.
-/// \param world    The closed scene.
-/// \param map      For which map.
-/// \param choice   Of the scene's lights.
-/// \param targets  What caustics photons are aimed at.
-/// \param pass     How many in all, and with which seed.
-/// \param paths    Which of them.
-/// \param block    Takes the photons and the account.
+/// Emits and traces the paths of a block.
 template <AnyWorld W, std::floating_point T>
 void trace_block(const W& world, MapType map, const LightChoice& choice,
                  const std::vector<ObjectId>& targets, const PhotonPassSettings& pass,
@@ -55,10 +48,8 @@ void trace_block(const W& world, MapType map, const LightChoice& choice,
     }
 }
 
-/// Joins the photons of blocks, in their order, and frees them.
-/// \param blocks  The blocks.
-/// \param result  Takes the photons and the account.
-/// \return Paths that no light could send.
+/// Joins blocks in their order, and frees them.
+/// \return The number of paths that no light could emit.
 template <std::floating_point T>
 long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& result) {
     std::size_t stored = 0;
@@ -75,10 +66,8 @@ long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& r
     return unsent;
 }
 
-/// Checks what a pass starts from.
-/// \param pass    The settings.
-/// \param choice  Of the world's lights.
-/// \return The choice between the lights that the pass asks for.
+/// Checks the settings and the lights of a pass.
+/// \return The distribution for the pass.
 /// \throws std::invalid_argument  as trace_photons().
 template <std::floating_point T>
 [[nodiscard]] LightChoice start_pass(const PhotonPassSettings& pass,
@@ -97,28 +86,25 @@ template <std::floating_point T>
     return choice;
 }
 
-/// A trace_block() for a scene of any type, as compiled code can call it: run_pass() is
-/// the same for all of them, and not compiled again for each.
+/// A type-erased trace_block(), so that run_pass() is compiled only once for all types
+/// of scenes.
 template <std::floating_point T>
 struct BlockTracerT {
-    const void* tracer; ///< What `call` knows the type of.
+    const void* tracer; ///< An object whose type `call` knows.
     void (*call)(const void* tracer, const BlockRange& paths, PhotonBlockT<T>& block);
 };
 
-/// Traces the blocks of a pass, by several threads, and joins them.
-/// \param map    For which map.
-/// \param pass   How many paths.
-/// \param trace  Traces a block.
+/// Traces the blocks of a pass by several threads, and joins them.
 /// \return The photons in the order of emission.
-/// \throws std::invalid_argument  if the memory would not do.
+/// \throws std::invalid_argument  if the memory would not suffice.
 template <std::floating_point T>
 [[nodiscard]] TracedPhotonsT<T> run_pass(MapType map, const PhotonPassSettings& pass,
                                          BlockTracerT<T> trace) {
     TracedPhotonsT<T> result{.emitted = pass.photons};
     std::vector<PhotonBlockT<T>> blocks;
     const long long count = block_count(pass.photons, photon_block);
-    long long done = 0;  // blocks
-    bool nothing = true; // has been stored so far
+    long long done = 0;  // finished blocks
+    bool nothing = true; // no photon has been stored
     for (const long long paths : {pilot_paths, pass.give_up, pass.photons}) {
         const long long last = std::min(block_count(paths, photon_block), count);
         if (last <= done) continue;
@@ -153,16 +139,15 @@ template <std::floating_point T>
 
 /// Emits and traces the photons of one map, by several threads.
 ///
-/// Some 2000 paths tell how many photons are stored in the mean; a pass that would need
-/// more than PhotonPassSettings::max_memory is refused before it takes it. A pass of
-/// which nothing was stored in PhotonPassSettings::give_up paths ends there, and says
-/// why.
+/// The first 2000 paths or so predict the memory; a pass that would need more than
+/// PhotonPassSettings::max_memory is refused at that point. A pass that has stored
+/// nothing after PhotonPassSettings::give_up paths ends with a remark.
 /// \param world  The closed scene, with at least one light.
-/// \param map    For which map.
-/// \param pass   How many, and with which seed.
+/// \param map    The kind of map.
+/// \param pass   The settings.
 /// \return The photons in the order of emission, the same for any number of threads.
 /// \throws std::invalid_argument  if the scene has no light or more than 65536, a
-///         number of the pass is out of range, or the memory would not do.
+///         setting is out of range, or the memory would not suffice.
 template <AnyWorld W>
 [[nodiscard]] TracedPhotonsT<typename W::Scalar>
 trace_photons(const W& world, MapType map, const PhotonPassSettings& pass) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/verdict_grid.hpp
-/// \brief What photons say of shadow rays, worked out once for each cell of a grid.
+/// \brief Verdicts about shadow rays, precomputed from photons on a grid.
 
 #include "ljus/photons/detail/verdict_bits.hpp"
 
@@ -10,38 +10,37 @@ namespace ljus {
 /// \addtogroup shadow_photons
 /// \{
 
-/// The fast twin of verdict_at(): a verdict for each cell of a grid, each of the six
-/// ways that a surface may face in it, and each light. Shadow photons are from
-/// \cite jensen1995.
+/// The fast counterpart of verdict_at(): a verdict for each cell of a grid, each of the
+/// six facings of a surface, and each light. Shadow photons are from \cite jensen1995.
 ///
-/// A cell's verdict is that of all photons in the cell and its 26 neighbours, which
-/// hold every photon within one cell's length of any point in it. If they are too few,
-/// the cells around are taken twice as large, and then four times.
-/// So where the grid says lit, verdict_at() with the length of its smallest cells finds
+/// A cell's verdict uses the photons in the cell and its 26 neighbours, which contain
+/// every photon within a cell's length of any point in the cell. If these are too few,
+/// cells of twice and then of four times the length are used. Where the grid says lit,
+/// verdict_at() with the length of the smallest cells finds no shadow photon either.
 /// no shadow photon either.
 template <std::floating_point T>
 struct VerdictGridT {
-    detail::VerdictBitsT<T> known{}; ///< Brick by brick.
-    bool dark_known = false;         ///< Whether indirect photons were looked for.
+    detail::VerdictBitsT<T> known{}; ///< By brick.
+    bool dark_known = false;         ///< Whether indirect photons were counted.
 
-    /// A cell, and a way in which a surface faces there.
+    /// A cell, with a facing of a surface.
     struct Place {
-        const std::uint64_t* bits = nullptr; ///< Of its brick; null if there is none.
-        std::uint32_t cell = 0;              ///< In the brick, 0 to 63.
+        const std::uint64_t* bits = nullptr; ///< Of its brick; null if none.
+        std::uint32_t cell = 0;              ///< Index in the brick, 0 to 63.
     };
 
-    /// Whether nothing is known anywhere.
+    /// Whether the grid has no verdicts.
     [[nodiscard]] bool empty() const noexcept { return known.bits.empty(); }
     /// The length of the smallest cells, in scene units.
     [[nodiscard]] T radius() const noexcept { return known.cells.length; }
-    /// The memory that it takes.
+    /// The size in bytes.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return known.table.bytes() + known.bits.size() * sizeof(known.bits[0]);
     }
 
-    /// Where to look for what is known of a point: one search for all lights.
-    /// \param point  Of a surface.
-    /// \param side   Which side of it: +1 if the normal points to it, else -1.
+    /// Finds the cell of a point, once for all lights.
+    /// \param point  Point of a surface.
+    /// \param side   +1 for the side of its normal, -1 for the other.
     /// \cost Some ten nanoseconds.
     // [place_of]
     [[nodiscard]] Place place_of(const SurfacePointT<T>& point,
@@ -55,17 +54,17 @@ struct VerdictGridT {
         return {&known.bits[brick * known.stride()], at->in_brick()};
     }
 
-    /// What is known of a light there.
+    /// The verdict about a light.
     [[nodiscard]] Verdict verdict(const Place& at, std::size_t light) const noexcept {
         if (at.bits == nullptr) return Verdict::unknown;
         const std::uint64_t lit = at.bits[2 * light] >> at.cell & 1;
         const std::uint64_t shadow = at.bits[2 * light + 1] >> at.cell & 1;
-        return static_cast<Verdict>(lit + 2 * shadow); // no branch to mispredict
+        return static_cast<Verdict>(lit + 2 * shadow); // branch-free
     }
     // [place_of]
 
-    /// Whether an indirect photon lies in the cell or next to it; true if none was
-    /// looked for.
+    /// Whether an indirect photon lies in the cell or a neighbour; true if they were
+    /// not counted.
     [[nodiscard]] bool indirect_near(const Place& at) const noexcept {
         if (!dark_known) return true;
         return at.bits != nullptr && (at.bits[2 * known.lights] >> at.cell & 1) != 0;
@@ -75,38 +74,36 @@ using VerdictGrid = VerdictGridT<float>; ///< VerdictGridT in float.
 
 namespace detail {
 
-/// What a grid knows of the lights at a vertex: what sample_all_lights() asks.
+/// The verdicts of a grid at a vertex, as sample_all_lights() takes them.
 template <std::floating_point T>
 struct VerdictsAtT {
-    const VerdictGridT<T>& grid;        ///< Which grid.
-    typename VerdictGridT<T>::Place at; ///< The place of the vertex in it.
+    const VerdictGridT<T>& grid;        ///< The grid.
+    typename VerdictGridT<T>::Place at; ///< The vertex's cell.
 
-    /// Of the light with this number.
+    /// The verdict about a light.
     [[nodiscard]] Verdict operator()(std::size_t light) const noexcept {
         return grid.verdict(at, light);
     }
 };
 
-/// Where a vertex is in a grid, seen from the side of `wo`.
+/// The cell of a vertex, on the side of `wo`.
 template <std::floating_point T>
 [[nodiscard]] auto place_of(const VerdictGridT<T>& grid,
                             const VertexT<T>& vertex) noexcept {
     return grid.place_of(vertex.point, vertex.wo.z < T(0) ? -1 : 1);
 }
 
-/// What a grid knows at a vertex.
-/// \param grid    It may be empty; must outlive what is returned.
-/// \param vertex  The place.
+/// The verdicts of a grid at a vertex. The grid may be empty; it must outlive the
+/// result.
 template <std::floating_point T>
 [[nodiscard]] VerdictsAtT<T> verdicts_at(const VerdictGridT<T>& grid,
                                          const VertexT<T>& vertex) noexcept {
     return {grid, place_of(grid, vertex)};
 }
 
-/// Whether a vertex sends no indirect ray, because no indirect photon is near.
-/// \param grid    It may be empty.
-/// \param vertex  The place.
-/// \param counts  Counts the ray that is not sent.
+/// Whether a vertex needs no indirect ray, because no indirect photon is near.
+/// \param grid    May be empty.
+/// \param counts  Counts the skipped ray.
 template <std::floating_point T>
 [[nodiscard]] bool skips_bounce(const VerdictGridT<T>& grid, const VertexT<T>& vertex,
                                 Counts& counts) noexcept {
@@ -115,11 +112,9 @@ template <std::floating_point T>
     return true;
 }
 
-/// Where nothing is known, asks a coarser grid: all that is near by the finer one is
-/// near by the coarser one too, so that a cell with photons of both kinds stays
-/// unknown.
-/// \param fine    Gets the verdicts.
-/// \param coarse  With cells twice as large, or four times.
+/// Replaces unknown verdicts by those of a coarser grid. Its neighbourhoods contain
+/// those of the finer grid, so a cell with photons of both kinds stays unknown.
+/// \param coarse  Its cells are twice or four times as large.
 // [fill_from]
 template <std::floating_point T>
 void fill_from(VerdictBitsT<T>& fine, const VerdictBitsT<T>& coarse, int times) {
@@ -144,7 +139,7 @@ void fill_from(VerdictBitsT<T>& fine, const VerdictBitsT<T>& coarse, int times) 
 }
 // [fill_from]
 
-/// By the report's rule what is said of one light is said of all.
+/// Copies the verdicts of one light to all, for the report's rule.
 template <std::floating_point T>
 void copy_to_all_lights(VerdictBitsT<T>& grid) {
     for (std::size_t b = 0; b < grid.bits.size(); b += grid.stride())
@@ -154,14 +149,14 @@ void copy_to_all_lights(VerdictBitsT<T>& grid) {
 
 } // namespace detail
 
-/// Works out the verdicts.
-/// \param photons  Direct and shadow ones count, and indirect ones if they are asked
-///                 for; a photon without a normal says nothing.
-/// \param lights   How many lights the scene has.
+/// Computes the verdicts.
+/// \param photons  Direct and shadow photons count, and indirect ones on request;
+///                 photons without a normal do not.
+/// \param lights   Number of lights in the scene.
 /// \param skip     The rule and the radius.
 /// \param threads  As in ParallelSettings.
-/// \return The grid, the same for any number of threads; empty for SkipRule::none
-///         without indirect rays, or without photons.
+/// \return The grid, the same for any number of threads; empty without photons, and for
+///         SkipRule::none without indirect rays.
 /// \throws std::invalid_argument  if a setting is out of range.
 // [make_verdict_grid]
 template <std::floating_point T>
@@ -175,11 +170,11 @@ make_verdict_grid(const std::vector<PhotonT<T>>& photons, std::size_t lights,
     BoxT<T> box;
     for (const PhotonT<T>& photon : photons) box = box_union(box, photon.position);
     const T length = detail::cell_length(photons, box, lights, skip);
-    if (!(length > 0)) return grid; // all photons in one point
-    // Half a cell off: walls along the axes lie in the middle of the smallest cells.
+    if (!(length > 0)) return grid; // all photons at one point
+    // Offset by half a cell, so that walls along the axes lie in the middle of cells.
     const Vec3T<T> corner = box.low - T(32.5) * length;
     grid.known = detail::make_bits(photons, {corner, length}, lights, skip, threads);
-    SkipSettings coarse = skip; // of the indirect photons only the nearest count
+    SkipSettings coarse = skip; // of indirect photons only the nearest count
     coarse.indirect_rays = false;
     for (const int times : {2, 4})
         if (skip.rule != SkipRule::none)

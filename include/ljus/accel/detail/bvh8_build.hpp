@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/detail/bvh8_build.hpp
-/// \brief The nodes of the fast tree, and how they are made of those of the plain one.
+/// \brief The nodes of the fast tree, and their construction from the plain tree.
 
 #include <array>
 #include <cstddef>
@@ -16,36 +16,36 @@
 namespace ljus::detail {
 
 /// \defgroup bvh_collapse Collapsing a tree
-/// \brief From two children a node to eight, so that rays meet as few nodes as can be.
+/// \brief Reduces two children per node to up to eight, so that rays visit fewer nodes.
 /// Chapter: \ref ch_bvh.
 /// \{
 
-/// The children of wide nodes, chosen so that the surfaces of all wide nodes have the
-/// least sum: a ray visits a node in proportion to its surface \cite ylitie2017.
+/// Chooses the children of wide nodes so that the sum of all wide nodes' surface areas
+/// is least: the probability that a ray visits a node is proportional to its area
+/// \cite ylitie2017.
 ///
-/// What lies below a plain node can be shown as one wide node, or opened to a row of
-/// at most i nodes side by side, for which its two children share the i slots. From
-/// the leaves up, the least cost of each is known from those below.
+/// A plain node becomes either one wide node or a row of at most i nodes; then its two
+/// children share the i slots. Dynamic programming finds the least cost of each case
+/// from the leaves up.
 template <std::floating_point T>
 class BvhCollapse {
 public:
     static constexpr int width = 8; ///< Children of a wide node.
 
-    /// The children of one wide node: nodes of the plain tree.
+    /// The children of one wide node, as nodes of the plain tree.
     struct Children {
-        std::array<std::uint32_t, width> node{}; ///< Which ones.
-        std::size_t count = 0;                   ///< How many.
+        std::array<std::uint32_t, width> node{}; ///< Indices of plain nodes.
+        std::size_t count = 0;                   ///< Number of children.
     };
 
-    /// Finds the costs.
-    /// \param tree  Must outlive it.
-    /// \cost O(n), 56 bytes a node.
+    /// Computes the costs of a tree, which must outlive this object.
+    /// \cost O(n), 56 bytes per node.
     explicit BvhCollapse(const BvhNodesT<T>& tree)
         : tree_(tree), cost_(tree.nodes.size()) {
-        // Children stand behind their parents.
+        // Children follow their parents.
         for (std::size_t i = tree.nodes.size(); i-- > 0;) {
             const BvhNodeT<T>& node = tree.nodes[i];
-            if (node.count != 0) continue; // leaves are what they are
+            if (node.count != 0) continue; // a leaf cannot be opened
             const Vec3T<double> size{node.box.high - node.box.low};
             cost_[i][0] = size.x * size.y + size.y * size.z + size.z * size.x +
                           share(node, width).cost;
@@ -56,8 +56,8 @@ public:
     }
 
     /// The children of a wide node.
-    /// \param from  The plain node that becomes one, no leaf but for the root; a root
-    ///              that is a leaf becomes its only child.
+    /// \param from  The plain node that becomes one. It is no leaf, except a root,
+    ///              which becomes its own only child.
     [[nodiscard]] Children children(std::uint32_t from) const {
         Children result;
         const BvhNodeT<T>& node = tree_.nodes[from];
@@ -78,7 +78,7 @@ private:
         return cost_[node][std::size_t(slots) - 1];
     }
 
-    // The best way for two children to share slots.
+    // The cheapest distribution of slots between two children.
     // [share]
     Share share(const BvhNodeT<T>& parent, int slots) const noexcept {
         Share best;
@@ -105,50 +105,50 @@ private:
     }
 
     const BvhNodesT<T>& tree_;
-    std::vector<std::array<double, width - 1>> cost_; // with 1, 2, ... slots
+    std::vector<std::array<double, width - 1>> cost_; // for 1, 2, ... slots
 };
 
 /// \}
 
 /// \defgroup wide_nodes Wide nodes
-/// \brief Eight children a node. Chapter: \ref ch_bvh.
+/// \brief Nodes with up to eight children. Chapter: \ref ch_bvh.
 /// \{
 
-/// A node with up to eight children, coordinate by coordinate \cite wald2008.
+/// A node with up to eight children, by coordinate \cite wald2008.
 struct Bvh8Node {
     std::array<Lanes, 6> plane;                  ///< Low x, y, z, then high x, y, z.
-    std::array<std::uint32_t, lane_count> child; ///< As Bvh8Child has them.
+    std::array<std::uint32_t, lane_count> child; ///< Encoded as in Bvh8Child.
 };
-/// A child in 32 bits: how many nodes' lanes lie before its node; or, for a leaf, its
-/// first slot and how many there are.
+/// The encoding of a child in 32 bits. An inner node is its offset in units of lanes; a
+/// leaf is its first slot and its number of primitives.
 struct Bvh8Child {
     static constexpr std::uint32_t leaf = 1u << 31; ///< Set for a leaf.
-    static constexpr int count_shift = 27;          ///< Then the count, less one,
+    static constexpr int count_shift = 27;          ///< Then follow the count minus one
     static constexpr std::uint32_t first = (1u << count_shift) - 1; ///< and the slot.
-    /// How many primitives a leaf has.
+    /// The number of primitives of a leaf.
     static constexpr std::uint32_t count(std::uint32_t child) noexcept {
         return ((child >> count_shift) & 15u) + 1;
     }
-    /// A node in units of 32 bytes: its address is one shift away.
+    /// The size of a node in units of 32 bytes; a shift gives its address.
     static constexpr std::uint32_t stride = sizeof(Bvh8Node) / sizeof(Lanes);
 };
 
-/// A wide tree: nodes, the root first, and the order in which leaves have primitives.
-/// Coordinates are as seen from the middle of everything, so that a scene far from the
-/// origin is met as well as one around it.
+/// A wide tree: its nodes, the root first, and the primitives in the order of the
+/// leaves. Coordinates are relative to the centre of the tree's box, so that a scene
+/// far from the origin loses no precision.
 struct Bvh8Nodes {
-    std::vector<Bvh8Node> nodes{}; ///< Empty if there is nothing.
+    std::vector<Bvh8Node> nodes{}; ///< Empty for an empty tree.
     std::vector<std::uint32_t>
-        primitive_ids{}; ///< primitive_ids[slot] is a primitive's number, or padding.
-    Box box{};           ///< Around everything.
-    Vec3 middle{0};      ///< Of the box.
-    Vec3 half{0};        ///< From there to its sides.
+        primitive_ids{}; ///< primitive_ids[slot] is a primitive's index, or padding.
+    Box box{};           ///< Around all primitives.
+    Vec3 middle{0};      ///< Centre of the box.
+    Vec3 half{0};        ///< Half the size of the box.
 
-    /// A slot between leaves that nothing has.
+    /// The primitive_ids entry of an unused slot between leaves.
     static constexpr std::uint32_t padding = std::numeric_limits<std::uint32_t>::max();
 };
 
-// Makes a wide node of a plain one and of what is below it.
+// Adds a wide node for a plain node, and its subtree.
 template <std::floating_point T>
 void add_wide_node(Bvh8Nodes& wide, const BvhNodesT<T>& tree,
                    const BvhCollapse<T>& collapse, std::uint32_t from, std::size_t to,
@@ -156,7 +156,7 @@ void add_wide_node(Bvh8Nodes& wide, const BvhNodesT<T>& tree,
     const auto [open, count] = collapse.children(from);
     Bvh8Node node{};
     for (std::size_t i = 0; i < lane_count; ++i) {
-        // Nothing enters a box around nothing.
+        // No ray enters an empty box.
         const BoxT<T> box = i < count ? tree.nodes[open[i]].box : BoxT<T>{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const int a = static_cast<int>(axis);
@@ -185,10 +185,10 @@ void add_wide_node(Bvh8Nodes& wide, const BvhNodesT<T>& tree,
             add_wide_node(wide, tree, collapse, open[i],
                           node.child[i] / Bvh8Child::stride, multiple);
 }
-/// Makes a tree wide.
+/// Collapses a tree into a wide one.
 /// \param tree      The plain tree; its leaves have at most 16 primitives.
-/// \param multiple  Leaves start at multiples of so many slots, padding between them.
-/// \return The wide tree.
+/// \param multiple  Leaves start at multiples of this number of slots; padding fills
+///                  the gaps.
 /// \throws std::invalid_argument  if there are 2^27 slots or more.
 template <std::floating_point T>
 [[nodiscard]] Bvh8Nodes make_bvh8(const BvhNodesT<T>& tree,
@@ -203,7 +203,7 @@ template <std::floating_point T>
     require(wide.primitive_ids.size() < Bvh8Child::first,
             "the number of slots in a tree",
             static_cast<long long>(wide.primitive_ids.size()), "below 2^27");
-    // Copies have no room to spare.
+    // A copy has no spare capacity.
     wide.nodes = std::vector<Bvh8Node>(wide.nodes);
     wide.primitive_ids = std::vector<std::uint32_t>(wide.primitive_ids);
     return wide;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/detail/bvh8_walk.hpp
-/// \brief The walk of a ray through the fast tree.
+/// \brief The traversal of the fast tree by a ray.
 
 #include <array>
 #include <bit>
@@ -16,31 +16,29 @@
 namespace ljus::detail {
 
 /// \defgroup wide_ray Rays for wide nodes
-/// \brief What is computed once for a ray: the signs and the slack of box_ray()
-/// \cite williams2005 \cite ize2013. Chapter: \ref ch_bvh.
+/// \brief What is computed once per ray: the signs and the slack of box_ray()
 /// \{
 
-/// A ray, made ready for wide nodes.
+/// A ray prepared for wide nodes.
 struct Bvh8Ray {
     Vec3 inverse{1};                   ///< 1 / D, finite.
-    Vec3 near_shift{0};                ///< t = plane * inverse - shift, a little early,
-    Vec3 far_shift{0};                 ///< and a little late.
-    std::array<std::size_t, 3> near{}; ///< The planes that it meets first, by axis,
-    std::array<std::size_t, 3> far{};  ///< and last.
+    Vec3 near_shift{0};                ///< A bit early: t = plane * inverse - shift.
+    Vec3 far_shift{0};                 ///< The same, a bit late.
+    std::array<std::size_t, 3> near{}; ///< By axis, the plane that it meets first.
+    std::array<std::size_t, 3> far{};  ///< By axis, the plane that it meets last.
     float length = 0;                  ///< The largest component of D.
-    float last = 0;                    ///< Beyond this t there is nothing.
-    bool moderate = false; ///< Products of three such lengths are far from infinite.
+    float last = 0;                    ///< Largest t to be searched.
+    bool moderate = false; ///< Products of three such lengths cannot overflow.
 };
 
-/// Makes a ray ready. Boxes grow by as much as box_ray() says. A component of the
-/// direction that is almost 0 is given a size: within the box that leads no ray astray
-/// by more than this.
-/// \param r       Becomes the ready ray.
-/// \param ray     The ray.
-/// \param middle  The middle of everything.
-/// \param half    From there to the sides.
-/// \return Whether that is possible: not if the direction is too long or too short, or
-///         the origin too far away, for squares of floats.
+/// Prepares a ray. Boxes grow by the margin of box_ray(). A direction component close
+/// to 0 is replaced by a small one, which moves the ray within the box by less than the
+/// margin.
+/// \param r       Receives the prepared ray.
+/// \param middle  The centre of the tree's box.
+/// \param half    Half the size of the box.
+/// \return False if the squares of the direction's length or of the distance to the box
+///         leave the range of float.
 [[nodiscard]] inline bool make_ready(Bvh8Ray& r, const Ray& ray, const Vec3& middle,
                                      const Vec3& half) noexcept {
     const Vec3 origin = ray.origin - middle;
@@ -53,7 +51,7 @@ struct Bvh8Ray {
     for (int axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<std::size_t>(axis);
         const std::size_t back = std::signbit(ray.direction[axis]) ? 1 : 0;
-        // Not by `back ?`: a processor cannot predict which way rays go.
+        // Branch-free, because the directions of rays are unpredictable.
         const float size_of_inverse = 1 / d[axis];
         const float inverse = std::copysign(size_of_inverse, ray.direction[axis]);
         const float shift = origin[axis] * inverse;
@@ -65,27 +63,27 @@ struct Bvh8Ray {
         r.far[i] = i + 3 * (1 - back);
     }
     r.moderate = reach * reach * glm::max(reach, r.length) < 1e36f;
-    // Their squares are still numbers: those of the directions, and of the distances.
+    // The squares of the direction and of the distance must stay finite.
     constexpr float most = 1e18f;
     return r.length > 1 / most && r.length < most && reach < most &&
            is_finite(r.near_shift) && is_finite(r.far_shift);
 }
 /// \}
 
-/// \defgroup wide_walk The walk through a wide tree
-/// \brief Eight boxes at once, and what to do about those that a ray enters
+/// \defgroup wide_walk The traversal of a wide tree
+/// \brief Eight boxes are tested at once; those that the ray enters are visited
 /// \cite wald2008. Chapter: \ref ch_bvh.
 /// \{
 
-// How a search begins: with a ray made ready, or, where there is none, with its answer.
+// The start of a search: a prepared ray; or its result, if no ray can be prepared.
 struct Bvh8Start {
     Bvh8Ray ray{};
-    bool done = true;   // nothing is left to be walked
-    bool found = false; // what the leaf said, if it was asked about everything
+    bool done = true;   // the search has ended
+    bool found = false; // what the leaf function returned for all slots
 };
 
-// Makes a ray ready. For a finite ray with which that is not possible, the leaf is
-// asked about all slots at once.
+// Prepares a ray. If that fails for a finite ray, the leaf function is called for all
+// slots at once.
 template <typename Leaf>
 inline Bvh8Start begin_walk(const Bvh8Nodes& wide, const Ray& ray, Leaf& leaf) {
     Bvh8Start start;
@@ -97,8 +95,8 @@ inline Bvh8Start begin_walk(const Bvh8Nodes& wide, const Ray& ray, Leaf& leaf) {
     return start;
 }
 
-// Asks eight boxes at once: which ones the ray enters, and where. Each search has an
-// instance of its own, and `inline` asks for it: compilers inline what is called once.
+// Tests eight boxes at once: which of them the ray enters, and where. Each search has
+// its own instance, because compilers inline functions that are called once.
 template <typename Search>
 inline std::uint64_t entered_lanes(Lanes& t, const Bvh8Nodes& wide, std::uint32_t node,
                                    const Bvh8Ray& r, float t_min,
@@ -129,14 +127,13 @@ inline std::uint64_t entered_lanes(Lanes& t, const Bvh8Nodes& wide, std::uint32_
     t = entry;
     return yes_lanes(entered);
 }
-// What waits in a search for the nearest hit: children, each below the t at which the
-// ray enters it. For numbers from 0 on, the bits are in the order of the values: so the
-// nearer one is less. Each search has a type of its own, as for entered_lanes().
+// The stack of a search for the nearest hit: children, each packed below the t at which
+// the ray enters it. The bits of non-negative floats are ordered like their values, so
+// integers can be compared. Each search has its own type, as for entered_lanes().
 template <typename Search>
 class NearestFirst {
 public:
-    // Takes the children of a node that the ray enters, at least one.
-    // Returns the nearest of them; the others wait.
+    // Pushes the children that the ray enters, at least one, and returns the nearest.
     std::uint32_t enter(const Bvh8Nodes& wide, std::uint32_t node,
                         std::uint64_t entered, const Lanes& t) {
         const auto& child = wide.nodes[node / Bvh8Child::stride].child;
@@ -151,8 +148,7 @@ public:
             later_[size_++] = later;
         };
         std::uint64_t nearest = key(take_lane(entered));
-        // Of three the order is right, of more it nearly is: without a branch that a
-        // processor would have to predict.
+        // Three are sorted exactly, more approximately: without unpredictable branches.
         if (entered != 0) {
             const std::uint64_t other = key(take_lane(entered));
             std::uint64_t second = glm::max(nearest, other);
@@ -168,7 +164,7 @@ public:
         }
         return static_cast<std::uint32_t>(nearest);
     }
-    // The next child, if there is one: what was found since may lie in front of it.
+    // Pops the next child that is not behind the nearest hit.
     bool next(const Bvh8Nodes&, std::uint32_t& child, float t_max) noexcept {
         float entry = 0;
         do {
@@ -186,12 +182,12 @@ private:
     std::size_t size_ = 0;
 };
 
-// What waits in a search for any hit: in no order, so that of a node only the lanes
-// wait.
+// The stack of a search for any hit. Order does not matter, so it only stores the lanes
+// of a node.
 template <typename Search>
 class AnyOrder {
 public:
-    // As NearestFirst.
+    // As in NearestFirst.
     std::uint32_t enter(const Bvh8Nodes& wide, std::uint32_t node,
                         std::uint64_t entered, const Lanes&) noexcept {
         later_[size_] = {entered_, node_};
@@ -200,7 +196,7 @@ public:
         node_ = node;
         return take(wide);
     }
-    // As NearestFirst.
+    // As in NearestFirst.
     bool next(const Bvh8Nodes& wide, std::uint32_t& child, float) noexcept {
         while (entered_ == 0) {
             if (size_ == 0) return false;
@@ -226,16 +222,15 @@ private:
     std::uint32_t node_ = 0;
 };
 
-/// The walk of every search: a node, eight boxes, and on to a child.
-/// \tparam any   Whether the first leaf that says true ends it: children are then
-///               visited in no order. Otherwise the nearer ones come first, and leaves
-///               shorten the ray.
-/// \param wide   The tree.
+/// The traversal of every search: test eight boxes of a node, then visit a child.
+/// \tparam any   True: the first leaf that returns true ends the search, and children
+///               are unsorted. False: nearer children come first, and leaves shorten
+///               the ray.
 /// \param ray    The ray; a leaf may shorten it.
-/// \param leaf   Called as leaf(first slot, count, ready ray); true ends the walk. For
-///               a ray that cannot be made ready, once, with a null pointer.
-/// \param watch  Called with the number of each node on the way.
-/// \return Whether a leaf said true.
+/// \param leaf   Called as leaf(first slot, count, prepared ray); true ends the search.
+///               Called once with a null pointer if the ray cannot be prepared.
+/// \param watch  Called with the index of each visited node.
+/// \return Whether a leaf returned true.
 // [walk]
 template <bool any, typename Leaf, typename Watch>
 bool walk(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& watch) {

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/accel/detail/bvh_build.hpp
-/// \brief How a tree of boxes is built: from the top, each range split where that is
-/// cheapest by the surface area heuristic, in bins.
+/// \brief The construction of a tree of boxes: from the top, by the binned surface area
+/// heuristic.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,11 +18,11 @@
 namespace ljus::detail {
 
 /// \defgroup bvh_build Building trees of boxes
-/// \brief Where to split a range in two. Chapter: \ref ch_bvh.
+/// \brief How to split a range in two. Chapter: \ref ch_bvh.
 /// \{
 
-// A box as a builder likes it: the lower bounds, and the upper ones with their signs
-// changed, so that to grow is eight times the same, which compilers do at once.
+// A box for construction: the lower bounds, and the negated upper ones. Growing the box
+// is then the same operation in all lanes, which compilers vectorise.
 template <std::floating_point T>
 struct BoundsT {
     T side[8];
@@ -42,19 +42,19 @@ struct BoundsT {
     [[nodiscard]] BoxT<T> box() const noexcept {
         return {{side[0], side[1], side[2]}, {-side[4], -side[5], -side[6]}};
     }
-    // In double: the square of a float's largest size has room.
+    // In double, because the square of the largest float would overflow.
     [[nodiscard]] double half_area() const noexcept {
         const double x{size(0)}, y{size(1)}, z{size(2)};
         return x * y + y * z + z * x;
     }
 };
 
-// A reference to a primitive: its bounds, and which one it is.
+// A reference to a primitive: its bounds and its index.
 template <std::floating_point T>
 struct PrimitiveRefT {
     BoundsT<T> bounds;
     std::uint32_t id;
-    // Half of twice the centre: the sum of two large numbers would be infinite.
+    // Each bound is halved first, because their sum could overflow.
     [[nodiscard]] T center(int axis) const noexcept {
         return T(0.5) * bounds.side[axis] - T(0.5) * bounds.side[axis + 4];
     }
@@ -69,7 +69,7 @@ struct PrimitiveRefT {
     }
 };
 
-// A range of the references: what one subtree is built of.
+// The range of references of a subtree.
 template <std::floating_point T>
 struct PrimitiveRangeT {
     std::uint32_t first = 0;
@@ -85,22 +85,22 @@ struct PrimitiveRangeT {
     }
 };
 
-// How many tests a leaf takes, `at_a_time` of them side by side.
+// The number of tests for a leaf, if one test covers `at_a_time` primitives.
 [[nodiscard]] constexpr double tests_of(std::uint32_t count,
                                         std::uint32_t at_a_time) noexcept {
     return (count + at_a_time - 1) / at_a_time;
 }
 
-// Where to split: between two bins along an axis; and what that costs.
+// A split between two bins along an axis, and its cost.
 struct Split {
     int axis = -1; // none
-    int bin = 0;   // the first of the upper half
+    int bin = 0;   // first bin of the upper half
     double cost = std::numeric_limits<double>::infinity();
 };
 
 inline constexpr int bin_count = 16;
 
-// From a centre to its bin.
+// Maps a centre to its bin.
 template <std::floating_point T>
 struct ToBinT {
     T low, factor;
@@ -108,16 +108,16 @@ struct ToBinT {
         : low(range.centers.side[axis]),
           factor(T(bin_count) * (T(1) - std::numeric_limits<T>::epsilon() * 4) /
                  range.centers.size(axis)) {}
-    // Written so that it is within the bins for any number.
+    // The result is a valid bin for every number, even NaN.
     [[nodiscard]] int operator()(T center) const noexcept {
         const T bin = (center - low) * factor;
         return bin < T(bin_count) ? static_cast<int>(bin) : bin_count - 1;
     }
 };
 
-// The split that makes the expected cost of a ray least \cite macdonald1990: a ray
-// that meets a box meets one within it with the ratio of their surfaces. Along each
-// axis 15 candidate planes are tried, the borders of 16 bins \cite wald2007.
+// The split with the least expected cost \cite macdonald1990: a ray that hits a box
+// hits a box within it with the ratio of their areas as probability. 15 candidate
+// planes per axis are tried, the borders of 16 bins \cite wald2007.
 // [best_split]
 template <std::floating_point T>
 [[nodiscard]] Split best_split(const std::vector<PrimitiveRefT<T>>& refs,
@@ -132,7 +132,7 @@ template <std::floating_point T>
         const T size = range.centers.size(axis);
         if (!(size > std::numeric_limits<T>::min() &&
               size < std::numeric_limits<T>::max()))
-            continue; // all in one plane
+            continue; // all centres in one plane
         Bin all[bin_count];
         const ToBinT<T> bin_of(range, axis);
         for (std::uint32_t i = range.first; i < range.last; ++i) {
@@ -140,7 +140,7 @@ template <std::floating_point T>
             bin.bounds.grow(refs[i].bounds);
             ++bin.count;
         }
-        // Once from above, for the costs of the upper halves; once from below.
+        // One sweep from above for the costs of the upper halves, then one from below.
         double above[bin_count] = {};
         Bin upper, lower;
         for (int i = bin_count - 1; i > 0; --i) {
@@ -170,7 +170,7 @@ struct HalvesT {
     PrimitiveRangeT<T> high;
 };
 
-// Sorts a range into its two halves; without a split, by number.
+// Partitions a range into its halves; without a split, by index.
 template <std::floating_point T>
 [[nodiscard]] HalvesT<T> divide(std::vector<PrimitiveRefT<T>>& refs,
                                 const PrimitiveRangeT<T>& range, const Split& split) {
@@ -198,7 +198,7 @@ template <std::floating_point T>
     return {low, high};
 }
 
-// Builds the tree: its upper part by one thread, what lies below by several.
+// Builds the tree: the top on one thread, the subtrees on several.
 template <std::floating_point T>
 class BvhBuilder {
 public:
@@ -219,8 +219,8 @@ public:
         if (refs_.empty()) return tree;
         PrimitiveRangeT<T> all{.last = static_cast<std::uint32_t>(refs_.size())};
         for (const PrimitiveRefT<T>& ref : refs_) all.take(ref);
-        // The upper part by one thread; what lies below a node of `alone` primitives is
-        // built on its own, and put behind it in order: the same for any threads.
+        // One thread builds the top. Subtrees of at most `alone` primitives are built
+        // separately and appended in order: the tree does not depend on the threads.
         std::vector<Job> jobs;
         tree.nodes.reserve(refs_.size());
         tree.nodes.push_back({all.bounds.box(), 0, 0});
@@ -255,7 +255,7 @@ private:
             return;
         }
         const std::uint32_t count = range.size();
-        const bool deep = range.depth >= bvh_depth / 2; // then halves, to an end
+        const bool deep = range.depth >= bvh_depth / 2; // then halving bounds the depth
         const Split split = count == 1 || deep
                                 ? Split{}
                                 : best_split(refs_, range, settings_.at_a_time);
@@ -275,7 +275,7 @@ private:
         grow(nodes, children, low, jobs);
         grow(nodes, children + 1, high, jobs);
     }
-    // Puts a tree that was built on its own in the place of its root.
+    // Appends a separately built subtree; its root replaces the placeholder.
     static void append(std::vector<BvhNodeT<T>>& nodes, std::size_t root,
                        const std::vector<BvhNodeT<T>>& part) {
         const auto shift = static_cast<std::uint32_t>(nodes.size()) - 1;
@@ -291,14 +291,8 @@ private:
     std::vector<PrimitiveRefT<T>> refs_;
 };
 
-/// Builds a tree over boxes: top down, each range split where that is cheapest for
-/// rays, at one of the borders of 16 bins along each axis \cite wald2007.
-/// \param boxes     Any boxes, equal and flat ones too; below 2^31.
-/// \param settings  Leaves and threads.
+/// Builds a tree over boxes; BvhT's constructor documents the arguments and the cost.
 /// \return The tree, the same for any number of threads; no deeper than bvh_depth.
-/// \throws std::invalid_argument  if a box is not finite, or there are too many.
-/// \cost O(n log n); at most 68 bytes a box for the tree in float, and 36 more while it
-///       is built.
 template <std::floating_point T>
 [[nodiscard]] BvhNodesT<T> build_bvh(std::span<const BoxT<T>> boxes,
                                      const BvhSettings& settings = {}) {

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/accel/detail/kd_tree8_build.hpp
-/// \brief What the wide k-d tree is made of, where each node lies, and how ranges of
-/// points are split.
+/// \brief The layout of the wide k-d tree, and the partition of points during its
+/// construction.
 
 #include <algorithm>
 #include <array>
@@ -23,29 +23,30 @@ namespace ljus::detail {
 /// \addtogroup kd_tree8
 /// \{
 
-/// Eight boxes side by side: the children of a node.
+/// The boxes of a node's eight children, side by side.
 template <std::floating_point T>
 struct KdTree8NodeT {
-    Lanes3T<T> low;  ///< Corners with the smallest coordinates.
+    Lanes3T<T> low;  ///< Corners with the least coordinates.
     Lanes3T<T> high; ///< Opposite corners.
 };
 
-/// Where everything lies in a wide tree: a matter of arithmetic, without a pointer.
+/// The layout of a wide tree; arithmetic replaces pointers.
 ///
-/// The points stand in blocks of eight, the blocks in leaves of `leaf_blocks` at most,
-/// and the leaves, a power of two of them, share the blocks evenly. Three halvings make
-/// one level of nodes with eight children; at the root there may be fewer.
+/// The points are grouped into blocks of eight, and the blocks into leaves of at most
+/// `leaf_blocks`. The number of leaves is a power of two, and they share the blocks
+/// evenly. A node with eight children combines three halvings; the root may have fewer
+/// children.
 struct KdTree8Shape {
-    static constexpr int leaf_blocks = 4; ///< The most blocks of a leaf: 32 points.
+    static constexpr int leaf_blocks = 4; ///< Most blocks per leaf: 32 points.
 
-    std::uint64_t points = 0; ///< How many.
-    std::uint64_t blocks = 0; ///< How many blocks hold them.
-    int halvings = 0;         ///< From all points to a leaf.
-    int levels = 0;           ///< Of nodes.
+    std::uint64_t points = 0; ///< Number of points.
+    std::uint64_t blocks = 0; ///< Number of blocks.
+    int halvings = 0;         ///< From the root to a leaf.
+    int levels = 0;           ///< Number of levels of nodes.
     std::array<std::uint32_t, 12>
-        first{}; ///< The first node of each level, and the end.
+        first{}; ///< The first node of each level, then the end.
 
-    /// The shape for so many points.
+    /// The layout for a number of points.
     [[nodiscard]] static constexpr KdTree8Shape of(std::uint64_t points) noexcept {
         KdTree8Shape shape{.points = points, .blocks = (points + 7) / 8};
         while ((std::uint64_t(leaf_blocks) << shape.halvings) < shape.blocks)
@@ -57,26 +58,26 @@ struct KdTree8Shape {
                 (level == 0 ? 1u : 1u << (shape.halvings - 3 * (shape.levels - level)));
         return shape;
     }
-    /// How many children the root has.
+    /// The number of children of the root.
     [[nodiscard]] constexpr std::uint32_t root_children() const noexcept {
         return 1u << (halvings - 3 * (levels - 1));
     }
-    /// The first block of range number `number` after so many halvings; the last one
-    /// ends where the next range begins.
+    /// The first block of a range after `depth` halvings. A range ends where the next
+    /// one begins.
     [[nodiscard]] constexpr std::uint64_t first_block(int depth,
                                                       std::uint64_t number) const {
         return ((number << (halvings - depth)) * blocks) >> halvings;
     }
 };
 
-/// A wide tree as its searches see it.
+/// The data of a wide tree.
 template <std::floating_point T>
 struct KdTree8PartsT {
-    KdTree8Shape shape{};                 ///< Where everything lies.
+    KdTree8Shape shape{};                 ///< The layout.
     std::vector<KdTree8NodeT<T>> nodes{}; ///< Level by level.
-    std::vector<Lanes3T<T>> blocks{};     ///< The points, eight by eight.
+    std::vector<Lanes3T<T>> blocks{};     ///< The points, in blocks of eight.
 
-    /// One point.
+    /// The point at an index.
     [[nodiscard]] Vec3T<T> point(std::size_t index) const noexcept {
         return blocks[index / 8][index % 8];
     }
@@ -86,12 +87,12 @@ struct KdTree8PartsT {
 template <std::floating_point T>
 class KdTree8Builder {
 public:
-    // A point on its way: 16 bytes in float, moved as one.
+    // A point during construction: 16 bytes in float, moved as a unit.
     struct Item {
         using Index = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
         T v[3];
         Index index;
-        Item() noexcept {} // nothing is set: all are written before they are read
+        Item() noexcept {} // uninitialised: all items are written before they are read
     };
 
     KdTree8Builder(const KdTree8Shape& shape, std::vector<KdTree8NodeT<T>>& nodes,
@@ -101,7 +102,7 @@ public:
     }
     void build(std::span<const Vec3T<T>> points, int threads) {
         constexpr long long piece = 1 << 14;
-        if (shape_.points < 2 * piece) threads = 1; // not worth waking them
+        if (shape_.points < 2 * piece) threads = 1; // too few to wake threads
         const auto take = [&](std::size_t i) {
             require_finite("a point of the k-d tree", points[i]);
             Item& item = items_[0][i];
@@ -110,7 +111,7 @@ public:
         };
         parallel_each(points.size(), piece, take, {.threads = threads});
 
-        // The upper ranges level by level, then whole subtrees.
+        // The upper ranges are built level by level, then whole subtrees in parallel.
         const int together = std::min(shape_.halvings, 5);
         for (int depth = 0; depth < together; ++depth)
             parallel_blocks(
@@ -131,8 +132,8 @@ private:
         finish(depth + 1, 2 * number + 1);
     }
 
-    // One range: its box into its node; then its points to its two halves, which lie in
-    // the other array, or into its leaf.
+    // Processes a range: writes its box into its node, then moves its points to its two
+    // halves in the other array, or into its leaf.
     void halve(int depth, std::uint64_t number) {
         const auto point = [&](std::uint64_t block) {
             return std::min(8 * block, shape_.points);
@@ -165,7 +166,7 @@ private:
     }
     static void bounds(const Item* items, std::uint64_t count, Vec3T<T>& low,
                        Vec3T<T>& high) noexcept {
-        // Four lanes, of which the index is one: its bits are read, and not used.
+        // The fourth lane holds the index; its bits are read but not used.
         T lows[2][4], highs[2][4];
         std::memcpy(lows[0], &items[0], sizeof lows[0]);
         std::memcpy(lows[1], &items[0], sizeof lows[1]);
@@ -186,15 +187,15 @@ private:
         }
     }
 
-    // Sends the `rank` items with the smallest coordinates to the front of `to`, the
-    // others behind them. What is in `from` is lost.
+    // Moves the `rank` items with the least coordinates to the front of `to` and the
+    // others behind them. `from` is overwritten.
     // [partition]
     static void partition(Item* from, Item* to, std::uint64_t count, std::uint64_t rank,
                           int axis) {
         while (count > 0) {
             const auto [low, high] = pivots(from, count, rank, axis);
-            // Below the pivots to the front, above to the back, the band between them
-            // to the front of where it came from: three writes, and no jump.
+            // Items below the pivots go to the front, those above to the back, and the
+            // band between to the front of `from`: three writes and no branch.
             std::uint64_t front = 0, back = count, band = 0;
             for (std::uint64_t i = 0; i < count; ++i) {
                 const Item item = from[i];
@@ -208,7 +209,7 @@ private:
                 back -= above;
                 band += !(below | above);
             }
-            // In a band of equal numbers any order will do.
+            // Equal numbers may be in any order.
             const bool inside = front <= rank && rank <= back;
             if (!inside || low == high || band > count / 2) {
                 std::copy(from, from + band, to + front);
@@ -226,8 +227,8 @@ private:
     }
     // [partition]
 
-    // Two numbers between which the item of a rank is likely to lie. Of a few items
-    // both are that item's own coordinate; of many they are estimated from a sample.
+    // Two numbers that are likely to enclose the item of a rank. For a few items both
+    // are that item's coordinate; for many they are estimated from a sample.
     static Extremes<T> pivots(const Item* items, std::uint64_t count,
                               std::uint64_t rank, int axis) {
         constexpr std::uint64_t few = 2048;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/detail/kd_tree8_results.hpp
-/// \brief What the searches of the wide k-d tree keep of the leaves on their walk.
+/// \brief The result sets of the searches of the wide k-d tree.
 
 #include <algorithm>
 #include <bit>
@@ -19,16 +19,16 @@ namespace ljus::detail {
 /// \addtogroup kd_tree8
 /// \{
 
-/// All points within reach, leaf by leaf: what `visit` makes of them is its own matter.
-/// \tparam Visit  Called as visit(first block, which points: a bit each); true ends the
+/// All points within reach, leaf by leaf.
+/// \tparam Visit  Called as visit(first block, bits of the points); true ends the
 ///                search.
 template <std::floating_point T, typename Visit>
 struct WithinT {
     static constexpr bool nearest_first = false;
-    ReachT<T> reach; ///< How far.
+    ReachT<T> reach; ///< The limit.
     Visit visit;     ///< Called for each leaf that has points within reach.
 
-    /// Takes a leaf.
+    /// Processes a leaf.
     bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
               std::size_t last) {
         const std::uint32_t found = in_leaf(tree, first, last, center, reach);
@@ -40,14 +40,14 @@ struct WithinT {
 template <std::floating_point T>
 struct NearestOneT {
     static constexpr bool nearest_first = true;
-    ReachT<T> reach;                ///< Less than to the nearest so far.
+    ReachT<T> reach;                ///< Below the distance of the nearest so far.
     std::optional<Neighbor> best{}; ///< The nearest so far.
 
-    /// Takes a leaf.
+    /// Processes a leaf.
     bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
               std::size_t last) {
-        // The smallest distance in T, but for its last bits; only what is as small may
-        // be the nearest.
+        // The least distance in T without its last bits: only points that are as near
+        // may be the nearest.
         LanesT<T> least = distances2(tree.blocks[first], center);
         for (std::size_t b = first + 1; b < last; ++b) {
             const LanesT<T> d2 = distances2(tree.blocks[b], center);
@@ -74,29 +74,29 @@ struct NearestOneT {
     }
 };
 
-// The most that are selected by counting; more go through a heap.
+// Up to this number, selection counts; beyond it uses a heap.
 inline constexpr std::size_t max_counted = 512;
 
-// The points that a search for the k nearest has gathered so far.
+// The candidates of a search for the k nearest.
 template <std::floating_point T>
 struct CandidatesT {
     static constexpr std::size_t room = 2 * max_counted;
 
     alignas(32) T d2[room + 8];    // squared distances in T
-    std::uint32_t index[room + 8]; // places in the tree's order
+    std::uint32_t index[room + 8]; // in the tree's order
 
-    CandidatesT() noexcept {} // nothing is set: all are written before they are read
+    CandidatesT() noexcept {} // uninitialised: all are written before they are read
 
-    // Fills the last eight up, as select_smallest() asks for it.
+    // Pads the last block of eight, as select_smallest() requires.
     void fill_up(std::size_t count) noexcept {
         for (std::size_t i = count; i % 8 != 0; ++i)
             d2[i] = std::numeric_limits<T>::infinity();
     }
 };
 
-// Lets those go that are surely not among the k nearest, and shortens the reach to the
-// others: k of them, and up to `spare` more.
-// Returns how many are left: more than that if many are equally far, as far as T tells.
+// Drops the candidates that are certainly not among the k nearest, and shortens the
+// reach to the others: k of them, and up to `spare` more.
+// Returns the number left; it is larger if many distances are equal in T.
 template <std::floating_point T>
 [[nodiscard]] std::size_t thin_out(CandidatesT<T>& all, std::size_t count,
                                    std::size_t k, std::size_t spare,
@@ -115,8 +115,8 @@ template <std::floating_point T>
     return kept;
 }
 
-// Keeps exactly the k nearest, and shortens the reach to less than the k-th: those that
-// T puts near the k-th are put into their order in double.
+// Keeps exactly the k nearest, and shortens the reach to below the k-th. Candidates
+// that T cannot tell from the k-th are compared in double.
 template <std::floating_point T>
 void keep_nearest(CandidatesT<T>& all, std::size_t count, std::size_t k,
                   const KdTree8PartsT<T>& tree, const Vec3T<T>& center,
@@ -148,27 +148,26 @@ void keep_nearest(CandidatesT<T>& all, std::size_t count, std::size_t k,
     reach = ReachT<T>::up_to(limit2, true);
 }
 
-/// The k nearest, up to max_counted of them: gathers candidates and now and then, when
-/// there are more than enough, finds by counting how far the k-th of them lies: the
-/// reach from then on.
+/// The k nearest points, up to max_counted. It gathers candidates. When there are more
+/// than enough, counting finds the distance of the k-th, which becomes the reach.
 template <std::floating_point T, typename Wanted>
 struct NearestCountedT {
     static constexpr bool nearest_first = true;
-    ReachT<T> reach;        ///< About as far as the k-th so far.
+    ReachT<T> reach;        ///< About the distance of the k-th so far.
     Wanted& wanted;         ///< Whether a point counts.
-    const std::size_t k;    ///< How many are wanted.
-    std::size_t enough = k; ///< With as many candidates the reach is shortened.
-    std::size_t count = 0;  ///< Candidates so far.
-    CandidatesT<T> all;     ///< They.
+    const std::size_t k;    ///< Number of points wanted.
+    std::size_t enough = k; ///< Number of candidates that shortens the reach.
+    std::size_t count = 0;  ///< Number of candidates.
+    CandidatesT<T> all;     ///< The candidates.
 
-    // As an aggregate it would be filled with zeros first: 8 kB.
+    // A constructor, because an aggregate would be filled with 8 kB of zeros.
     NearestCountedT(const ReachT<T>& most, Wanted& which, std::size_t number) noexcept
         : reach(most), wanted(which), k(number) {}
 
-    /// Takes a leaf.
+    /// Processes a leaf.
     bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
               std::size_t last) {
-        std::size_t next = count; // a local, which stays in a register
+        std::size_t next = count; // a local stays in a register
         for (std::size_t b = first; b < last; ++b) {
             const LanesT<T> far = distances2(tree.blocks[b], center);
             const std::uint32_t some = reach.within(tree.blocks[b], center, far);
@@ -185,21 +184,20 @@ struct NearestCountedT {
         }
         count = next;
         if (count >= enough) {
-            const std::size_t spare = k / 8; // on the way a few too many will do
+            const std::size_t spare = k / 8; // exactness is not needed on the way
             count = thin_out(all, count, k, spare, reach);
             if (count > k + 2 * spare) shrink(tree, center); // many are equally far
             enough = count + std::max<std::size_t>(k / 2, 32);
         }
         return false;
     }
-    /// The k nearest of the candidates.
+    /// Reduces the candidates to the k nearest.
     void shrink(const KdTree8PartsT<T>& tree, const Vec3T<T>& center) {
         keep_nearest(all, count, k, tree, center, reach);
         count = k;
     }
-    /// Hands out what was found.
-    /// \param found  Room for k; the farthest is put first.
-    /// \return How many were found.
+    /// Writes the points found into `found`, the farthest first, and returns their
+    /// number.
     [[nodiscard]] std::size_t give(const KdTree8PartsT<T>& tree, const Vec3T<T>& center,
                                    std::span<Neighbor> found) {
         if (count > k) shrink(tree, center);
@@ -213,15 +211,15 @@ struct NearestCountedT {
     }
 };
 
-/// Any number of nearest points, by the heap of the plain tree.
+/// The k nearest points for any k, by the heap of the plain tree.
 template <std::floating_point T, typename Wanted>
 struct NearestHeapT {
     static constexpr bool nearest_first = true;
-    ReachT<T> reach; ///< Less than to the k-th so far.
+    ReachT<T> reach; ///< Below the distance of the k-th so far.
     Wanted& wanted;  ///< Whether a point counts.
     Nearest best;    ///< The nearest so far.
 
-    /// Takes a leaf.
+    /// Processes a leaf.
     bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
               std::size_t last) {
         for (std::size_t b = first; b < last; ++b) {

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/accel/detail/kd_tree8_walk.hpp
-/// \brief The walk of the wide k-d tree: which leaves a search visits, in which order,
-/// and which of their points are within reach.
+/// \brief The traversal of the wide k-d tree: the leaves that a search visits, and the
+/// points within its reach.
 
 #include <algorithm>
 #include <bit>
@@ -17,10 +17,8 @@ namespace ljus::detail {
 /// \addtogroup kd_tree8
 /// \{
 
-/// The squared distances of eight points, in the precision of their coordinates: within
-/// five roundings of the exact ones unless they leave the range of T.
-/// \param points  Eight points.
-/// \param center  Where from.
+/// The squared distances of eight points from `center`, in the precision of their
+/// coordinates: within five roundings of the exact ones, unless they leave T's range.
 template <std::floating_point T>
 [[nodiscard]] constexpr LanesT<T> distances2(const Lanes3T<T>& points,
                                              const Vec3T<T>& center) noexcept {
@@ -34,26 +32,25 @@ template <std::floating_point T>
     return result;
 }
 
-/// How far a search reaches: a limit in double that decides, and two bounds in T that
-/// decide nearly always.
+/// The reach of a search: a limit in double, which decides, and two bounds in T, which
+/// suffice nearly always.
 ///
-/// A squared distance computed in T has at most five roundings of half an ulp.
-/// Whatever is at most `sure` is within the limit, whatever lies above `last` is not,
-/// with 16 roundings between each of them and the limit; only what falls between the
-/// two is computed once more, by distance2().
+/// A squared distance computed in T has at most five roundings of half an ulp. A
+/// distance up to `sure` is within the limit; one above `last` is beyond it. 16
+/// roundings separate each bound from the limit. Between the two, distance2() decides.
 template <std::floating_point T>
 struct ReachT {
-    double limit2 = -1; ///< Squared; below 0: nothing is within reach.
-    bool open = false;  ///< Whether the limit itself is out of reach.
-    T sure = T(-1);     ///< At most this: within the limit.
+    double limit2 = -1; ///< Squared; negative: nothing is within reach.
+    bool open = false;  ///< Whether the limit itself is excluded.
+    T sure = T(-1);     ///< Up to this: within the limit.
     T last = T(-1);     ///< Above this: beyond the limit.
 
     /// The reach up to a limit.
     /// \param limit   Squared; at least 0, or infinite.
-    /// \param beyond  Whether the limit itself is out of reach.
+    /// \param beyond  Whether the limit itself is excluded.
     [[nodiscard]] static constexpr ReachT up_to(double limit, bool beyond) noexcept {
         using Numbers = std::numeric_limits<T>;
-        // The smallest numbers, which processors may take for 0, decide nothing.
+        // Processors may flush denormals to 0, so they decide nothing.
         constexpr double margin = 8 * double(Numbers::epsilon());
         constexpr double tiny = 4 * double(Numbers::min());
         constexpr double most = double(Numbers::max());
@@ -64,25 +61,22 @@ struct ReachT {
                 .sure = T(down),
                 .last = up < most ? T(up) : Numbers::infinity()};
     }
-    /// The reach of a closed ball: none if the radius is below 0 or NaN.
+    /// The reach of a closed ball; empty if the radius is negative or NaN.
     [[nodiscard]] static constexpr ReachT ball(T radius) noexcept {
         if (!(radius >= T(0))) return {};
         return up_to(double(radius) * double(radius), false);
     }
-    /// What a squared distance in double says: the last word.
+    /// Whether a squared distance in double is within reach.
     [[nodiscard]] constexpr bool holds(double d2) const noexcept {
         return open ? d2 < limit2 : d2 <= limit2;
     }
-    /// Which of eight points are within reach, exactly.
-    /// \param points  The points.
-    /// \param center  The centre of the search.
-    /// \param d2      What distances2() says of them.
-    /// \return A bit each, the first point's the lowest.
+    /// The points within reach, exactly; bit i stands for point i.
+    /// \param d2      Their distances2().
     // [within]
     [[nodiscard]] constexpr std::uint32_t within(const Lanes3T<T>& points,
                                                  const Vec3T<T>& center,
                                                  const LanesT<T>& d2) const noexcept {
-        // Two answers in one number: within reach, as far as T can tell, and surely so.
+        // Two results in one number: possibly within reach, and surely within reach.
         std::uint32_t both = 0;
         for_lanes([&](int i) {
             const std::uint32_t near = d2.lane[i] <= last ? lane_bit[i] : 0;
@@ -100,18 +94,18 @@ struct ReachT {
     // [within]
 };
 
-// The squared distances to the nearest points of eight boxes. A caller that names
-// itself has its own: compilers inline what is called in one place only.
+// The squared distances to eight boxes. Each caller has its own instance, because
+// compilers inline functions that are called once.
 template <typename Caller, std::floating_point T>
 [[nodiscard]] constexpr LanesT<T> near2(const KdTree8NodeT<T>& node,
                                         const Vec3T<T>& center) noexcept {
     LanesT<T> result{};
-    // To the nearest number of an interval.
+    // The distance to an interval.
     const auto outside = [](T low, T high, T x) {
         const T above = x < low ? low : x;
         return x - (above > high ? high : above);
     };
-    // One axis at a time: a longer body is not always inlined, and then no vector.
+    // One axis at a time: compilers may fail to inline and vectorise a longer body.
     LanesT<T> x, y, z;
     for_lanes(
         [&](int i) { x.lane[i] = outside(node.low.x[i], node.high.x[i], center.x); });
@@ -126,7 +120,7 @@ template <typename Caller, std::floating_point T>
     return result;
 }
 
-// Which points of a leaf lie within reach, exactly: a bit each.
+// The points of a leaf within reach, exactly; one bit each.
 template <std::floating_point T>
 [[nodiscard]] std::uint32_t in_leaf(const KdTree8PartsT<T>& tree, std::size_t first,
                                     std::size_t last, const Vec3T<T>& center,
@@ -160,26 +154,22 @@ template <std::floating_point T>
     return found;
 }
 
-/// The walk of every search: depth first, over the leaves whose boxes are within reach.
-/// What a search keeps is an argument, a *result set*, as in nanoflann
-/// \cite blanco2014. It has
+/// The traversal of every search: depth first, over leaves whose boxes are within
+/// reach. The argument `results` is a result set, as in nanoflann \cite blanco2014. It
+/// has
 ///
-///     ReachT<T> reach;                     // it may shrink on the way
-///     static constexpr bool nearest_first; // or in the tree's order
+///     ReachT<T> reach;                     // may shrink during the search
+///     static constexpr bool nearest_first; // false: in the tree's order
 ///     bool leaf(tree, center, first, last) // takes the blocks first to last - 1;
-///                                          // true ends the walk
-///
-/// \param tree     The tree.
-/// \param center   Where the search is.
-/// \param results  What is kept.
-/// \return Whether a leaf ended the walk.
+///                                          // true ends the search
+/// \return Whether a leaf ended the search.
 // [walk]
 template <std::floating_point T, typename Results>
 bool walk(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, Results& results) {
     const KdTree8Shape& shape = tree.shape;
     if (shape.levels == 0) return results.leaf(tree, center, 0, tree.blocks.size());
-    // Of the nodes above, one on each level: which of their children have not been
-    // looked at, and how far these are.
+    // For the open node of each level: its children that have not been visited, and
+    // their distances.
     struct Open {
         std::uint32_t number, left;
     };
@@ -193,7 +183,7 @@ bool walk(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, Results& results
                             shape.first_block(shape.halvings, i + 1));
     };
     for (;;) {
-        // Down into a node.
+        // Descend into a node.
         LanesT<T>& far = near[Results::nearest_first ? level : 0];
         far = near2<Results>(tree.nodes[shape.first[std::size_t(level)] + number],
                              center);
@@ -205,7 +195,7 @@ bool walk(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, Results& results
                              static_cast<std::uint32_t>(std::countr_zero(left))))
                         return true;
         }
-        // To the next child, and up where none is left.
+        // Go to the next child; ascend if there is none.
         for (;;) {
             auto i = static_cast<std::uint32_t>(std::countr_zero(left));
             if constexpr (Results::nearest_first)
@@ -237,45 +227,41 @@ bool walk(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, Results& results
 }
 // [walk]
 
-/// A block of eight points, of which a ball holds some.
+/// A block of eight points, some of which lie in a ball.
 struct BallBlock {
-    std::uint32_t ball = 0;  ///< Which ball.
-    std::uint32_t block = 0; ///< Which block of the tree.
-    std::uint32_t found = 0; ///< Which of its points: a bit each.
+    std::uint32_t ball = 0;  ///< Index of the ball.
+    std::uint32_t block = 0; ///< Index of the block in the tree.
+    std::uint32_t found = 0; ///< Its points in the ball, one bit each.
 };
 
-/// What a search for many balls finds: room that is kept from one to the next.
+/// The blocks that a search for many balls finds, and its reusable buffers.
 struct BallBlocks {
-    /// A node of the tree that a ball reaches, or a leaf.
+    /// A node or a leaf that a ball touches.
     struct Place {
-        std::uint32_t ball;   ///< Which ball.
-        std::uint32_t number; ///< Which node of its level, or which leaf.
+        std::uint32_t ball;   ///< Index of the ball.
+        std::uint32_t number; ///< Index of the node in its level, or of the leaf.
     };
-    std::vector<Place> here{};       ///< Of one level: of the first ball, the second...
-    std::vector<Place> below{};      ///< Of the next level, in the same order.
-    std::vector<BallBlock> blocks{}; ///< What is found, in the same order.
+    std::vector<Place> here{};       ///< Of one level, sorted by ball.
+    std::vector<Place> below{};      ///< Of the next level, sorted by ball.
+    std::vector<BallBlock> blocks{}; ///< The result, sorted by ball.
 };
 
-/// The other walk: the points within many balls together, one level of the tree after
-/// the other for all balls, then the leaves. In the walk of one ball each step waits
-/// for the memory that the step before has asked for. Those of different balls do not
-/// wait for each other: the processor works on several at once, and fetches what the
-/// next step reads meanwhile.
+/// Finds the points within many balls together. All balls visit one level of the tree
+/// before the next, and finally the leaves. In the traversal of a single ball each step
+/// waits for the memory that the previous step requested; different balls do not wait
+/// for each other, so that the processor overlaps their reads.
 ///
-/// Each ball finds what walk() would find, in the same order, by as many instructions;
-/// what is gained is time that a processor would wait. It stays because a whole picture
-/// whose caustics are asked for 64 samples at a time takes less of it: the four-glass
-/// room, at 16 samples a pixel, 2 to 8 % with 1e5 photons in the map and 8 to 13 % with
-/// 1e6. In a loop over estimates at neighbouring places, whose memory is at hand, it
-/// gains nothing.
-/// \param tree    The tree.
-/// \param balls   How many; below 2^32.
+/// Each ball finds the same points as by walk(), in the same order, with as many
+/// instructions. A picture of the four-glass room with 16 samples per pixel, whose
+/// caustics are estimated for 64 samples together, takes 2 to 8 % less time with 1e5
+/// photons and 8 to 13 % less with 1e6. Estimates at neighbouring points, whose memory
+/// is in the cache, gain nothing.
+/// \param balls   Number of balls; below 2^32.
 /// \param center  Called as center(ball).
-/// \param radius  Of all of them.
-/// \param expect  Called as expect(block) for each block that will be found, to fetch
-///                what else it has.
-/// \param found   Gets the blocks: of each ball those that visit_blocks() would visit,
-///                in its order.
+/// \param expect  Called as expect(block) for each block that will be found, to
+///                prefetch its payload.
+/// \param found   Receives the blocks: for each ball those of visit_blocks(), in its
+///                order.
 // [find_in_balls]
 template <std::floating_point T, typename Center, typename Expect>
 void find_in_balls(const KdTree8PartsT<T>& tree, std::size_t balls, Center center,

@@ -16,13 +16,13 @@ namespace ljus::detail {
 /// \addtogroup kd_tree8
 /// \{
 
-/// The number in the middle of two, counted in floats: never more than the width of T
-/// in bits steps lie between any two numbers.
+/// The midpoint of two numbers in the order of all floats. Repeated halving of an
+/// interval ends after at most as many steps as T has bits.
 template <std::floating_point T>
 [[nodiscard]] constexpr T middle_in_bits(T low, T high) noexcept {
     using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
     constexpr Bits sign = std::numeric_limits<Bits>::min();
-    // Below 0 the order of the bits is reversed.
+    // The bits of negative numbers are ordered in reverse.
     const auto ordered = [](T x) {
         const Bits bits = std::bit_cast<Bits>(x);
         return bits < 0 ? sign - bits : bits;
@@ -33,9 +33,8 @@ template <std::floating_point T>
     return std::bit_cast<T>(middle < 0 ? sign - middle : middle);
 }
 
-/// How many numbers do not exceed a threshold.
-/// \param values     The numbers, filled up to whole eights with infinity.
-/// \param count      How many there are.
+/// The number of values that do not exceed a threshold.
+/// \param values     Padded to a multiple of eight with infinity.
 /// \param threshold  Below infinity.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::size_t count_up_to(const T* values, std::size_t count,
@@ -56,12 +55,10 @@ struct Extremes {
     T high;
 };
 
-/// The smallest of all numbers above a bound, and the largest finite one that does not
-/// exceed another.
-/// \param values  The numbers, filled up to whole eights with infinity.
-/// \param count   How many there are.
-/// \param above   Smaller ones, and this one, do not count for the smallest.
-/// \param up_to   Larger ones do not count for the largest.
+/// The smallest value above a bound, and the largest finite one up to another bound.
+/// \param values  Padded to a multiple of eight with infinity.
+/// \param above   Exclusive lower bound of the smallest.
+/// \param up_to   Inclusive upper bound of the largest.
 /// \return Both; infinity and minus infinity if there are none.
 template <std::floating_point T>
 [[nodiscard]] constexpr Extremes<T>
@@ -85,20 +82,20 @@ smallest_and_largest(const T* values, std::size_t count, T above, T up_to) noexc
     return result;
 }
 
-/// The k-th smallest of some numbers.
+/// The k-th smallest value.
 ///
-/// No number is moved: a threshold is guessed from the two that enclose the answer, as
-/// if the numbers between them were spread evenly, and those below it are counted; each
-/// third guess is the middle in bits, so that no numbers take long.
-/// \param values  The numbers, without NaN, above minus infinity; filled up to whole
-///                eights with infinity.
-/// \param count   How many there are, at least 1.
-/// \param k       Which one, in [1, count].
-/// \param spare   How many more than k may be let through, if that is found sooner.
-/// \return The smallest of them that k numbers do not exceed; with numbers to spare,
-///         that or any other number that k to k + spare of them do not exceed.
+/// No value moves. Interpolation between two bounds of the result gives a threshold,
+/// and the values below it are counted. Every third threshold is the middle in bits,
+/// which bounds the number of passes for any values.
+/// \param values  Without NaN, above minus infinity; padded to a multiple of eight with
+///                infinity.
+/// \param count   Number of values, at least 1.
+/// \param k       The rank, in [1, count].
+/// \param spare   How far the rank of the result may exceed k, for an earlier end.
+/// \return The smallest value that k values do not exceed; with `spare`, possibly
+///         another one that k to k + spare values do not exceed.
 /// \cost About five passes, at most a hundred (in double two hundred); a pass is a
-///       comparison and an addition for eight numbers.
+///       comparison and an addition per eight values.
 // [select]
 template <std::floating_point T>
 [[nodiscard]] constexpr T select_smallest(const T* values, std::size_t count,
@@ -106,7 +103,7 @@ template <std::floating_point T>
                                           std::size_t spare = 0) noexcept {
     constexpr T infinity = std::numeric_limits<T>::infinity();
     constexpr T most = std::numeric_limits<T>::max();
-    // Fewer than k lie at or below `low`, at least k at or below `high`.
+    // Fewer than k values are up to `low`, at least k up to `high`.
     auto [low, high] = smallest_and_largest(values, count, -infinity, most);
     std::size_t up_to_low = count_up_to(values, count, low);
     if (up_to_low >= k) return low;

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/geometry/detail/field_on_ray.hpp
-/// \brief Where a function of t with known bounds first gets to 0: two solvers that
-/// look for it, sphere tracing and interval bisection.
+/// \brief Two solvers for the first zero of a function of t with known bounds: sphere
+/// tracing and interval bisection.
 
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@
 namespace ljus {
 
 /// \defgroup isosurface Isosurfaces
-/// \brief Section 2.1: isosurfaces. A field is above 0 inside, below 0 outside.
+/// \brief Section 2.1: isosurfaces. A field is positive inside, negative outside.
 /// Chapter: \ref ch_metaballs.
 /// \{
 
@@ -31,8 +31,8 @@ struct IntervalT {
     T high = T(0); ///< The largest.
 };
 
-/// A field as a ray sees it: f(O + tD), a function of t, that is below 0 outside of
-/// [enter, leave] and that `steepest()` bounds the slope of.
+/// A field along a ray: the function f(O + tD) of t. It is negative outside
+/// [enter, leave], and `steepest()` bounds its slope.
 template <typename L, typename T>
 concept FieldOnRay = requires(const L& line, T t) {
     { line.enter } -> std::convertible_to<T>;
@@ -42,7 +42,7 @@ concept FieldOnRay = requires(const L& line, T t) {
     { line.range(t, t) } -> std::same_as<IntervalT<T>>;
 };
 
-/// A field on a ray that also bounds its slope over a part of the ray.
+/// A field along a ray that also bounds its slope over an interval.
 template <typename L, typename T>
 concept SlopeOnRay = FieldOnRay<L, T> && requires(const L& line, T t) {
     { line.slope(t, t) } -> std::same_as<IntervalT<T>>;
@@ -50,29 +50,25 @@ concept SlopeOnRay = FieldOnRay<L, T> && requires(const L& line, T t) {
 
 } // namespace detail
 
-/// Solver: steps along the ray that can never jump over the surface \cite hart1996.
+/// Solver: steps along the ray that cannot jump over the surface \cite hart1996.
 struct SphereTracing {
-    double tolerance = 1e-9; ///< A hit is where |f| falls to this.
-    int max_steps = 2000;    ///< Then it gives up: a miss.
+    double tolerance = 1e-9; ///< |f| at a hit is at most this.
+    int max_steps = 2000;    ///< After as many steps the ray misses.
 };
 
-/// Solver: halves the ray until each part either cannot hold the surface or surely
-/// holds one crossing \cite mitchell1990.
+/// Solver: halves the ray until each interval either cannot contain the surface or
+/// contains exactly one crossing \cite mitchell1990.
 struct Bisection {
-    int max_parts = 4096; ///< Then it gives up: a miss.
+    int max_parts = 4096; ///< After as many intervals the ray misses.
 };
 
 namespace detail {
 
-/// Where a ray first meets f = 0, by sphere tracing: |f| divided by the largest slope
-/// is a distance in which f cannot get to 0.
-/// \param solver  Tolerance and limit.
-/// \param line    The field on the ray.
-/// \param t_min   First t that counts.
-/// \param t_max   Last t that counts.
+/// Finds the first zero of f along a ray by sphere tracing: f cannot reach 0 within a
+/// distance of |f| over the largest slope.
 /// \return The first t at which |f| is within the tolerance, always before the surface;
-///         nothing for a miss, for NaN, and when the steps run out.
-/// \cost An evaluation a step; the closer to grazing, the more of them.
+///         nothing for a miss, for NaN, and if the steps run out.
+/// \cost One evaluation per step; rays closer to grazing take more steps.
 // [sphere_tracing]
 template <std::floating_point T, FieldOnRay<T> Line>
 [[nodiscard]] std::optional<T> first_meeting(const SphereTracing& solver,
@@ -91,7 +87,7 @@ template <std::floating_point T, FieldOnRay<T> Line>
 }
 // [sphere_tracing]
 
-/// The place where f changes its sign between a and b, to the last place of t.
+/// The t between a and b where f changes its sign, to the last unit.
 template <std::floating_point T, FieldOnRay<T> Line>
 [[nodiscard]] T bisect(const Line& line, T side, T a, T b) {
     for (int step = 0; step < 2 * std::numeric_limits<T>::digits; ++step) {
@@ -102,23 +98,18 @@ template <std::floating_point T, FieldOnRay<T> Line>
     return b;
 }
 
-/// Where a ray first meets f = 0, by interval bisection.
+/// Finds the first zero of f along a ray by interval bisection.
 ///
-/// A part [a, b] of the ray is dropped if all its values have the sign of the start; if
-/// not and the slope has one sign, the values at the ends decide; else it is halved,
-/// the nearer half first. The values are bounded by what the field says and by the mean
+/// An interval [a, b] is dropped if all its values have the sign of the start. If the
+/// slope has one sign, the values at the ends decide. Otherwise the interval is halved,
+/// and the nearer half comes first. The values are bounded by range() and by the mean
 /// value form f(m) + f'([a, b]) (b - a)/2.
-/// \param solver  The limit.
-/// \param line    The field on the ray.
-/// \param t_min   First t that counts.
-/// \param t_max   Last t that counts.
-/// \return The first t at which f has changed its sign, to the last place; nothing for
-///         a miss, for NaN, and when the parts run out. A surface that is touched and
-///         not crossed is met if f is not below 0 at the ends of a part as short as two
-///         units in the last place.
-/// \cost Some 10 to 100 ranges, more where value and slope nearly vanish together. A
-///       field without slope() needs about 1/sqrt(depth) of them where a ray dips in by
-///       depth.
+/// \return The first t at which f has changed its sign, to the last unit; nothing for a
+///         miss, for NaN, and if the intervals run out. A surface that the ray only
+///         touches is hit if f is not negative at the ends of an interval of two units
+///         in the last place.
+/// \cost Some 10 to 100 ranges, more if value and slope nearly vanish together. Without
+///       slope(), a ray that dips below the surface by d needs about 1/sqrt(d) of them.
 // [bisection]
 template <std::floating_point T, FieldOnRay<T> Line>
 [[nodiscard]] std::optional<T> first_meeting(const Bisection& solver, const Line& line,
@@ -138,14 +129,14 @@ template <std::floating_point T, FieldOnRay<T> Line>
         const T middle = a + (b - a) / T(2);
         const IntervalT<T> range = line.range(a, b);
         if (side > T(0) ? range.low > T(0) : range.high < T(0)) continue;
-        // All on the other side: the surface was in the rounding just before.
+        // All values have the other sign: rounding hid the surface just before a.
         if (side > T(0) ? range.high < T(0) : range.low > T(0)) return a;
         if constexpr (SlopeOnRay<Line, T>) {
             const IntervalT<T> slope = line.slope(a, b);
             const T reach = glm::max(slope.high, -slope.low) * (b - a) / T(2);
             const T doubt = line.rounding() + std::abs(reach);
             if (side * line.value(middle) > doubt) continue;
-            if (slope.low > T(0) || slope.high < T(0)) {       // one sign: ends decide
+            if (slope.low > T(0) || slope.high < T(0)) { // one sign: the ends decide
                 if (!(side * line.value(b) <= T(0))) continue; // or NaN
                 return bisect(line, side, a, b);
             }

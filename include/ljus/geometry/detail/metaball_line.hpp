@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/detail/metaball_line.hpp
-/// \brief The field of metaballs as a ray sees it: a function of t with its bounds.
+/// \brief The field of metaballs along a ray: a function of t with its bounds.
 
 #include <array>
 #include <cmath>
@@ -23,11 +23,11 @@ namespace ljus {
 /// \ref ch_metaballs.
 /// \{
 
-/// One source of a field: \f$ w (1 - r^2/R^2)^2 \f$ within R, and 0 beyond.
+/// A source of a field: \f$ w (1 - r^2/R^2)^2 \f$ within R, and 0 beyond.
 template <std::floating_point T>
 struct BlobT {
     Vec3T<T> center{T(0)}; ///< C, in scene units.
-    T radius = T(1);       ///< R, above 0: where its field ends, in scene units.
+    T radius = T(1);       ///< R, above 0: extent of its field, in scene units.
     T weight = T(1);       ///< w; negative carves.
 };
 
@@ -39,23 +39,23 @@ namespace detail {
 template <std::floating_point T>
 inline constexpr T steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);
 
-/// A blob as a ray sees it: \f$ s(t) = h - k (t - m)^2 \f$, and its field is w s^2
-/// where s > 0.
+/// A blob along a ray: its field is w s^2 where \f$ s(t) = h - k (t - m)^2 \f$ is
+/// positive.
 template <std::floating_point C>
 struct StrandT {
     C enter = C(0);  ///< Where s becomes positive.
-    C leave = C(0);  ///< Where it ceases to be.
-    C middle = C(0); ///< m, where the ray is nearest to the centre.
-    C height = C(0); ///< h = 1 - p^2/R^2 there.
+    C leave = C(0);  ///< Where s becomes negative again.
+    C middle = C(0); ///< m, nearest to the centre.
+    C height = C(0); ///< h = 1 - p^2/R^2; p is the distance at m.
     C bend = C(0);   ///< k = D.D / R^2.
     C weight = C(1); ///< w.
 };
 
-/// A blob on a ray, in the way of chord(): the difference of vectors before the square.
+/// A blob along a ray. As in chord(), the vectors are subtracted before they are
+/// squared.
 /// \param ray   The ray; its range is ignored.
-/// \param blob  The blob.
-/// \return In double; nothing if the ray passes by, and nothing for data that are not
-///         finite, a zero direction, or a radius not above 0.
+/// \return In double; nothing for a miss, for non-finite data, a zero direction, or a
+///         radius not above 0.
 template <std::floating_point T>
 [[nodiscard]] std::optional<StrandT<WideT<T>>> strand(const RayT<T>& ray,
                                                       const BlobT<T>& blob) noexcept {
@@ -77,13 +77,13 @@ template <std::floating_point T>
                       height,        bend,          C(blob.weight)};
 }
 
-/// The strands of a ray: without the heap for up to 16.
+/// The strands of a ray. Up to 16 need no heap memory.
 template <std::floating_point C>
 struct StrandsT {
-    std::array<StrandT<C>, 16> few; ///< The first ones.
-    std::vector<StrandT<C>> many{}; ///< All, once they are more.
-    std::size_t count = 0;          ///< How many.
-    /// Appends one.
+    std::array<StrandT<C>, 16> few; ///< Used for up to 16.
+    std::vector<StrandT<C>> many{}; ///< Holds all strands if there are more.
+    std::size_t count = 0;          ///< Number of strands.
+    /// Appends a strand.
     void add(const StrandT<C>& strand) {
         if (count < few.size())
             few[count] = strand;
@@ -93,20 +93,20 @@ struct StrandsT {
         }
         ++count;
     }
-    /// All of them.
+    /// All strands.
     [[nodiscard]] std::span<const StrandT<C>> all() const noexcept {
         return {many.empty() ? few.data() : many.data(), count};
     }
 };
 
-/// The field of metaballs along a ray: value, slope and bounds of both, as the solvers
-/// for isosurfaces ask.
+/// The field of metaballs along a ray: value, slope and their bounds, as the solvers
+/// for isosurfaces require.
 template <std::floating_point C>
 struct MetaballLineT {
-    std::span<const StrandT<C>> strands{}; ///< The blobs that the ray meets.
+    std::span<const StrandT<C>> strands{}; ///< Blobs that the ray meets.
     C level = C(0);                        ///< L.
-    C enter = C(0);                        ///< Where the first of them begins.
-    C leave = C(-1);                       ///< Where the last of them ends.
+    C enter = C(0);                        ///< Where the first strand begins.
+    C leave = C(-1);                       ///< Where the last strand ends.
 
     /// f(O + tD).
     [[nodiscard]] C value(C t) const noexcept {
@@ -117,21 +117,20 @@ struct MetaballLineT {
         }
         return sum;
     }
-    /// A bound of |df/dt| on this ray: each strand is a blob of its own,
-    /// one-dimensional.
+    /// Bound of |df/dt| on this ray: each strand is a one-dimensional blob.
     [[nodiscard]] C steepest() const noexcept {
         C sum = C(0);
         for (const auto& b : strands)
             sum += std::abs(b.weight) * b.height * std::sqrt(b.height * b.bend);
         return sum * steepest_blob<C>;
     }
-    /// What rounding may have done to value().
+    /// Bound of the rounding error of value().
     [[nodiscard]] C rounding() const noexcept {
         C sum = level;
         for (const auto& b : strands) sum += std::abs(b.weight);
         return C(8) * std::numeric_limits<C>::epsilon() * sum;
     }
-    /// All values in [from, to]; exact but for rounding where one strand is alone.
+    /// An interval that contains all values in [from, to]; tight for a single strand.
     [[nodiscard]] IntervalT<C> range(C from, C to) const noexcept {
         const C doubt = rounding();
         IntervalT<C> sum{-level - doubt, -level + doubt};
@@ -143,7 +142,7 @@ struct MetaballLineT {
         }
         return sum;
     }
-    /// All slopes df/dt in [from, to], and more: -4 w k (t - m) s.
+    /// An interval that contains all slopes df/dt = -4 w k (t - m) s in [from, to].
     [[nodiscard]] IntervalT<C> slope(C from, C to) const noexcept {
         IntervalT<C> sum;
         for (const auto& b : strands) {
@@ -159,7 +158,7 @@ struct MetaballLineT {
     }
 
 private:
-    // The values of s, at least 0, in [from, to].
+    // The range of max(s, 0) in [from, to].
     static IntervalT<C> height_in(const StrandT<C>& b, C from, C to) noexcept {
         const C near = glm::clamp(b.middle, from, to) - b.middle;
         const C far = glm::max(std::abs(from - b.middle), std::abs(to - b.middle));
@@ -168,10 +167,8 @@ private:
     }
 };
 
-/// The field along a ray from its strands, which it refers to.
-/// \param strands  The strands.
-/// \param level    L.
-/// \return The line; without a strand its `leave` lies before its `enter`.
+/// The field along a ray; it refers to `strands`.
+/// \return The field; without strands `leave` lies before `enter`.
 template <std::floating_point C>
 [[nodiscard]] MetaballLineT<C> line_of(const StrandsT<C>& strands, C level) noexcept {
     constexpr C far = std::numeric_limits<C>::infinity();

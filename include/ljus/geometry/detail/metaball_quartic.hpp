@@ -17,25 +17,24 @@ namespace ljus {
 /// \addtogroup metaballs
 /// \{
 
-/// Solver: in each span between two borders of blobs the field is a quartic; its first
-/// change of sign is that of first_change(). The places nearest to a centre split
-/// spans, too: a blob rises before and falls behind, so that most spans change at most
-/// once.
+/// Solver: between two borders of blobs the field is a quartic, and the first sign
+/// change of its Bernstein form is the hit. The points nearest to a centre also split
+/// spans: a blob rises before and falls after, so most spans have at most one sign
+/// change.
 struct QuarticPieces {};
 
-/// Solver: the same quartics by the formula, quartic_formula(). For the lesson.
+/// Solver: solves the same quartics by quartic_formula(), for comparison.
 struct Radicals {};
 
 namespace detail {
 
-/// The quartic of a span, as a function of u in [0, 1] from its begin to its end.
+/// The quartic of a span, as a function of u in [0, 1] from its start to its end.
 ///
 /// On [a, b] the Bernstein coefficients of \f$ s = h - k\tau^2 \f$, with
 /// \f$ \tau = t - m \f$, are \f$ h - k\tau_a^2,\ h - k\tau_a\tau_b,\ h - k\tau_b^2 \f$;
-/// those of s^2 are products of them, and no power of t is ever formed.
-/// \param line  The field.
-/// \param a     The span's begin.
-/// \param b     Its end: no strand begins or ends between them.
+/// those of s^2 are products of them, so no power of t is formed.
+/// \param a     Start of the span.
+/// \param b     Its end; no strand begins or ends between them.
 // [quartic]
 template <std::floating_point C>
 [[nodiscard]] BernsteinT<C, 4> quartic(const MetaballLineT<C>& line, C a,
@@ -58,14 +57,14 @@ template <std::floating_point C>
 }
 // [quartic]
 
-/// The first change of sign of a quartic on [0, 1], by robust pieces.
+/// The first sign change of a quartic in [0, 1], from its Bernstein form.
 template <std::floating_point C>
 [[nodiscard]] std::optional<C> first_change(const QuarticPieces&,
                                             const BernsteinT<C, 4>& p) noexcept {
     return first_change(p);
 }
 
-/// The same by the formula: the first of its roots in (0, 1].
+/// The first sign change by the formula: the first of its roots in (0, 1].
 template <std::floating_point C>
 [[nodiscard]] std::optional<C> first_change(const Radicals&,
                                             const BernsteinT<C, 4>& p) noexcept {
@@ -80,15 +79,11 @@ template <std::floating_point C>
     return first;
 }
 
-/// Where a ray first meets metaballs, span by span.
+/// The first hit of a ray on metaballs, span by span.
 /// \report{Section 2.1}
-/// \param solver  QuarticPieces or Radicals.
-/// \param line    The field on the ray.
-/// \param t_min   First t that counts.
-/// \param t_max   Last t that counts.
 /// \return The first t where f changes its sign; nothing for a miss.
-/// \cost A span has at most 10 roots of first_change() to find; n blobs have at most
-///       3 n - 1 spans, and a span costs n additions of a quartic.
+/// \cost n blobs have at most 3 n - 1 spans. A span costs n additions of a quartic and
+///       at most 10 roots of first_change().
 // [first meeting]
 template <typename Solver, std::floating_point C>
 requires(std::same_as<Solver, QuarticPieces> || std::same_as<Solver, Radicals>)

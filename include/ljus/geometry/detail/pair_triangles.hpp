@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/detail/pair_triangles.hpp
-/// \brief Two triangles that are one parallelogram, found again.
+/// \brief Joins pairs of triangles into parallelograms.
 
 #include <algorithm>
 #include <array>
@@ -18,32 +18,33 @@
 namespace ljus::detail {
 
 /// \defgroup pair_triangles Pairs of triangles
-/// \brief A file of triangles has two for each wall and each lamp. As one quad they
-/// cost half as much, and the lamp is one light.
+/// \brief Files often split each wall and each lamp into two triangles. One quad costs
+/// half as much, and the lamp becomes a single light.
 /// \{
 
-/// The flat shapes that a list of triangles stands for.
+/// The flat shapes of a list of triangles.
 template <std::floating_point T>
 struct FlatShapesT {
-    std::vector<QuadT<T>> quads;         ///< Of the pairs, in the order of completion.
+    std::vector<QuadT<T>> quads; ///< Pairs, in the order in which they are completed.
     std::vector<TriangleT<T>> triangles; ///< Those without a partner, in their order.
 };
 
-/// Joins triangles with a common edge, the same side and a common parallelogram.
+/// Joins two triangles if they share an edge, face the same side and form a
+/// parallelogram.
 ///
-/// The vertices come in double, as a file has them. A fourth corner may differ from
-/// \f$ B + C - A \f$ by the rounding of the file's decimals, a few units in the last
-/// place of a double; that is nothing in float.
+/// The vertices are doubles, as read from a file. A fourth corner may differ from
+/// \f$ B + C - A \f$ by the rounding of the file's decimals: a few units in the last
+/// place of a double, which vanish in float.
 /// \tparam T        The precision of the shapes.
 /// \param vertices  Points.
-/// \param indices   Three numbers of vertices a triangle.
+/// \param indices   Three indices of vertices per triangle.
 /// \return Every triangle, as itself or as half of a quad with the same normal.
 /// \cost O(n log n).
 template <std::floating_point T>
 [[nodiscard]] FlatShapesT<T>
 pair_triangles(const std::vector<glm::dvec3>& vertices,
                const std::vector<std::array<std::uint32_t, 3>>& indices) {
-    // Vertices at the same point get the same number.
+    // Vertices at the same point get the same index.
     std::map<std::array<double, 3>, std::uint32_t> first_at;
     std::vector<std::uint32_t> number(vertices.size());
     for (std::uint32_t i = 0; i < vertices.size(); ++i) {
@@ -54,14 +55,14 @@ pair_triangles(const std::vector<glm::dvec3>& vertices,
     FlatShapesT<T> shapes;
     using Edge = std::pair<std::uint32_t, std::uint32_t>;
     std::map<Edge, std::pair<std::size_t, int>>
-        waiting; // triangle, its corner opposite
+        waiting; // the triangle, and the corner opposite to the edge
     std::vector<bool> paired(indices.size(), false);
     for (std::size_t i = 0; i < indices.size(); ++i) {
         const auto corner = [&](std::size_t triangle, int k) {
             return number[indices[triangle][static_cast<std::size_t>(k % 3)]];
         };
         for (int k = 0; k < 3 && !paired[i]; ++k) {
-            // The same edge the other way round: the partner has the same side.
+            // The partner runs along the edge in the opposite direction.
             const auto found = waiting.find({corner(i, k + 2), corner(i, k + 1)});
             if (found == waiting.end() || paired[found->second.first]) continue;
             const auto [partner, opposite] = found->second;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/detail/polygon.hpp
-/// \brief A polygon cut into triangles.
+/// \brief Triangulation of a polygon.
 
 #include <array>
 #include <cstdint>
@@ -12,20 +12,20 @@
 
 namespace ljus::detail {
 
-// The triangles of a polygon: three numbers of corners each.
+// The triangles of a polygon, as three indices of corners each.
 struct CutPolygon {
     std::vector<std::array<std::uint32_t, 3>> triangles{};
-    bool crossed = false; // it crosses itself, so that they overlap
+    bool crossed = false; // the polygon crosses itself, so its triangles overlap
 };
 
-// Cuts a polygon into triangles: ears, corners whose triangle holds no other corner,
-// one after another \cite meisters1975. What is not flat is seen along the sum of its
-// areas; what crosses itself is cut somehow, into as many triangles, and said.
+// Triangulates a polygon by cutting off ears: corners whose triangle contains no other
+// corner \cite meisters1975. A polygon that is not flat is projected along its area
+// vector. A polygon that crosses itself is cut arbitrarily, and `crossed` is set.
 //
-// The corners are given in order, counter-clockwise, n - 2 triangles come out: none for
-// fewer than three corners, or for a polygon without an area. Corners may share a place,
-// as where a bridge leads to a hole and back. O(n^2): an ear that is cut off can make or
-// end an ear at its two neighbours only, so that no other corner is asked again.
+// The corners are given counter-clockwise; n of them give n - 2 triangles. Fewer than
+// three corners, or no area, give none. Corners may coincide, as where a bridge
+// connects a hole. The cost is O(n^2), because cutting an ear only affects its two
+// neighbours.
 [[nodiscard]] inline CutPolygon cut_polygon(std::span<const glm::dvec3> corners) {
     CutPolygon result;
     auto& triangles = result.triangles;
@@ -52,10 +52,10 @@ struct CutPolygon {
         for (std::size_t i = 0; i < n; ++i) {
             const std::uint32_t p = left[i];
             if (p == a || p == b || p == c) continue;
-            bool shares = false; // the place of a corner of the ear
+            bool shares = false; // coincides with a corner of the ear
             for (std::size_t k = 0; k < 3; ++k) {
                 if (corners[p] != corners[ear[k]]) continue;
-                shares = true; // then neither side of p may lead into the ear
+                shares = true; // then no edge at p may lead into the ear
                 const std::uint32_t next = ear[(k + 1) % 3], last = ear[(k + 2) % 3];
                 for (const std::uint32_t q : {left[(i + 1) % n], left[(i + n - 1) % n]})
                     if (turn(p, next, q) > 0 && turn(p, q, last) > 0) return false;
@@ -70,7 +70,7 @@ struct CutPolygon {
     for (std::size_t i = 0; i < count; ++i) ears[i] = is_ear(i) ? 1 : 0;
     while (left.size() > 3) {
         const std::size_t n = left.size();
-        std::size_t ear = 1; // if there is none, the polygon crosses itself
+        std::size_t ear = 1; // if there is no ear, the polygon crosses itself
         for (std::size_t i = 1; i <= n; ++i) {
             if (ears[i % n] == 0) continue;
             ear = i % n;
@@ -83,7 +83,7 @@ struct CutPolygon {
             ears[beside] = is_ear(beside) ? 1 : 0;
     }
     triangles.push_back({left[0], left[1], left[2]});
-    // Their areas add up to that of the polygon; turned ones count against it.
+    // The areas add up to that of the polygon; those of flipped triangles are negative.
     const double most = 1e-9 * glm::dot(across, across);
     for (const auto& [a, b, c] : triangles)
         result.crossed = result.crossed || turn(a, b, c) < -most;

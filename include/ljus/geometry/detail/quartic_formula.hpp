@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/detail/quartic_formula.hpp
-/// \brief Ferrari's formula for the quartic, as it is copied from book to book.
+/// \brief Ferrari's formula for the quartic, as textbooks print it.
 
 #include <array>
 #include <cmath>
@@ -20,30 +20,29 @@ namespace ljus {
 
 namespace detail {
 
-/// Real roots, in no order.
+/// Real roots, unsorted.
 template <std::floating_point T>
 struct QuarticRootsT {
     std::array<T, 4> at{}; ///< The first `count` are roots.
-    std::size_t count = 0; ///< How many.
-    /// The first root.
+    std::size_t count = 0; ///< Number of roots.
+    /// Iterator to the first root.
     [[nodiscard]] const T* begin() const noexcept { return at.data(); }
-    /// Behind the last root.
+    /// Iterator past the last root.
     [[nodiscard]] const T* end() const noexcept { return at.data() + count; }
 };
 
-/// The real roots of c[0] + c[1] x + ... + c[4] x^4 by radicals (Ferrari 1545): kept
-/// for the lesson, not for use; roots() of a BernsteinT holds where this does not.
+/// The real roots of c[0] + c[1] x + ... + c[4] x^4 by radicals (Ferrari 1545), for
+/// comparison. Use roots() of a BernsteinT instead.
 ///
-/// The quartic becomes \f$ y^4 + p y^2 + q y + r = 0 \f$ with \f$ x = y - b/4 \f$; with
-/// a root z of the resolvent \f$ z^3 - \frac p2 z^2 - r z + \frac{pr}{2} -
-/// \frac{q^2}{8}
-/// \f$ it is the difference of two squares, and so two quadratics. Each step subtracts
-/// what may be nearly equal, and asks of rounded numbers whether they are below zero.
-///
+/// The substitution \f$ x = y - b/4 \f$ gives \f$ y^4 + p y^2 + q y + r = 0 \f$. A root
+/// z of the resolvent \f$ z^3 - \frac p2 z^2 - r z + \frac{pr}{2} - \frac{q^2}{8} \f$
+/// turns this into a difference of two squares, and so into two quadratics. Each step
+/// subtracts numbers that may be nearly equal, and decides by the sign of rounded
+/// numbers.
 /// \param c  The coefficients; the last is not 0.
-/// \return What the formula gives: for well separated roots of a quartic whose last
-///         coefficient is not small, the roots to about half of T's digits or better.
-/// \cost One cosine or cube root, up to 4 square roots. No loop.
+/// \return The roots, accurate to about half of T's digits or better if they are well
+///         separated and the last coefficient is not small; otherwise unreliable.
+/// \cost One cosine or cube root, and up to 4 square roots; no loop.
 /// \report{Section 2.1} \cite schwarze1990
 template <std::floating_point T>
 [[nodiscard]] QuarticRootsT<T> quartic_formula(const std::array<T, 5>& c) noexcept {
@@ -67,7 +66,7 @@ template <std::floating_point T>
     }
 
     // (y^2 + z)^2 = (v y - w)^2
-    constexpr T nothing = T(1e-9); // Schwarze's, whatever the size of the quartic
+    constexpr T nothing = T(1e-9); // Schwarze's, independent of the quartic's scale
     const auto positive = [](T x) { return std::abs(x) < nothing ? T(0) : x; };
     const T u2 = positive(z * z - r), v2 = positive(T(2) * z - p);
     QuarticRootsT<T> result;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/detail/brick_table.hpp
-/// \brief Cells of a grid, 4 x 4 x 4 to a brick; bricks without photons do not exist.
+/// \brief The cells of a grid in bricks of 4 x 4 x 4; only bricks with photons exist.
 
 #include <cstdint>
 #include <optional>
@@ -14,23 +14,23 @@ namespace ljus::detail {
 /// \addtogroup shadow_photons
 /// \{
 
-/// A cell of the grid, and a way that a surface in it may face.
+/// A cell of the grid, with a facing of a surface.
 struct VerdictCell {
     std::int32_t x = 0;   ///< Along the first axis; at least 0.
     std::int32_t y = 0;   ///< Along the second.
     std::int32_t z = 0;   ///< Along the third.
-    std::int32_t way = 0; ///< Which way the surface faces, 0 to 5.
+    std::int32_t way = 0; ///< Facing of the surface, 0 to 5.
 
-    /// Its number in its brick, 0 to 63.
+    /// The index in its brick, 0 to 63.
     [[nodiscard]] constexpr std::uint32_t in_brick() const noexcept {
         return static_cast<std::uint32_t>((x & 3) | (y & 3) << 2 | (z & 3) << 4);
     }
 };
 
-/// The most cells along an axis.
+/// Limit of cells along an axis.
 inline constexpr std::int32_t most_cells = 1 << 20;
 
-/// The brick of a cell as a number, never 0: 18 bits a coordinate, and the way.
+/// The key of a cell's brick, never 0: 18 bits per coordinate, and the facing.
 [[nodiscard]] constexpr std::uint64_t brick_key(const VerdictCell& cell) noexcept {
     return std::uint64_t(cell.x >> 2) | std::uint64_t(cell.y >> 2) << 18 |
            std::uint64_t(cell.z >> 2) << 36 | std::uint64_t(cell.way + 1) << 54;
@@ -44,13 +44,13 @@ inline constexpr std::int32_t most_cells = 1 << 20;
     return {axis(0), axis(18), axis(36), static_cast<std::int32_t>(key >> 54) - 1};
 }
 
-/// Where the cells of a grid lie.
+/// The geometry of a grid's cells.
 template <std::floating_point T>
 struct CellsT {
-    Vec3T<T> corner{T(0)}; ///< Where cell (0, 0, 0) begins.
-    T length = T(0);       ///< Of a cell, in scene units.
+    Vec3T<T> corner{T(0)}; ///< Origin of cell (0, 0, 0).
+    T length = T(0);       ///< Length of a cell, in scene units.
 
-    /// The cell of a point; nothing outside of the grid.
+    /// The cell of a point; nothing outside the grid.
     // [cell_of]
     [[nodiscard]] std::optional<VerdictCell> cell_of(const Vec3T<T>& point,
                                                      int way) const noexcept {
@@ -68,10 +68,10 @@ struct CellsT {
 /// Bricks by key: a hash table with open addressing, at most half full.
 class BrickTable {
 public:
-    /// What find() returns where there is no brick.
+    /// What find() returns for a missing brick.
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-    /// How many bricks there are.
+    /// The number of bricks.
     [[nodiscard]] std::uint32_t size() const noexcept {
         return static_cast<std::uint32_t>(keys_.size());
     }
@@ -79,12 +79,12 @@ public:
     [[nodiscard]] const std::vector<std::uint64_t>& keys() const noexcept {
         return keys_;
     }
-    /// The memory that it takes.
+    /// The size in bytes.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return entries_.size() * sizeof(Entry) + keys_.size() * sizeof(keys_[0]);
     }
 
-    /// The number of a brick, or `none`.
+    /// The index of a brick, or `none`.
     // [find]
     [[nodiscard]] std::uint32_t find(std::uint64_t key) const noexcept {
         for (std::size_t i = start(key);; i = (i + 1) & (entries_.size() - 1)) {
@@ -94,7 +94,7 @@ public:
     }
     // [find]
 
-    /// The number of a brick, which is made if it is new.
+    /// The index of a brick; inserts it if it is new.
     std::uint32_t insert(std::uint64_t key) {
         if (2 * (keys_.size() + 1) > entries_.size()) grow();
         std::size_t i = start(key);
@@ -113,7 +113,7 @@ private:
         std::uint32_t brick = none;
     };
 
-    // Fibonacci's hashing: the upper bits of the product depend on all of the key.
+    // Fibonacci hashing: the upper bits of the product depend on the whole key.
     [[nodiscard]] std::size_t start(std::uint64_t key) const noexcept {
         return static_cast<std::size_t>(key * 0x9e3779b97f4a7c15u >> shift_);
     }
@@ -128,7 +128,7 @@ private:
         }
     }
 
-    int shift_ = 62; // 64 less the logarithm of the number of entries
+    int shift_ = 62; // 64 minus the logarithm of the number of entries
     std::vector<Entry> entries_ = std::vector<Entry>(4);
     std::vector<std::uint64_t> keys_;
 };

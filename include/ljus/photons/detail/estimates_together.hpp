@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/detail/estimates_together.hpp
-/// \brief Estimates at many places, answered together.
+/// \brief Density estimates at many points, computed together.
 
 #include <span>
 
@@ -12,25 +12,21 @@ namespace ljus::detail {
 /// \addtogroup photon_map
 /// \{
 
-/// A place of a diffuse surface where an estimate is wanted, and for whom.
+/// A request for an estimate at a point of a diffuse surface.
 template <std::floating_point T>
 struct EstimatePlaceT {
     Vec3T<T> center{T(0)};    ///< In scene units.
-    Vec3T<T> normal{T(0)};    ///< Of the surface, as photons are compared with it.
-    Vec3T<T> from{T(0)};      ///< As in FluxDiscT: the side that is seen.
-    RgbT<T> brdf{T(0)};       ///< Of the surface, per steradian.
-    RgbT<T> throughput{T(0)}; ///< Of the path that asks: the light is multiplied by it.
-    std::uint32_t item = 0;   ///< A number that the caller knows it by.
+    Vec3T<T> normal{T(0)};    ///< Of the surface; compared with those of photons.
+    Vec3T<T> from{T(0)};      ///< As in FluxDiscT: the visible side.
+    RgbT<T> brdf{T(0)};       ///< BRDF of the surface, per steradian.
+    RgbT<T> throughput{T(0)}; ///< Throughput of the path; a factor of the result.
+    std::uint32_t item = 0;   ///< Identifies the request to the caller.
 };
 
-/// Sets a place to what estimate_radiance() takes of a vertex. Where it will stand: a
-/// copy of what has just been written makes a processor wait.
-/// \param place       A new one; its estimate is that of estimate_radiance() with the
+/// Sets a request from a vertex, in place, to avoid a store-forwarding stall.
+/// \param place       The request; its estimate is that of estimate_radiance() with the
 ///                    vertex's wo.
-/// \param vertex      The place.
-/// \param material    What it is made of.
-/// \param throughput  Of the path.
-/// \param item        A number that the caller knows it by.
+/// \param item        Identifies the request to the caller.
 template <std::floating_point T>
 void set_place(EstimatePlaceT<T>& place, const VertexT<T>& vertex,
                const LambertianT<T>& material, const RgbT<T>& throughput,
@@ -43,17 +39,12 @@ void set_place(EstimatePlaceT<T>& place, const VertexT<T>& vertex,
     place.item = item;
 }
 
-/// What estimate_radiance() gives at many places, to the last bit. An estimate waits
-/// for memory, for the tree and then for what the photons carry; here all of them wait
-/// at the same time.
-/// \param map       The photons.
-/// \param places    Where.
+/// The estimates of estimate_radiance() at many points, to the last bit. An estimate
+/// waits for memory, first of the tree and then of the photons; here the waits overlap.
 /// \param gather    Radius, kernel, thickness; in_lanes(), and without `nearest`.
-/// \param kinds     Which kinds count.
-/// \param gathered  Counts the photons that were summed.
-/// \param found     Room for the search.
-/// \param give      Called as give(place, radiance), in the order of the places; not
-///                  for those without a photon.
+/// \param found     Reusable buffer of the search.
+/// \param give      Called as give(place, radiance) in the order of the requests,
+///                  except for those without a photon.
 // [estimates_together]
 template <std::floating_point T, KernelLike<T> K, typename Give>
 void estimates_together(const PhotonMapT<T>& map,

@@ -19,22 +19,21 @@ namespace ljus::detail {
 /// \addtogroup photon_map
 /// \{
 
-/// A disc in which flux is summed: what decides on a photon, in the precision of the
+/// The disc in which flux is summed. A photon is tested in the precision of the
 /// photons.
 template <std::floating_point T, KernelLike<T> K = Kernel>
 struct FluxDiscT {
-    Vec3T<T> center{T(0)};             ///< Its middle.
+    Vec3T<T> center{T(0)};             ///< Its centre.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Of the surface; unit.
-    Vec3T<T> from{T(0), T(0), T(1)};   ///< Photons must travel against it.
+    Vec3T<T> from{T(0), T(0), T(1)};   ///< Photons that travel against it count.
     T radius = T(1);                   ///< Between 1e-15 and 1e15.
     T thickness = T(0.5);              ///< Half its height over its radius.
     K kernel{};                        ///< The weight by distance.
-    PhotonKinds kinds = all_kinds;     ///< Which kinds count.
+    PhotonKinds kinds = all_kinds;     ///< The kinds that count.
 };
 
-/// kernel_weight() of eight photons.
-/// \param kernel  The shape.
-/// \param x       Squared distances over the squared radius, each in [0, 1].
+/// kernel_weight() of eight photons; x is the squared distances over the squared
+/// radius, each in [0, 1].
 template <std::floating_point T, KernelLike<T> K>
 [[nodiscard]] LanesT<T> kernel_weights(const K& kernel, const LanesT<T>& x) noexcept {
     LanesT<T> weight;
@@ -42,11 +41,11 @@ template <std::floating_point T, KernelLike<T> K>
     return weight;
 }
 
-/// The same of a kernel that is known only when a program runs.
+/// kernel_weights() of a kernel chosen at run time.
 template <std::floating_point T>
 [[nodiscard]] LanesT<T> kernel_weights(Kernel kernel, const LanesT<T>& x) noexcept {
     LanesT<T> weight;
-    // One loop a kernel: a constant in it, and no choice.
+    // One loop per kernel, without branches inside.
     const auto fill = [&](auto chosen) {
         for_lanes([&](int i) { weight.lane[i] = kernel_weight(chosen(), x.lane[i]); });
     };
@@ -70,8 +69,8 @@ template <std::floating_point T>
     return weight;
 }
 
-// Which of eight photons lie in a disc: 1 for those that do, or else 0. The loops are
-// small, because compilers do not always vectorise a long one.
+// Tests eight photons: 1 for those in the disc, otherwise 0. The loops are small,
+// because compilers do not always vectorise long ones.
 template <std::floating_point T, typename K>
 [[nodiscard]] inline LanesT<T>
 lanes_in_disc(const Lanes3T<T>& points, const RecordBlockT<T>& record,
@@ -103,12 +102,10 @@ lanes_in_disc(const Lanes3T<T>& points, const RecordBlockT<T>& record,
     return inside;
 }
 
-/// Sums the weighted flux in discs, of photons that come from one side: block by block.
+/// Sums the weighted flux of photons that arrive on one side of discs, block by block.
 template <std::floating_point T, typename K>
 class DiscFluxT {
 public:
-    /// \param records   What the photons carry.
-    /// \param disc      Which of them count.
     DiscFluxT(const PhotonRecordsT<T>& records, const FluxDiscT<T, K>& disc) noexcept
         : records_(records), disc_(disc),
           per_radius2_(T(1) / (disc.radius * disc.radius)) {}
@@ -130,7 +127,7 @@ public:
         if (parts_ > 0) add_part();
         return sum_;
     }
-    /// How many photons lie in the disc, from either side.
+    /// The number of photons in the disc, on either side.
     std::uint64_t gathered() const noexcept {
         std::uint64_t all = 0;
         for (const std::int32_t lane : count_) all += static_cast<std::uint64_t>(lane);
@@ -144,7 +141,7 @@ private:
         part_ = {};
         parts_ = 0;
     }
-    // Of a block of which one or two are found, these alone.
+    // Adds a single photon of a block, for blocks with one or two.
     void add_one(const FoundBlockT<T>& block, const RecordBlockT<T>& record,
                  int lane) noexcept {
         const auto i = static_cast<std::size_t>(lane);
@@ -170,8 +167,8 @@ private:
             lanes_in_disc(block.points, record, disc_, block.found);
         const Vec3T<T> d = disc_.from;
         const T per_radius2 = per_radius2_;
-        // No choices between products: compilers make jumps of them. What does not lie
-        // inside is infinite or NaN at worst, and becomes 1.
+        // Branch-free, so that it vectorises. Photons outside the disc may give
+        // infinity or NaN, which becomes 1.
         LanesT<T> shares, lit;
         for_lanes([&](int i) {
             const T share = block.distance2.lane[i] * per_radius2;
@@ -196,20 +193,16 @@ private:
     const PhotonRecordsT<T>& records_;
     const FluxDiscT<T, K>& disc_;
     T per_radius2_;
-    // Of some blocks: more terms would cost a float its last digits.
+    // The sum over some blocks: more terms would exceed the precision of float.
     Lanes3T<T> part_{};
     RgbT<double> sum_{0};
     std::int32_t count_[lane_count] = {};
     int parts_ = 0;
 };
 
-/// The weighted flux in a disc, of photons that come from one side.
-///
-/// The same photons as one by one, and the same weights within the rounding of T.
-/// \param tree      Where the photons are.
-/// \param records   What they carry.
-/// \param disc      Which of them count.
-/// \param gathered  Counts those that lie in the disc, from either side.
+/// Sums the weighted flux of photons that arrive on one side of a disc. It finds the
+/// same photons as the plain loop, with the same weights within the rounding of T.
+/// \param gathered  Counts the photons in the disc, on either side.
 /// \return The sum of weight times flux; W.
 template <std::floating_point T, typename K>
 [[nodiscard]] RgbT<double>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/detail/kernel_border.hpp
-/// \brief How much of a kernel's disc lies on the surface, near the surface's border.
+/// \brief The fraction of a kernel's disc that lies on a surface, near its border.
 
 #include <cmath>
 #include <numbers>
@@ -14,11 +14,11 @@ namespace ljus::detail {
 /// \addtogroup irradiance_points
 /// \{
 
-/// The part of Epanechnikov's kernel on one side of a straight line: the integral of
-/// \f$ \frac{8}{3\pi}(1 - t^2)^{3/2} \f$ from -1 to s.
-/// \param s  From the middle of the disc to the line, over the radius; below 0 if the
-///           middle lies beyond the line.
-/// \return 0 up to s = -1, 1/2 at s = 0, 1 from s = 1 on.
+/// The fraction of Epanechnikov's kernel on one side of a straight line: the integral
+/// of \f$ \frac{8}{3\pi}(1 - t^2)^{3/2} \f$ from -1 to s.
+/// \param s  Signed distance from the centre to the line over the radius; negative if
+///           the centre lies beyond the line.
+/// \return 0 for s <= -1, 1/2 at s = 0, 1 for s >= 1.
 // [kernel_part]
 template <std::floating_point T>
 [[nodiscard]] T kernel_part(T s) noexcept {
@@ -30,11 +30,9 @@ template <std::floating_point T>
 }
 // [kernel_part]
 
-/// The surface at a place: what a short ray straight down meets there.
-/// \param world   The closed scene.
-/// \param place   Where.
-/// \param normal  Unit, up from the surface that is expected there.
-/// \param height  Where the ray starts, and as far below it ends.
+/// Finds the surface near a point by a short ray.
+/// \param normal  Unit normal of the expected surface.
+/// \param height  The ray starts at this height above the point, and ends as far below.
 /// \return The vertex; nothing if there is no surface.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<VertexT<T>>
@@ -49,12 +47,10 @@ vertex_below(const W& world, const Vec3T<T>& place, const Vec3T<T>& normal, T he
     return vertex;
 }
 
-/// Whether a surface goes on at a place near one of its points: a short ray straight
-/// down on it meets a surface of the same normal.
-/// \param world   The closed scene.
-/// \param place   Where.
-/// \param normal  Of the surface, on the side that is asked about.
-/// \param height  Where the ray starts, and as far below it ends.
+/// Whether a surface continues at a point: a short ray from above it hits a surface of
+/// the same normal.
+/// \param normal  Normal of the surface, on the side of the irradiance.
+/// \param height  As for vertex_below().
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] bool goes_on(const W& world, const Vec3T<T>& place,
                            const Vec3T<T>& normal, T height) {
@@ -62,14 +58,13 @@ template <AnyWorld W, std::floating_point T>
     return there && std::abs(glm::dot(there->point.normal, normal)) > T(0.99);
 }
 
-/// The part of a kernel's disc that lies on the surface of its middle. Each straight
-/// edge of the shape cuts off a part of the disc, unless another surface goes on there,
-/// as at the diagonal of a wall of two triangles. Where two edges meet, their parts are
-/// multiplied, which is exact for a kernel that is a product and close for this one.
-/// \param world   The closed scene.
-/// \param vertex  The middle.
-/// \param normal  Unit, on the side that is asked about.
-/// \param radius  Of the disc.
+/// The fraction of a kernel's disc that lies on the surface. Each straight edge of the
+/// shape cuts off a segment, unless another surface continues there, as at the diagonal
+/// of a wall of two triangles. If several edges cut the disc, their fractions are
+/// multiplied, which is exact for a product kernel and close for this one.
+/// \param vertex  The centre.
+/// \param normal  Unit normal, on the side of the irradiance.
+/// \param radius  Radius of the disc.
 /// \return In (0, 1]; 1 for shapes without straight edges.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] T part_on_surface(const W& world, const VertexT<T>& vertex,

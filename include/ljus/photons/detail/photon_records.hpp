@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/detail/photon_records.hpp
-/// \brief What a photon map keeps besides positions: eight photons side by side.
+/// \brief The data of a photon map besides the positions, eight photons side by side.
 
 #include <bit>
 #include <cstddef>
@@ -15,29 +15,29 @@ namespace ljus::detail {
 /// \addtogroup photon_map
 /// \{
 
-/// What a photon map keeps of a photon besides its position.
+/// A photon's data besides its position.
 template <std::floating_point T>
 struct PhotonRecordT {
-    Vec3T<T> direction{T(0)};             ///< Unit, the way it travels.
+    Vec3T<T> direction{T(0)};             ///< Unit direction of travel.
     RgbT<T> flux{T(0)};                   ///< W.
-    std::uint16_t light = 0;              ///< The number of its light.
-    PhotonKind kind = PhotonKind::direct; ///< What has happened to it.
-    SmallNormal normal{0};                ///< Of the surface that it met.
+    std::uint16_t light = 0;              ///< Index of its light.
+    PhotonKind kind = PhotonKind::direct; ///< Its path so far.
+    SmallNormal normal{0};                ///< Normal of the surface.
 };
 
-/// Eight records, field by field: 256 bytes in float, which an estimate reads at once.
+/// Eight records, by field: 256 bytes in float, which an estimate reads at once.
 template <std::floating_point T>
 struct RecordBlockT {
-    Lanes3T<T> direction;            ///< Unit, the way they travel.
+    Lanes3T<T> direction;            ///< Unit directions of travel.
     Lanes3T<T> flux;                 ///< W.
-    std::uint16_t light[lane_count]; ///< The numbers of their lights.
-    std::uint32_t code[lane_count];  ///< What has happened to them, and their normals.
+    std::uint16_t light[lane_count]; ///< Indices of their lights.
+    std::uint32_t code[lane_count];  ///< Their kinds and normals; see RecordCode.
 };
 
-// A photon's kind and its normal in 32 bits. Every machine shifts eight numbers by the
-// same count in one instruction, so that lanes can take the fields apart.
+// A photon's kind and its normal in 32 bits. One instruction shifts eight numbers by
+// the same count, so that lanes can extract the fields.
 struct RecordCode {
-    // The kind as one_kind() has it, above the three bytes of the normal.
+    // The bits of one_kind() lie above the three bytes of the normal.
     static constexpr int kind_shift = 24;
 
     [[nodiscard]] static std::uint32_t of(PhotonKind kind, SmallNormal n) noexcept {
@@ -50,7 +50,7 @@ struct RecordCode {
     [[nodiscard]] static PhotonKind kind(std::uint32_t code) noexcept {
         return static_cast<PhotonKind>(std::countr_zero(code >> kind_shift));
     }
-    // A coordinate of the normal: its byte to the top, and down again with its sign.
+    // A coordinate of the normal: shifted up, then down with its sign.
     template <int axis>
     [[nodiscard]] static constexpr std::int32_t normal(std::uint32_t code) noexcept {
         return static_cast<std::int32_t>(code << (24 - 8 * axis)) >> 24;
@@ -60,17 +60,15 @@ struct RecordCode {
     }
 };
 
-/// Records in the order of a tree, eight side by side. To the reader a list of
-/// PhotonRecordT, by operator[] and size().
+/// Records in the tree's order, eight side by side; a list of PhotonRecordT to readers.
 template <std::floating_point T>
 class PhotonRecordsT {
 public:
     /// No records.
     PhotonRecordsT() = default;
 
-    /// The records of photons, in a given order.
-    /// \param photons  The photons.
-    /// \param order    Their numbers, in the order that the records shall have.
+    /// Gathers the records of photons in a given order.
+    /// \param order    Indices of the photons.
     PhotonRecordsT(const std::vector<PhotonT<T>>& photons,
                    const std::vector<std::uint32_t>& order)
         : blocks_((order.size() + 7) / 8, RecordBlockT<T>{}), size_(order.size()) {
@@ -81,23 +79,22 @@ public:
         }
     }
 
-    /// How many there are.
+    /// The number of records.
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
-    /// Whether there are none.
+    /// Whether there are no records.
     [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
-    /// One of them.
-    /// \param index  In the order of the tree, below size().
+    /// The record at an index in the tree's order, below size().
     [[nodiscard]] PhotonRecordT<T> operator[](std::size_t index) const noexcept {
         const RecordBlockT<T>& block = blocks_[index / 8];
         const std::size_t i = index % 8;
         return {block.direction[i], block.flux[i], block.light[i],
                 RecordCode::kind(block.code[i]), RecordCode::normal(block.code[i])};
     }
-    /// The memory that they take.
+    /// The size in bytes.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return blocks_.size() * sizeof(RecordBlockT<T>);
     }
-    /// All of them, eight by eight; what fills up the last eight is 0.
+    /// All records in blocks of eight; the last block is padded with 0.
     [[nodiscard]] const std::vector<RecordBlockT<T>>& blocks() const noexcept {
         return blocks_;
     }

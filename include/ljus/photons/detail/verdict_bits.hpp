@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/detail/verdict_bits.hpp
-/// \brief From photons to the bits of a verdict grid.
+/// \brief Computes the bits of a verdict grid from photons.
 
 #include <algorithm>
 #include <array>
@@ -16,30 +16,30 @@ namespace ljus::detail {
 /// \addtogroup shadow_photons
 /// \{
 
-/// Bricks with what is known in their cells.
+/// Bricks with the bits of their cells.
 template <std::floating_point T>
 struct VerdictBitsT {
-    CellsT<T> cells{};      ///< Where they lie.
-    std::size_t lights = 0; ///< How many lights the verdicts are of.
-    BrickTable table{};     ///< The bricks that there are.
-    /// For each brick, light by light, a bit for each cell that is lit and then one for
-    /// each that is in shadow; at last those with an indirect photon near.
+    CellsT<T> cells{};      ///< Geometry of the cells.
+    std::size_t lights = 0; ///< Number of lights.
+    BrickTable table{};     ///< The existing bricks.
+    /// For each brick and each light: 64 bits for lit cells, then 64 for cells in
+    /// shadow; finally 64 bits for cells with an indirect photon near.
     std::vector<std::uint64_t> bits{};
 
-    /// How many numbers a brick has in `bits`.
+    /// Number of elements of `bits` per brick.
     [[nodiscard]] constexpr std::size_t stride() const noexcept {
         return 2 * lights + 1;
     }
 };
 
-/// Which way the side of a surface faces that a photon has come to.
+/// The facing of the side on which a photon arrives.
 template <std::floating_point T>
 [[nodiscard]] int facing(const PhotonT<T>& photon) noexcept {
     return facing(photon.normal,
                   photon_side(photon.direction, Vec3T<T>(photon.normal)));
 }
 
-/// Whether a photon says anything: its surface is known, and so is its light.
+/// Whether a photon counts: its surface and its light are known.
 template <std::floating_point T>
 [[nodiscard]] bool is_witness(const PhotonT<T>& photon, std::size_t lights,
                               const SkipSettings& skip) noexcept {
@@ -48,14 +48,10 @@ template <std::floating_point T>
     return photon.kind != PhotonKind::caustic && skip.rule != SkipRule::none;
 }
 
-/// The smallest cells: with them, the cells around a point hold as many photons of the
-/// mean light as are needed, in the mean. A coarse grid tells how large the surfaces
-/// are on which the photons lie.
-/// \param photons  The photons.
-/// \param box      Around them.
-/// \param lights   How many lights.
-/// \param skip     The rule.
-/// \return Their length; 0 if all photons lie in one point.
+/// The length of the smallest cells: with it, the neighbourhood of a cell contains on
+/// average the needed number of photons of a light. A coarse grid measures the area on
+/// which the photons lie.
+/// \return In scene units; 0 if all photons lie at one point.
 // [cell_length]
 template <std::floating_point T>
 [[nodiscard]] T cell_length(const std::vector<PhotonT<T>>& photons, const BoxT<T>& box,
@@ -65,7 +61,7 @@ template <std::floating_point T>
     const T least = most / T(most_cells / 2);
     if (skip.radius > 0) return std::max(T(skip.radius), least);
     const CellsT<T> coarse{box.low - T(4.5) * most / T(32), most / T(32)};
-    BrickTable seen; // a brick for each cell
+    BrickTable seen; // one brick per cell
     double witnesses = 0;
     for (const PhotonT<T>& photon : photons) {
         if (!is_witness(photon, lights, skip)) continue;
@@ -82,17 +78,15 @@ template <std::floating_point T>
 }
 // [cell_length]
 
-/// A photon that says something: where it lies, and what kind it is.
+/// A counted photon: its cell, and whether it is a shadow photon.
 struct Witness {
     std::uint32_t where = 0; ///< 64 times its brick, plus its cell.
-    bool shadow = false;     ///< A shadow photon; else it brings light.
+    bool shadow = false;     ///< False: it brings light.
 };
 
-/// Finds the cells of photons, and makes the bricks for them.
-/// \param photons  The photons.
-/// \param skip     Which of them count.
-/// \param grid     Gets the bricks.
-/// \return The witnesses light by light; at last the indirect photons.
+/// Finds the cells of photons, and inserts their bricks.
+/// \param grid     Receives the bricks.
+/// \return The counted photons by light; the last list has the indirect photons.
 template <std::floating_point T>
 [[nodiscard]] std::vector<std::vector<Witness>>
 find_witnesses(const std::vector<PhotonT<T>>& photons, const SkipSettings& skip,
@@ -103,8 +97,8 @@ find_witnesses(const std::vector<PhotonT<T>>& photons, const SkipSettings& skip,
         const auto at = grid.cells.cell_of(photon.position, facing(photon));
         if (!at) continue;
         const bool indirect = photon.kind == PhotonKind::indirect;
-        // An indirect photon makes all bricks that it is near to: where there is no
-        // brick it is dark.
+        // An indirect photon inserts all bricks in its neighbourhood: a missing brick
+        // means that it is dark.
         for (int corner = 0; indirect && corner < 8; ++corner)
             (void)grid.table.insert(
                 brick_key({at->x + (corner & 1) * 2 - 1, at->y + (corner & 2) - 1,
@@ -118,23 +112,21 @@ find_witnesses(const std::vector<PhotonT<T>>& photons, const SkipSettings& skip,
     return found;
 }
 
-/// The most bricks of a grid; while the grid is made, each takes 512 bytes.
+/// Limit of bricks in a grid; each takes 512 bytes during its construction.
 inline constexpr std::uint32_t most_bricks = 1 << 21;
 
-/// Photons in a cell: direct ones in the lower half of 64 bits, shadows in the upper.
+/// Numbers of photons in a cell: direct in the lower 32 bits, shadow in the upper 32.
 using PackedCounts = std::uint64_t;
 
-/// The counts of a brick and of what surrounds it: 6 x 6 x 6 cells, x first.
+/// The counts of a brick and its surroundings: 6 x 6 x 6 cells, x first.
 using CountsAround = std::array<PackedCounts, 216>;
 
-/// Collects the counts of a brick and around it.
-/// \param table   All bricks.
-/// \param brick   Which one.
-/// \param counts  64 for each brick.
+/// Collects the counts of a brick and its surroundings.
+/// \param counts  64 per brick.
 [[nodiscard]] inline CountsAround
 counts_around(const BrickTable& table, std::uint32_t brick,
               const std::vector<PackedCounts>& counts) {
-    // Of a brick before, beside or behind, these of the six layers along an axis.
+    // Which of six layers along an axis come from the brick before, at, or after.
     constexpr std::array<int, 4> layer{0, 1, 5, 6};
     CountsAround around{};
     const VerdictCell first = first_cell(table.keys()[brick]);
@@ -156,9 +148,9 @@ counts_around(const BrickTable& table, std::uint32_t brick,
     return around;
 }
 
-/// Adds to each cell of a brick its 26 neighbours, axis by axis.
-/// \param sums  Of counts_around(). Afterwards the sum of the cell (x, y, z), each from
-///              0 to 3, is at x + 6 y + 36 z.
+/// Sums each cell of a brick with its 26 neighbours, axis by axis.
+/// \param sums  What counts_around() returned. Afterwards the sum of the cell (x, y,
+///              z), each from 0 to 3, is at x + 6 y + 36 z.
 // [add_neighbors]
 constexpr void add_neighbors(CountsAround& sums) noexcept {
     for (const std::size_t step : {1u, 6u, 36u})
@@ -167,11 +159,9 @@ constexpr void add_neighbors(CountsAround& sums) noexcept {
 }
 // [add_neighbors]
 
-/// Turns sums into bits.
-/// \param sums    Of add_neighbors().
-/// \param rule    The rule.
+/// Converts sums into bits.
 /// \param needed  photons_needed() by this rule.
-/// \return A bit for each cell that is lit, and one for each that is in shadow.
+/// \return A bit for each lit cell, and one for each cell in shadow.
 [[nodiscard]] inline std::array<std::uint64_t, 2>
 judge_brick(const CountsAround& sums, SkipRule rule, std::uint32_t needed) noexcept {
     std::array<std::uint64_t, 2> bits{};
@@ -186,12 +176,7 @@ judge_brick(const CountsAround& sums, SkipRule rule, std::uint32_t needed) noexc
     return bits;
 }
 
-/// The bits of all bricks.
-/// \param photons  The photons.
-/// \param cells    Of the grid.
-/// \param lights   How many lights.
-/// \param skip     The rule.
-/// \param threads  As in ParallelSettings.
+/// Computes the bits of all bricks.
 /// \throws std::invalid_argument  if there would be more than most_bricks.
 // [make_bits]
 template <std::floating_point T>
