@@ -1,3 +1,4 @@
+// rest: the command line of the examples, no concept of the library
 #include <doctest/doctest.h>
 
 // The example programs need CLI11, the library does not.

@@ -1,3 +1,4 @@
+// rest: whole pictures, of all concepts together
 /// \file extremes_test.cpp
 /// \brief Whole pictures at the extremes: no number is lost, and what a picture should
 /// be it is. Its statistical case was run with 20 further seeds: none failed.

@@ -1,3 +1,4 @@
+// rest: the programs that measure the trades, no concept of the library
 // Its statistical cases were run with 20 further seeds: none failed.
 #include <doctest/doctest.h>
 
