@@ -185,8 +185,9 @@ template <AnyWorld W>
 
 /// Reports which hooks the types of a scene have.
 /// \param world  The closed scene; only its type is used.
-/// \return One line per type of shape, material and light that the scene lists, in their
-///         order: its name, the hooks that it has, and what happens without the others.
+/// \return One line per type of shape, material and light that the scene lists, in
+///         their order: its name, the hooks that it has, and what happens without the
+///         others.
 ///         A misspelt hook is among the others.
 template <AnyWorld W>
 [[nodiscard]] std::vector<std::string> survey_hooks([[maybe_unused]] const W& world) {

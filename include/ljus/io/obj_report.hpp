@@ -119,9 +119,9 @@ struct ObjReport {
 
 namespace detail {
 
-// Counts the edges of a mesh that a closed surface does not have, with the lines of its
-// triangles, and whether a closed one is inside out. Vertices at the same place count as
-// one. O(n log n).
+// Counts the edges of a mesh that a closed surface does not have, with the lines of
+// its triangles, and whether a closed one is inside out. Vertices at the same place
+// count as one. O(n log n).
 template <std::floating_point T>
 void count_edges(const MeshDataT<T>& data, const std::vector<long long>& lines,
                  ObjReport& report) {

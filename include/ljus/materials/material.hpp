@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/materials/material.hpp
-/// \brief The interface of a material: six functions, and the sample type; the cosine lobe
-/// of matt ones.
+/// \brief The interface of a material: six functions, and the sample type; the cosine
+/// lobe of matt ones.
 
 #include <array>
 #include <cmath>

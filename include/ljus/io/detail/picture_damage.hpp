@@ -124,8 +124,9 @@ inline bool too_many_scans(int scans, bool in_parts) {
     return scans > (in_parts ? 64 : 4);
 }
 
-// The orientation in the EXIF segment of a JPEG file, 1 to 8; 1 without one. The segment
-// is a TIFF file: byte order, offset of the first list of fields, fields of 12 bytes.
+// The orientation in the EXIF segment of a JPEG file, 1 to 8; 1 without one. The
+// segment is a TIFF file: byte order, offset of the first list of fields, fields of 12
+// bytes.
 inline int jpeg_orientation(const Bytes& file) {
     constexpr unsigned char exif = 0xe1, scan = 0xda;
     for (std::size_t at = 2; at + 4 <= file.size() && file[at] == 0xff;
