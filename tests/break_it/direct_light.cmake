@@ -50,8 +50,8 @@ ljus_break_it(NAME all-lights-lobes HEADER path/all_lights.hpp TEST all_lights
 
 # Where no ray is needed, the fog is forgotten with it.
 ljus_break_it(NAME direct-light-lit-fog HEADER path/direct_light.hpp TEST direct_light
-    FROM "if (!is_black(vertex.medium))"
-    TO   "if (!is_black(vertex.medium) && verdict != Verdict::lit)"
+    FROM "if (!is_black(medium))"
+    TO   "if (!is_black(medium) && verdict != Verdict::lit)"
     CASES "direct light: what is known*")
 
 # All rays of a pixel look at the same few cells of a lamp.

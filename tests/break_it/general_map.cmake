@@ -8,8 +8,8 @@ ljus_break_it(NAME general-map-shadow-normal HEADER photons/photon_path.hpp TEST
 
 # And the wrong way round.
 ljus_break_it(NAME general-map-shadow-side HEADER photons/photon_path.hpp TEST general_map
-    FROM "out.push_back({vertex->point.position, path.ray.direction, photon.flux,"
-    TO   "out.push_back({vertex->point.position, -path.ray.direction, photon.flux,"
+    FROM "out.push_back({at_rest(world, *vertex).point.position, path.ray.direction,"
+    TO   "out.push_back({at_rest(world, *vertex).point.position, -path.ray.direction,"
     CASES "general map: direct + shadow*")
 
 # One shadow photon a path: only the next surface behind is told.
