@@ -788,6 +788,45 @@ TEST_CASE("photon_map: a way to gather that gives no estimate is refused") {
         "2 to 512 (one photon sets the radius).");
 }
 
+TEST_CASE(
+    "photon_map: an estimate refuses what it has no room for, and a disc of nothing") {
+    // More photons than the largest k, all at hand.
+    std::vector<Photon> photons;
+    for (int i = 0; i < 2000; ++i)
+        photons.push_back({.position{float(i % 50) / 50, float(i) / 2000, 0},
+                           .direction{0, 0, -1},
+                           .flux = Rgb{1}});
+    const PhotonMap map = ljus::make_photon_map(photons);
+    const auto estimate = [&](const DensityEstimateSettings& gather) {
+        return ljus::estimate_irradiance(map,
+                                         {.position{0.5f, 0.5f, 0}, .normal{0, 0, 1}},
+                                         Vec3{0, 0, 1}, gather)
+            .x;
+    };
+    CHECK(estimate({.radius = 0.5f, .nearest = 512}) > 0);
+    for (const std::size_t nearest : {1, 513, 10'000}) {
+        CAPTURE(nearest);
+        CHECK_THROWS_WITH_AS(estimate({.radius = 0.5f, .nearest = nearest}),
+                             ("gather.nearest is " + std::to_string(nearest) +
+                              "; it must be 0 for all within the radius, or 2 to 512 "
+                              "(one photon sets the "
+                              "radius).")
+                                 .c_str(),
+                             std::invalid_argument);
+    }
+    for (const float radius : {0.0f, -1.0f, std::nanf("")})
+        CHECK_THROWS_AS(estimate({.radius = radius}), std::invalid_argument);
+    // The estimate of radiance has no more room.
+    ljus::Vertex floor{.point{.position{0.5f, 0.5f, 0}, .normal{0, 0, 1}}};
+    floor.frame = ljus::frame_around(floor.point.normal);
+    std::uint64_t gathered = 0;
+    CHECK_THROWS_AS((void)ljus::estimate_radiance(
+                        map, floor, Lambertian{.albedo = Rgb{1}}, Vec3{0, 0, 1},
+                        DensityEstimateSettings{.radius = 0.5f, .nearest = 513},
+                        ljus::all_kinds, gathered),
+                    std::invalid_argument);
+}
+
 TEST_CASE("photon_map: kind, light and normal of a record, each to the last bit") {
     std::vector<Photon> photons;
     Draws numbers{91};

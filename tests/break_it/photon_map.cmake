@@ -124,3 +124,9 @@ ljus_break_it(NAME photon-map-place HEADER photons/detail/estimates_together.hpp
     FROM "place.normal = vertex.point.normal;"
     TO   "place.normal = vertex.frame.normal;"
     CASES "photon_map: estimates that are answered together*")
+
+# A disc without a radius is taken for one.
+ljus_break_it(NAME photon-map-room HEADER photons/irradiance_estimate.hpp TEST photon_map
+    FROM "detail::check_disc(gather);\n    if (map.empty())"
+    TO   "if (map.empty())"
+    CASES "photon_map: an estimate refuses*")

@@ -48,17 +48,27 @@ struct DensityEstimateOf {
 };
 using DensityEstimateSettings = DensityEstimateOf<Kernel>; ///< With a listed kernel.
 
-/// Refuses settings that give no estimate.
-/// \throws std::invalid_argument  with name and value; also for a user's kernel whose
-///         mean is not 1.
+namespace detail {
+
+/// Refuses a radius, thickness or k that gives no estimate.
 template <typename K>
-void check(const DensityEstimateOf<K>& gather) {
+void check_disc(const DensityEstimateOf<K>& gather) {
     require(gather.radius >= 1e-15f && gather.radius <= 1e15f, "gather.radius",
             gather.radius, "within [1e-15, 1e15], or no float holds the radiance");
     require_positive("gather.thickness", gather.thickness);
     require(gather.nearest != 1 && gather.nearest <= max_nearest, "gather.nearest",
             static_cast<long long>(gather.nearest),
             "0 for all within the radius, or 2 to 512 (one photon sets the radius)");
+}
+
+} // namespace detail
+
+/// Refuses settings that give no estimate.
+/// \throws std::invalid_argument  with name and value; also for a user's kernel whose
+///         mean is not 1.
+template <typename K>
+void check(const DensityEstimateOf<K>& gather) {
+    detail::check_disc(gather);
     if constexpr (!std::same_as<K, Kernel>) {
         double mean = 0; // averaged over a thousand rings of equal area
         for (int i = 0; i < 1000; ++i)
@@ -133,6 +143,7 @@ template <std::floating_point T, KernelLike<T> K, typename Factor>
 sum_of_nearest(const PhotonMapT<T>& map, const SurfacePointT<T>& point,
                const DensityEstimateOf<K>& gather, PhotonKinds kinds,
                std::uint64_t& gathered, const Factor& factor) {
+    check_disc(gather); // k above max_nearest has no room
     const double widest2 = double(gather.radius) * double(gather.radius);
     std::array<Neighbor, max_nearest> room;
     const auto [photons, radius2] =
@@ -191,7 +202,9 @@ template <std::floating_point T, KernelLike<T> K>
 ///
 /// estimate_radiance() documents which photons count; on a Lambertian surface it is
 /// this irradiance times the BRDF. No scene, material or vertex is needed, so photons
-/// of your own will do, with position, direction, flux and kind:
+/// from elsewhere will do: copy their position, direction, flux and kind into Photon. The
+/// i-th record of the map belongs to photons[map.tree.point_ids()[i]], which may have
+/// data of its own.
 ///
 ///     const PhotonMap map = make_photon_map(photons);
 ///     const Rgb E = estimate_irradiance(map, {.position = x, .normal = n}, n,
@@ -205,12 +218,14 @@ template <std::floating_point T, KernelLike<T> K>
 /// \param gather  Radius, k, kernel, thickness.
 /// \param kinds   The kinds that count.
 /// \return W/m^2; 0 without photons.
+/// \throws std::invalid_argument  for a radius, thickness or k that check() refuses.
 /// \report{Section 3.2.6}
 template <std::floating_point T, KernelLike<T> K = Kernel>
 [[nodiscard]] RgbT<T>
 estimate_irradiance(const PhotonMapT<T>& map, const SurfacePointT<T>& point,
                     const Vec3T<T>& side, const DensityEstimateOf<K>& gather,
                     PhotonKinds kinds = light_kinds) {
+    detail::check_disc(gather);
     if (map.empty()) return RgbT<T>{T(0)};
     std::uint64_t gathered = 0;
     const auto lit = [&](const detail::PhotonRecordT<T>& photon) {
