@@ -354,10 +354,6 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     return passage;
 }
 
-} // namespace detail
-
-namespace detail {
-
 /// Whether a type of scene lists a material with an absorbing interior.
 template <AnyWorld W>
 inline constexpr bool lists_media = W::any_material([]<typename M>() {
