@@ -11,6 +11,8 @@
 #include <typeinfo>
 #include <utility>
 
+#include "ljus/version.hpp"
+
 namespace ljus::detail {
 
 // The unsigned integer of the same size.

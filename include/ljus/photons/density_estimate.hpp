@@ -85,10 +85,10 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
 /// \param gather    Radius, k, kernel, thickness.
 /// \param kinds     The kinds that count.
 /// \param gathered  Counts the summed photons.
-/// \return Radiance, W/(m^2 sr); 0 if the k nearest photons all lie within 1e-15 of the
-///         radius from x, where the disc has no area.
-/// \throws std::invalid_argument  for k above max_nearest; a radius that check() refuses
-///         is a precondition.
+/// \return Radiance, W/(m^2 sr); 0 if the k nearest photons all lie within 1e-15 of
+///         the radius from x, where the disc has no area.
+/// \throws std::invalid_argument  for k = 1 or above max_nearest; a radius that check()
+///         refuses is a precondition.
 /// \report{Section 3.2.6}
 /// \erratum{The report calls R_i a radiance; it is the BRDF times the photon's flux.
 ///          There is no cosine: the flux that arrives on the surface contains it.}

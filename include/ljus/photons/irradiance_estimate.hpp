@@ -50,15 +50,20 @@ using DensityEstimateSettings = DensityEstimateOf<Kernel>; ///< With a listed ke
 
 namespace detail {
 
+/// Refuses a k without an estimate.
+inline void check_nearest(std::size_t nearest) {
+    require(nearest != 1 && nearest <= max_nearest, "gather.nearest",
+            static_cast<long long>(nearest),
+            "0 for all within the radius, or 2 to 512 (one photon sets the radius)");
+}
+
 /// Refuses a radius, thickness or k that gives no estimate.
 template <typename K>
 void check_disc(const DensityEstimateOf<K>& gather) {
     require(gather.radius >= 1e-15f && gather.radius <= 1e15f, "gather.radius",
             gather.radius, "within [1e-15, 1e15], or no float holds the radiance");
     require_positive("gather.thickness", gather.thickness);
-    require(gather.nearest != 1 && gather.nearest <= max_nearest, "gather.nearest",
-            static_cast<long long>(gather.nearest),
-            "0 for all within the radius, or 2 to 512 (one photon sets the radius)");
+    check_nearest(gather.nearest);
 }
 
 } // namespace detail
@@ -143,7 +148,7 @@ template <std::floating_point T, KernelLike<T> K, typename Factor>
 sum_of_nearest(const PhotonMapT<T>& map, const SurfacePointT<T>& point,
                const DensityEstimateOf<K>& gather, PhotonKinds kinds,
                std::uint64_t& gathered, const Factor& factor) {
-    check_disc(gather); // k above max_nearest has no room
+    check_nearest(gather.nearest); // the room below is of max_nearest
     const double widest2 = double(gather.radius) * double(gather.radius);
     std::array<Neighbor, max_nearest> room;
     const auto [photons, radius2] =
@@ -202,9 +207,9 @@ template <std::floating_point T, KernelLike<T> K>
 ///
 /// estimate_radiance() documents which photons count; on a Lambertian surface it is
 /// this irradiance times the BRDF. No scene, material or vertex is needed, so photons
-/// from elsewhere will do: copy their position, direction, flux and kind into Photon. The
-/// i-th record of the map belongs to photons[map.tree.point_ids()[i]], which may have
-/// data of its own.
+/// from elsewhere will do: copy their position, direction, flux and kind into Photon.
+/// The i-th record of the map belongs to photons[map.tree.point_ids()[i]], which may
+/// have data of its own.
 ///
 ///     const PhotonMap map = make_photon_map(photons);
 ///     const Rgb E = estimate_irradiance(map, {.position = x, .normal = n}, n,
