@@ -204,6 +204,20 @@ template <std::floating_point T>
     return (a.z > T(0) && b.z > T(0)) || (a.z < T(0) && b.z < T(0));
 }
 
+/// Whether a material is nearly a mirror: its only lobe with a density is a glossy one,
+/// in which a sampled direction typically has a density above 1 per steradian, which is
+/// 3 times that of a Lambertian surface. A GlossyT is if its roughness is below 0.42.
+/// \cost None for a material without a glossy lobe; else one sample.
+template <Material M>
+[[nodiscard]] bool nearly_specular(const M& m) noexcept {
+    using T = typename M::Scalar;
+    if (!has(lobes(m), Lobes::glossy) || has(lobes(m), Lobes::diffuse)) return false;
+    const auto typical =
+        sample(m, Vec3T<T>{T(0.6), T(0), T(0.8)}, Vec3T<T>{T(0.5), T(0.5), T(0.5)},
+               Transport::radiance, Lobes::glossy);
+    return typical && typical->pdf > T(1);
+}
+
 namespace detail {
 
 /// The optional functions of a type of material.

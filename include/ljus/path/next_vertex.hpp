@@ -139,6 +139,17 @@ decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f
 }
 // [visit_material_at]
 
+/// Whether a vertex lies on an object that is nearly_specular(). It is the object that
+/// is asked, not the place: photons are aimed at whole objects.
+/// \param material  What it is made of there.
+template <AnyWorld W, std::floating_point T, Material M>
+[[nodiscard]] bool nearly_specular_at(const W& world, const VertexT<T>& vertex,
+                                      const M& material) {
+    if (!has(lobes(material), Lobes::glossy)) return false;
+    return world.visit_material(vertex.object.material,
+                                [](const auto& m) { return nearly_specular(m); });
+}
+
 namespace detail {
 
 /// Whether both normals of a vertex agree about the side of a direction.

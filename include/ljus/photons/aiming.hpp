@@ -22,14 +22,18 @@ namespace ljus {
 
 /// The objects with specular lobes, in the order of the scene: the targets of aimed
 /// photons.
+/// \param gloss  Whether those that are nearly_specular() count as well.
 template <AnyWorld W>
-[[nodiscard]] std::vector<ObjectId> specular_objects(const W& world) {
+[[nodiscard]] std::vector<ObjectId> specular_objects(const W& world,
+                                                     bool gloss = false) {
     std::vector<ObjectId> targets;
     for (std::uint32_t type = 0; type < world.objects().size(); ++type)
         for (std::uint32_t i = 0; i < world.objects()[type].size(); ++i)
             if (world.visit_material(
-                    world.objects()[type][i].material,
-                    [](const auto& m) { return has(lobes(m), Lobes::specular); }))
+                    world.objects()[type][i].material, [gloss](const auto& m) {
+                        return has(lobes(m), Lobes::specular) ||
+                               (gloss && nearly_specular(m));
+                    }))
                 targets.push_back({type, i});
     return targets;
 }

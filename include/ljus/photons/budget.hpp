@@ -170,7 +170,7 @@ template <AnyWorld W, std::floating_point T = typename W::Scalar>
 [[nodiscard]] std::vector<CausticPilot>
 pilot_caustics(const W& world, const PhotonPassSettings& pass, T radius,
                std::vector<PhotonT<T>> light = {}, T wide = T(1)) {
-    const auto objects = specular_objects(world);
+    const auto objects = specular_objects(world, pass.gloss_as_mirrors);
     if (objects.empty()) return {};
     std::erase_if(light, [](const auto& p) { return p.kind == PhotonKind::shadow; });
     const auto count = static_cast<long long>(objects.size());

@@ -49,6 +49,9 @@ struct PhotonPassSettings {
     bool equal_lights = false;      ///< The same number from every light instead of by
         ///< power, for shadow photons.
     PhotonSampling numbers = PhotonSampling::random; ///< Pseudo-random or Sobol.
+    /// Whether nearly_specular() objects count as mirrors: light that they send to a
+    /// surface with a diffuse lobe belongs to the caustics map. A PhotonMapper sets it.
+    bool gloss_as_mirrors = false;
     /// Fractions of the caustic photons, one per object of specular_objects(), with the
     /// sum 1; empty: by the cones that lights see. See \ref budget.
     std::vector<double> shares = {};

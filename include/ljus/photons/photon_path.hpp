@@ -208,18 +208,26 @@ void store_photon(const W& world, const PathStateT<T>& path, const VertexT<T>& v
 /// \param map       The kind of map: for caustics only specular lobes are sampled.
 /// \param stream    Four numbers are drawn.
 /// \param audit     Receives the absorbed flux, and what roulette moved.
+/// \param gloss     Whether the surface's glossy lobe counts as a mirror.
 /// \return Whether the path continues.
 template <std::floating_point T, Material M, StreamLike Stream>
 [[nodiscard]] bool scatter_photon(PathStateT<T>& path, const VertexT<T>& vertex,
                                   const M& material, MapType map, Stream& stream,
-                                  FluxAudit& audit) {
+                                  FluxAudit& audit, bool gloss = false) {
     const RgbT<T> flux = path.throughput;
     const bool only_specular = map == MapType::caustics || vertex.turned;
-    const Lobes which = only_specular ? Lobes::specular : Lobes::all;
+    const Lobes mirrors =
+        gloss && !vertex.turned ? Lobes::specular | Lobes::glossy : Lobes::specular;
+    const Lobes which = only_specular ? mirrors : Lobes::all;
+    const bool met_diffuse = path.met_diffuse;
     path.throughput = RgbT<T>{T(1)}; // then the throughput becomes the weight
     if (!continue_path(path, vertex, material, Transport::flux, which, stream)) {
         audit.absorbed += RgbT<double>(flux);
         return false;
+    }
+    if (gloss) {
+        path.met_diffuse = met_diffuse;
+        path.met_specular = true;
     }
     const auto survivor =
         play_roulette(flux, path.throughput, next_1d<T>(stream), audit);
@@ -239,7 +247,9 @@ struct SentPhotonT {
 /// Traces a photon and stores it at each diffuse surface.
 ///
 /// A photon that has met only mirrors and glass is stored in the caustics map alone, so
-/// that no light counts twice.
+/// that no light counts twice. With PhotonPassSettings::gloss_as_mirrors that holds for
+/// gloss as well, and there the photon is stored only where there is a diffuse lobe:
+/// between two glossy surfaces paths carry the light.
 /// \param sent    The photon; its flux is divided by the number of paths.
 /// \param stream  Four numbers are drawn per bounce.
 // [trace]
@@ -251,6 +261,7 @@ void trace_photon(const W& world, MapType map, const SentPhotonT<T>& sent,
     FluxAudit& audit = block.audit;
     PathStateT<T> path{.ray = photon.ray, .throughput = photon.flux};
     audit.emitted += RgbT<double>(photon.flux);
+    bool by_gloss = false; // whether a glossy lobe counted as a mirror
     while (path.depth < pass.max_bounces) {
         const RgbT<double> before{path.throughput};
         const auto vertex = next_vertex(world, path, stream);
@@ -270,9 +281,16 @@ void trace_photon(const W& world, MapType map, const SentPhotonT<T>& sent,
 
         const auto at_material = [&]<typename M>(const M& material) {
             if constexpr (!OnlySpecular<M>)
-                store_photon(world, path, *vertex, material, photon.light, map,
-                             pass.keep, block.photons);
-            return scatter_photon(path, *vertex, material, map, stream, audit);
+                if (!by_gloss || path.met_diffuse ||
+                    has(lobes(material), Lobes::diffuse))
+                    store_photon(world, path, *vertex, material, photon.light, map,
+                                 pass.keep, block.photons);
+            const bool gloss = pass.gloss_as_mirrors &&
+                               nearly_specular_at(world, *vertex, material);
+            if (!scatter_photon(path, *vertex, material, map, stream, audit, gloss))
+                return false;
+            by_gloss |= gloss && !path.specular;
+            return true;
         };
         if (!visit_material_at(world, *vertex, at_material)) return;
     }

@@ -154,7 +154,8 @@ trace_photons(const W& world, MapType map, const PhotonPassSettings& pass) {
     using T = typename W::Scalar;
     const LightChoice choice = detail::start_pass<T>(pass, world.light_choice());
     const bool caustics = map == MapType::caustics;
-    const auto targets = caustics ? specular_objects(world) : std::vector<ObjectId>{};
+    const auto targets = caustics ? specular_objects(world, pass.gloss_as_mirrors)
+                                  : std::vector<ObjectId>{};
     if (caustics) check_shares(pass.shares, targets.size());
     if (caustics && targets.empty()) return {.emitted = pass.photons};
 

@@ -4,8 +4,10 @@
 /// \brief Indirect light by rays that look up the irradiance where they end.
 
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 #include "ljus/math/sampling.hpp"
 #include "ljus/path/continue_path.hpp"
@@ -29,28 +31,53 @@ template <std::floating_point T>
     return std::copysign(T(1), vertex.wo.z) * vertex.frame.normal;
 }
 
-/// The light that some lobes of a material send to the viewer, if as much arrives from
-/// every direction: the albedo times E over pi. Exact for a Lambertian surface; for any
-/// other the albedo is estimated by one sample.
+/// The irradiance on that side of a surface to which a direction points.
+/// \param points   Where the irradiance is known.
+/// \param resting  The surface, detail::at_rest().
+/// \param wi       In its frame.
+/// \return W/m^2.
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> irradiance_towards(const IrradiancePointsT<T>& points,
+                                         const VertexT<T>& resting,
+                                         const Vec3T<T>& wi) {
+    return irradiance_at(points, resting.point.position,
+                         std::copysign(T(1), wi.z) * resting.frame.normal);
+}
+
+/// The light that some lobes of a material send to the viewer, if on each side as much
+/// arrives from every direction: the albedo times E over pi. Exact for a Lambertian
+/// surface; for any other the albedo is estimated by one sample.
 /// \param material    What the surface is made of.
 /// \param wo          Unit vector in the surface's frame, to the viewer.
-/// \param irradiance  E, W/m^2.
+/// \param irradiance  Called with a direction in the frame: E on its side, W/m^2.
 /// \param which       The lobes.
 /// \param stream      Three numbers are drawn.
 /// \return W/(m^2 sr).
 // [reflected]
-template <Material M, std::floating_point T, typename Stream>
+template <Material M, std::floating_point T, typename Irradiance, typename Stream>
 [[nodiscard]] RgbT<T> reflected(const M& material, const Vec3T<T>& wo,
-                                const RgbT<T>& irradiance, Lobes which,
+                                const Irradiance& irradiance, Lobes which,
                                 Stream& stream) {
     const auto scattered =
         sample(material, wo, next_3d<T>(stream), Transport::radiance, which);
     if (!scattered) return RgbT<T>{T(0)};
-    return scattered->weight * irradiance * std::numbers::inv_pi_v<T>;
+    return scattered->weight * irradiance(scattered->wi) * std::numbers::inv_pi_v<T>;
 }
 // [reflected]
 
 } // namespace detail
+
+/// What gather rays look up where they end.
+template <std::floating_point T>
+struct GatherLookupT {
+    const IrradiancePointsT<T>* points;          ///< Where the irradiance is known.
+    const PhotonMapT<T>* caustics = nullptr;     ///< For glossy surfaces; or none.
+    DensityEstimateSettings caustics_estimate{}; ///< How they are estimated there.
+    bool gloss_as_mirrors = false; ///< As PhotonPassSettings::gloss_as_mirrors of them.
+
+    /// Irradiance points alone, without caustics on glossy surfaces.
+    GatherLookupT(const IrradiancePointsT<T>& known) noexcept : points(&known) {}
+};
 
 /// What a gather ray brings.
 template <std::floating_point T>
@@ -59,23 +86,50 @@ struct GatherRayT {
     T distance = std::numeric_limits<T>::infinity(); ///< To the first surface.
 };
 
+namespace detail {
+
+/// The light of lamps and of the caustics map that a glossy surface sends to the
+/// viewer.
+template <AnyWorld W, std::floating_point T, Material M, typename Context>
+[[nodiscard]] RgbT<T> light_on_gloss(const W& world, const GatherLookupT<T>& lookup,
+                                     const VertexT<T>& vertex, const M& material,
+                                     Context& context) {
+    RgbT<T> sum =
+        sample_all_lights(world, vertex, material, {DirectLight::mis}, context);
+    if (lookup.caustics && !lookup.caustics->empty()) {
+        ++context.counts.map_queries;
+        sum += estimate_radiance(*lookup.caustics, at_rest(world, vertex), material,
+                                 vertex.wo, lookup.caustics_estimate, light_kinds,
+                                 context.counts.map_photons);
+    }
+    return sum;
+}
+
+} // namespace detail
+
 /// Follows a gather ray: through mirrors and glass to a diffuse surface, where it looks
 /// up the irradiance. A lamp that it meets adds nothing: shadow rays and the caustics
 /// map have counted that light.
+///
+/// Irradiance says nothing of what a glossy surface reflects. If the caustics map has
+/// counted the light that reaches the ray's start by nearly_specular() surfaces, the
+/// ray passes them as it does mirrors. At any other glossy surface the light of lamps
+/// and of the caustics map is added, and the ray goes on in a sampled direction.
 /// \param world      The closed scene.
-/// \param points     Where the irradiance is known.
+/// \param lookup     What is known: irradiance points, or these with a caustics map.
 /// \param path       The ray, as it leaves a diffuse surface.
 /// \param max_depth  The most surfaces on a path.
 /// \param context    The numbers of the ray; counts rays and lookups.
 /// \return Radiance and distance.
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] GatherRayT<T>
-gather_ray(const W& world, const IrradiancePointsT<T>& points, PathStateT<T> path,
-           int max_depth, Context& context) {
+gather_ray(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
+           PathStateT<T> path, int max_depth, Context& context) {
     auto& stream = context.stream;
     Counts& counts = context.counts;
     // [gather_ray]
     GatherRayT<T> found;
+    bool mirrors = lookup.gloss_as_mirrors; // whether narrow gloss is one to this path
     for (bool first = true; path.depth < max_depth; first = false) {
         ++counts.bounce_rays;
         const auto vertex = next_vertex(world, path, stream);
@@ -83,18 +137,27 @@ gather_ray(const W& world, const IrradiancePointsT<T>& points, PathStateT<T> pat
         if (first) found.distance = vertex->distance;
         const auto at_material = [&](const auto& material) {
             const Lobes parts = lobes(material);
-            if (has(parts, Lobes::non_specular)) {
+            Lobes on = Lobes::specular;
+            if (has(parts, Lobes::glossy)) {
+                on = Lobes::all;
+                if (!mirrors || !nearly_specular_at(world, *vertex, material)) {
+                    found.radiance += path.throughput *
+                                      detail::light_on_gloss(world, lookup, *vertex,
+                                                             material, context);
+                    mirrors = lookup.gloss_as_mirrors && has(parts, Lobes::diffuse);
+                }
+            } else if (has(parts, Lobes::diffuse)) {
                 ++counts.map_queries;
-                const RgbT<T> irradiance = irradiance_at(
-                    points, detail::at_rest(world, *vertex).point.position,
-                    detail::seen_normal(*vertex));
+                const auto irradiance = [&](const Vec3T<T>& wi) {
+                    return detail::irradiance_towards(
+                        *lookup.points, detail::at_rest(world, *vertex), wi);
+                };
                 found.radiance += path.throughput *
                                   detail::reflected(material, vertex->wo, irradiance,
-                                                    Lobes::non_specular, stream);
+                                                    Lobes::diffuse, stream);
             }
-            return has(parts, Lobes::specular) &&
-                   continue_path(path, *vertex, material, Transport::radiance,
-                                 Lobes::specular, stream);
+            return has(parts, on) && continue_path(path, *vertex, material,
+                                                   Transport::radiance, on, stream);
         };
         if (!visit_material_at(world, *vertex, at_material)) break;
         if (!survives(path.throughput, path.eta_scale, next_1d<T>(stream))) break;
@@ -113,45 +176,84 @@ struct GatheredT {
                        ///< cache is made.
 };
 
-/// Gathers the indirect irradiance at a vertex, by rays spread evenly over the cosine.
+/// Gathers the indirect irradiance at a vertex, by rays spread evenly over the cosine;
+/// or for a material whose diffuse lobe is not Lambertian over that lobe. What is
+/// gathered there is the irradiance that, arriving evenly, would be reflected to `wo`
+/// as the light that does arrive,
+///
+/// \f[ \pi\, \frac{\sum_i w_i L_i}{\sum_i w_i}, \quad
+///     w_i = \frac{f(\omega_o, \omega_i) |\cos\theta_i|}{p(\omega_i)}. \f]
+///
 /// \param world     The closed scene.
-/// \param points    What the rays look up.
+/// \param lookup    What the rays look up.
 /// \param vertex    Where; the side is that of `wo`.
+/// \param material  What it is made of.
 /// \param settings  How many rays.
 /// \param context   The numbers of this vertex; counts the rays.
 /// \return Irradiance, normal and harmonic mean distance.
-template <AnyWorld W, std::floating_point T, typename Context>
+template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] GatheredT<T>
-gather_irradiance(const W& world, const IrradiancePointsT<T>& points,
-                  const VertexT<T>& vertex, const GatherSettings& settings,
-                  Context& context) {
+gather_irradiance(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
+                  const VertexT<T>& vertex, const M& material,
+                  const GatherSettings& settings, Context& context) {
     // [gather_irradiance]
     GatheredT<T> gathered{.normal = detail::seen_normal(vertex)};
+    constexpr bool lambertian = std::same_as<M, LambertianT<T>>;
     const T side = std::copysign(T(1), vertex.wo.z);
     const detail::Strata strata = detail::strata_for(settings.rays);
     const std::uint64_t key = context.stream.key;
+    RgbT<T> weights{T(0)};
     T inverse = T(0);
     for (int i = 0; i < settings.rays; ++i) {
-        const Vec3T<T> up = sample_cosine_hemisphere(
-            detail::stratified(strata, i, key, next_2d<T>(context.stream)));
-        const Vec3T<T> wi = to_world(vertex.frame, Vec3T<T>{up.x, up.y, side * up.z});
-        const PathStateT<T> path{.ray = spawn_ray(vertex.point, wi, vertex.time),
-                                 .medium = vertex.medium,
-                                 .medium_known = true,
-                                 .previous = vertex.point.position,
-                                 .met_diffuse = true,
-                                 .depth = 1,
-                                 .branch = std::uint64_t(i + 1) << 20};
+        const Vec2T<T> u =
+            detail::stratified(strata, i, key, next_2d<T>(context.stream));
+        PathStateT<T> path{.medium = vertex.medium,
+                           .medium_known = true,
+                           .previous = vertex.point.position,
+                           .met_diffuse = true,
+                           .depth = 1,
+                           .branch = std::uint64_t(i + 1) << 20};
+        if constexpr (lambertian) {
+            const Vec3T<T> up = sample_cosine_hemisphere(u);
+            path.ray = spawn_ray(
+                vertex.point,
+                to_world(vertex.frame, Vec3T<T>{up.x, up.y, side * up.z}), vertex.time);
+        } else {
+            const Vec3T<T> u3{u.x, u.y, next_1d<T>(context.stream)};
+            const auto next =
+                scatter(vertex, material, u3, Transport::radiance, Lobes::diffuse);
+            if (!next) continue;
+            path.ray = spawn_ray(vertex.point, next->wi, vertex.time);
+            path.medium = detail::medium_beyond(vertex.medium, material, vertex.wo,
+                                                next->sample.wi);
+            path.throughput = next->sample.weight;
+            weights += next->sample.weight;
+        }
         auto numbers = context.stream; // next_vertex() moves them to the ray's own
         auto own = context_of(numbers, context.counts);
-        const auto found = gather_ray(world, points, path, settings.max_depth, own);
+        const auto found = gather_ray(world, lookup, path, settings.max_depth, own);
         gathered.irradiance += found.radiance;
         inverse += T(1) / found.distance;
     }
-    gathered.irradiance *= std::numbers::pi_v<T> / T(settings.rays);
+    if constexpr (lambertian)
+        gathered.irradiance *= std::numbers::pi_v<T> / T(settings.rays);
+    else
+        for (int c = 0; c < 3; ++c)
+            gathered.irradiance[c] *=
+                weights[c] > T(0) ? std::numbers::pi_v<T> / weights[c] : T(0);
     gathered.distance = T(settings.rays) / inverse;
     return gathered;
     // [gather_irradiance]
+}
+
+/// The same for a Lambertian surface.
+template <AnyWorld W, std::floating_point T, typename Context>
+[[nodiscard]] GatheredT<T>
+gather_irradiance(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
+                  const VertexT<T>& vertex, const GatherSettings& settings,
+                  Context& context) {
+    return gather_irradiance(world, lookup, vertex, LambertianT<T>{}, settings,
+                             context);
 }
 
 /// \}

@@ -21,8 +21,36 @@ struct Gathering {
     };
 };
 
+/// What the gather rays of a mapper look up: its irradiance points, and for glossy
+/// surfaces its caustics map.
+/// \param mapper  With Gathering; must outlive the result.
+template <typename Mapper>
+[[nodiscard]] GatherLookupT<typename Mapper::Scalar>
+gather_lookup(const Mapper& mapper) noexcept {
+    GatherLookupT<typename Mapper::Scalar> lookup(
+        mapper.template state<Gathering>().points);
+    lookup.caustics = &mapper.maps().caustics;
+    lookup.caustics_estimate = mapper.settings().caustics_estimate;
+    lookup.gloss_as_mirrors = mapper.passes().gloss_as_mirrors;
+    return lookup;
+}
+
+/// The fraction of the disc of a caustics estimate that lies on the surface, where the
+/// caustics map holds the light of glossy surfaces. That light is spread over whole
+/// walls, and without this fraction it would be too dark along each edge.
+/// \param mapper  With Gathering.
+/// \param vertex  The centre of the disc, detail::at_rest().
+/// \return In (0, 1]; 1 for estimates with the k nearest.
+template <typename Mapper, std::floating_point T>
+[[nodiscard]] T part_of_caustics(const Mapper& mapper, const VertexT<T>& vertex) {
+    const DensityEstimateSettings& how = mapper.settings().caustics_estimate;
+    if (!mapper.passes().gloss_as_mirrors || how.nearest > 0) return T(1);
+    return detail::part_on_surface(mapper.world(), vertex, detail::seen_normal(vertex),
+                                   T(how.radius));
+}
+
 /// The light that a surface sends back where a gather ray ends on it: what the nearest
-/// irradiance point knows.
+/// irradiance point on each side knows.
 /// \param mapper    With Gathering.
 /// \param vertex    The surface.
 /// \param material  What it is made of.
@@ -32,9 +60,10 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> known_light(const Mapper& mapper, const VertexT<T>& vertex,
                                   const M& material, Context& context) {
     ++context.counts.map_queries;
-    const RgbT<T> irradiance =
-        irradiance_at(mapper.template state<Gathering>().points, vertex.point.position,
-                      detail::seen_normal(vertex));
+    const auto irradiance = [&](const Vec3T<T>& wi) {
+        return detail::irradiance_towards(mapper.template state<Gathering>().points,
+                                          vertex, wi);
+    };
     return detail::reflected(material, vertex.wo, irradiance, Lobes::non_specular,
                              context.stream);
 }
@@ -49,11 +78,11 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
 template <typename Mapper, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> cached_light(const Mapper& mapper, const VertexT<T>& vertex,
                                    const M& material, Context& context) {
-    const auto& state = mapper.template state<Gathering>();
-    const RgbT<T> irradiance =
-        irradiance_between(mapper.world(), state.points, state.cache, vertex,
-                           mapper.settings().gather, context);
-    return detail::reflected(material, vertex.wo, irradiance, Lobes::diffuse,
+    const RgbT<T> irradiance = irradiance_between(
+        mapper.world(), gather_lookup(mapper), mapper.template state<Gathering>().cache,
+        vertex, material, mapper.settings().gather, context);
+    const auto from_anywhere = [&](const Vec3T<T>& /*wi*/) { return irradiance; };
+    return detail::reflected(material, vertex.wo, from_anywhere, Lobes::diffuse,
                              context.stream);
 }
 

@@ -80,23 +80,26 @@ template <std::floating_point T>
 /// The indirect irradiance at a vertex, by the points of a cache; where none of them is
 /// near enough, it is gathered here and now.
 /// \param world     The closed scene.
-/// \param points    What gather rays look up.
+/// \param lookup    What gather rays look up.
 /// \param cache     May be empty.
 /// \param vertex    The surface; the side is that of `wo`.
+/// \param material  What it is made of.
 /// \param settings  How.
 /// \param context   The numbers of the path; counts the query, and the rays if there
 ///                  are any.
 /// \return W/m^2.
-template <AnyWorld W, std::floating_point T, typename Context>
+template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T>
-irradiance_between(const W& world, const IrradiancePointsT<T>& points,
+irradiance_between(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
                    const IrradianceCacheT<T>& cache, const VertexT<T>& vertex,
-                   const GatherSettings& settings, Context& context) {
+                   const M& material, const GatherSettings& settings,
+                   Context& context) {
     ++context.counts.map_queries;
     const auto known = interpolate(cache, detail::at_rest(world, vertex).point.position,
                                    detail::seen_normal(vertex), T(settings.reach));
     if (known) return *known;
-    return gather_irradiance(world, points, vertex, settings, context).irradiance;
+    return gather_irradiance(world, lookup, vertex, material, settings, context)
+        .irradiance;
 }
 
 namespace detail {
@@ -112,13 +115,14 @@ struct GatheredRowT {
 /// Gathers at the first diffuse surfaces of a camera ray, the points of an irradiance
 /// cache \cite ward1988 ; behind mirrors, and both ways at glass.
 /// \param world     The closed scene.
-/// \param points    What gather rays look up.
+/// \param lookup    What gather rays look up.
 /// \param ray       A primary ray.
 /// \param settings  How.
 /// \param stream    Its numbers.
 /// \param row       Takes what is gathered.
 template <AnyWorld W, std::floating_point T>
-void gather_along(const W& world, const IrradiancePointsT<T>& points,
+void gather_along(const W& world,
+                  const std::type_identity_t<GatherLookupT<T>>& lookup,
                   const RayT<T>& ray, const GatherSettings& settings,
                   RandomStream& stream, GatheredRowT<T>& row) {
     constexpr std::size_t most = 8; // ways through glass, as many as are rendered
@@ -136,7 +140,8 @@ void gather_along(const W& world, const IrradiancePointsT<T>& points,
                     row.positions.push_back(
                         detail::at_rest(world, *vertex).point.position);
                     row.records.push_back(
-                        gather_irradiance(world, points, *vertex, settings, context));
+                        gather_irradiance(world, lookup, *vertex, material, settings,
+                                          context));
                 }
                 if (ways.size() < most)
                     if (const auto other = split_path(path, *vertex, material)) {
@@ -179,17 +184,18 @@ void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
 
 /// Gathers irradiance for a picture: behind one place of each tile of pixels.
 /// \param world     The closed scene.
-/// \param points    What gather rays look up.
+/// \param lookup    What gather rays look up.
 /// \param camera    Any camera.
 /// \param picture   Size, seed, threads, progress.
 /// \param settings  How.
 /// \return The cache, the same for any number of threads.
 /// \cost settings.rays gather rays per tile, and some microseconds more.
-template <AnyWorld W, std::floating_point T, CameraLike C>
-[[nodiscard]] IrradianceCacheT<T>
-make_irradiance_cache(const W& world, const IrradiancePointsT<T>& points,
+template <AnyWorld W, CameraLike C>
+[[nodiscard]] IrradianceCacheT<typename W::Scalar>
+make_irradiance_cache(const W& world, const GatherLookupT<typename W::Scalar>& lookup,
                       const C& camera, const RenderSettings& picture,
                       const GatherSettings& settings) {
+    using T = typename W::Scalar;
     // [make_irradiance_cache]
     const int tile = settings.tile;
     const int columns = (picture.width + tile - 1) / tile;
@@ -203,7 +209,7 @@ make_irradiance_cache(const W& world, const IrradiancePointsT<T>& points,
                 T(tile) * (Vec2T<T>{T(x), T(y)} + next_2d<T>(stream));
             const RayT<T> ray =
                 camera_ray(camera, place, picture.width, picture.height, stream);
-            detail::gather_along(world, points, ray, settings, stream,
+            detail::gather_along(world, lookup, ray, settings, stream,
                                  rows[static_cast<std::size_t>(y)]);
         }
     };

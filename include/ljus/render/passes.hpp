@@ -25,6 +25,8 @@ struct SceneNeeds {
     std::size_t objects = 0;  ///< How many there are.
     std::size_t diffuse = 0;  ///< Those with a part that is not a mirror or glass.
     std::size_t specular = 0; ///< Those with a part that is.
+    std::size_t glossy = 0;   ///< Those with a glossy lobe.
+    std::size_t narrow = 0;   ///< Those that are nearly_specular().
     std::size_t lights = 0;   ///< Emissive objects and point lights.
     bool films = false;       ///< Whether a material is a thin surface.
 };
@@ -43,6 +45,11 @@ template <AnyWorld W>
                 object.material, [](const auto& m) { return lobes(m); });
             found.diffuse += has(parts, Lobes::non_specular) ? 1 : 0;
             found.specular += has(parts, Lobes::specular) ? 1 : 0;
+            if (!has(parts, Lobes::glossy)) continue;
+            found.glossy += 1;
+            found.narrow += world.visit_material(object.material, [](const auto& m) {
+                return nearly_specular(m);
+            }) ? 1 : 0;
         }
     return found;
 }
@@ -58,6 +65,7 @@ struct Passes {
     bool skipped_bounces = false; ///< As in Plan.
     bool irradiance = false;      ///< As in Plan.
     bool cache = false;           ///< As in Plan.
+    bool gloss_as_mirrors = false; ///< PhotonPassSettings::gloss_as_mirrors.
 };
 
 /// Decides which passes run; a PhotonMapper obeys it, and survey() says why.
@@ -79,19 +87,22 @@ struct Passes {
     const bool general = lit && map_asked && settings.general.photons > 0;
     const bool cache = settings.indirect == IndirectLight::cache;
     const bool looked_up = cache || settings.indirect == IndirectLight::gather;
+    const bool caustic = lit && settings.caustics.photons > 0;
+    const bool gloss = caustic && general && looked_up && found.narrow > 0;
     const bool skip = lit && settings.skip.rule != SkipRule::none &&
                       double(settings.general.photons) >=
                           double(found.lights) * photons_needed(settings.skip);
     return {.shadow_rays = lit,
             .indirect_rays = rays,
-            .caustics_map = lit && found.specular > 0 && settings.caustics.photons > 0,
+            .caustics_map = gloss || (caustic && found.specular > 0),
             .general_map = general,
             .shadow_photons = skip || (general && settings.general.shadow_photons),
             .skipped_rays = skip,
             .skipped_bounces =
                 rays && settings.skip.indirect_rays && settings.general.photons > 0,
             .irradiance = general && looked_up,
-            .cache = general && cache};
+            .cache = general && cache,
+            .gloss_as_mirrors = gloss};
 }
 // [survey]
 

@@ -174,6 +174,8 @@ public:
                           Abilities<X...> = {})
         : world_(world), settings_(checked(settings)),
           passes_(choose_passes(needs(world.get()), settings)) {
+        settings_.caustics.gloss_as_mirrors = settings_.general.gloss_as_mirrors =
+            passes_.gloss_as_mirrors;
         if constexpr (has<Budgeting>)
             if (passes_.caustics_map)
                 settings_.caustics.shares = caustic_shares(world.get(), settings_);
@@ -203,7 +205,7 @@ public:
         if constexpr (has<Gathering>)
             if (passes_.cache)
                 kept<Gathering>().cache =
-                    make_irradiance_cache(world(), state<Gathering>().points, camera,
+                    make_irradiance_cache(world(), gather_lookup(*this), camera,
                                           picture, settings_.gather);
     }
 
@@ -378,11 +380,14 @@ void light_at(const PhotonMapper<W, X...>& mapper, const VertexT<T>& vertex,
             ljus::has(lobes(material), Lobes::diffuse))
             add("irradiance cache", "D..DL",
                 cached_light(mapper, vertex, material, context));
-    if (!maps.caustics.empty() &&
-        !detail::put_off(context.batch, resting, material, add.throughput,
+    if (maps.caustics.empty()) return;
+    T part = T(1);
+    if constexpr (Mapper::template has<Gathering>)
+        part = part_of_caustics(mapper, resting);
+    if (!detail::put_off(context.batch, resting, material, add.throughput / part,
                          settings.caustics_estimate))
         add("caustics map", "DS+L",
-            ask(maps.caustics, settings.caustics_estimate, light_kinds));
+            ask(maps.caustics, settings.caustics_estimate, light_kinds) / part);
 }
 // [light_at]
 
@@ -424,6 +429,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
     std::vector<PathStateT<T>> branches; // split off; following one may add more
     const auto follow_path = [&](PathStateT<T> path) {
         const RadianceSum add{sum, path.throughput, context.log};
+        bool gloss_mirrors = false; // whether narrow gloss is a mirror to this path
         while (path.depth < settings.max_depth) {
             const auto vertex = next_vertex(mapper.world(), path, context.stream);
             if (!vertex) {
@@ -435,14 +441,30 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
             if (vertex->emits() && !path.met_diffuse)
                 add("emission", "L", vertex->object.emission);
 
-            const bool gather = path.met_diffuse && detail::gathers(settings.indirect);
+            const bool second = path.met_diffuse && detail::gathers(settings.indirect);
             const auto at_material = [&]<typename M>(const M& material) {
+                const Lobes parts = lobes(material);
+                bool gather = second, mirror = false;
+                if constexpr (PhotonMapper<W, X...>::template has<Gathering>)
+                    if (second && has(parts, Lobes::glossy) &&
+                        settings.indirect != IndirectLight::map) {
+                        // No irradiance says what a glossy surface reflects.
+                        gather = false;
+                        mirror = gloss_mirrors &&
+                                 nearly_specular_at(mapper.world(), *vertex, material);
+                    }
                 if constexpr (!OnlySpecular<M>)
-                    if (has(lobes(material), Lobes::non_specular))
+                    if (has(parts, Lobes::non_specular) && !mirror) {
                         light_at(mapper, *vertex, material, gather, context, add);
-                const Lobes open = gather ? Lobes::specular : mapper.bounces();
+                        if (!gather)
+                            gloss_mirrors = mapper.passes().gloss_as_mirrors &&
+                                            has(parts, Lobes::diffuse);
+                    }
+                const Lobes open = gather   ? Lobes::specular
+                                   : mirror ? Lobes::all
+                                            : mapper.bounces();
                 if (path.depth == settings.max_depth) {
-                    detail::cut_if(has(lobes(material), open), context.counts);
+                    detail::cut_if(has(parts, open), context.counts);
                     return false;
                 }
                 if (settings.split_glass && !path.met_diffuse &&
