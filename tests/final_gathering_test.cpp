@@ -597,14 +597,15 @@ TEST_CASE("final gathering: what a material reflects of an irradiance") {
     for (std::uint64_t i = 0; i < 200; ++i) {
         auto stream = random_stream(test_seed(3), Pass::user, 0, i);
         auto twin = stream;
-        const Rgb seen = detail::reflected(Lambertian{.albedo = albedo}, wo, known,
+        const auto all_round = [&](const Vec3&) { return known; };
+        const Rgb seen = detail::reflected(Lambertian{.albedo = albedo}, wo, all_round,
                                            Lobes::non_specular, stream);
         for (int c = 0; c < 3; ++c)
             CHECK(double(seen[c]) ==
                   ljus_test::within(double(albedo[c]) * double(known[c]) / pi, 1e-5));
-        CHECK(detail::reflected(Lambertian{.albedo = albedo}, wo, known, Lobes::glossy,
-                                stream) == Rgb{0});
-        CHECK(detail::reflected(Mirror{}, wo, known, Lobes::non_specular, stream) ==
+        CHECK(detail::reflected(Lambertian{.albedo = albedo}, wo, all_round,
+                                Lobes::glossy, stream) == Rgb{0});
+        CHECK(detail::reflected(Mirror{}, wo, all_round, Lobes::non_specular, stream) ==
               Rgb{0});
         (void)next_3d<float>(twin);
         (void)next_3d<float>(twin);
@@ -1025,8 +1026,10 @@ TEST_CASE("final gathering: a gather ray looks up the side that it meets") {
     }
 }
 
-TEST_CASE("final gathering: a gloss that a gather ray meets sends light, too") {
-    // Its albedo at this angle, by the midpoint rule over the hemisphere.
+TEST_CASE("final gathering: a gather ray goes on from a glossy surface") {
+    // In a matt ball that knows its irradiance lies a glossy floor. It sends the share
+    // of its albedo at this angle, by the midpoint rule over the hemisphere, whether its
+    // gloss counts as a mirror or not.
     const Glossy gloss{.reflectance{0.9f, 0.6f, 0.3f}, .roughness = 0.4f};
     const Vec3 wo{0.6f, 0, 0.8f};
     glm::dvec3 albedo{0};
@@ -1038,23 +1041,44 @@ TEST_CASE("final gathering: a gloss that a gather ray meets sends light, too") {
             const Vec3 wi(sine * std::cos(phi), sine * std::sin(phi), cosine);
             albedo += glm::dvec3(evaluate(gloss, wo, wi)) * cosine * (2 * pi / n / n);
         }
-    Scene<Shapes<Quad>, Materials<Lambertian, Glossy>> hall;
-    hall.add(Quad{.corner{-9, -9, -1}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
+    Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Glossy>, Lights<PointLight>> hall;
+    hall.add(Quad{.corner{-1, -1, -1}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}},
              hall.add(gloss));
+    hall.add(Sphere{.radius = 9}, hall.add(Lambertian{.albedo = Rgb{0.5f}}));
+    hall.add(PointLight{.position{0, 0, 1}, .intensity = Rgb{70}});
     const World world(std::move(hall));
-    const IrradiancePoints points = everywhere(Rgb{3}, {{0, 0, 1}});
-    Mean mean;
-    for (std::uint64_t i = 0; i < 4000; ++i) {
-        auto stream = random_stream(test_seed(6), Pass::user, 0, i);
-        Counts counts;
-        auto context = context_of(stream, counts);
-        const PathState path{.ray{.direction = -wo}, .met_diffuse = true, .depth = 1};
-        mean.add(double(gather_ray(world, points, path, 100, context).radiance.y));
-        CHECK(counts.map_queries == 1);
-        CHECK(counts.bounce_rays == 1);
+    std::vector<Vec3> ways;
+    auto numbers = random_stream(test_seed(2), Pass::user, 0, 0);
+    for (int i = 0; i < 4000; ++i)
+        ways.push_back(sample_uniform_sphere(next_2d<float>(numbers)));
+    const IrradiancePoints points = everywhere(Rgb{3}, ways);
+    const PathState path{.ray{.direction = -wo}, .met_diffuse = true, .depth = 1};
+    // What the lamp sends there: only if the caustics map does not have it.
+    const Ray ray{.direction = -wo};
+    const Vertex floor = vertex_at(world, ray, *closest_hit(world, ray));
+    const Vec3 way = Vec3{0, 0, 1} - floor.point.position;
+    const float d2 = glm::dot(way, way);
+    const Vec3 wi = to_local(floor.frame, way / std::sqrt(d2));
+    const double lamp = double(evaluate(gloss, floor.wo, wi).y * wi.z * 70 / d2);
+    for (const bool mirrors : {false, true}) {
+        GatherLookupT<float> lookup(points);
+        lookup.gloss_as_mirrors = mirrors;
+        Mean mean;
+        for (std::uint64_t i = 0; i < 4000; ++i) {
+            auto stream = random_stream(test_seed(6), Pass::user, 0, i);
+            Counts counts;
+            auto context = context_of(stream, counts);
+            mean.add(double(gather_ray(world, lookup, path, 100, context).radiance.y));
+            CHECK(counts.map_queries <= 1);
+            CHECK(counts.bounce_rays <= 2);
+            CHECK((counts.shadow_rays > 0) == !mirrors);
+        }
+        CAPTURE(mirrors);
+        CHECK(albedo.y > 0.3);
+        CHECK(lamp > 0.1);
+        const double right = albedo.y * 0.5 * 3 / pi + (mirrors ? 0 : lamp);
+        CHECK(std::abs(apart(mean, right)) < 4.5); // once in 150 000 seeds
     }
-    CHECK(albedo.y > 0.3);
-    CHECK(std::abs(apart(mean, albedo.y * 3 / pi)) < 4.5); // once in 150 000 seeds
 }
 
 TEST_CASE("final gathering: rays meet what moves where it is at their time") {

@@ -145,7 +145,7 @@ TEST_CASE("irradiance cache: what is known is taken, what is not is gathered") {
     const auto find = [&](float reach, Counts& counts) {
         auto stream = random_stream(1, Pass::user, 0, 0);
         auto context = context_of(stream, counts);
-        return irradiance_between(scene, points, cache, vertex,
+        return irradiance_between(scene, points, cache, vertex, Lambertian{},
                                   {.rays = 9, .reach = reach}, context)
             .x;
     };
@@ -164,7 +164,9 @@ TEST_CASE("irradiance cache: what is known is taken, what is not is gathered") {
     auto stream = random_stream(1, Pass::user, 0, 0);
     auto context = context_of(stream, counts);
     counts = {};
-    CHECK(irradiance_between(scene, points, cache, other_side, {}, context).x == 3);
+    CHECK(irradiance_between(scene, points, cache, other_side, Lambertian{},
+                             GatherSettings{}, context)
+              .x == 3);
     CHECK(counts.bounce_rays == 0);
 }
 
