@@ -307,3 +307,16 @@ TEST_CASE("glossy: a metal's facets reflect what the metal does at their angle")
     CHECK(Glossy{}.roughness == 0.3f);
     CHECK(ljus::lobes(Glossy{}) == Lobes::glossy);
 }
+
+TEST_CASE("glossy: nearly a mirror below a roughness of 0.42") {
+    const auto nearly = [](float roughness) {
+        const bool colored = nearly_specular(
+            Glossy{.reflectance = ljus::Rgb{0.9f}, .roughness = roughness});
+        CHECK(nearly_specular(RoughMetal{.reflectance = ljus::copper<float>,
+                                         .roughness = roughness}) == colored);
+        return colored;
+    };
+    for (const float roughness : {0.01f, 0.1f, 0.41f}) CHECK(nearly(roughness));
+    for (const float roughness : {0.43f, 0.6f, 1.0f}) CHECK_FALSE(nearly(roughness));
+    CHECK_FALSE(nearly(0)); // which is a mirror
+}

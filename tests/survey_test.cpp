@@ -521,6 +521,52 @@ TEST_CASE("survey: a lobe that shadow rays do not find is named") {
     CHECK(said[0].starts_with("3 object(s) are nearly mirrors"));
 }
 
+TEST_CASE("survey: narrow gloss is a mirror to those who look irradiance up") {
+    const auto room = [](float roughness) {
+        Scene<Shapes<Sphere>, Materials<Lambertian, Glossy>, Lights<PointLight>> scene;
+        scene.add(Sphere{.radius = 9}, scene.add(Lambertian{}));
+        scene.add(Sphere{},
+                  scene.add(Glossy{.reflectance = Rgb{0.9f}, .roughness = roughness}));
+        scene.add(PointLight{.position{0, 4, 0}});
+        return World(std::move(scene));
+    };
+    for (const float roughness : {0.02f, 0.1f, 0.3f, 0.4f, 0.45f, 1.0f})
+        for (const IndirectLight indirect :
+             {IndirectLight::rays, IndirectLight::map, IndirectLight::photons,
+              IndirectLight::gather, IndirectLight::cache, IndirectLight::none}) {
+            CAPTURE(roughness);
+            CAPTURE(int(indirect));
+            const auto world = room(roughness);
+            PhotonMappingSettings settings{.direct = DirectLight::mis,
+                                           .indirect = indirect};
+            const bool narrow = roughness < 0.42f;
+            const bool mirror = narrow && (indirect == IndirectLight::gather ||
+                                           indirect == IndirectLight::cache);
+            CHECK(needs(world).narrow == (narrow ? 1 : 0));
+            const Plan plan = survey(world, settings);
+            CHECK(plan.caustics_map.on == mirror);
+            CHECK(plan.caustics_map.why ==
+                  (mirror ? "1 of 2 objects are nearly mirrors, whose light is blurred "
+                            "as a caustic"
+                          : "no object mirrors or refracts"));
+            CHECK(plan.remarks.empty());
+            CHECK(choose_passes(needs(world), settings).gloss_as_mirrors == mirror);
+            // With no photons for it paths carry the light.
+            settings.caustics.photons = 0;
+            CHECK_FALSE(choose_passes(needs(world), settings).gloss_as_mirrors);
+            settings.caustics.photons = 1;
+            settings.general.photons = 0;
+            CHECK_FALSE(choose_passes(needs(world), settings).gloss_as_mirrors);
+        }
+    const PhotonMappingSettings gather{.indirect = IndirectLight::gather};
+    CHECK(detail::make_plan(
+              {.objects = 5, .diffuse = 4, .specular = 2, .narrow = 1, .lights = 1},
+              gather)
+              .caustics_map.why ==
+          "2 of 5 objects mirror or refract; 1 of 5 objects are "
+          "nearly mirrors, whose light is blurred as a caustic");
+}
+
 TEST_CASE("survey: which passes each way of indirect light needs, and from how many") {
     const SceneNeeds found{.objects = 3, .diffuse = 2, .specular = 1, .lights = 2};
     const auto passes = [&](IndirectLight indirect, int depth, long long photons) {

@@ -11,6 +11,7 @@
 #include "ljus/accel/mesh.hpp"
 #include "ljus/lights/spot_light.hpp"
 #include "ljus/lights/sun_light.hpp"
+#include "ljus/materials/glossy.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
@@ -1263,5 +1264,60 @@ TEST_CASE("tracing: a shadow falls where things are when the light passes") {
         detail::trace_shadow(world, photon, SurfacePoint{},
                              random_stream(1, Pass::user, 0, 0), out);
         CHECK(out.size() == (time == 1 ? 2 : 1));
+    }
+}
+
+TEST_CASE("tracing: with gloss as mirrors no light is lost, and none kept twice") {
+    // A box with a glossy floor and a glossy wall that meet. What comes to the matt walls
+    // by them alone moves from the general map to the caustics map, all else stays, and
+    // on gloss nothing of it is kept: paths carry it from there. 4 comparisons.
+    for (const float roughness : {0.05f, 0.3f}) {
+        Scene<Shapes<Quad>, Materials<Lambertian, Glossy>, Lights<PointLight>> scene;
+        const auto matt = scene.add(Lambertian{.albedo = Rgb{0.5f}});
+        const auto gloss =
+            scene.add(Glossy{.reflectance = Rgb{0.9f}, .roughness = roughness});
+        scene.add(Quad{{-1, -1, -1}, {0, 0, 2}, {2, 0, 0}}, gloss);
+        scene.add(Quad{{-1, -1, -1}, {0, 2, 0}, {0, 0, 2}}, gloss);
+        scene.add(Quad{{-1, 1, -1}, {2, 0, 0}, {0, 0, 2}}, matt);
+        scene.add(Quad{{1, -1, -1}, {0, 0, 2}, {0, 2, 0}}, matt);
+        scene.add(Quad{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}}, matt);
+        scene.add(Quad{{-1, -1, 1}, {0, 2, 0}, {2, 0, 0}}, matt);
+        scene.add(PointLight{.position{0.2f, 0.4f, 0}, .intensity = Rgb{1}});
+        const World world(std::move(scene));
+        CHECK(specular_objects(world).empty());
+        REQUIRE(specular_objects(world, true).size() == 2);
+        const auto on_gloss = [](const auto& photon) {
+            return photon.normal == small_normal(Vec3{0, 1, 0}) ||
+                   photon.normal == small_normal(Vec3{1, 0, 0});
+        };
+        const auto stored = [&](MapType map, bool as_mirrors, PhotonKind kind,
+                                bool glossy) {
+            const PhotonPassSettings pass{.photons = 20000,
+                                          .shadow_photons = false,
+                                          .gloss_as_mirrors = as_mirrors,
+                                          .threads = 1};
+            return stored_flux(world, map, pass, 12, [&](const auto& photon) {
+                return photon.kind == kind && on_gloss(photon) == glossy;
+            });
+        };
+        using enum PhotonKind;
+        const auto general = MapType::general, caustics = MapType::caustics;
+        const Mean all = stored(general, false, indirect, false);
+        const Mean rest = stored(general, true, indirect, false);
+        const Mean moved = stored(caustics, true, caustic, false);
+        const auto error = [](const Mean& a, const Mean& b, const Mean& c) {
+            return std::hypot(a.error(), b.error(), c.error());
+        };
+        CAPTURE(roughness);
+        CHECK(moved.mean > 0.1 * all.mean);
+        CHECK(rest.mean > 0.1 * all.mean);
+        CHECK(std::abs(rest.mean + moved.mean - all.mean) <
+              limit * error(all, rest, moved));
+        CHECK(error(all, rest, moved) < 0.01 * all.mean);
+        CHECK(stored(caustics, true, indirect, false).mean == 0);
+        CHECK(stored(caustics, true, caustic, true).mean == 0);
+        CHECK(stored(general, true, caustic, true).mean == 0);
+        CHECK(stored(general, true, caustic, false).mean == 0);
+        CHECK(stored(caustics, false, caustic, false).mean == 0);
     }
 }

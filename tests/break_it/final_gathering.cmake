@@ -50,8 +50,8 @@ ljus_break_it(NAME final-gathering-normal HEADER photons/irradiance_points.hpp
 # Irradiance taken for radiance: pi times too bright.
 ljus_break_it(NAME final-gathering-pi HEADER render/final_gathering.hpp
     TEST final_gathering
-    FROM "return scattered->weight * irradiance * std::numbers::inv_pi_v<T>;"
-    TO   "return scattered->weight * irradiance;"
+    FROM "return scattered->weight * irradiance(scattered->wi) * std::numbers::inv_pi_v<T>;"
+    TO   "return scattered->weight * irradiance(scattered->wi);"
     CASES "final gathering: in a furnace*")
 
 # The harmonic mean of the gather rays' lengths for their mean: points count too far.
@@ -106,8 +106,8 @@ ljus_break_it(NAME final-gathering-branch HEADER render/final_gathering.hpp
 # What is known of the side that the normal points to, whichever the ray meets.
 ljus_break_it(NAME final-gathering-seen-side HEADER render/final_gathering.hpp
     TEST final_gathering
-    FROM "detail::seen_normal(*vertex)"
-    TO   "vertex->frame.normal"
+    FROM "std::copysign(T(1), wi.z) * resting.frame.normal"
+    TO   "resting.frame.normal"
     CASES "final gathering: a gather ray looks up*")
 
 # Whatever is asked for, the radius is that of 32 photons.
@@ -123,3 +123,79 @@ ljus_break_it(NAME final-gathering-step HEADER photons/detail/kernel_border.hpp
     FROM "T(0.01) * radius"
     TO   "T(1) * radius"
     CASES "final gathering: what lies on the surface*")
+
+# A gather ray sees nothing of what gloss reflects.
+ljus_break_it(NAME final-gathering-gloss-black HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM "if (has(parts, Lobes::glossy)) {"
+    TO   "if (has(parts, Lobes::glossy)) return false; else if (false) {"
+    CASES "final gathering: a gather ray goes on*")
+
+# What the caustics map has of a lamp's light by gloss, gather rays bring again.
+ljus_break_it(NAME final-gathering-gloss-twice HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM "bool mirrors = lookup.gloss_as_mirrors;"
+    TO   "bool mirrors = false;"
+    CASES "final gathering: a ceiling over*")
+
+# The light of lamps is lost at gloss that is too broad for a mirror.
+ljus_break_it(NAME final-gathering-gloss-broad HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM "if (!mirrors || !nearly_specular_at(world, *vertex, material)) {"
+    TO   "if (!mirrors) {"
+    CASES "final gathering: a gather ray goes on*")
+
+# Where the camera's path meets gloss behind a matt surface, irradiance answers for it.
+ljus_break_it(NAME final-gathering-gloss-matt HEADER render/photon_mapping.hpp
+    TEST final_gathering
+    FROM "                        gather = false;
+"
+    TO   ""
+    CASES "final gathering: a white room*")
+
+# Its lamps are asked again, though the caustics map has told.
+ljus_break_it(NAME final-gathering-gloss-again HEADER render/photon_mapping.hpp
+    TEST final_gathering
+    FROM "mirror = gloss_mirrors &&"
+    TO   "mirror = false &&"
+    CASES "final gathering: a ceiling over*")
+
+# Photons do not go on by gloss: a sun's light by it is in no map.
+ljus_break_it(NAME final-gathering-gloss-photons HEADER photons/photon_path.hpp
+    TEST final_gathering
+    FROM "gloss && !vertex.turned ? Lobes::specular | Lobes::glossy : Lobes::specular;"
+    TO   "Lobes::specular;"
+    CASES "final gathering: a wall that a sun*")
+
+# What gloss throws onto a ceiling is dark along its edges.
+ljus_break_it(NAME final-gathering-gloss-edge HEADER render/gathering.hpp
+    TEST final_gathering
+    FROM "    return detail::part_on_surface(mapper.world(), vertex, detail::seen_normal(vertex),
+                                   T(how.radius));"
+    TO   "    return T(1);"
+    CASES "final gathering: a ceiling over*")
+
+# A sheet that lets light through shows the light of its near side.
+ljus_break_it(NAME final-gathering-sheet HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM "path.medium = detail::medium_beyond(vertex.medium, material, vertex.wo,
+                                                next->sample.wi);"
+    TO   "path.ray = spawn_ray(vertex.point,
+                                 to_world(vertex.frame, Vec3T<T>{next->sample.wi.x,
+                                          next->sample.wi.y, -next->sample.wi.z}),
+                                 vertex.time);"
+    CASES "final gathering: a sheet*")
+
+# A rough surface reflects the same of light from any side.
+ljus_break_it(NAME final-gathering-rough HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM "path.throughput = next->sample.weight;"
+    TO   "path.throughput = RgbT<T>{T(1)};"
+    CASES "final gathering: a rough floor*")
+
+# The albedo counts once where it is gathered and once where that is asked for.
+ljus_break_it(NAME final-gathering-weights HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM "weights[c] > T(0) ? std::numbers::pi_v<T> / weights[c] : T(0);"
+    TO   "std::numbers::pi_v<T> / T(settings.rays);"
+    CASES "final gathering: a rough floor*")

@@ -63,3 +63,9 @@ ljus_break_it(NAME glossy-black HEADER materials/glossy.hpp TEST glossy
     FROM "if (is_black(weight)) return std::nullopt;"
     TO   ""
     CASES "glossy: black facets*")
+
+# Broad gloss taken for a mirror.
+ljus_break_it(NAME glossy-nearly HEADER materials/material.hpp TEST glossy
+    FROM "typical->pdf > T(1)"
+    TO   "typical->pdf > T(0.1)"
+    CASES "glossy: nearly*")

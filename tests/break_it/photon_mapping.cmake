@@ -72,8 +72,8 @@ ljus_break_it(NAME render-one-pattern HEADER render/render.hpp TEST render
 # The irradiance cache's light through the clear part of a mixture, too.
 ljus_break_it(NAME photon-mapping-cache-lobes HEADER render/gathering.hpp
     TEST photon_mapping_steps
-    FROM "irradiance, Lobes::diffuse,"
-    TO   "irradiance, Lobes::all,"
+    FROM "from_anywhere, Lobes::diffuse,"
+    TO   "from_anywhere, Lobes::all,"
     CASES "photon mapping: who answers*")
 
 # Both ways at glass behind a matt surface, too: the same light, for more rays.

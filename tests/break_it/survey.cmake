@@ -28,3 +28,9 @@ ljus_break_it(NAME survey-reach HEADER render/passes.hpp TEST survey
     FROM "std::max(reach, max_component(far))"
     TO   "std::max(reach, far.x)"
     CASES "survey: lengths whose squares*")
+
+# Gloss is a mirror to those who send indirect rays, too.
+ljus_break_it(NAME survey-gloss HEADER render/passes.hpp TEST survey
+    FROM "caustic && general && looked_up && found.narrow > 0"
+    TO   "caustic && general && found.narrow > 0"
+    CASES "survey: narrow gloss*")

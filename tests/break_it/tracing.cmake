@@ -97,3 +97,22 @@ ljus_break_it(NAME tracing-stopped-remark HEADER photons/tracing.hpp TEST tracin
     FROM "if (nothing && result.complete && result.emitted"
     TO   "if (nothing && result.emitted"
     CASES "tracing: progress ascends*")
+
+# Light that gloss throws counts as indirect as well as a caustic.
+ljus_break_it(NAME tracing-gloss-kind HEADER photons/photon_path.hpp TEST tracing
+    FROM "        path.met_diffuse = met_diffuse;
+"
+    TO   ""
+    CASES "tracing: with gloss*")
+
+# It is kept on the next glossy surface, where paths carry it.
+ljus_break_it(NAME tracing-gloss-kept HEADER photons/photon_path.hpp TEST tracing
+    FROM "!by_gloss || path.met_diffuse ||"
+    TO   "true ||"
+    CASES "tracing: with gloss*")
+
+# No photon is aimed at it.
+ljus_break_it(NAME tracing-gloss-aim HEADER photons/aiming.hpp TEST tracing
+    FROM "(gloss && nearly_specular(m))"
+    TO   "(gloss && false)"
+    CASES "tracing: with gloss*")

@@ -110,13 +110,22 @@ inline void plan_rays(Plan& plan, const Passes& run, const SceneNeeds& found,
 // The reasons for the photon passes.
 inline void plan_photons(Plan& plan, const Passes& run, const SceneNeeds& found,
                          const PhotonMappingSettings& settings) {
+    const auto casters = [&] {
+        std::string text;
+        if (found.specular > 0 || !run.gloss_as_mirrors)
+            text = of_all(found, found.specular, "mirror or refract");
+        if (found.specular > 0 && run.gloss_as_mirrors) text += "; ";
+        if (run.gloss_as_mirrors)
+            text += of_all(found, found.narrow,
+                           "are nearly mirrors, whose light is blurred as a caustic");
+        return text;
+    };
     plan.caustics_map = {"caustics map", run.caustics_map,
-                         found.specular == 0 ? "no object mirrors or refracts"
+                         found.specular == 0 && !run.gloss_as_mirrors
+                             ? "no object mirrors or refracts"
                          : settings.caustics.photons == 0 ? "0 photons were asked for"
-                         : run.shadow_rays
-                             ? of_all(found, found.specular, "mirror or refract") +
-                                   caustics_clause(settings)
-                             : "nothing is lit"};
+                         : run.shadow_rays ? casters() + caustics_clause(settings)
+                                           : "nothing is lit"};
     plan.general_map = {"general map", run.general_map,
                         run.general_map ? "it provides indirect light"
                                         : "no ray uses it"};

@@ -25,7 +25,6 @@ struct SceneNeeds {
     std::size_t objects = 0;  ///< How many there are.
     std::size_t diffuse = 0;  ///< Those with a part that is not a mirror or glass.
     std::size_t specular = 0; ///< Those with a part that is.
-    std::size_t glossy = 0;   ///< Those with a glossy lobe.
     std::size_t narrow = 0;   ///< Those that are nearly_specular().
     std::size_t lights = 0;   ///< Emissive objects and point lights.
     bool films = false;       ///< Whether a material is a thin surface.
@@ -45,11 +44,8 @@ template <AnyWorld W>
                 object.material, [](const auto& m) { return lobes(m); });
             found.diffuse += has(parts, Lobes::non_specular) ? 1 : 0;
             found.specular += has(parts, Lobes::specular) ? 1 : 0;
-            if (!has(parts, Lobes::glossy)) continue;
-            found.glossy += 1;
-            found.narrow += world.visit_material(object.material, [](const auto& m) {
-                return nearly_specular(m);
-            }) ? 1 : 0;
+            const auto narrow = [](const auto& m) { return nearly_specular(m); };
+            found.narrow += world.visit_material(object.material, narrow) ? 1 : 0;
         }
     return found;
 }
