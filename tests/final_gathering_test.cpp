@@ -1192,12 +1192,14 @@ Mean found_over_right(const W& world, const std::vector<Place>& places, const ch
         settings.max_depth = settings.gather.max_depth = depth;
         const PhotonMapper mapper(world, settings, abilities<Gathering>);
         double found = 0;
-        for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::size_t paths = settings.indirect == IndirectLight::gather ? 16 : 1;
+        for (std::size_t i = 0; i < paths * places.size(); ++i) {
             auto stream = random_stream(test_seed(std::uint64_t(seed)), Pass::camera, 0,
                                         std::uint64_t(i));
             Counts counts;
             auto context = context_of(stream, counts);
-            found += double(radiance(mapper, places[i].ray, context).x);
+            const Ray& ray = places[i % places.size()].ray;
+            found += double(radiance(mapper, ray, context).x) / double(paths);
         }
         mean.add(found / right);
     }
