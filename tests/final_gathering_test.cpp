@@ -1034,9 +1034,9 @@ TEST_CASE("final gathering: a gather ray looks up the side that it meets") {
 
 TEST_CASE("final gathering: a gather ray goes on from a glossy surface") {
     // In a matt ball that knows its irradiance lies a glossy floor. It sends the share
-    // of its albedo at this angle, by the midpoint rule over the hemisphere, whether its
-    // gloss counts as a mirror or not. What a lamp sends there is part of it, unless the
-    // caustics map has that, of gloss that is nearly a mirror.
+    // of its albedo at this angle, by the midpoint rule over the hemisphere, whether
+    // its gloss counts as a mirror or not. What a lamp sends there is part of it, unless
+    // the caustics map has that, of gloss that is nearly a mirror.
     for (const float roughness : {0.4f, 0.5f}) {
         const Glossy gloss{.reflectance{0.9f, 0.6f, 0.3f}, .roughness = roughness};
         const Vec3 wo{0.6f, 0, 0.8f};
@@ -1209,7 +1209,7 @@ Mean found_over_right(const W& world, const std::vector<Place>& places, const ch
 } // namespace
 
 TEST_CASE("final gathering: a wall that a sun lights by a glossy plate alone") {
-    // tests/inputs/glossy_plate_sun.json: a black wall keeps the sun from the white one.
+    // tests/inputs/glossy_plate_sun.json: the black wall shades the white.
     Shiny scene;
     const Glossy gloss{.reflectance = Rgb{0.9f}, .roughness = 0.1f};
     const Quad plate{.corner{-1, 0, -1}, .edge_u{0, 0, 2}, .edge_v{2, 0, 0}};

@@ -29,11 +29,11 @@ template <AnyWorld W>
     std::vector<ObjectId> targets;
     for (std::uint32_t type = 0; type < world.objects().size(); ++type)
         for (std::uint32_t i = 0; i < world.objects()[type].size(); ++i)
-            if (world.visit_material(
-                    world.objects()[type][i].material, [gloss](const auto& m) {
-                        return has(lobes(m), Lobes::specular) ||
-                               (gloss && nearly_specular(m));
-                    }))
+            if (world.visit_material(world.objects()[type][i].material,
+                                     [gloss](const auto& m) {
+                                         return has(lobes(m), Lobes::specular) ||
+                                                (gloss && nearly_specular(m));
+                                     }))
                 targets.push_back({type, i});
     return targets;
 }

@@ -285,8 +285,8 @@ void trace_photon(const W& world, MapType map, const SentPhotonT<T>& sent,
                     has(lobes(material), Lobes::diffuse))
                     store_photon(world, path, *vertex, material, photon.light, map,
                                  pass.keep, block.photons);
-            const bool gloss = pass.gloss_as_mirrors &&
-                               nearly_specular_at(world, *vertex, material);
+            const bool gloss =
+                pass.gloss_as_mirrors && nearly_specular_at(world, *vertex, material);
             if (!scatter_photon(path, *vertex, material, map, stream, audit, gloss))
                 return false;
             by_gloss |= gloss && !path.specular;

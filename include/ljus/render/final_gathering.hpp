@@ -141,9 +141,9 @@ gather_ray(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
             if (has(parts, Lobes::glossy)) {
                 on = Lobes::all;
                 if (!mirrors || !nearly_specular_at(world, *vertex, material)) {
-                    found.radiance += path.throughput *
-                                      detail::light_on_gloss(world, lookup, *vertex,
-                                                             material, context);
+                    found.radiance +=
+                        path.throughput * detail::light_on_gloss(world, lookup, *vertex,
+                                                                 material, context);
                     mirrors = lookup.gloss_as_mirrors && has(parts, Lobes::diffuse);
                 }
             } else if (has(parts, Lobes::diffuse)) {
@@ -216,8 +216,8 @@ gather_irradiance(const W& world, const std::type_identity_t<GatherLookupT<T>>& 
         if constexpr (lambertian) {
             const Vec3T<T> up = sample_cosine_hemisphere(u);
             path.ray = spawn_ray(
-                vertex.point,
-                to_world(vertex.frame, Vec3T<T>{up.x, up.y, side * up.z}), vertex.time);
+                vertex.point, to_world(vertex.frame, Vec3T<T>{up.x, up.y, side * up.z}),
+                vertex.time);
         } else {
             const Vec3T<T> u3{u.x, u.y, next_1d<T>(context.stream)};
             const auto next =

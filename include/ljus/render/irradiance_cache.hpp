@@ -121,8 +121,7 @@ struct GatheredRowT {
 /// \param stream    Its numbers.
 /// \param row       Takes what is gathered.
 template <AnyWorld W, std::floating_point T>
-void gather_along(const W& world,
-                  const std::type_identity_t<GatherLookupT<T>>& lookup,
+void gather_along(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
                   const RayT<T>& ray, const GatherSettings& settings,
                   RandomStream& stream, GatheredRowT<T>& row) {
     constexpr std::size_t most = 8; // ways through glass, as many as are rendered
@@ -139,9 +138,8 @@ void gather_along(const W& world,
                 if (has(parts, Lobes::diffuse)) {
                     row.positions.push_back(
                         detail::at_rest(world, *vertex).point.position);
-                    row.records.push_back(
-                        gather_irradiance(world, lookup, *vertex, material, settings,
-                                          context));
+                    row.records.push_back(gather_irradiance(
+                        world, lookup, *vertex, material, settings, context));
                 }
                 if (ways.size() < most)
                     if (const auto other = split_path(path, *vertex, material)) {

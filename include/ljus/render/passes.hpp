@@ -52,15 +52,15 @@ template <AnyWorld W>
 
 /// Which passes run: the decisions of a plan, without their reasons.
 struct Passes {
-    bool shadow_rays = false;     ///< As in Plan.
-    bool indirect_rays = false;   ///< As in Plan.
-    bool caustics_map = false;    ///< As in Plan.
-    bool general_map = false;     ///< As in Plan.
-    bool shadow_photons = false;  ///< As in Plan.
-    bool skipped_rays = false;    ///< As in Plan.
-    bool skipped_bounces = false; ///< As in Plan.
-    bool irradiance = false;      ///< As in Plan.
-    bool cache = false;           ///< As in Plan.
+    bool shadow_rays = false;      ///< As in Plan.
+    bool indirect_rays = false;    ///< As in Plan.
+    bool caustics_map = false;     ///< As in Plan.
+    bool general_map = false;      ///< As in Plan.
+    bool shadow_photons = false;   ///< As in Plan.
+    bool skipped_rays = false;     ///< As in Plan.
+    bool skipped_bounces = false;  ///< As in Plan.
+    bool irradiance = false;       ///< As in Plan.
+    bool cache = false;            ///< As in Plan.
     bool gloss_as_mirrors = false; ///< PhotonPassSettings::gloss_as_mirrors.
 };
 

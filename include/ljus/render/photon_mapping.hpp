@@ -28,6 +28,10 @@ namespace ljus {
 /// | E ... D L       | shadow rays, or a verdict of shadow photons in their place  |
 /// | E ... D S+ L    | the caustics map, at every diffuse surface                  |
 /// | E ... D ... D.. | indirect rays, or the general map where the first one ends  |
+///
+/// A glossy surface is a D. Where irradiance is looked up, by IndirectLight::gather and
+/// cache, nearly_specular() gloss between a light and a surface with a diffuse lobe is
+/// an S, and no path ends on any other gloss.
 /// \{
 
 /// \name What a photon mapper may be able to do besides
@@ -204,9 +208,8 @@ public:
     void fill_cache(const C& camera, const RenderSettings& picture) {
         if constexpr (has<Gathering>)
             if (passes_.cache)
-                kept<Gathering>().cache =
-                    make_irradiance_cache(world(), gather_lookup(*this), camera,
-                                          picture, settings_.gather);
+                kept<Gathering>().cache = make_irradiance_cache(
+                    world(), gather_lookup(*this), camera, picture, settings_.gather);
     }
 
     /// Asks the maps in another way; the photons stay as they are.

@@ -115,7 +115,8 @@ enum class Preset : std::uint8_t {
     draft, ///< A first look: blotches, in a fraction of a second.
     fast,  ///< The least time for a picture without visible errors. What it gives up:
            ///< indirect light that changes within 4 pixels is smoothed, penumbras are
-           ///< a little off, caustics blurred; and more time does not mend it.
+           ///< a little off, caustics blurred, and what glossy surfaces throw onto
+           ///< others blurred as they are; and more time does not mend it.
     exact  ///< Indirect rays on and on; what bias is left is that of the caustics map.
 };
 
