@@ -1035,7 +1035,7 @@ TEST_CASE("final gathering: a gather ray looks up the side that it meets") {
 TEST_CASE("final gathering: a gather ray goes on from a glossy surface") {
     // In a matt ball that knows its irradiance lies a glossy floor. It sends the share
     // of its albedo at this angle, by the midpoint rule over the hemisphere, whether
-    // its gloss counts as a mirror or not. What a lamp sends there is part of it, unless
+    // its gloss counts as a mirror or not. A lamp sends light there as well, unless
     // the caustics map has that, of gloss that is nearly a mirror.
     for (const float roughness : {0.4f, 0.5f}) {
         const Glossy gloss{.reflectance{0.9f, 0.6f, 0.3f}, .roughness = roughness};

@@ -1268,7 +1268,7 @@ TEST_CASE("tracing: a shadow falls where things are when the light passes") {
 }
 
 TEST_CASE("tracing: with gloss as mirrors no light is lost, and none kept twice") {
-    // A box with a glossy floor and a glossy wall that meet. What comes to the matt walls
+    // A box with a glossy floor and a glossy wall that meet. What comes to matt walls
     // by them alone moves from the general map to the caustics map, all else stays, and
     // on gloss nothing of it is kept: paths carry it from there. 4 comparisons.
     for (const float roughness : {0.05f, 0.3f}) {
