@@ -17,13 +17,13 @@
 namespace ljus {
 
 /// \defgroup final_gathering Final gathering
-/// \brief The report's discussion: indirect photons, used well \cite jensen1996.
+/// \brief The report's discussion: better use of indirect photons \cite jensen1996.
 /// Chapter: \ref ch_final_gathering.
 /// \{
 
 namespace detail {
 
-/// The side of a surface that is seen: its shading normal, or the other way.
+/// The shading normal of a surface, flipped to the side of `wo`.
 /// \param vertex  The surface.
 /// \return Unit vector.
 template <std::floating_point T>
@@ -31,8 +31,8 @@ template <std::floating_point T>
     return std::copysign(T(1), vertex.wo.z) * vertex.frame.normal;
 }
 
-/// The irradiance on that side of a surface to which a direction points.
-/// \param points   Where the irradiance is known.
+/// The irradiance on the side of a surface into which a direction points.
+/// \param points   The points with known irradiance.
 /// \param resting  The surface, detail::at_rest().
 /// \param wi       In its frame.
 /// \return W/m^2.
@@ -44,10 +44,11 @@ template <std::floating_point T>
                          std::copysign(T(1), wi.z) * resting.frame.normal);
 }
 
-/// The light that some lobes of a material send to the viewer, if on each side as much
-/// arrives from every direction: the albedo times E over pi. Exact for a Lambertian
-/// surface; for any other the albedo is estimated by one sample.
-/// \param material    What the surface is made of.
+/// The radiance that some lobes of a material reflect or transmit along `wo` if the
+/// incident radiance on each side is the same in all directions: albedo times E / pi.
+/// It is exact for a Lambertian surface; the albedo of any other is estimated by one
+/// sample.
+/// \param material    The material of the surface.
 /// \param wo          Unit vector in the surface's frame, to the viewer.
 /// \param irradiance  Called with a direction in the frame: E on its side, W/m^2.
 /// \param which       The lobes.
@@ -70,7 +71,7 @@ template <Material M, std::floating_point T, typename Irradiance, typename Strea
 /// What gather rays look up where they end.
 template <std::floating_point T>
 struct GatherLookupT {
-    const IrradiancePointsT<T>* points;          ///< Where the irradiance is known.
+    const IrradiancePointsT<T>* points;          ///< The points with known irradiance.
     const PhotonMapT<T>* caustics = nullptr;     ///< For glossy surfaces; or none.
     DensityEstimateSettings caustics_estimate{}; ///< How they are estimated there.
     bool gloss_as_mirrors = false; ///< As PhotonPassSettings::gloss_as_mirrors of them.
@@ -79,7 +80,7 @@ struct GatherLookupT {
     GatherLookupT(const IrradiancePointsT<T>& known) noexcept : points(&known) {}
 };
 
-/// What a gather ray brings.
+/// What a gather ray finds.
 template <std::floating_point T>
 struct GatherRayT {
     RgbT<T> radiance{T(0)};                          ///< W/(m^2 sr).
@@ -88,8 +89,8 @@ struct GatherRayT {
 
 namespace detail {
 
-/// The light of lamps and of the caustics map that a glossy surface sends to the
-/// viewer.
+/// The radiance that a glossy surface reflects to the viewer of the light of lamps and
+/// of the caustics map.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> light_on_gloss(const W& world, const GatherLookupT<T>& lookup,
                                      const VertexT<T>& vertex, const M& material,
@@ -107,19 +108,20 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
 
 } // namespace detail
 
-/// Follows a gather ray: through mirrors and glass to a diffuse surface, where it looks
-/// up the irradiance. A lamp that it meets adds nothing: shadow rays and the caustics
-/// map have counted that light.
+/// Follows a gather ray through mirrors and glass to a diffuse surface, and looks up
+/// the irradiance there. A lamp that it meets adds nothing, because shadow rays and the
+/// caustics map have counted that light.
 ///
-/// Irradiance says nothing of what a glossy surface reflects. If the caustics map has
-/// counted the light that reaches the ray's start by nearly_specular() surfaces, the
-/// ray passes them as it does mirrors. At any other glossy surface the light of lamps
-/// and of the caustics map is added, and the ray goes on in a sampled direction.
+/// Irradiance does not tell what a glossy surface reflects. If the caustics map has
+/// counted the light that reaches the ray's origin by nearly_specular() surfaces, the
+/// ray is followed through these as through mirrors. At any other glossy surface the
+/// light of lamps and of the caustics map is added, and the ray continues in a sampled
+/// direction.
 /// \param world      The closed scene.
-/// \param lookup     What is known: irradiance points, or these with a caustics map.
+/// \param lookup     Irradiance points, or these with a caustics map.
 /// \param path       The ray, as it leaves a diffuse surface.
-/// \param max_depth  The most surfaces on a path.
-/// \param context    The numbers of the ray; counts rays and lookups.
+/// \param max_depth  Largest number of surfaces on a path.
+/// \param context    The random stream of the ray; counts rays and lookups.
 /// \return Radiance and distance.
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] GatherRayT<T>
@@ -172,24 +174,23 @@ struct GatheredT {
     RgbT<T> irradiance{T(0)};          ///< Indirect light alone; W/m^2.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit, on the side that is seen.
     T distance = T(0); ///< Harmonic mean of the gather rays' lengths, in scene units.
-    T spacing = T(0);  ///< How far the farthest of its nearest points lies; set when a
-                       ///< cache is made.
+    T spacing = T(0);  ///< Distance to its k-th nearest point; set by the cache.
 };
 
-/// Gathers the indirect irradiance at a vertex, by rays spread evenly over the cosine;
-/// or for a material whose diffuse lobe is not Lambertian over that lobe. What is
-/// gathered there is the irradiance that, arriving evenly, would be reflected to `wo`
-/// as the light that does arrive,
+/// Gathers the indirect irradiance at a vertex, by stratified rays with a density
+/// proportional to the cosine. At a diffuse lobe that is not Lambertian the rays are
+/// sampled from that lobe, and the result is the uniform irradiance that would be
+/// reflected to `wo` as the actual light is,
 ///
 /// \f[ \pi\, \frac{\sum_i w_i L_i}{\sum_i w_i}, \quad
 ///     w_i = \frac{f(\omega_o, \omega_i) |\cos\theta_i|}{p(\omega_i)}. \f]
 ///
 /// \param world     The closed scene.
 /// \param lookup    What the rays look up.
-/// \param vertex    Where; the side is that of `wo`.
-/// \param material  What it is made of.
-/// \param settings  How many rays.
-/// \param context   The numbers of this vertex; counts the rays.
+/// \param vertex    The surface; `wo` chooses its side.
+/// \param material  Its material.
+/// \param settings  The number of rays, and their depth.
+/// \param context   The random stream of this vertex; counts the rays.
 /// \return Irradiance, normal and harmonic mean distance.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] GatheredT<T>
@@ -229,7 +230,7 @@ gather_irradiance(const W& world, const std::type_identity_t<GatherLookupT<T>>& 
             path.throughput = next->sample.weight;
             weights += next->sample.weight;
         }
-        auto numbers = context.stream; // next_vertex() moves them to the ray's own
+        auto numbers = context.stream; // next_vertex() sets them to the ray's own
         auto own = context_of(numbers, context.counts);
         const auto found = gather_ray(world, lookup, path, settings.max_depth, own);
         gathered.irradiance += found.radiance;

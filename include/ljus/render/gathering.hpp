@@ -16,8 +16,8 @@ struct Gathering {
     /// What it keeps.
     template <std::floating_point T>
     struct State {
-        IrradiancePointsT<T> points{}; ///< Looked up by gather rays, if any are sent.
-        IrradianceCacheT<T> cache{};   ///< Of PhotonMapper::fill_cache(); else empty.
+        IrradiancePointsT<T> points{}; ///< The points that gather rays look up.
+        IrradianceCacheT<T> cache{};   ///< Filled by PhotonMapper::fill_cache().
     };
 };
 
@@ -35,7 +35,7 @@ gather_lookup(const Mapper& mapper) noexcept {
     return lookup;
 }
 
-/// The fraction of the disc of a caustics estimate that lies on the surface, where the
+/// The fraction of the disc of a caustics estimate that lies on the surface, if the
 /// caustics map holds the light of glossy surfaces. That light is spread over whole
 /// walls, and without this fraction it would be too dark along each edge.
 /// \param mapper  With Gathering.
@@ -49,11 +49,11 @@ template <typename Mapper, std::floating_point T>
                                    T(how.radius));
 }
 
-/// The light that a surface sends back where a gather ray ends on it: what the nearest
-/// irradiance point on each side knows.
+/// The radiance that a surface reflects where a gather ray ends on it, by the
+/// irradiance of the nearest irradiance point on each side.
 /// \param mapper    With Gathering.
 /// \param vertex    The surface.
-/// \param material  What it is made of.
+/// \param material  Its material.
 /// \param context   Three numbers are drawn; the lookup is counted.
 /// \return W/(m^2 sr).
 template <typename Mapper, std::floating_point T, Material M, typename Context>
@@ -68,12 +68,11 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
                              context.stream);
 }
 
-/// The indirect light that a matt surface sends back, by the irradiance cache.
+/// The indirect radiance that a matt surface reflects, by the irradiance cache.
 /// \param mapper    With Gathering.
 /// \param vertex    The surface.
-/// \param material  What it is made of.
-/// \param context   The numbers of the path; counts the query, and rays if there are
-///                  any.
+/// \param material  Its material.
+/// \param context   The random stream of the path; counts the query and gather rays.
 /// \return W/(m^2 sr).
 template <typename Mapper, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> cached_light(const Mapper& mapper, const VertexT<T>& vertex,

@@ -18,23 +18,23 @@ namespace ljus {
 /// and interpolated at all others \cite ward1988. Chapter: \ref ch_irradiance_cache.
 /// \{
 
-/// Points where irradiance was gathered, ordered for searching.
+/// Points where irradiance was gathered, in a k-d tree.
 template <std::floating_point T>
 struct IrradianceCacheT {
-    KdTree8T<T> tree;                  ///< Where they are.
-    std::vector<GatheredT<T>> records; ///< What was gathered, in the tree's order.
+    KdTree8T<T> tree;                  ///< Their positions.
+    std::vector<GatheredT<T>> records; ///< Their irradiance, in the tree's order.
     Counts counts{};                   ///< What it cost.
     bool complete = true; ///< False if the progress callback stopped the gathering.
 
-    /// Whether there are none.
+    /// Whether it has no points.
     [[nodiscard]] bool empty() const noexcept { return records.empty(); }
 };
 using IrradianceCache = IrradianceCacheT<float>; ///< IrradianceCacheT in float.
 
 namespace detail {
 
-/// Whether the irradiance at one point says something of another: their normals differ
-/// by less than 18 degrees.
+/// Whether two normals differ by less than 18 degrees: only then is the irradiance at
+/// one point used at the other.
 template <std::floating_point T>
 [[nodiscard]] bool like_normals(const Vec3T<T>& a, const Vec3T<T>& b) noexcept {
     return glm::dot(a, b) > T(0.95);
@@ -42,14 +42,14 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The irradiance between the points of a cache: the mean over those that have a like
-/// normal, each weighted by how near it is. Points count as far away as the `spacing`
-/// of the nearest one.
+/// The irradiance between the points of a cache: the mean over the points with a
+/// similar normal, weighted by 1 - d^2/r^2. The search radius r is the `spacing` of the
+/// nearest point.
 /// \param cache     The points.
-/// \param position  Where the irradiance is asked for.
-/// \param normal    Unit, on the side that is asked about.
-/// \param reach     A point counts no farther away than this many times the harmonic
-///                  mean distance of what it sees.
+/// \param position  The position to interpolate at.
+/// \param normal    Unit normal, on the side of the viewer.
+/// \param reach     The largest distance of a point that is used, as a multiple of the
+///                  harmonic mean length of its gather rays.
 /// \return W/m^2; nothing if no point is near enough.
 // [interpolate]
 template <std::floating_point T>
@@ -77,16 +77,15 @@ template <std::floating_point T>
 }
 // [interpolate]
 
-/// The indirect irradiance at a vertex, by the points of a cache; where none of them is
-/// near enough, it is gathered here and now.
+/// The indirect irradiance at a vertex, interpolated between the points of a cache. If
+/// no point is near enough, it is gathered at the vertex itself.
 /// \param world     The closed scene.
 /// \param lookup    What gather rays look up.
 /// \param cache     May be empty.
-/// \param vertex    The surface; the side is that of `wo`.
-/// \param material  What it is made of.
-/// \param settings  How.
-/// \param context   The numbers of the path; counts the query, and the rays if there
-///                  are any.
+/// \param vertex    The surface; `wo` chooses its side.
+/// \param material  Its material.
+/// \param settings  How to gather and interpolate.
+/// \param context   The random stream of the path; counts the query and gather rays.
 /// \return W/m^2.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T>
@@ -104,28 +103,29 @@ irradiance_between(const W& world, const std::type_identity_t<GatherLookupT<T>>&
 
 namespace detail {
 
-/// What the points behind one row of tiles have gathered.
+/// The irradiance gathered for one row of tiles.
 template <std::floating_point T>
 struct GatheredRowT {
-    std::vector<Vec3T<T>> positions;   ///< Where, in the world.
+    std::vector<Vec3T<T>> positions;   ///< The points, in world space.
     std::vector<GatheredT<T>> records; ///< What was gathered there, in the same order.
     Counts counts{};                   ///< What it cost.
 };
 
-/// Gathers at the first diffuse surfaces of a camera ray, the points of an irradiance
-/// cache \cite ward1988 ; behind mirrors, and both ways at glass.
+/// Gathers irradiance at the first diffuse surfaces that a camera ray meets: these are
+/// the points of an irradiance cache \cite ward1988 . The ray follows mirrors, and is
+/// split at glass.
 /// \param world     The closed scene.
 /// \param lookup    What gather rays look up.
 /// \param ray       A primary ray.
-/// \param settings  How.
-/// \param stream    Its numbers.
-/// \param row       Takes what is gathered.
+/// \param settings  How to gather.
+/// \param stream    The random stream of the ray.
+/// \param row       Receives the points.
 template <AnyWorld W, std::floating_point T>
 void gather_along(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
                   const RayT<T>& ray, const GatherSettings& settings,
                   RandomStream& stream, GatheredRowT<T>& row) {
-    constexpr std::size_t most = 8; // ways through glass, as many as are rendered
-    constexpr T faint = T(0.01); // a fainter place is gathered if it is ever asked for
+    constexpr std::size_t most = 8; // paths split at glass, as in radiance()
+    constexpr T faint = T(0.01);    // fainter paths gather when they are rendered
     auto context = context_of(stream, row.counts);
     std::vector<PathStateT<T>> ways{camera_path(world, ray, stream)};
     for (std::size_t way = 0; way < ways.size(); ++way) {
@@ -155,10 +155,10 @@ void gather_along(const W& world, const std::type_identity_t<GatherLookupT<T>>& 
     }
 }
 
-/// Sets the `spacing` of each point of a cache: how far the farthest of its nearest
-/// points of a like normal lies.
+/// Sets the `spacing` of each point of a cache: the distance to its k-th nearest point
+/// with a similar normal.
 /// \param cache     The cache.
-/// \param settings  How many points.
+/// \param settings  k is its member `nearest`.
 /// \param threads   As in ParallelSettings.
 template <std::floating_point T>
 void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
@@ -180,14 +180,14 @@ void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
 
 } // namespace detail
 
-/// Gathers irradiance for a picture: behind one place of each tile of pixels.
+/// Gathers irradiance for a picture, by one camera ray through each tile of pixels.
 /// \param world     The closed scene.
 /// \param lookup    What gather rays look up.
 /// \param camera    Any camera.
 /// \param picture   Size, seed, threads, progress.
-/// \param settings  How.
+/// \param settings  How to gather.
 /// \return The cache, the same for any number of threads.
-/// \cost settings.rays gather rays per tile, and some microseconds more.
+/// \cost settings.rays gather rays per tile, plus a few microseconds.
 template <AnyWorld W, CameraLike C>
 [[nodiscard]] IrradianceCacheT<typename W::Scalar>
 make_irradiance_cache(const W& world, const GatherLookupT<typename W::Scalar>& lookup,

@@ -22,10 +22,10 @@ namespace ljus {
 ///
 /// Every light path has one owner:
 ///
-/// | path            | who carries it                                              |
+/// | path            | owner                                                       |
 /// |-----------------|-------------------------------------------------------------|
 /// | E S* L          | emission, while no diffuse surface has been met             |
-/// | E ... D L       | shadow rays, or a verdict of shadow photons in their place  |
+/// | E ... D L       | shadow rays, or the verdict of shadow photons               |
 /// | E ... D S+ L    | the caustics map, at every diffuse surface                  |
 /// | E ... D ... D.. | indirect rays, or the general map where the first one ends  |
 ///
@@ -34,16 +34,15 @@ namespace ljus {
 /// an S, and no path ends on any other gloss.
 /// \{
 
-/// \name What a photon mapper may be able to do besides
-/// Each is a header of its own, is listed by abilities<...>, and costs nothing where it
-/// is not.
+/// \name Optional abilities of a photon mapper Each has its own header and is listed by
+/// abilities<...>; one that is not listed costs nothing.
 /// \{
 struct Gathering; ///< IndirectLight::gather and cache: ljus/render/gathering.hpp.
 struct Skipping;  ///< SkipSettings: ljus/render/skipping.hpp.
 struct Budgeting; ///< CausticBudget: ljus/render/budgeting.hpp.
 /// \}
 
-/// What a renderer is made with: abilities, and the stream that it draws from.
+/// The template arguments of a renderer: its abilities, and its random stream.
 template <typename... X>
 struct Abilities {};
 /// `PhotonMapper(world, settings, abilities<Gathering, StratifiedStream>)`.
@@ -58,20 +57,20 @@ struct PhotonMapsT {
     FluxAudit caustics_audit{}; ///< Where the flux of the caustics pass went.
     FluxAudit general_audit{};  ///< Where the flux of the general pass went.
     bool complete = true;       ///< False if the progress callback stopped the pass.
-    std::string remarks{};      ///< Those of the survey, and why a pass gave up: lines.
+    std::string remarks{};      ///< Of the survey and the passes, one per line.
 };
 
 namespace detail {
 
-/// What an ability keeps for a precision; a stream keeps nothing.
+/// The state of an ability in one precision; a stream has none.
 template <typename X, std::floating_point T>
 struct StateOf {
-    using Type = typename X::template State<T>; ///< Its state.
+    using Type = typename X::template State<T>; ///< The state.
 };
-/// A stream.
+/// For a stream.
 template <StreamLike X, std::floating_point T>
 struct StateOf<X, T> {
-    using Type = Abilities<X>; ///< Nothing.
+    using Type = Abilities<X>; ///< No state.
 };
 
 /// The stream among some abilities; without one a RandomStream.
@@ -88,7 +87,7 @@ struct StreamAmong<First, X...> {
     using Type = First; ///< The one that is listed.
 };
 
-/// The photons of a pass that a map keeps.
+/// The kinds of photons that the general map keeps.
 /// \param settings  What the user asks for.
 [[nodiscard]] inline PhotonKinds kept_kinds(const PhotonMappingSettings& settings) {
     const bool only_indirect = settings.indirect == IndirectLight::photons ||
@@ -103,8 +102,8 @@ struct StreamAmong<First, X...> {
 /// \param world     The closed scene.
 /// \param settings  Photons, seed, threads.
 /// \param run       Which passes.
-/// \param judge     Called with the photons of the general pass before those are left
-///                  out that only verdicts ask for.
+/// \param judge     Called with all photons of the general pass, before the kinds that
+///                  the map does not keep are removed.
 /// \return The maps, the same for any number of threads.
 template <AnyWorld W, typename Judge>
 [[nodiscard]] PhotonMapsT<typename W::Scalar>
@@ -131,7 +130,7 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     general.shadow_photons = run.shadow_photons;
     const PhotonKinds kept = kept_kinds(settings);
     if (!verdicts) general.keep = kept;
-    if (!run.general_map && !run.skipped_bounces) { // only shadow rays are asked about
+    if (!run.general_map && !run.skipped_bounces) { // only direct light is judged
         general.max_bounces = 1;
         general.equal_lights = true;
     }
@@ -153,16 +152,16 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
 ///     const PhotonMapper mapper(world, {.indirect = IndirectLight::map});
 ///     const PhotonMapper fast(world, preset_settings(Preset::fast, 400, 400),
 ///                             abilities<Gathering>);
-/// \tparam X  What it is able to do besides, and the stream that it draws from:
-///            RandomStream, or StratifiedStream, with which the rays of a pixel share
-///            out lamps and directions.
+/// \tparam X  Its abilities, and its random stream: RandomStream by default, or
+///            StratifiedStream, which stratifies the choice of lamps and directions
+///            over the rays of a pixel.
 template <typename W, typename... X>
 class PhotonMapper {
 public:
     using Scalar = typename W::Scalar; ///< The precision.
-    /// What render() gives it to draw from.
+    /// The random stream that render() passes to it.
     using Stream = typename detail::StreamAmong<X...>::Type;
-    /// The caustics map answers many samples of a picture together.
+    /// Caustics are estimated for many samples of a picture together.
     using Batch = detail::CausticsBatch<Scalar>;
     /// Whether an ability is listed.
     template <typename A>
@@ -170,8 +169,8 @@ public:
 
     /// Traces the photons that the scene requires.
     /// \param world     Must outlive the mapper.
-    /// \param settings  Photons, depths, radii, who carries indirect light. A radius of
-    ///                  0 is chosen from the photons.
+    /// \param settings  Photons, depths, radii, source of indirect light. A radius of 0
+    ///                  is chosen from the photons.
     /// \throws std::invalid_argument  if a setting is out of range, or asks for an
     ///         ability that is not listed.
     explicit PhotonMapper(WorldRef<W> world, const PhotonMappingSettings& settings = {},
@@ -199,9 +198,9 @@ public:
                     settings_.general.seed, settings_.general.threads);
     }
 
-    /// Gathers indirect light for the pictures of one camera, if the settings ask for
-    /// an irradiance cache. Without it, the renderer gathers at every vertex, which is
-    /// slow and right.
+    /// Fills the irradiance cache for the pictures of one camera, if the settings ask
+    /// for one. With an empty cache the renderer gathers at every vertex: the result is
+    /// right, but slow.
     /// \param camera   Any camera.
     /// \param picture  Size, seed, threads, progress.
     template <CameraLike C>
@@ -212,7 +211,7 @@ public:
                     world(), gather_lookup(*this), camera, picture, settings_.gather);
     }
 
-    /// Asks the maps in another way; the photons stay as they are.
+    /// Changes how the maps are queried; the photons stay the same.
     /// \param caustics  As PhotonMappingSettings::caustics_estimate.
     /// \param general   As PhotonMappingSettings::general_estimate.
     /// \throws std::invalid_argument  if a radius, k or thickness is out of range.
@@ -229,8 +228,8 @@ public:
     /// Takes caustics photons that were traced elsewhere: by other machines, or kept in
     /// a file.
     /// \param caustics  L S+ D, of this world. A radius of 0 is chosen from them.
-    /// \throws std::invalid_argument  if the mapper has traced some itself, or has
-    ///         gathered without them.
+    /// \throws std::invalid_argument  if the mapper has traced caustics photons itself,
+    ///         or has gathered irradiance without them.
     void set_caustics(PhotonMapT<Scalar> caustics) {
         require(!passes_.caustics_map, "caustics.photons", settings_.caustics.photons,
                 "0, for a mapper that takes photons traced elsewhere");
@@ -245,21 +244,20 @@ public:
 
     /// What is rendered.
     [[nodiscard]] const W& world() const noexcept { return world_.get(); }
-    /// What it was made with; radii and shares of photons that were left to the mapper
-    /// are chosen.
+    /// The settings, with the radii and photon shares that the mapper has chosen.
     [[nodiscard]] const PhotonMappingSettings& settings() const noexcept {
         return settings_;
     }
     /// Which passes ran.
     [[nodiscard]] const Passes& passes() const noexcept { return passes_; }
-    /// What they left.
+    /// The photons that they stored.
     [[nodiscard]] const PhotonMapsT<Scalar>& maps() const noexcept { return maps_; }
-    /// What an ability keeps.
+    /// The state of an ability.
     template <typename A>
     [[nodiscard]] const auto& state() const noexcept {
         return std::get<typename A::template State<Scalar>>(states_);
     }
-    /// By which lobes a path goes on until its light is gathered.
+    /// The lobes by which a path continues until it gathers.
     [[nodiscard]] Lobes bounces() const noexcept {
         return passes_.indirect_rays ? Lobes::all
                : settings_.indirect == IndirectLight::cache
@@ -268,7 +266,7 @@ public:
     }
 
 private:
-    // As state(), which is for all and changes nothing.
+    // The writable state of an ability.
     template <typename A>
     [[nodiscard]] auto& kept() noexcept {
         return std::get<typename A::template State<Scalar>>(states_);
@@ -312,18 +310,18 @@ private:
     WorldRef<W> world_;
     PhotonMappingSettings settings_;
     Passes passes_;
-    bool radius_is_chosen_ = false; // that of the caustics
+    bool radius_is_chosen_ = false; // of the caustics
     PhotonMapsT<Scalar> maps_{};
     std::tuple<typename detail::StateOf<X, Scalar>::Type...> states_{};
 };
-/// Deduces the world, and what is listed.
+/// Deduces the world and the abilities.
 template <typename W, typename... X>
 PhotonMapper(const W&, const PhotonMappingSettings& = {}, Abilities<X...> = {})
     -> PhotonMapper<W, X...>;
 
 namespace detail {
 
-/// The light of all lights at a surface, by shadow rays, or by what is known of them.
+/// Direct light at a surface, by shadow rays, or by verdicts where they are known.
 template <typename Mapper, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> light_of_lights(const Mapper& mapper, const VertexT<T>& vertex,
                                       const M& material, Context& context) {
@@ -338,15 +336,15 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
 
 } // namespace detail
 
-/// The light that a diffuse surface sends back along a camera path, without what comes
-/// by its indirect ray: shadow rays and the caustics map; or, where an indirect ray has
-/// ended on it, the two maps.
+/// Adds the light that a diffuse surface reflects along a camera path, except that of
+/// its indirect ray: by shadow rays and the caustics map, or by the two maps where an
+/// indirect ray has ended.
 /// \param mapper    The world, the maps, the limits.
 /// \param vertex    The surface.
-/// \param material  What it is made of.
-/// \param gather    Whether the general map answers for all that is not a caustic.
-/// \param context   The numbers of the path; counts rays and photons; its batch may put
-///                  the caustics map off.
+/// \param material  Its material.
+/// \param gather    Whether the general map stands for all light but caustics.
+/// \param context   The random stream of the path; counts rays and photons; its batch
+///                  may delay the query of the caustics map.
 /// \param add       The sum of the path.
 /// \report{Sections 3.2.3 and 3.2.6}
 // [light_at]
@@ -396,28 +394,28 @@ void light_at(const PhotonMapper<W, X...>& mapper, const VertexT<T>& vertex,
 
 namespace detail {
 
-/// The most branches that split off from one camera path at glass.
+/// The largest number of branches that split off from one camera path at glass.
 inline constexpr std::size_t max_splits = 8;
 
-/// How many times more often than its throughput says a branch that split off survives
-/// roulette. By its throughput alone such a faint branch would survive rarely, and then
-/// be as bright as if it were the only one. The mean is the same for any number.
+/// The survival probability of a branch that was split off is multiplied by this. By
+/// its throughput alone a faint branch would rarely survive roulette, and would then be
+/// bright noise. The expected value does not depend on the number.
 inline constexpr int split_survival = 16;
 
 } // namespace detail
 
-/// The radiance that one camera path finds with the help of the photon maps.
+/// The radiance that one camera path finds with the photon maps.
 ///
 /// At each diffuse surface: one shadow ray to each light, the caustics map, and one
-/// indirect ray; at each mirror or glass: one branch. With IndirectLight::map, the
-/// first diffuse surface that an indirect ray meets answers from the general map; with
-/// IndirectLight::photons, the one that the camera path meets itself. With split_glass
-/// a path goes both ways at glass, as long as it has met nothing matt: by chance alone,
-/// one path in some hundreds would be mirrored inside of a ball and meet the lamp, and
-/// its pixel would be a hundred times too bright.
+/// indirect ray; at each mirror or glass: one branch. With IndirectLight::map the
+/// general map is queried at the first diffuse surface that an indirect ray meets; with
+/// IndirectLight::photons, at the diffuse surface that the camera path meets. With
+/// split_glass a path is split at glass until it meets a diffuse surface. Otherwise one
+/// path in a few hundred is reflected inside a ball to the lamp, and its pixel is a
+/// hundred times too bright.
 /// \param mapper   The world, the maps, the limits.
 /// \param ray      A primary ray.
-/// \param context  The numbers of this path; counts rays and photons, logs terms.
+/// \param context  The random stream of this path; counts rays and photons, logs terms.
 /// \return Radiance, W/(m^2 sr); biased by the radius of the estimates, and by the
 ///         depth where one is set.
 /// \report{Sections 3.2.3, 3.2.4 and 3.2.6}
@@ -429,7 +427,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                                Context& context) {
     const PhotonMappingSettings& settings = mapper.settings();
     RgbT<T> sum{T(0)};
-    std::vector<PathStateT<T>> branches; // split off; following one may add more
+    std::vector<PathStateT<T>> branches; // split off at glass; each may split again
     const auto follow_path = [&](PathStateT<T> path) {
         const RadianceSum add{sum, path.throughput, context.log};
         bool gloss_mirrors = false; // whether narrow gloss is a mirror to this path
@@ -476,7 +474,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                         branches.push_back(*other);
                         return true;
                     }
-                // Go on by one branch; after gathering, by mirrors and glass only.
+                // One branch; after gathering, by mirrors and glass only.
                 Lobes which = open;
                 if constexpr (PhotonMapper<W, X...>::template has<Skipping>)
                     if (has(which, Lobes::diffuse) &&
