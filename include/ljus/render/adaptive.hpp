@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/adaptive.hpp
-/// \brief Rays where they are needed: pictures that know their own error.
+/// \brief Adaptive sampling: more rays where a picture is noisy, and an error estimate.
 
 #include <algorithm>
 #include <cmath>
@@ -17,34 +17,34 @@ namespace ljus {
 /// \brief Discussion: "priority-driven ray tracing"; section 4.3: how many rays?
 /// Chapter: \ref ch_recursion_depth.
 ///
-/// Every pixel gets a few rays, which tell how much rays differ there; the others go
-/// where they take away most of the error. The mean number of rays per pixel is
-/// at most RenderSettings::samples.
+/// Every pixel gets a few rays, which estimate the variance there; the remaining rays
+/// go to the pixels where they reduce the error most. The mean number of rays per pixel
+/// is at most RenderSettings::samples.
 ///
 ///     // 2 rays; 8 more where their mean has a relative standard error above 0.2
 ///     render_adaptive(mapper, camera, {.samples = 10},
 ///                     {.first = 2, .more = 8, .batches = 1, .disagreement = 0.2});
-///     // as many as it takes, up to 1000 in the mean, for a relMSE of 0.01
+///     // up to 1000 rays per pixel on average, until the relMSE is 0.01
 ///     render_adaptive(mapper, camera, {.samples = 1000}, {.target = 0.01});
 /// \{
 
-/// Which pixels get how many rays. Why `two_stage`: \cite kirk1991.
+/// How rays are allocated to pixels. The bias that `two_stage` avoids: \cite kirk1991.
 struct AdaptiveSettings {
     int first = 16;     ///< Rays in every pixel, at least 2.
     int more = 16;      ///< Rays in a batch, at least 1.
-    int batches = 1000; ///< Batches that a pixel may get, at most; at least 0.
-    int block = 1;      ///< Side of the squares of pixels that are judged together.
-    double target = 0;  ///< The relMSE at which it stops; 0: none.
-    double disagreement = 0; ///< Above 0: a batch for all whose mean has a relative
-                             ///< standard error above this, and for no others.
-    double epsilon = 0.01;   ///< Radiance squared that counts as dark, as in rel_mse().
-    bool two_stage = false;  ///< The first rays only decide, and are then forgotten: no
-                             ///< bias. Not with `disagreement`.
+    int batches = 1000; ///< Largest number of batches per pixel, at least 0.
+    int block = 1;     ///< Side of the square blocks that share an estimate, in pixels.
+    double target = 0; ///< The relMSE at which it stops; 0: none.
+    double disagreement = 0; ///< Above 0: each round adds a batch to every block whose
+                             ///< mean has a relative standard error above this.
+    double epsilon = 0.01;   ///< Added to the squared mean, as in rel_mse().
+    bool two_stage = false;  ///< The first rays only allocate the others and are then
+                             ///< discarded: no bias. Not with `disagreement`.
 };
 
 /// Refuses a rule that gives no picture.
 /// \param rule     The rule.
-/// \param samples  The most rays per pixel, in the mean.
+/// \param samples  Largest mean number of rays per pixel.
 /// \throws std::invalid_argument  with name and value.
 inline void check(const AdaptiveSettings& rule, int samples) {
     require_at_least("first", rule.first, 2);
@@ -63,13 +63,13 @@ inline void check(const AdaptiveSettings& rule, int samples) {
                            : "at least as many as first rays");
 }
 
-/// What an adaptive rendering brings.
+/// The result of adaptive rendering.
 template <std::floating_point T>
 struct AdaptiveT {
     ImageT<T> image{};    ///< The mean radiance of each pixel.
-    ImageT<T> rays{};     ///< How many rays each pixel had, those forgotten included.
-    double estimate = 0;  ///< The relMSE that it believes to have, noise alone.
-    bool reached = false; ///< Whether that is the target or less.
+    ImageT<T> rays{};     ///< Rays of each pixel, including discarded ones.
+    double estimate = 0;  ///< The estimated relMSE, without bias.
+    bool reached = false; ///< Whether the estimate is at most the target.
     Counts counts{};      ///< What it cost.
     bool complete = true; ///< False if the progress callback stopped it.
 };
@@ -80,18 +80,18 @@ namespace detail {
 struct AdaptiveBlock {
     int x = 0, y = 0;          ///< Its upper left pixel.
     int right = 0, bottom = 0; ///< One past its last column and row.
-    int rays = 0;              ///< Per pixel, less those that were forgotten.
-    int batches = 0;           ///< Batches it has had; the first rays count as one.
-    int wanted = 1;            ///< Batches it is to get in this round.
+    int rays = 0;              ///< Per pixel, without discarded ones.
+    int batches = 0;           ///< Batches traced so far; the first rays are one.
+    int wanted = 1;            ///< Batches to trace in this round.
     double variance = 0;       ///< See relative_variance().
 
-    /// How many pixels it has.
+    /// Its number of pixels.
     [[nodiscard]] constexpr double pixels() const noexcept {
         return double(right - x) * (bottom - y);
     }
 };
 
-/// The squares of a picture, from the top left.
+/// The blocks of a picture, from the top left.
 [[nodiscard]] inline std::vector<AdaptiveBlock>
 adaptive_blocks(const RenderSettings& picture, int size) {
     std::vector<AdaptiveBlock> blocks;
@@ -104,12 +104,12 @@ adaptive_blocks(const RenderSettings& picture, int size) {
     return blocks;
 }
 
-/// Where a pixel's sums stand, of a picture of this width.
+/// The index of a pixel's sums in a picture of this width.
 [[nodiscard]] constexpr std::size_t pixel_index(int width, int x, int y) noexcept {
     return std::size_t(y) * std::size_t(width) + std::size_t(x);
 }
 
-/// How many rays a pixel gets in a batch.
+/// The number of rays per pixel in a batch.
 /// \param rule   The rule.
 /// \param batch  0: the first rays.
 [[nodiscard]] constexpr int rays_in_batch(const AdaptiveSettings& rule,
@@ -117,22 +117,23 @@ adaptive_blocks(const RenderSettings& picture, int size) {
     return batch == 0 ? rule.first : rule.more;
 }
 
-/// How many rays a block is to have in this round.
+/// The number of rays of a block in this round.
 [[nodiscard]] constexpr double rays_wanted(const AdaptiveBlock& block,
                                            const AdaptiveSettings& rule) noexcept {
     return block.pixels() * block.wanted * rays_in_batch(rule, block.batches);
 }
 
-/// How much the rays of a block differ, by what they have found.
+/// The relative variance of the rays of a block.
 ///
-/// The variance is relative to the mean of the block, which is known better than that
-/// of a pixel. The rays of a pixel are taken for independent; because they are
-/// stratified, the true variance of their mean is a little smaller.
+/// It is relative to the mean of the block, which is less noisy than that of a pixel.
+/// The rays of a pixel are assumed to be independent; because they are stratified, the
+/// true variance of their mean is slightly smaller.
 /// \param block    At least 2 rays per pixel.
 /// \param sums     Of all pixels.
 /// \param width    Of the picture.
-/// \param epsilon  What counts as dark.
-/// \return The variance of a ray over mean^2 + epsilon; mean over channels and pixels.
+/// \param epsilon  As in AdaptiveSettings.
+/// \return The variance of a ray divided by mean^2 + epsilon, averaged over channels
+///         and pixels.
 [[nodiscard]] inline double relative_variance(const AdaptiveBlock& block,
                                               const std::vector<PixelSums>& sums,
                                               int width, double epsilon) {
@@ -148,25 +149,24 @@ adaptive_blocks(const RenderSettings& picture, int size) {
     return std::fmax((relative.x + relative.y + relative.z) / 3, 0.0); // not NaN
 }
 
-/// A part of a picture, as the sharing sees it.
+/// The statistics of a block that ray_shares() needs.
 struct RayShare {
-    double pixels = 1;   ///< How many it has.
+    double pixels = 1;   ///< Its number of pixels.
     double variance = 0; ///< Relative variance of one ray, mean over its pixels.
-    double rays = 1;     ///< Rays that each of its pixels has.
+    double rays = 1;     ///< Rays per pixel so far.
 };
 
-/// The number of rays per pixel that each part should have, so that the mean of
-/// variance / rays over all pixels falls to a target with the fewest rays, or is the
-/// least that a number of rays can buy.
+/// The optimal number of rays per pixel for each block: the mean of variance / rays
+/// over all pixels reaches a target with the fewest rays, or is minimal for the limit.
 ///
-/// With n rays per pixel in each part, sum w v / n is to be least for a given sum w n.
-/// Lagrange: v / n^2 is the same everywhere, so that n is in proportion to the root of
-/// the variance \cite neyman1934. A part that has more rays already keeps them,
-/// and the rest is shared out among the others.
-/// \param parts   All parts.
-/// \param target  The mean of variance / rays that is wanted; 0: as small as can be.
-/// \param limit   The most rays per pixel, in the mean.
-/// \return Rays a pixel for each part, not below those that it has.
+/// With w pixels, variance v and n rays per pixel in a block, sum w v / n is minimised
+/// for a given sum w n. By Lagrange multipliers v / n^2 is constant: n is proportional
+/// to the square root of the variance \cite neyman1934. A block that already has more
+/// rays keeps them, and the remaining rays are distributed over the other blocks.
+/// \param parts   All blocks.
+/// \param target  The wanted mean of variance / rays; 0: the minimum.
+/// \param limit   Largest mean number of rays per pixel.
+/// \return Rays per pixel for each block, at least those that it has.
 [[nodiscard]] inline std::vector<double> ray_shares(const std::vector<RayShare>& parts,
                                                     double target, double limit) {
     std::vector<double> wanted(parts.size());
@@ -182,7 +182,7 @@ struct RayShare {
             rays += part.pixels * part.rays;
         }
         // [scale]
-        // n = scale * sqrt(v): what the target asks for, if the limit allows it.
+        // n = scale * sqrt(v), for the target if the limit allows it.
         const double spare = std::fmax(limit * pixels - rays, 0.0);
         const double allowed = target * pixels - error;
         double scale = roots > 0 ? spare / roots : 0.0;
@@ -200,17 +200,17 @@ struct RayShare {
     return wanted;
 }
 
-/// How many batches each block gets in the next round.
+/// Plans the number of batches of each block in the next round.
 /// \param blocks  Their `wanted` is set.
 /// \param rule    The rule.
-/// \param limit   The most rays per pixel in the mean, less those that were forgotten.
+/// \param limit   Largest mean number of rays per pixel, without discarded ones.
 /// \return Whether any block gets a batch.
 inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSettings& rule,
                        double limit) {
     std::vector<RayShare> parts;
     double spare = 0; // rays
     for (const AdaptiveBlock& block : blocks) {
-        // After the first stage all start anew, with a batch each.
+        // After the first stage each block starts again with one batch.
         const double have = rule.two_stage ? rule.more : block.rays;
         parts.push_back({block.pixels(), block.variance, have});
         spare += block.pixels() * (limit - have);
@@ -218,12 +218,12 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
     std::vector<double> shares(parts.size());
     if (rule.disagreement == 0) shares = ray_shares(parts, rule.target, limit);
 
-    std::vector<std::size_t> order(parts.size()); // those with the largest errors first
+    std::vector<std::size_t> order(parts.size()); // largest errors first
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return parts[a].variance / parts[a].rays > parts[b].variance / parts[b].rays;
     });
-    const int begun = rule.two_stage ? 1 : 0; // the batch that each has
+    const int begun = rule.two_stage ? 1 : 0; // the batch that each block has
     const int most_batches = 1 + rule.batches - begun;
     bool any = false;
     for (const std::size_t i : order) {
@@ -231,7 +231,7 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
         if (rule.disagreement > 0) {
             batches = std::sqrt(parts[i].variance / parts[i].rays) > rule.disagreement;
         } else {
-            // At most twice as many: an estimate by few rays is not believed for long.
+            // At most doubled, because an estimate from few rays is unreliable.
             const double most = rule.two_stage ? shares[i] : 2 * parts[i].rays;
             const double lacking = std::min(shares[i], most) - parts[i].rays;
             batches = std::ceil(lacking / rule.more - 1e-6);
@@ -247,8 +247,8 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
     return any;
 }
 
-/// Sends the batches through a block that it is to have in this round.
-/// \param samples   Takes what they find; the pixels' places are those in the picture.
+/// Traces the batches of a block in this round.
+/// \param samples   Receives the samples, by the pixels' indices in the picture.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera.
 /// \param picture   Size, seed, pattern.
@@ -261,7 +261,7 @@ void trace_block(SampleSums<R, T>& samples, const R& renderer, const C& camera,
                  AdaptiveBlock& block, Counts& cost) {
     for (; block.wanted > 0; --block.wanted) {
         const int batch = block.batches++;
-        RenderSettings part = picture; // a whole pattern of its own
+        RenderSettings part = picture; // with its own sampling pattern
         part.samples = rays_in_batch(rule, batch);
         if (batch > 0)
             part.seed = mix_bits(picture.seed + mix_bits(std::uint64_t(batch)));
@@ -277,22 +277,21 @@ void trace_block(SampleSums<R, T>& samples, const R& renderer, const C& camera,
     }
 }
 
-/// Sends the batches that some blocks are to have, and judges these blocks.
-///
-/// What the samples of all these blocks ask later is asked together.
+/// Traces the batches of some blocks, and updates the variances of these blocks.
+/// Delayed queries of all their samples are batched.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera.
 /// \param picture   Size, seed, pattern.
-/// \param rule      Rays in a batch; what counts as dark.
+/// \param rule      Rays in a batch; epsilon.
 /// \param blocks    The blocks; their batches, rays and variances are updated.
 /// \param sums      Of all pixels of the picture.
-/// \return What it cost.
+/// \return The counts of the rays.
 template <typename R, CameraLike C>
 [[nodiscard]] Counts
 trace_blocks(const R& renderer, const C& camera, const RenderSettings& picture,
              const AdaptiveSettings& rule, std::span<AdaptiveBlock* const> blocks,
              std::vector<PixelSums>& sums) {
-    Counts cost; // of its own: two threads do not share a cache line
+    Counts cost; // local, so that threads do not share a cache line
     SampleSums<R, typename C::Scalar> samples(renderer, sums, cost);
     for (AdaptiveBlock* const block : blocks)
         trace_block(samples, renderer, camera, picture, rule, *block, cost);
@@ -302,9 +301,9 @@ trace_blocks(const R& renderer, const C& camera, const RenderSettings& picture,
     return cost;
 }
 
-/// The relMSE that the blocks believe the picture to have, noise alone.
+/// The estimated relMSE of the picture, without bias.
 /// \param blocks  All blocks of the picture.
-/// \param pixels  How many pixels it has.
+/// \param pixels  The number of its pixels.
 [[nodiscard]] inline double relative_error(const std::vector<AdaptiveBlock>& blocks,
                                            std::size_t pixels) noexcept {
     double error = 0;
@@ -314,10 +313,10 @@ trace_blocks(const R& renderer, const C& camera, const RenderSettings& picture,
 }
 
 /// Sets the pixels of an adaptive picture to the means of their rays.
-/// \param result     Gets the means and the numbers of rays.
+/// \param result     Receives the means and the numbers of rays.
 /// \param blocks     All blocks of the picture.
 /// \param sums       Of all its pixels.
-/// \param forgotten  Rays that each pixel had besides those in the sums.
+/// \param forgotten  Discarded rays per pixel, which the sums do not contain.
 template <std::floating_point T>
 void set_pixels(AdaptiveT<T>& result, const std::vector<AdaptiveBlock>& blocks,
                 const std::vector<PixelSums>& sums, int forgotten) {
@@ -333,21 +332,21 @@ void set_pixels(AdaptiveT<T>& result, const std::vector<AdaptiveBlock>& blocks,
 
 } // namespace detail
 
-/// Renders a picture with more rays where they differ more, by several threads.
+/// Renders a picture with more rays where the variance is larger, by several threads.
 ///
-/// *Trap*: which pixels get more depends on what their rays have found, and the same
-/// rays are then averaged. A pixel whose first rays have all missed a bright spot is
-/// believed to be dark, and stays so: the picture's mean is too dark. Larger blocks and
-/// more first rays make that small; `two_stage` makes it 0.
+/// *Trap*: the allocation depends on the same rays that are averaged. A pixel whose
+/// first rays all miss a bright spot is estimated as dark and gets no further rays: the
+/// mean of the picture is too dark. Larger blocks and more first rays reduce this bias;
+/// `two_stage` removes it.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera.
 /// \param picture   Size, seed, threads; `samples` is the limit for the mean.
-/// \param rule      Which pixels get how many.
+/// \param rule      How rays are allocated.
 /// \return The picture and its estimate, the same for any number of threads. A sample
 ///         that is not finite is left out and counted.
 /// \throws std::invalid_argument  as render(), or for a setting out of range, or if
 ///         there are fewer samples than first rays.
-/// \cost The rays, and 48 bytes per pixel.
+/// \cost The rays, and 48 bytes of memory per pixel.
 /// \report{Sections 4.3 and 5}
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>
@@ -360,10 +359,10 @@ render_adaptive(const R& renderer, const C& camera, const RenderSettings& pictur
                         .rays = make_image<T>(picture.width, picture.height)};
     std::vector<detail::PixelSums> sums(result.image.pixels.size());
     auto blocks = detail::adaptive_blocks(picture, rule.block);
-    double traced = 0; // rays, of all that are allowed
+    double traced = 0; // rays so far
     const double allowed = double(picture.samples) * double(sums.size());
 
-    // Sends the batches that the blocks want, through 64 pixels or more at a time.
+    // Traces the batches of the blocks, 64 pixels or more at a time.
     const auto trace_round = [&] {
         std::vector<detail::AdaptiveBlock*> work;
         double rays = 0;
@@ -405,18 +404,18 @@ render_adaptive(const R& renderer, const C& camera, const RenderSettings& pictur
            !(rule.target > 0 && estimate() <= rule.target && !rule.two_stage) &&
            detail::plan_round(blocks, rule, limit)) {
         if (rule.two_stage) {
-            sums.assign(sums.size(), {}); // the first rays only decided
+            sums.assign(sums.size(), {}); // discard the first rays
             for (auto& block : blocks) block.rays = 0;
         }
         result.complete = trace_round();
         if (rule.two_stage) break;
     }
     // [rounds]
-    if (result.complete) // it may have stopped long before
+    if (result.complete) // it may have stopped early
         (void)picture.progress(static_cast<long long>(allowed),
                                static_cast<long long>(allowed));
     result.estimate = estimate();
-    result.reached = result.estimate <= rule.target * (1 + 1e-6); // but for rounding
+    result.reached = result.estimate <= rule.target * (1 + 1e-6); // up to rounding
     detail::set_pixels(result, blocks, sums, rule.two_stage ? rule.first : 0);
     return result;
 }

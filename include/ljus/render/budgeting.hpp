@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/budgeting.hpp
-/// \brief The ability of a photon mapper to share its caustic photons out by a budget.
+/// \brief The ability of a photon mapper to distribute caustic photons by a budget.
 
 #include "ljus/photons/budget.hpp"
 #include "ljus/render/photon_mapping.hpp"
@@ -13,16 +13,16 @@ namespace ljus {
 
 /// PhotonMappingSettings::caustic_budget: `abilities<Budgeting>`.
 struct Budgeting {
-    /// It keeps nothing: the shares are PhotonMapper::settings().caustics.shares.
+    /// No state: the shares are PhotonMapper::settings().caustics.shares.
     template <std::floating_point T>
     struct State {};
 };
 
-/// The shares of the caustics' photons that a budget asks for, by a pilot.
+/// The shares of caustic photons for a budget, estimated by a pilot pass.
 /// \param world     The closed scene.
-/// \param settings  The budget, photons, radii. For the brightness 20 000 photons of a
-///                  general pass tell what else lights the scene.
-/// \return As PhotonPassSettings::shares; those of the settings if there are some.
+/// \param settings  The budget, photons, radii. For CausticBudget::brightness, 20 000
+///                  photons of a general pass estimate the other light in the scene.
+/// \return As PhotonPassSettings::shares; the shares in the settings, if any.
 template <AnyWorld W>
 [[nodiscard]] std::vector<double>
 caustic_shares(const W& world, const PhotonMappingSettings& settings) {

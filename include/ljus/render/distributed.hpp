@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/distributed.hpp
-/// \brief Distributed rays: one ray of each kind, sent somewhere else each time.
+/// \brief Distributed rays: one ray of each kind, in a random direction.
 
 #include "ljus/math/stratified_stream.hpp"
 #include "ljus/path/continue_path.hpp"
@@ -15,8 +15,8 @@ namespace ljus {
 /// camera rays per pixel", after Cook, Porter and Carpenter \cite cook1984. Chapter:
 /// \ref ch_distributed_rays.
 ///
-/// What it carries, in Heckbert's letters, with G for gloss, is L D? (S|G)* E: what
-/// Whitted's tree carries, each ray of it blurred. No matt surface lights another.
+/// In Heckbert's notation, with G for glossy, it finds the paths L D? (S|G)* E: the
+/// paths of Whitted's tree, with each ray blurred. No matt surface lights another.
 /// \{
 
 /// How rays are distributed.
@@ -25,12 +25,12 @@ struct DistributedSettings {
 };
 
 /// A tracer of distributed rays of a world, which must outlive it.
-/// RenderSettings::sampling says how its rays are spread, over the pixel and over
-/// everything else that they choose.
+/// RenderSettings::sampling stratifies its rays over the pixel and over all other
+/// dimensions.
 template <typename W>
 class DistributedTracer {
 public:
-    using Stream = StratifiedStream; ///< What render() gives it to draw from.
+    using Stream = StratifiedStream; ///< The random stream that render() passes.
 
     /// \param world     Must outlive the tracer.
     /// \param settings  The depth.
@@ -57,13 +57,13 @@ DistributedTracer(const W&, const DistributedSettings& = {}) -> DistributedTrace
 
 namespace detail {
 
-/// The light of all lights at a surface, by one shadow ray to a random point of each.
-/// In gloss a lamp is seen by the reflected ray, so that none is sent to it: each path
-/// has one owner.
+/// Direct light at a surface, by one shadow ray to a random point of each light. A
+/// glossy surface sends no shadow ray to a lamp, because its reflected ray finds the
+/// lamp: each path has one owner.
 /// \param world     The closed scene.
 /// \param vertex    The surface.
-/// \param material  What it is made of.
-/// \param context   Two numbers for each light with a size; the rays are counted.
+/// \param material  Its material.
+/// \param context   Two numbers are drawn for each light with a size; counts the rays.
 /// \return Radiance towards wo.
 /// \report{Section 2.1}
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
@@ -83,12 +83,12 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
 
 } // namespace detail
 
-/// The radiance that one camera ray finds, at a random time, by one ray at each mirror,
-/// glass or gloss and one to each light.
+/// The radiance that one camera ray finds at a random time: one ray continues at each
+/// mirror, glass or glossy surface, and one shadow ray goes to each light.
 /// \param tracer   The world and the settings.
 /// \param ray      A primary ray.
-/// \param context  The numbers of this ray; counts rays, logs terms; gloss is D there.
-/// \return Radiance, W/(m^2 sr): an unbiased estimate of what such paths carry, up to
+/// \param context  The random stream of this ray; counts rays, logs terms (gloss as D).
+/// \return Radiance, W/(m^2 sr): an unbiased estimate of the light of such paths, up to
 ///         the depth.
 /// \cost At most max_depth + 1 rays, and as many shadow rays to each light.
 /// \report{Section 2.1}

@@ -13,7 +13,7 @@ namespace ljus {
 
 /// IndirectLight::gather and IndirectLight::cache: `abilities<Gathering>`.
 struct Gathering {
-    /// What it keeps.
+    /// Its state.
     template <std::floating_point T>
     struct State {
         IrradiancePointsT<T> points{}; ///< The points that gather rays look up.

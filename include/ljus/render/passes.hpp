@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/render/passes.hpp
-/// \brief Which passes of the report's renderer a scene requires, and what they will do
-/// badly.
+/// \brief The passes of the report's renderer that a scene requires, and warnings.
 
 #include <algorithm>
 #include <cmath>
@@ -22,15 +21,15 @@ namespace ljus {
 
 /// What a survey counts in a scene.
 struct SceneNeeds {
-    std::size_t objects = 0;  ///< How many there are.
-    std::size_t diffuse = 0;  ///< Those with a part that is not a mirror or glass.
-    std::size_t specular = 0; ///< Those with a part that is.
-    std::size_t narrow = 0;   ///< Those that are nearly_specular().
+    std::size_t objects = 0;  ///< All objects.
+    std::size_t diffuse = 0;  ///< Objects with a non-specular lobe.
+    std::size_t specular = 0; ///< Objects with a specular lobe.
+    std::size_t narrow = 0;   ///< Objects that are nearly_specular().
     std::size_t lights = 0;   ///< Emissive objects and point lights.
     bool films = false;       ///< Whether a material is a thin surface.
 };
 
-/// Counts what a scene is made of.
+/// Counts the objects and lights of a scene.
 /// \param world  The closed scene.
 /// \return The counts.
 template <AnyWorld W>
@@ -64,9 +63,9 @@ struct Passes {
     bool gloss_as_mirrors = false; ///< PhotonPassSettings::gloss_as_mirrors.
 };
 
-/// Decides which passes run; a PhotonMapper obeys it, and survey() says why.
+/// Decides which passes a PhotonMapper runs; survey() gives the reasons.
 /// \report{Section 3.2.2}
-/// \param found     What the scene is made of.
+/// \param found     The counts of the scene.
 /// \param settings  What the user asks for.
 /// \return The decisions.
 // [survey]
@@ -104,7 +103,7 @@ struct Passes {
 
 namespace detail {
 
-/// What is skipped, by a plan for these settings.
+/// The skip settings, restricted to the passes that run.
 [[nodiscard]] inline SkipSettings skipping(const Passes& run,
                                            const PhotonMappingSettings& settings) {
     SkipSettings skip = settings.skip;
@@ -113,10 +112,10 @@ namespace detail {
     return skip;
 }
 
-/// How a plan says what is chosen for the caustics: by what their photons are shared
-/// out, and where their radius comes from.
+/// How a plan describes the choices for caustics: how photons are distributed, and
+/// where the radius comes from.
 /// \param settings  What the user asks for.
-/// \return The end of a clause; nothing where nothing is chosen.
+/// \return The end of a clause; empty if nothing is chosen.
 [[nodiscard]] inline std::string
 caustics_clause(const PhotonMappingSettings& settings) {
     const char* const radius = settings.caustics_estimate.radius == 0
@@ -140,16 +139,15 @@ caustics_clause(const PhotonMappingSettings& settings) {
     }
 }
 
-/// Digits that are left of the shapes, if they are fewer than three, and lengths that
-/// are too large.
+/// Warns if fewer than three digits of a shape remain, or if lengths are too large.
 ///
-/// A number x of p bits is off by up to 2^-p x. The surface of a ball of radius r whose
-/// points have coordinates up to c is then off by 2^-p c / r of its radius, which
-/// leaves log10(2^p r / c) digits. The direction of a shadow ray is as long as its way,
-/// and chord() multiplies four lengths: above the fourth root of the largest number a
+/// A number x of p bits has an error of up to 2^-p x. A ball of radius r with
+/// coordinates up to c then has a relative error of 2^-p c / r in its surface, which
+/// leaves log10(2^p r / c) digits. The direction of a shadow ray is as long as the ray,
+/// and chord() multiplies four lengths: above the fourth root of the largest number, a
 /// ball may cast no shadow.
 /// \param world  The closed scene.
-/// \return A sentence, or nothing.
+/// \return A sentence, or an empty string.
 template <AnyWorld W>
 [[nodiscard]] std::string digits_remark(const W& world) {
     using T = typename W::Scalar;
@@ -198,8 +196,8 @@ template <AnyWorld W>
                         : "move the scene towards the origin"});
 }
 
-/// How many objects mirror light in a lobe so narrow, below a thousandth of a
-/// steradian, that a shadow ray hardly ever lies in it.
+/// The number of objects with a glossy lobe below a thousandth of a steradian: a shadow
+/// ray hardly ever lies in so narrow a lobe.
 /// \param world  The closed scene.
 template <AnyWorld W>
 [[nodiscard]] std::size_t narrow_lobes(const W& world) {
@@ -219,7 +217,7 @@ template <AnyWorld W>
 
 } // namespace detail
 
-/// What a survey remarks.
+/// The warnings of a survey about a scene.
 /// \param world     The closed scene.
 /// \param settings  What the user asks for.
 /// \return Sentences without a full stop.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/path_tracing.hpp
-/// \brief The rendering equation solved by random paths: the reference of all others.
+/// \brief The rendering equation solved by random paths: the reference renderer.
 
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/direct_light.hpp"
@@ -17,11 +17,11 @@ namespace ljus {
 struct PathTracingSettings {
     int max_depth = 1000;      ///< Surfaces on a camera path; 1 is direct light only.
     int roulette_depth = 4;    ///< From this surface on, roulette may end a path.
-    bool sample_lights = true; ///< False: paths must find the lights by themselves.
-    MisHeuristic heuristic = MisHeuristic::balance; ///< If they need not: the weights.
+    bool sample_lights = true; ///< Whether to send shadow rays.
+    MisHeuristic heuristic = MisHeuristic::balance; ///< Weights with shadow rays.
     double roulette_threshold =
         1;                   ///< Roulette applies below this throughput; 0: never.
-    double roulette_max = 1; ///< Above 0: the largest probability to survive.
+    double roulette_max = 1; ///< Largest survival probability, in (0, 1].
 };
 
 /// Refuses settings that give no picture.
@@ -41,7 +41,7 @@ inline void check(const PathTracingSettings& settings) {
 template <typename W>
 class PathTracer {
 public:
-    using Stream = RandomStream; ///< What render() gives it to draw from.
+    using Stream = RandomStream; ///< The random stream that render() passes.
 
     /// \param world     Must outlive the tracer.
     /// \param settings  Limits.
@@ -67,13 +67,13 @@ PathTracer(const W&, const PathTracingSettings& = {}) -> PathTracer<W>;
 
 namespace detail {
 
-/// The share of light that the settings leave to a path, of which a shadow ray from the
-/// vertex before could have found it.
+/// The MIS weight of light that a path finds; 1 if no shadow ray from the vertex before
+/// could have found it.
 /// \param tracer  The tracer.
 /// \param path    The path.
 /// \param light   The number of the light.
-/// \param pdf     Of the shadow ray, if it goes to that light; per steradian, called
-///                where it is needed.
+/// \param pdf     Returns the density of a shadow ray to that light, per steradian;
+///                called only if it is needed.
 /// \return In [0, 1].
 template <AnyWorld W, std::floating_point T, typename Pdf>
 [[nodiscard]] T share_of_path(const PathTracer<W>& tracer, const PathStateT<T>& path,
@@ -85,8 +85,7 @@ template <AnyWorld W, std::floating_point T, typename Pdf>
                       pdf() * probability_of<T>(tracer.world().light_choice(), light));
 }
 
-/// The light of a lamp that a path has met, with the weight that the shadow ray from
-/// the vertex before left it.
+/// The emission of a lamp that a path has met, times the MIS weight of the path.
 /// \param tracer  The world and the limits.
 /// \param path    The path.
 /// \param vertex  Where it met the lamp.
@@ -105,7 +104,7 @@ template <AnyWorld W, std::floating_point T>
 }
 // [emitted]
 
-/// The same of the sky, for a path that leaves the scene.
+/// The radiance of the sky for a path that leaves the scene, times its MIS weights.
 /// \param tracer  The world and the limits.
 /// \param path    The path.
 /// \return Throughput times radiance times the weight.
@@ -126,13 +125,13 @@ template <AnyWorld W, std::floating_point T>
 
 /// The radiance that one random path finds.
 ///
-/// At each diffuse surface a light, chosen by power, is asked by a shadow ray; the path
-/// then goes on in a direction that the material samples. A lamp that it meets is
-/// counted with the weight that the shadow ray left it (multiple importance sampling),
-/// and wholly after a mirror or glass, where no shadow ray could go.
+/// Each diffuse surface sends a shadow ray to one light, chosen by power; the path then
+/// continues in a direction sampled by the material. A lamp that the path meets counts
+/// with its weight of multiple importance sampling. After a mirror or glass this weight
+/// is 1, because no shadow ray could find the lamp.
 /// \param tracer   The world and the limits.
 /// \param ray      A primary ray.
-/// \param context  The numbers of this path; counts its rays, logs its terms.
+/// \param context  The random stream of this path; counts its rays, logs its terms.
 /// \return Radiance, W/(m^2 sr): an unbiased estimate, if max_depth is never reached.
 /// \report{Eq. (1)}
 // [radiance]
@@ -166,8 +165,7 @@ template <AnyWorld W, std::floating_point T, typename Context>
                                  Lobes::all, context.stream);
         };
         if (!visit_material_at(world, *vertex, at_material)) break;
-        // From the last surface a path goes on to the lamp that its shadow ray left a
-        // part of, and to nothing else.
+        // After the last surface only a lamp may follow, with its MIS weight.
         if (path.depth == settings.max_depth && path.specular) {
             detail::cut_if(!is_black(path.throughput), context.counts);
             break;

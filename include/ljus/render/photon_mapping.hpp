@@ -34,8 +34,9 @@ namespace ljus {
 /// an S, and no path ends on any other gloss.
 /// \{
 
-/// \name Optional abilities of a photon mapper Each has its own header and is listed by
-/// abilities<...>; one that is not listed costs nothing.
+/// \name Optional abilities of a photon mapper
+/// Each has its own header and is listed by abilities<...>. An ability that is not
+/// listed costs nothing.
 /// \{
 struct Gathering; ///< IndirectLight::gather and cache: ljus/render/gathering.hpp.
 struct Skipping;  ///< SkipSettings: ljus/render/skipping.hpp.

@@ -17,22 +17,22 @@ namespace ljus {
 /// \addtogroup photon_mapping
 /// \{
 
-/// Where light that has met two diffuse surfaces comes from.
+/// The source of light that has met two diffuse surfaces.
 enum class IndirectLight : std::uint8_t {
-    rays,    ///< Indirect rays, on and on.
+    rays,    ///< Indirect rays at every bounce.
     map,     ///< One indirect ray, and the general map where it ends.
-    photons, ///< The general map's indirect photons where the camera looks: no indirect
-             ///< ray and little noise, but their light is blurred by the radius.
-    gather,  ///< One gather ray, and precomputed irradiance where it ends.
-    cache,   ///< Many gather rays at few points, interpolated between them.
-    none     ///< Nowhere: direct light and caustics only.
+    photons, ///< Indirect photons at the surface itself, without indirect rays: little
+             ///< noise, but blurred by the radius.
+    gather, ///< One gather ray, and precomputed irradiance where it ends.
+    cache,  ///< Many gather rays at few points, interpolated between them.
+    none    ///< None: direct light and caustics only.
 };
 
 namespace detail {
 
-/// Whether paths end at the first diffuse surface behind another: what they gather
-/// there stands for all further bounces.
-/// \param indirect  Who carries indirect light.
+/// Whether paths end at the second diffuse surface: a lookup there replaces all further
+/// bounces.
+/// \param indirect  The source of indirect light.
 [[nodiscard]] constexpr bool gathers(IndirectLight indirect) noexcept {
     return indirect == IndirectLight::map || indirect == IndirectLight::gather ||
            indirect == IndirectLight::cache;
@@ -40,17 +40,17 @@ namespace detail {
 
 } // namespace detail
 
-/// The most points that an interpolation of the irradiance cache takes.
+/// The largest number of points in an interpolation of the irradiance cache.
 inline constexpr std::size_t max_cache_nearest = 64;
 
 /// How irradiance is gathered and interpolated.
 struct GatherSettings {
     int rays = 25;           ///< Gather rays per point, at least 1.
-    int tile = 3;            ///< A point for each square of so many pixels on a side.
-    std::size_t nearest = 6; ///< Points that an interpolation takes, 2 to 64.
-    float reach = 1;         ///< How far a point counts, over the harmonic mean of the
-                             ///< distances of what it sees.
-    int max_depth = 100;     ///< Surfaces on a gather ray.
+    int tile = 3;            ///< Side of the square of pixels for each point.
+    std::size_t nearest = 6; ///< Points in an interpolation, 2 to 64.
+    float reach = 1;     ///< Largest distance of a point that is used, as a multiple
+                         ///< of the harmonic mean length of its gather rays.
+    int max_depth = 100; ///< Surfaces on a gather ray.
 };
 
 /// How the report's renderer works. Lengths are in scene units.
@@ -59,21 +59,20 @@ struct PhotonMappingSettings {
     int roulette_depth = 4; ///< From this surface on, roulette may end a path.
     int shadow_rays = 1;    ///< Shadow rays to each light, at least 1.
     DirectLight direct = DirectLight::sampled; ///< How direct light is found.
-    bool split_glass = false; ///< At glass before anything matt, go both ways.
-    IndirectLight indirect = IndirectLight::rays; ///< Who carries indirect light.
+    bool split_glass = false; ///< Split paths at glass before the first matt surface.
+    IndirectLight indirect = IndirectLight::rays; ///< Source of indirect light.
     PhotonPassSettings caustics{}; ///< Photons aimed at mirrors and glass.
-    PhotonPassSettings general{};  ///< Photons for all the rest.
+    PhotonPassSettings general{};  ///< Photons for all other light.
     CausticBudget caustic_budget =
         CausticBudget::as_seen; ///< How mirrors and glass share caustics.photons.
-    /// How caustics are estimated; radius 0: one that holds 32 photons typically.
+    /// How caustics are estimated; radius 0: chosen to hold 32 photons typically.
     DensityEstimateSettings caustics_estimate{};
-    /// How the general map is asked; radius 0: one that holds 64 photons typically.
+    /// How the general map is queried; radius 0: chosen to hold 64 photons typically.
     DensityEstimateSettings general_estimate{.radius = 0.3f};
-    IrradiancePointSettings irradiance{}; ///< What gather rays look up.
+    IrradiancePointSettings irradiance{}; ///< Points that gather rays look up.
     GatherSettings gather{};              ///< How the irradiance cache is made.
-    SkipSettings skip{}; ///< Which rays photons make needless; none, unless asked for.
-    bool keep_general_map =
-        false; ///< Make the general map, even if no ray will ask it.
+    SkipSettings skip{}; ///< Rays that photons make unnecessary; none by default.
+    bool keep_general_map = false; ///< Make the general map even if no ray queries it.
 };
 
 /// Refuses settings that give no picture.
@@ -110,18 +109,17 @@ inline void check(const PhotonMappingSettings& settings) {
     check(settings.skip);
 }
 
-/// Settings that go together.
+/// Settings for a purpose.
 enum class Preset : std::uint8_t {
     draft, ///< A first look: blotches, in a fraction of a second.
-    fast,  ///< The least time for a picture without visible errors. What it gives up:
-           ///< indirect light that changes within 4 pixels is smoothed, penumbras are
-           ///< a little off, caustics blurred, and what glossy surfaces throw onto
-           ///< others blurred as they are; and more time does not mend it.
-    exact  ///< Indirect rays on and on; what bias is left is that of the caustics map.
+    fast,  ///< Least time without visible errors. It has bias that more time does not
+           ///< remove: indirect light is smoothed over 4 pixels, penumbras are slightly
+           ///< wrong, and caustics and reflections from gloss are blurred.
+    exact  ///< Indirect rays at every bounce; only the caustics map is biased.
 };
 
-/// The settings of a preset. Radii are chosen from the photons, and their number from
-/// the size of the picture: small pixels show smaller errors.
+/// The settings of a preset. The number of photons depends on the size of the picture,
+/// because smaller pixels show smaller errors; radii are chosen from the photons.
 /// \param preset  Which one.
 /// \param width   Of the picture, in pixels.
 /// \param height  Of the picture, in pixels.
@@ -144,7 +142,7 @@ enum class Preset : std::uint8_t {
     settings.indirect = IndirectLight::cache;
     const long long photons =
         std::clamp(draft ? pixels / 4 : pixels * 7 / 10, 10'000LL, 1'000'000LL);
-    // In a small picture blotches are as wide, measured by the picture.
+    // Small pictures need more photons per pixel: blotches scale with the picture.
     settings.general.photons = photons + (draft ? 0 : 8000);
     settings.caustics.photons = photons / (draft ? 2 : 1);
     settings.gather.rays = draft ? 16 : 36;
@@ -153,11 +151,11 @@ enum class Preset : std::uint8_t {
     return settings;
 }
 
-/// How many rays a preset sends through each pixel.
+/// The rays per pixel of a preset.
 struct PresetRays {
-    int first = 1;             ///< Through all pixels.
-    int more = 0;              ///< Through those whose first rays disagree.
-    double disagreement = 0.4; ///< Relative standard error that counts as such.
+    int first = 1;             ///< In every pixel.
+    int more = 0;              ///< More rays in pixels above the standard error below.
+    double disagreement = 0.4; ///< Relative standard error of the first rays' mean.
 };
 
 /// The rays of a preset, for RenderSettings::samples and render_adaptive().

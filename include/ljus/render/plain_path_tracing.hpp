@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/plain_path_tracing.hpp
-/// \brief A path tracer of one screen: the plain twin of path_tracing.hpp.
+/// \brief A path tracer on one screen: the plain twin of path_tracing.hpp.
 
 #include "ljus/path/direct_light.hpp"
 
@@ -14,7 +14,7 @@ namespace ljus {
 template <typename W>
 class PlainPathTracer {
 public:
-    using Stream = RandomStream; ///< What render() gives it to draw from.
+    using Stream = RandomStream; ///< The random stream that render() passes.
 
     /// \param world      Must outlive the tracer.
     /// \param max_depth  Surfaces on a camera path; 1 is direct light only.
@@ -36,15 +36,16 @@ private:
 template <typename W>
 PlainPathTracer(const W&, int = 100) -> PlainPathTracer<W>;
 
-/// The radiance that one random path finds. At each diffuse surface one light, each as
-/// likely as the next, is asked by a shadow ray; a lamp that the path meets by itself
-/// counts only where no shadow ray could go, seen directly or by mirrors and glass.
+/// The radiance that one random path finds. Each diffuse surface sends a shadow ray to
+/// one light, with equal probability for all lights. A lamp that the path meets counts
+/// only if it is seen directly or by mirrors and glass, where no shadow ray could find
+/// it.
 ///
-/// It knows no media, no thin surfaces and no shading normals, and weighs nothing: the
-/// mean is that of the PathTracer, the noise is not.
+/// It has no media, thin surfaces, shading normals or MIS weights. The expected value
+/// is that of the PathTracer, but not the noise.
 /// \param tracer   The world and the depth.
 /// \param ray      A primary ray.
-/// \param context  The numbers of this path; counts its rays.
+/// \param context  The random stream of this path; counts its rays.
 /// \return Radiance, W/(m^2 sr).
 /// \report{Eq. (1)}
 // [plain]

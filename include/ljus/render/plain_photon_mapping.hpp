@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/plain_photon_mapping.hpp
-/// \brief The report's second pass in one screen: the plain twin of photon_mapping.hpp.
+/// \brief The report's second pass on one screen: the plain twin of photon_mapping.hpp.
 
 #include <utility>
 
@@ -18,7 +18,7 @@ template <typename W>
 class PlainPhotonMapper {
 public:
     using Scalar = typename W::Scalar; ///< The precision.
-    using Stream = RandomStream;       ///< What render() gives it to draw from.
+    using Stream = RandomStream;       ///< The random stream that render() passes.
 
     /// \param world     Must outlive the mapper.
     /// \param caustics  Of the first pass, L S+ D.
@@ -48,14 +48,14 @@ template <typename W>
 PlainPhotonMapper(const W&, PhotonMapT<typename W::Scalar>,
                   const DensityEstimateSettings& = {}) -> PlainPhotonMapper<W>;
 
-/// The radiance that one camera path finds: emission, shadow rays, caustics map, and
-/// one ray further.
+/// The radiance that one camera path finds, by emission, shadow rays, the caustics map
+/// and one indirect ray at each surface.
 ///
-/// It knows no media, no thin surfaces and no shading normals. The mean is that of
-/// PhotonMapper with IndirectLight::rays; the noise is not.
+/// It has no media, thin surfaces or shading normals. The expected value is that of
+/// PhotonMapper with IndirectLight::rays, but not the noise.
 /// \param mapper   World and map.
 /// \param ray      A primary ray.
-/// \param context  The numbers of this path; counts its rays.
+/// \param context  The random stream of this path; counts its rays.
 /// \return Radiance, W/(m^2 sr).
 // [plain path]
 template <AnyWorld W, std::floating_point T, typename Context>

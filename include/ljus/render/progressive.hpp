@@ -14,11 +14,13 @@
 namespace ljus {
 
 /// \defgroup progressive Progressive photon mapping
-/// \brief The mean of passes that forget their photons. Chapter: \ref ch_progressive.
+/// \brief The mean of many passes with independent photons. Chapter:
+/// \ref ch_progressive.
 ///
-/// A *pass* is called as pass(i, scale) with i = 1, 2, ...; it traces photons of its
-/// own, renders a picture with all radii times `scale`, and returns a RenderedT, or
-/// anything that has its `image` and `complete`. photon_mapping_pass() is one.
+/// A *pass* is a function pass(i, scale) with i = 1, 2, ... It traces its own photons,
+/// renders a picture with all radii multiplied by `scale`, and returns a RenderedT or
+/// another type with members `image` and `complete`. An example is
+/// photon_mapping_pass().
 /// \{
 
 /// The mean of many passes: the plain twin of run_progressive(). Pass i has the radius
@@ -26,8 +28,8 @@ namespace ljus {
 /// falls with \f$ n^{-\alpha} \f$, and squared bias with \f$ n^{-2(1-\alpha)} \f$.
 /// \param passes  n, at least 1.
 /// \param pass    Called with i and \f$ r_i / r_1 \f$; see \ref progressive.
-/// \param alpha   In (0, 1]; with 1 the radius stays as it is.
-/// \return The mean, added in double.
+/// \param alpha   In (0, 1]; with 1 the radius is constant.
+/// \return The mean, summed in double.
 /// \cite knaus2011
 // [plain]
 template <typename RenderPass>
@@ -49,7 +51,7 @@ template <typename RenderPass>
 
 namespace detail {
 
-/// The means of blocks of pixels; the last ones of a row or column may have fewer.
+/// The means of blocks of pixels; blocks at the right and bottom edge may be smaller.
 template <std::floating_point T>
 [[nodiscard]] ImageT<double> means_of_blocks(const ImageT<T>& image, int side) {
     const auto blocks = [side](int pixels) { return (pixels - 1) / side + 1; };
@@ -64,11 +66,11 @@ template <std::floating_point T>
     return means;
 }
 
-/// Adds one more number to the squared distances from the mean (Welford).
-/// \param squares  Gets it, pixel by pixel.
-/// \param x        The new numbers.
-/// \param sum      Of the n before.
-/// \param n        How many.
+/// Updates the sums of squared deviations from the mean by one value (Welford).
+/// \param squares  The sums, one per pixel.
+/// \param x        The new values.
+/// \param sum      The sum of the n earlier values.
+/// \param n        The number of earlier values.
 template <std::floating_point T>
 void add_squares(ImageT<double>& squares, const ImageT<T>& x, const ImageT<double>& sum,
                  double n) {
@@ -86,7 +88,7 @@ void add_squares(ImageT<double>& squares, const ImageT<T>& x, const ImageT<doubl
     return std::sqrt(sum / double(squares.pixels.size()) / (n * (n - 1)));
 }
 
-/// A number that tells pictures apart, by every bit of them.
+/// A hash of all bits of a picture.
 template <std::floating_point T>
 [[nodiscard]] std::uint64_t hash_of(const ImageT<T>& image) noexcept {
     std::uint64_t hash = mix_bits(std::uint64_t(image.width));
@@ -98,38 +100,39 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// All that is left of the passes so far: as large after a million as after one. Plain
-/// data; alpha and the side of blocks may be set before the first pass.
+/// The state of progressive rendering; its size does not depend on the number of
+/// passes. It is plain data; alpha and the side of blocks may be set before the first
+/// pass.
 struct ProgressiveState {
-    double alpha = 2.0 / 3; ///< In (0, 1]; see progressive_mean().
-    int block_side = 8;     ///< Pixels; neighbours share photons, and err together.
-    double shrink = 1;      ///< \f$ r_i^2 / r_1^2 \f$ of the next pass.
-    long long passes = 0;   ///< In the sums.
-    std::uint64_t first_pass = 0;   ///< A hash of the first one's picture.
-    ImageT<double> sum{};           ///< Of the passes, W/(m^2 sr).
-    ImageT<double> squares{};       ///< Of their distances from the mean.
-    ImageT<double> block_squares{}; ///< The same of the means of blocks of pixels.
+    double alpha = 2.0 / 3;         ///< In (0, 1]; see progressive_mean().
+    int block_side = 8;             ///< Pixels; errors of neighbours are correlated.
+    double shrink = 1;              ///< \f$ r_i^2 / r_1^2 \f$ of the next pass.
+    long long passes = 0;           ///< Passes in the sums.
+    std::uint64_t first_pass = 0;   ///< Hash of the first pass's picture.
+    ImageT<double> sum{};           ///< Sum of the passes, W/(m^2 sr).
+    ImageT<double> squares{};       ///< Squared deviations from the mean.
+    ImageT<double> block_squares{}; ///< The same for the means of blocks.
 };
 
-/// How far the mean of the passes is from where it would be with other random numbers.
+/// The standard error of the mean of the passes.
 ///
-/// The passes draw from streams of their own and the radii are set beforehand, so that
-/// no pass depends on another. The squared distances of n independent numbers from
-/// their mean, over n(n - 1), are the variance of the mean also where a later one
-/// scatters more than an earlier one, as they do here. What the shrinking radius adds
-/// is that the passes' expectations move: this makes the estimate too large, by a share
-/// of the squared bias that vanishes, 1/(3n) for alpha = 2/3. The **bias itself is not
-/// in it**: a blur that all passes share does not show in how they differ.
+/// The passes are independent: each has its own random streams, and the radii are fixed
+/// in advance. The sum of the squared deviations of n independent values from their
+/// mean, divided by n(n - 1), estimates the variance of the mean, even if later values
+/// have a larger variance, as they have here. The expected values of the passes change
+/// with the radius. This makes the estimate too large, by 1/(3n) of the squared bias
+/// for alpha = 2/3. The estimate **does not contain the bias itself**, because all
+/// passes are blurred alike.
 struct ProgressiveError {
-    double pixels = 0; ///< Standard error of a pixel: its root mean square over all.
-    double blocks = 0; ///< The same of a block's mean, with what its pixels share.
+    double pixels = 0; ///< Of a pixel: root mean square over all pixels.
+    double blocks = 0; ///< Of a block's mean, with the correlation of its pixels.
 };
 
 /// Adds a pass to the sums, and shrinks the radius of the next.
-/// \param state  Of the passes before.
+/// \param state  The earlier passes.
 /// \param image  The pass; every channel finite.
 /// \throws std::invalid_argument  if alpha is not in (0, 1], the side of blocks is
-///         below 1, or the picture has another size than the first, or a NaN.
+///         below 1, or the picture differs in size from the first or contains a NaN.
 // [add_pass]
 template <std::floating_point T>
 void add_pass(ProgressiveState& state, const ImageT<T>& image) {
@@ -167,9 +170,9 @@ template <std::floating_point T = float>
     return mean;
 }
 
-/// How noisy the picture so far is. Its bias is not in it; see ProgressiveError.
-/// \param state  Of some passes.
-/// \return Standard errors in W/(m^2 sr); infinity for less than two passes.
+/// The noise of the picture so far, without its bias; see ProgressiveError.
+/// \param state  The passes so far.
+/// \return Standard errors in W/(m^2 sr); infinity for fewer than two passes.
 [[nodiscard]] inline ProgressiveError estimate_error(const ProgressiveState& state) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     if (state.passes < 2) return {unknown, unknown};
@@ -178,13 +181,13 @@ template <std::floating_point T = float>
             detail::standard_error(state.block_squares, n)};
 }
 
-/// Adds passes until there are enough.
-/// \param state   Of the passes before: none, or those of a checkpoint.
-/// \param passes  How many there shall be in all.
+/// Adds passes up to a total number.
+/// \param state   The earlier passes: none, or those of a checkpoint.
+/// \param passes  The total number of passes.
 /// \param pass    Called with i and \f$ r_i / r_1 \f$; see \ref progressive.
-/// \param after   Called with the state after each pass: the place for a preview, a
-///                checkpoint, a look at the clock. It returns whether to go on.
-/// \return Whether all passes are in the state; one that was stopped is left out.
+/// \param after   Called with the state after each pass, for a preview, a checkpoint or
+///                a time limit. It returns whether to continue.
+/// \return Whether the state contains all passes; a stopped pass is left out.
 /// \throws std::invalid_argument  as add_pass().
 // [run]
 template <typename RenderPass, typename After>
@@ -200,12 +203,12 @@ bool run_progressive(ProgressiveState& state, long long passes, RenderPass&& pas
 }
 // [run]
 
-/// Refuses to go on with passes of another picture. Whatever makes a picture what it is
-/// (world, camera, settings, seed, program, machine), makes its first pass what it is:
-/// so that is rendered again, and must come out bit by bit as it did.
-/// \param state  Of a checkpoint.
-/// \param pass   That will go on.
-/// \throws std::invalid_argument  in a sentence, if its first pass is another.
+/// Refuses to continue the passes of another picture. It renders the first pass again
+/// and compares all bits: these depend on the world, camera, settings, seed, program
+/// and machine.
+/// \param state  The state of a checkpoint.
+/// \param pass   The pass that will continue.
+/// \throws std::invalid_argument  if its first pass differs.
 /// \cost One pass.
 template <typename RenderPass>
 void require_first_pass(const ProgressiveState& state, RenderPass&& pass) {
@@ -217,12 +220,12 @@ void require_first_pass(const ProgressiveState& state, RenderPass&& pass) {
         "program must be as they were.");
 }
 
-/// Settings of which nothing is left to choose from a pass's photons: with the radii
-/// that are 0 chosen, and the shares that a budget asks for found by one pilot.
+/// Settings with all automatic choices made: radii of 0 are replaced, and a pilot pass
+/// sets the shares of a budget.
 /// \param world      The closed scene.
 /// \param settings   Photons of one pass.
 /// \param listed     As for a PhotonMapper.
-/// \return The same settings for each pass, and each time the program runs.
+/// \return The settings, the same in every run of the program.
 /// \throws std::invalid_argument  if a setting is out of range.
 /// \cost The photon maps of one pass.
 template <AnyWorld W, typename... X>
@@ -232,26 +235,25 @@ settings_for_passes(const W& world, const PhotonMappingSettings& settings,
     return PhotonMapper(world, settings, listed).settings();
 }
 
-/// One pass of the photon mapper: photons of its own, camera rays of its own, and all
-/// radii, of the caustics map and of the general map, times `scale`.
+/// One pass of the photon mapper, with its own photons and camera rays; the radii of
+/// the caustics map and of the general map are multiplied by `scale`.
 ///
-/// With IndirectLight::rays there is no general map, and only the caustics are biased
-/// and have to converge. With k nearest photons the k-th sets the radius until the
-/// shrinking one is smaller, and until then no bias goes away. A radius that is chosen
-/// from the photons, and shares that a pilot finds, are chosen once: see
-/// settings_for_passes(). Points of an irradiance cache are the pass's own, but the
-/// interpolation between them blurs as much in every pass.
+/// With IndirectLight::rays there is no general map, and only the caustics are biased.
+/// With k nearest photons the bias does not decrease until the shrinking radius is
+/// smaller than the distance to the k-th photon. Automatic radii and shares are chosen
+/// once, by settings_for_passes(). Each pass has its own irradiance cache, but
+/// interpolation blurs it by the same amount in every pass.
 /// \param world     The closed scene.
 /// \param camera    Any camera.
 /// \param settings  Photons *of one pass*; the radii of the first, above 0.
 /// \param picture   Size; rays per pixel in one pass.
-/// \param pass      Its number, from 1 on.
-/// \param scale     Of the radii, in (0, 1].
+/// \param pass      Its number, from 1.
+/// \param scale     Factor of the radii, in (0, 1].
 /// \param listed     As for a PhotonMapper; StratifiedStream for several rays per
 ///                   pixel.
 /// \return The picture; not complete if a progress callback stopped it.
-/// \throws std::invalid_argument  if a radius is 0: each pass would choose its own, and
-///         none would shrink.
+/// \throws std::invalid_argument  if a radius is 0: each pass would choose its own
+///         radius, and none would shrink.
 // [photon mapping pass]
 template <AnyWorld W, CameraLike C, typename... X>
 [[nodiscard]] RenderedT<typename C::Scalar>

@@ -22,19 +22,19 @@ namespace ljus {
 /// scene".
 /// \{
 
-/// The picture that is asked for.
+/// Size and sampling of a picture.
 struct RenderSettings {
     int width = 400;        ///< Pixels, at least 1.
     int height = 400;       ///< Pixels, at least 1.
-    int samples = 64;       ///< Primary rays in a pixel, at least 1; exactly as many.
-    std::uint64_t seed = 1; ///< Of the random streams.
-    int threads = 0;        ///< 0: all that there are.
+    int samples = 64;       ///< Exact number of primary rays per pixel, at least 1.
+    std::uint64_t seed = 1; ///< Seed of the random streams.
+    int threads = 0;        ///< Number of threads; 0: all.
     Progress progress = no_progress; ///< Called with (done, total); false stops.
-    Sampling sampling = Sampling::multi_jittered; ///< Where in a pixel they go.
-    Filter filter = Filter::box;                  ///< How much each place counts.
+    Sampling sampling = Sampling::multi_jittered; ///< Positions of rays within a pixel.
+    Filter filter = Filter::box;                  ///< Weight of each position.
 };
 
-/// What a rendering brings.
+/// The result of rendering.
 template <std::floating_point T>
 struct RenderedT {
     ImageT<T> image{};    ///< The mean radiance of each pixel.
@@ -42,7 +42,7 @@ struct RenderedT {
     bool complete = true; ///< False if the progress callback stopped it.
 };
 
-/// Sets a stream to the numbers of one ray of a pixel.
+/// Sets a stream to the start of the numbers of one ray.
 /// \param stream   Any stream has such an overload.
 /// \param seed     The user's seed.
 /// \param pixel    The pixel's number within the picture.
@@ -57,12 +57,12 @@ constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t
 
 namespace detail {
 
-/// How many pixels beside each other are rendered at a time.
+/// The number of adjacent pixels that are rendered at a time.
 inline constexpr int strip_width = 16;
 
 } // namespace detail
 
-/// The rays of a picture: where they go is one pattern for all pixels.
+/// The rays of a picture; all pixels share one sampling pattern.
 struct PictureRays {
     /// \param settings  Size, rays, seed, filter; must outlive this.
     explicit PictureRays(Ref<RenderSettings> settings)
@@ -80,10 +80,10 @@ struct PixelRay {
     int number = 0; ///< Which of the pixel's rays.
 };
 
-/// Where one ray of a pixel goes through the picture, and what it counts there.
-/// \param rays    Of the picture.
+/// The position of one ray in the picture, and its filter weight.
+/// \param rays    The rays of the picture.
 /// \param at      Which ray.
-/// \param stream  Set to the numbers of that ray, past those of its position.
+/// \param stream  Set to the numbers of that ray, after those of its position.
 /// \return The position, from the upper left corner of the picture, and its weight.
 template <std::floating_point T, StreamLike Stream>
 [[nodiscard]] FilterSampleT<T> sample_pixel(const PictureRays& rays, const PixelRay& at,
@@ -100,11 +100,11 @@ template <std::floating_point T, StreamLike Stream>
     return sample;
 }
 
-/// What one ray of a pixel brings.
+/// The result of one ray of a pixel.
 template <std::floating_point T>
 struct PixelSampleT {
     RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
-    T weight = T(1);        ///< Of the filter, where the ray goes through it.
+    T weight = T(1);        ///< Filter weight at the ray's position.
 };
 
 /// Sends one ray through a pixel, as the pixel loop does.
@@ -113,9 +113,9 @@ struct PixelSampleT {
 /// \param rays      Of the picture.
 /// \param at        Which ray.
 /// \param counts    Counts the rays.
-/// \param log       Told of each vertex and each term, without the weight.
-/// \param batch     Takes what the renderer puts off.
-/// \return Radiance, and what it counts.
+/// \param log       Receives each vertex and each term, without the weight.
+/// \param batch     Receives the queries that the renderer delays.
+/// \return Radiance and filter weight.
 // [trace_pixel]
 template <typename R, CameraLike C, typename Log = const NoLog,
           typename Batch = const NoBatch>
@@ -134,24 +134,26 @@ trace_pixel(const R& renderer, const C& camera, const PictureRays& rays,
 }
 // [trace_pixel]
 
-/// Some rows of a picture, counted from the top: first <= y < last.
+/// A range of rows of a picture, counted from the top: first <= y < last.
 struct RowRange {
     int first = 0; ///< The first one.
     int last = 0;  ///< One past the last one.
 };
 
-/// Renders some rows of a picture, by several threads: one machine's part of it.
+/// Renders some rows of a picture by several threads, for example on one of several
+/// machines.
 ///
-/// A ray's numbers depend on its pixel's place in the whole picture alone, so that rows
-/// rendered apart and put below each other are the picture of render(), byte by byte.
+/// The random numbers of a ray depend only on its pixel's position in the whole
+/// picture. Rows that are rendered separately and joined are therefore the picture of
+/// render(), byte for byte.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera: see CameraLike.
 /// \param picture   Size of the whole, rays, seed, threads.
-/// \param rows      At least one of its rows.
+/// \param rows      At least one row.
 /// \return A picture of those rows alone. A sample that is not finite is left out and
 ///         counted.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1, or the
-///         rows are none of the picture's.
+///         rows are outside the picture.
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>
 [[nodiscard]] RenderedT<typename C::Scalar> render_rows(const R& renderer,
@@ -175,7 +177,7 @@ requires Renderer<R, typename C::Scalar>
         const int row = static_cast<int>(number / tiles);
         const int first = static_cast<int>(number % tiles) * detail::strip_width;
         const int last = std::min(first + detail::strip_width, picture.width);
-        Counts cost; // of its own: two threads do not share a cache line
+        Counts cost; // local, so that threads do not share a cache line
         std::array<detail::PixelSums, detail::strip_width> sums{};
         detail::SampleSums<R, T> samples(renderer, sums, cost);
         for (int x = first; x < last; ++x)

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/skipping.hpp
-/// \brief The ability of a photon mapper to leave out rays that photons make needless.
+/// \brief The ability of a photon mapper to omit rays that photons make unnecessary.
 
 #include "ljus/photons/verdict_grid.hpp"
 #include "ljus/render/photon_mapping.hpp"
@@ -13,16 +13,15 @@ namespace ljus {
 
 /// PhotonMappingSettings::skip: `abilities<Skipping>`.
 struct Skipping {
-    /// What it keeps.
+    /// Its state.
     template <std::floating_point T>
     struct State {
-        VerdictGridT<T> verdicts{}; ///< Which rays can be left out; empty unless asked
-                                    ///< for.
+        VerdictGridT<T> verdicts{}; ///< Rays to omit; empty unless requested.
     };
 };
 
-/// What is known of the lights at a vertex: what sample_all_lights() asks.
-/// \param mapper  With Skipping; must outlive what is returned.
+/// The verdicts on the lights at a vertex, for sample_all_lights().
+/// \param mapper  With Skipping; must outlive the result.
 /// \param vertex  The surface.
 template <typename Mapper, std::floating_point T>
 [[nodiscard]] auto verdicts_of(const Mapper& mapper,
@@ -30,7 +29,7 @@ template <typename Mapper, std::floating_point T>
     return detail::verdicts_at(mapper.template state<Skipping>().verdicts, vertex);
 }
 
-/// Whether a vertex sends no indirect ray, because no indirect photon is near.
+/// Whether to omit the indirect ray of a vertex, because no indirect photon is near.
 /// \param mapper  With Skipping.
 /// \param vertex  The surface.
 /// \param counts  Counts the ray that is not sent.

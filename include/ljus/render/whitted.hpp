@@ -13,26 +13,25 @@ namespace ljus {
 /// \brief Section 2.1: "trace both refractive, reflective and shadow rays", after
 /// Whitted \cite whitted1980. Chapter: \ref ch_whitted.
 ///
-/// What it carries, in Heckbert's letters, is L D? S* E, and each light only from one
-/// point. No other surface lights a diffuse one: no L D D E, and no caustic L S D E.
+/// In Heckbert's notation it finds the paths L D? S* E, with one point of each light.
+/// It finds no diffuse interreflection L D D E and no caustics L S D E.
 /// \{
 
 /// How a tree is traced.
 struct WhittedSettings {
-    int max_depth = 5;     ///< Reflections and refractions in a row; 0 sends no ray on,
-                           ///< 1000 is the most: each is one call inside of another.
-    bool both_ways = true; ///< Glass sends two rays; false: one of them, by roulette.
-    bool lamps = true; ///< A lamp with a size lights from its centre; false: is only
-                       ///< seen.
-    Rgb ambient{0}; ///< W/(m^2 sr) from everywhere to every diffuse surface, in place
-                    ///< of all the light that the tree does not carry.
+    int max_depth = 5; ///< Reflections and refractions in a row, 0 to 1000; each is a
+                       ///< recursive call.
+    bool both_ways = true; ///< Whether glass sends both rays, or one chosen at random.
+    bool lamps = true;     ///< Whether lamps with a size light from their centres.
+    Rgb ambient{0}; ///< W/(m^2 sr) from all directions at every diffuse surface, for
+                    ///< the light that the tree does not find.
 };
 
 /// Whitted's ray tracer of a world, which must outlive it.
 template <typename W>
 class WhittedTracer {
 public:
-    using Stream = RandomStream; ///< What render() gives it to draw from.
+    using Stream = RandomStream; ///< The random stream that render() passes.
 
     /// \param world     Must outlive the tracer.
     /// \param settings  Depth, branches, ambient light.
@@ -58,11 +57,11 @@ WhittedTracer(const W&, const WhittedSettings& = {}) -> WhittedTracer<W>;
 
 namespace detail {
 
-/// The light that a diffuse surface sends back: of each light by one shadow ray, which
-/// is not sent where the surface faces away, and of the ambient light without any.
+/// Adds the light that a diffuse surface reflects: by one shadow ray to each light that
+/// it faces, and the ambient light without a shadow ray.
 /// \param tracer    The world and the settings.
 /// \param vertex    The surface.
-/// \param material  What it is made of.
+/// \param material  Its material.
 /// \param counts    Counts the shadow rays.
 /// \param add       Called as add(owner, letters, radiance).
 /// \report{Section 2.1}
@@ -83,7 +82,7 @@ void local_light(const WhittedTracer<W>& tracer, const VertexT<T>& vertex,
             direct_light(world, light, vertex, material, u, MisT<T>{}, counts));
     }
     if (tracer.settings().ambient == Rgb{0}) return;
-    // As if all of it came along the normal: for a matt surface albedo times radiance.
+    // As if it all arrived along the normal; at a matt surface, albedo times radiance.
     const Vec3T<T> normal{T(0), T(0), std::copysign(T(1), vertex.wo.z)};
     add("ambient", "D",
         std::numbers::pi_v<T> * evaluate(material, vertex.wo, normal) *
@@ -91,10 +90,10 @@ void local_light(const WhittedTracer<W>& tracer, const VertexT<T>& vertex,
 }
 // [local light]
 
-/// Traces one branch of the tree, and all that it sends on.
+/// Traces one branch of the tree with all branches that it splits into.
 /// \param tracer   The world and the settings.
 /// \param path     The branch.
-/// \param context  Numbers for what is left to chance; counts rays, logs terms.
+/// \param context  The random stream; counts rays, logs terms.
 /// \param sum      Radiance is added to it.
 /// \report{Section 2.1}
 // [trace_branch]
@@ -139,11 +138,11 @@ void trace_branch(const WhittedTracer<W>& tracer, PathStateT<T> path, Context& c
 
 /// The radiance that the tree of one primary ray finds.
 ///
-/// Nothing is left to chance: glass sends a ray both ways, each light has one point.
-/// Only a material that mixes several lobes, or a thin surface, still chooses by lot.
+/// The tree is deterministic by default: glass sends both rays, and each light has one
+/// point. Only thin surfaces, and materials with several lobes, choose at random.
 /// \param tracer   The world and the settings.
 /// \param ray      A primary ray.
-/// \param context  Numbers for what is left to chance; counts rays, logs terms.
+/// \param context  The random stream; counts rays, logs terms.
 /// \return Radiance, W/(m^2 sr).
 /// \cost Up to 2^max_depth rays, if every ray meets glass.
 /// \report{Section 2.1}

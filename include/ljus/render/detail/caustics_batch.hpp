@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/detail/caustics_batch.hpp
-/// \brief Caustics that are asked for together: of 64 samples at a time.
+/// \brief Batched estimates of caustics, for 64 samples at a time.
 
 #include "ljus/path/renderer.hpp"
 #include "ljus/photons/detail/estimates_together.hpp"
@@ -11,17 +11,17 @@ namespace ljus::detail {
 /// \addtogroup photon_mapping
 /// \{
 
-/// The caustics estimates that were put off, of samples that are finished together.
+/// The delayed caustics estimates of a batch of samples.
 template <std::floating_point T>
 struct CausticsBatch {
-    std::uint32_t item = 0;                  ///< Which of the samples is being traced.
+    std::uint32_t item = 0; ///< Index of the sample that is being traced.
     std::vector<EstimatePlaceT<T>> places{}; ///< In the order of the samples.
-    BallBlocks found{};                      ///< Room for the search.
+    BallBlocks found{};                      ///< Storage for the search.
 
-    /// Asks, and adds what comes to the samples.
-    /// \param mapper   The maps, and how to ask.
+    /// Computes the estimates and adds them to the samples.
+    /// \param mapper   The maps and the settings of an estimate.
     /// \param counts   Counts queries and photons.
-    /// \param samples  By their items.
+    /// \param samples  The samples, by index.
     template <typename Mapper>
     void finish(const Mapper& mapper, Counts& counts, std::span<RgbT<T>> samples) {
         if (places.empty()) return;
@@ -37,12 +37,12 @@ struct CausticsBatch {
 };
 
 /// Queues the caustics estimate of a vertex, if it can be batched.
-/// \param batch       Of the context; a NoBatch puts nothing off.
+/// \param batch       The batch of the context; a NoBatch delays nothing.
 /// \param vertex      The surface.
-/// \param material    What it is made of.
+/// \param material    Its material.
 /// \param throughput  Of the path.
 /// \param how         The estimate.
-/// \return Whether it comes later.
+/// \return Whether the estimate was queued.
 template <typename Batch, std::floating_point T, typename M, typename K>
 [[nodiscard]] bool put_off(Batch& batch, const VertexT<T>& vertex, const M& material,
                            const RgbT<T>& throughput, const DensityEstimateOf<K>& how) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/detail/sample_sums.hpp
-/// \brief The sums of the samples of pixels, of which some light may come later.
+/// \brief The sums of the samples of pixels, with batched queries.
 
 #include <array>
 #include <span>
@@ -14,46 +14,46 @@ namespace ljus::detail {
 /// \addtogroup render
 /// \{
 
-/// A renderer that puts some questions off, to answer those of many samples together.
-/// Its type `Batch` takes them, as Context::batch, and has
+/// A renderer that delays some queries, to answer those of many samples together. Its
+/// type `Batch` collects them, as Context::batch, and has
 ///
-///     std::uint32_t item;  // which of the samples is being traced
+///     std::uint32_t item;  // index of the sample that is being traced
 ///     void finish(const R& renderer, Counts& counts, std::span<RgbT<T>> samples);
 ///
-/// finish() answers, and adds what comes to the samples. An answer must depend on its
-/// question alone, and not on those that are answered with it.
+/// finish() answers the queries and adds the results to the samples. Batching must not
+/// change any result.
 template <typename R>
 concept Batches = requires(typename R::Batch& batch) {
     batch.item;
 };
 
-/// What a renderer puts off that answers at once: nothing.
+/// The batch of a renderer that delays nothing.
 template <typename R>
 struct BatchOf {
     using Type = NoBatch;              ///< Its batch.
     static constexpr int together = 1; ///< How many samples are finished at a time.
 };
-/// For one that puts questions off.
+/// The batch of a renderer that delays queries.
 template <Batches R>
 struct BatchOf<R> {
     using Type = typename R::Batch;     ///< Its batch.
     static constexpr int together = 64; ///< How many samples are finished at a time.
 };
 
-/// What the samples of a pixel have found. In double: a float would lose the last of
-/// 100 000 samples.
+/// The sums over the samples of a pixel, in double: in float, the last of 100 000
+/// samples would be lost.
 struct PixelSums {
-    RgbT<double> sum{0};     ///< Of their radiance.
-    RgbT<double> squares{0}; ///< Of its squares.
+    RgbT<double> sum{0};     ///< Sum of radiance.
+    RgbT<double> squares{0}; ///< Sum of squared radiance.
 };
 
-/// Adds samples to the sums of their pixels, as soon as all of their light has come.
+/// Adds samples to the sums of their pixels once their delayed queries are answered.
 template <typename R, std::floating_point T>
 class SampleSums {
 public:
-    /// \param renderer  Whose samples.
-    /// \param sums      Of all pixels that get samples.
-    /// \param cost      Counts what is asked later, and samples that are not finite.
+    /// \param renderer  The renderer of the samples.
+    /// \param sums      The sums of all pixels that get samples.
+    /// \param cost      Counts delayed queries, and samples that are not finite.
     SampleSums(const R& renderer, std::span<PixelSums> sums, Counts& cost)
         : renderer_(renderer), sums_(sums), cost_(cost) {}
 
@@ -70,7 +70,7 @@ public:
         pixels_[item] = pixel;
         if (++count_ == BatchOf<R>::together) finish();
     }
-    /// Adds what is left.
+    /// Adds the remaining samples.
     void finish() {
         const auto count = static_cast<std::size_t>(count_);
         if constexpr (Batches<R>)
