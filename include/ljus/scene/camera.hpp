@@ -34,15 +34,16 @@ template <std::floating_point T>
 struct ViewT {
     Vec3T<T> position{T(0)};            ///< The pinhole, in scene units.
     Vec3T<T> target{T(0), T(0), T(-1)}; ///< The point at the middle of the picture.
-    Vec3T<T> up{T(0), T(1), T(0)};      ///< Roughly up; not along the view.
-    T vfov_degrees = T(45);             ///< Full vertical angle, within (0, 180).
+    Vec3T<T> up{T(0), T(1), T(0)}; ///< Approximate up direction; not along the view.
+    T vfov_degrees = T(45);        ///< Full vertical angle, within (0, 180).
 };
 using View = ViewT<float>; ///< ViewT in float.
 
 /// The camera of a view.
 /// \param view  Where it stands and what it looks at.
 /// \return The camera.
-/// \throws std::invalid_argument  if the view has no direction, or no up, or no angle.
+/// \throws std::invalid_argument  if the position and target are equal, `up` is along
+///         the view, or the angle is out of range.
 template <std::floating_point T>
 [[nodiscard]] CameraT<T> look_at(const ViewT<T>& view) {
     require_finite("camera.position", view.position);
@@ -50,7 +51,7 @@ template <std::floating_point T>
     require_finite("camera.up", view.up);
     require(view.vfov_degrees > T(0) && view.vfov_degrees < T(180),
             "camera.vfov_degrees", view.vfov_degrees, "above 0 and below 180");
-    // Once for a picture, so in double: a target 1e25 away, an angle of 179.99 degrees.
+    // In double, for a target 1e25 away or an angle of 179.99 degrees.
     using W = WideT<T>;
     const Vec3T<W> way = Vec3T<W>{view.target} - Vec3T<W>{view.position};
     require(glm::dot(way, way) > W(0), "camera.target", view.target,
@@ -69,7 +70,7 @@ template <std::floating_point T>
             .half_height = static_cast<T>(std::tan(half_angle))};
 }
 
-/// The same in float, for a view written in braces.
+/// The camera of a view in float; accepts a view in braces.
 [[nodiscard]] inline Camera look_at(const View& view) {
     return look_at<float>(view);
 }
@@ -94,21 +95,16 @@ template <std::floating_point T>
 }
 // [primary_ray]
 
-/// The primary ray as the pixel loop asks every camera for it: a pinhole leaves nothing
-/// to chance, and draws no number. A lens does.
-/// \param camera  The camera.
-/// \param pixel   From the upper left corner: x in [0, width], y in [0, height].
-/// \param width   Of the picture, in pixels.
-/// \param height  Of the picture, in pixels.
-/// \return primary_ray().
+/// The primary ray through a point of the picture, as in CameraLike. A pinhole camera
+/// draws no random numbers.
 template <std::floating_point T, StreamLike Stream>
 [[nodiscard]] RayT<T> camera_ray(const CameraT<T>& camera, const Vec2T<T>& pixel,
                                  int width, int height, Stream&) noexcept {
     return primary_ray(camera, pixel, width, height);
 }
 
-/// A camera: a struct with a member type `Scalar`, and beside it a function that gives
-/// the ray through a point of the picture and may draw numbers for it,
+/// A camera: a struct with a member type `Scalar`, and a free function that returns the
+/// ray through a point of the picture and may draw random numbers,
 ///
 ///     Ray camera_ray(const MyCamera&, const Vec2& pixel, int width, int height,
 ///                    auto& stream);
@@ -120,13 +116,13 @@ concept CameraLike = requires(const C& camera, const Vec2T<typename C::Scalar>& 
         } -> std::same_as<RayT<typename C::Scalar>>;
 };
 
-/// Where a point appears in the picture: primary_ray() the other way round.
+/// The position of a point in the picture: the inverse of primary_ray().
 /// \param camera  The camera.
 /// \param point   Any point.
 /// \param width   Of the picture, in pixels.
 /// \param height  Of the picture, in pixels.
-/// \return From the upper left corner, in pixels; it may lie outside of the picture.
-///         Nothing for a point beside or behind the camera, or one that is not finite.
+/// \return In pixels from the upper left corner, possibly outside the picture; nothing
+///         for a point beside or behind the camera, or a result that is not finite.
 /// \report{Section 3.2, Fig. 3}
 template <std::floating_point T>
 [[nodiscard]] std::optional<Vec2T<T>> project(const CameraT<T>& camera,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/scene/lens_camera.hpp
-/// \brief A camera with a lens: sharp at one distance only.
+/// \brief A camera with a thin lens, for depth of field.
 
 #include "ljus/math/random.hpp"
 #include "ljus/math/sampling.hpp"
@@ -14,23 +14,23 @@ namespace ljus {
 /// \ref ch_distributed_rays.
 /// \{
 
-/// A thin lens in the place of the pinhole. All light that comes from one point of the
-/// plane of focus meets in one point of the picture; with_lens() makes one.
+/// A camera with a thin lens instead of a pinhole: a point of the plane of focus
+/// appears as one point of the picture. with_lens() makes one.
 template <std::floating_point T>
 struct LensCameraT {
     using Scalar = T;     ///< The precision.
-    CameraT<T> pinhole{}; ///< Where it stands, and what it looks at.
-    T radius = T(0);      ///< Of the lens' opening, in scene units; 0 is the pinhole.
-    T focus = T(1); ///< How far the plane of focus is, along the view, in scene units.
+    CameraT<T> pinhole{}; ///< The same camera with a pinhole.
+    T radius = T(0);      ///< Radius of the lens, in scene units; 0: a pinhole.
+    T focus = T(1);       ///< Distance of the plane of focus along the view.
 };
 using LensCamera = LensCameraT<float>; ///< LensCameraT in float.
 
 /// Replaces the pinhole of a camera by a thin lens.
-/// \param camera  Of look_at().
-/// \param radius  Of the opening, at least 0.
-/// \param focus   Distance of the plane that is sharp, above 0.
+/// \param camera  Made by look_at().
+/// \param radius  Radius of the lens, at least 0.
+/// \param focus   Distance of the plane of focus, above 0.
 /// \return The camera.
-/// \throws std::invalid_argument  if one of the two is out of range.
+/// \throws std::invalid_argument  if `radius` or `focus` is out of range.
 template <std::floating_point T>
 [[nodiscard]] LensCameraT<T> with_lens(const CameraT<T>& camera,
                                        std::type_identity_t<T> radius,
@@ -41,13 +41,13 @@ template <std::floating_point T>
     return {camera, radius, focus};
 }
 
-/// The primary ray through a point of the picture and a point of the lens: it meets the
-/// pinhole's ray in the plane of focus.
+/// The primary ray through a point of the lens. It intersects the pinhole's ray in the
+/// plane of focus.
 /// \param camera  The camera.
 /// \param pixel   From the upper left corner: x in [0, width], y in [0, height].
 /// \param width   Of the picture, in pixels.
 /// \param height  Of the picture, in pixels.
-/// \param u       Point of the unit square: where on the lens, uniform over its area.
+/// \param u       Point of the unit square; maps uniformly to the area of the lens.
 /// \return A ray from the lens, its direction of unit length.
 /// \cite cook1984
 // [lens ray]
@@ -64,22 +64,17 @@ template <std::floating_point T>
 }
 // [lens ray]
 
-/// The primary ray as the pixel loop asks for it.
-/// \param camera  The camera.
-/// \param pixel   From the upper left corner.
-/// \param width   Of the picture, in pixels.
-/// \param height  Of the picture, in pixels.
-/// \param stream  Two numbers are drawn.
-/// \return A ray from a random point of the lens.
+/// The primary ray from a random point of the lens, as in CameraLike. Two random
+/// numbers are drawn.
 template <std::floating_point T, StreamLike Stream>
 [[nodiscard]] RayT<T> camera_ray(const LensCameraT<T>& camera, const Vec2T<T>& pixel,
                                  int width, int height, Stream& stream) noexcept {
     return primary_ray(camera, pixel, width, height, next_2d<T>(stream));
 }
 
-/// The circle of confusion: how large a point appears that is not in focus.
+/// The circle of confusion: the size in the picture of a point that is out of focus.
 /// \param camera  The camera.
-/// \param depth   How far the point is along the view, above 0.
+/// \param depth   Distance of the point along the view, above 0.
 /// \param height  Of the picture, in pixels.
 /// \return Its diameter, in pixels.
 /// \cite cook1984

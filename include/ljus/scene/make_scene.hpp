@@ -10,7 +10,7 @@
 namespace ljus {
 
 /// \defgroup make_scene Scenes in one expression
-/// \brief For small scenes in code, where spelling out the lists of types is a burden.
+/// \brief Small scenes in code, without writing the lists of types.
 ///
 ///     const World world(make_scene(
 ///         placed(Sphere{.center{0, 1, 0}}, Glass{}),
@@ -18,25 +18,25 @@ namespace ljus {
 ///         placed(Quad{{-1, 4, -1}, {2, 0, 0}, {0, 0, 2}}, Lambertian{}, Rgb{10}),
 ///         PointLight{.position{0, 3, 3}}));
 ///
-/// closes a `Scene<Shapes<Sphere, Quad>, Materials<Glass, Lambertian>,
+/// makes a World of a `Scene<Shapes<Sphere, Quad>, Materials<Glass, Lambertian>,
 /// Lights<PointLight>>`.
 /// \{
 
-/// A shape and what it is made of, on its way into a scene.
+/// A shape with its material and emission, as an argument of make_scene().
 template <Shape S, Material M>
 struct Placed {
     S shape;                       ///< The shape.
-    M material;                    ///< What it is made of.
+    M material;                    ///< Its material.
     RgbT<ScalarOf<S>> emission{0}; ///< Radiance along the normal, W/(m^2 sr).
     bool inside_out = false;       ///< Whether the normal points inwards.
 };
 
-/// A shape, made of a material.
+/// Pairs a shape with its material.
 /// \param shape       Any shape.
 /// \param material    Any material.
-/// \param emission    The radiance it emits along its normal's side, W/(m^2 sr).
+/// \param emission    The radiance that it emits on the side of its normal, W/(m^2 sr).
 /// \param inside_out  Whether the normal points inwards.
-/// \return A part for make_scene().
+/// \return An argument for make_scene().
 template <Shape S, Material M>
 [[nodiscard]] Placed<S, M>
 placed(const S& shape, const M& material,
@@ -60,13 +60,13 @@ template <typename... T, typename Next>
         return TypeList<T..., Next>{};
 }
 
-/// A list with nothing added: a point light has neither shape nor material.
+/// A list plus an empty list.
 template <typename... T>
 [[nodiscard]] constexpr TypeList<T...> operator+(TypeList<T...>, TypeList<>) noexcept {
     return {};
 }
 
-/// What one part adds to the lists; placed() shapes and lights are parts.
+/// The types that an argument of make_scene() adds to the lists.
 template <typename Part>
 struct PartOf;
 
@@ -86,34 +86,30 @@ struct PartOf<L> {
     using Light = TypeList<L>;   ///< Its own type.
 };
 
-/// Adds a part to a scene that lists its types.
-/// \param scene  The scene.
-/// \param part   A placed() shape.
+/// Adds a placed() shape to a scene that lists its types.
 template <typename Scene, typename S, typename M>
 void add_part(Scene& scene, const Placed<S, M>& part) {
     scene.add(part.shape, scene.add(part.material), part.emission, part.inside_out);
 }
 
-/// Adds a light that is no object to a scene.
-/// \param scene  The scene.
-/// \param light  The light.
+/// Adds a light that is not an object.
 template <typename Scene, LightSource Light>
 void add_part(Scene& scene, const Light& light) {
     scene.add(light);
 }
 
-/// What make_scene() takes: placed() shapes and lights.
+/// An argument of make_scene(): a placed() shape or a light.
 template <typename Part>
 concept ScenePart = requires {
     typename PartOf<Part>::Shape;
 };
 
-/// A part with a shape; a scene needs one for its precision.
+/// An argument with a shape; a scene needs one for its precision.
 template <typename Part>
 concept PlacedPart =
     ScenePart<Part> && !std::is_same_v<typename PartOf<Part>::Shape, TypeList<>>;
 
-/// The scene of three lists.
+/// An empty scene with these lists.
 template <typename... S, typename... M, typename... L>
 [[nodiscard]] Scene<Shapes<S...>, Materials<M...>, Lights<L...>>
 scene_of(TypeList<S...>, TypeList<M...>, TypeList<L...>) {
@@ -122,8 +118,8 @@ scene_of(TypeList<S...>, TypeList<M...>, TypeList<L...>) {
 
 } // namespace detail
 
-/// A scene of these parts, added in their order; each type is listed where it first
-/// appears. Each placed() shape has a material of its own: to share one, use
+/// A scene of these shapes and lights, added in order. Types are listed in order of
+/// first appearance. Each placed() shape has its own material: to share one, use
 /// Scene::add().
 /// \param parts  placed() shapes, at least one, and lights; of one precision.
 /// \return The scene.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/scene/scene.hpp
-/// \brief Shapes, what they are made of, and what emits: plain data that one adds to.
+/// \brief Scenes: shapes, materials and lights as plain data.
 
 #include <array>
 #include <cstddef>
@@ -15,7 +15,7 @@
 namespace ljus {
 
 /// \defgroup scene Scenes
-/// \brief A scene lists the types it is made of; what is not listed costs nothing.
+/// \brief A scene lists its types; a type that is not listed costs nothing.
 /// \{
 
 /// The closed list of a scene's shape types.
@@ -26,61 +26,59 @@ struct Shapes {};
 template <Material... M>
 struct Materials {};
 
-/// The closed list of a scene's light types, besides objects that emit.
+/// The closed list of a scene's light types, except emissive objects.
 template <LightSource... L>
 struct Lights {};
 
-/// Which material: the position of its type in Materials<...>, and its index among
-/// those of its type.
+/// Identifies a material by its type and its index.
 struct MaterialId {
     std::uint32_t type = 0;  ///< Position in Materials<...>.
     std::uint32_t index = 0; ///< Index in that type's array.
-    /// Whether both name the same material.
+    /// Whether both identify the same material.
     friend bool operator==(const MaterialId&, const MaterialId&) = default;
 };
 
-/// Which object: the position of its shape's type in Shapes<...>, and its index among
-/// those of its type.
+/// Identifies an object by its shape's type and its index.
 struct ObjectId {
     std::uint32_t type = 0;  ///< Position in Shapes<...>.
     std::uint32_t index = 0; ///< Index in that type's array.
-    /// Whether both name the same object.
+    /// Whether both identify the same object.
     friend bool operator==(const ObjectId&, const ObjectId&) = default;
 };
 
-/// The light number of an object that is no light.
+/// The light number of an object that is not a light.
 inline constexpr std::uint32_t no_light = 0xffffffffu;
 
-/// What a scene knows of a shape besides its geometry.
+/// The properties of an object, except its shape.
 template <std::floating_point T>
 struct ObjectT {
-    MaterialId material{};   ///< What it is made of.
-    RgbT<T> emission{T(0)};  ///< Radiance along the normal's side, W/(m^2 sr).
-    bool inside_out = false; ///< The normal points inwards: a room made of a sphere.
+    MaterialId material{};          ///< Its material.
+    RgbT<T> emission{T(0)};         ///< Radiance on the side of the normal, W/(m^2 sr).
+    bool inside_out = false;        ///< Whether the normal points inwards.
     std::uint32_t light = no_light; ///< Its number among a World's lights, if it emits.
 };
 
-/// One of the things that were added to a scene and may shine, in their order.
+/// An object or a light, in the order of addition.
 struct AddedId {
     std::uint32_t type = 0;  ///< Position in Shapes<...> or in Lights<...>.
     std::uint32_t index = 0; ///< Index in that type's array.
-    bool is_light = false;   ///< Whether it is a light and not an object.
+    bool is_light = false;   ///< Whether it is a light, not an object.
 };
 
 /// A scene; see the specialisation.
 template <typename ShapeList, typename MaterialList, typename LightList = Lights<>>
 struct Scene;
 
-/// Shapes with their materials, and lights: one contiguous array per type. One adds to
-/// it until it is closed: a World is made of it, and is what everything else takes.
+/// Shapes with their materials, and lights, in one contiguous array per type. A World
+/// is made from the finished scene; renderers and photon passes take the World.
 ///
-///     Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass>, Lights<PointLight>>
-///     scene; const auto grey = scene.add(Lambertian{.albedo = Rgb{0.5f}});
+///     Scene<Shapes<Sphere>, Materials<Lambertian, Glass>, Lights<PointLight>> scene;
+///     const auto grey = scene.add(Lambertian{.albedo = Rgb{0.5f}});
 ///     scene.add(Sphere{.center{0, 0, -3}, .radius = 1}, grey);
 ///     scene.add(PointLight{.position{0, 3, 0}, .intensity = Rgb{20}});
 ///     const World world(std::move(scene));
 ///
-/// What is added is checked. Its arrays may be changed in place; a World checks them
+/// add() checks its arguments. The arrays may be changed in place; a World checks them
 /// again.
 template <typename FirstShape, typename... S, typename... M, typename... L>
 struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
@@ -96,7 +94,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
                       detail::each_once<L...>,
                   "A scene lists each type once.");
 
-    /// Whether a type of shape, of material or of light is listed.
+    /// Whether a type of shape, material or light is listed.
     template <typename X>
     static constexpr bool lists = std::is_same_v<X, FirstShape> ||
                                   (std::is_same_v<X, S> || ...) ||
@@ -105,16 +103,16 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
 
     std::tuple<std::vector<FirstShape>, std::vector<S>...>
         shapes; ///< An array per type.
-    /// What each shape is made of, in the order of `shapes`. The emission is what add()
-    /// was given, without that of the material.
+    /// The properties of each shape, in the order of `shapes`. The emission is the
+    /// argument of add(), without that of the material.
     std::array<std::vector<ObjectT<Scalar>>, 1 + sizeof...(S)> objects;
     std::tuple<std::vector<M>...> materials; ///< An array per type.
     std::tuple<std::vector<L>...> lights;    ///< An array per type.
-    std::vector<AddedId> order; ///< Objects and lights, in the order of their addition.
+    std::vector<AddedId> order; ///< Objects and lights, in the order of addition.
 
     /// Adds a material.
     /// \param material  One of the listed types.
-    /// \return Its number, for the shapes that are made of it.
+    /// \return Its number, to add shapes with.
     /// \throws std::invalid_argument  if a value lies outside the material's range.
     template <Material B>
     requires lists<B> MaterialId add(const B& material) {
@@ -127,9 +125,9 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
 
     /// Adds a shape.
     /// \param shape     One of the listed types.
-    /// \param material  What add() returned for its material.
-    /// \param radiance  The radiance it emits along its normal's side, W/(m^2 sr);
-    ///                  added to what the material itself emits.
+    /// \param material  The number that add() returned.
+    /// \param radiance  The radiance that it emits on the side of its normal,
+    ///                  W/(m^2 sr), in addition to the emission of the material.
     /// \param inside_out  Whether the normal points inwards, as in a room made of a
     ///                  sphere.
     /// \return Its number.
@@ -151,9 +149,9 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
         return id;
     }
 
-    /// Adds a light that is no object; a black one is left out.
+    /// Adds a light that is not an object; a black light is ignored.
     /// \param light  One of the listed types.
-    /// \throws std::invalid_argument  if a value is out of range, or the flux.
+    /// \throws std::invalid_argument  if a value or the flux is out of range.
     template <LightSource X>
     requires lists<X>
     void add(const X& light) {
@@ -175,7 +173,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
         static_assert(light, "Neither a light nor listed: Scene<..., Materials<...>>.");
         return {};
     }
-    /// Diagnoses an unlisted shape, or a material in place of its number.
+    /// Diagnoses an unlisted shape, or a material instead of its number.
     template <typename G, typename Made>
     ObjectId add(const G&, const Made&, RgbT<Scalar> = {}, bool = false) {
         static_assert(lists<G>, "List the shape: Scene<Shapes<...>, ...>.");
@@ -183,16 +181,16 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
         return {};
     }
 
-    /// What the scene knows of a shape besides its geometry.
+    /// The properties of an object.
     [[nodiscard]] const ObjectT<Scalar>& object(ObjectId id) const noexcept {
         return objects[id.type][id.index];
     }
 
-    /// What an object emits, with what its material does.
-    /// \param object  With a material of this scene.
+    /// The emission of an object, including that of its material.
+    /// \param object  An object with a material of this scene.
     /// \return W/(m^2 sr).
-    /// \throws std::invalid_argument  if the material is unknown, the radiance out of
-    ///         range, or the surface a thin one, through which light goes straight on.
+    /// \throws std::invalid_argument  if the material is unknown, the radiance is out
+    ///         of range, or a thin surface emits.
     [[nodiscard]] RgbT<Scalar> emission_of(const ObjectT<Scalar>& object) const {
         const MaterialId id = object.material;
         require_radiance("emission", object.emission);
@@ -212,25 +210,25 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
         return detail::visit_element(materials, id.type, id.index, of_material);
     }
 
-    /// Whether a predicate on types, a lambda `[]<typename G>() { ... }`, holds for one
-    /// of the listed shapes.
+    /// Whether a predicate on types, a lambda `[]<typename G>() { ... }`, is true for
+    /// any listed shape.
     template <typename F>
     [[nodiscard]] static constexpr bool any_shape(F f) noexcept {
         return f.template operator()<FirstShape>() ||
                (f.template operator()<S>() || ...);
     }
-    /// The same for the listed materials.
+    /// As any_shape(), for materials.
     template <typename F>
     [[nodiscard]] static constexpr bool any_material(F f) noexcept {
         return (f.template operator()<M>() || ...);
     }
-    /// The same for the listed lights, as they are within a scene.
+    /// As any_shape(), for lights in their form within a World.
     template <typename F>
     [[nodiscard]] static constexpr bool any_light([[maybe_unused]] F f) noexcept {
         return (f.template operator()<InSceneT<L>>() || ...);
     }
 
-    /// How many lights there are: emissive objects, and those that are no objects.
+    /// The number of lights, including emissive objects.
     [[nodiscard]] std::size_t light_count() const {
         std::size_t count = 0;
         for (const AddedId& added : order)
@@ -239,7 +237,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
         return count;
     }
 
-    /// How many shapes there are.
+    /// The number of shapes.
     [[nodiscard]] std::size_t size() const noexcept {
         std::size_t sum = 0;
         for (const auto& array : objects) sum += array.size();

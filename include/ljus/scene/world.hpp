@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/scene/world.hpp
-/// \brief A closed scene: what rays and photons travel in.
+/// \brief The closed scene that renderers and photon passes take.
 
 #include <algorithm>
 #include <cstdint>
@@ -18,25 +18,25 @@
 namespace ljus {
 
 /// \defgroup light_choice Choosing a light
-/// \brief Photons, and the path tracer's shadow rays, start at one light of all: a
-/// bright one more often.
+/// \brief Photons and the path tracer's shadow rays choose one light, with a
+/// probability proportional to its power.
 /// \{
 
-/// The lights of a scene, by power.
+/// The cumulative distribution of the lights of a scene by power.
 struct LightChoice {
-    std::vector<double> cumulative; ///< Sums of the powers up to each light, in W.
+    std::vector<double> cumulative; ///< Sum of the powers up to each light, in W.
 };
 
 /// One chosen light.
 template <std::floating_point T>
 struct ChosenLightT {
     std::uint32_t light = 0; ///< Its number.
-    T probability = T(0);    ///< Of choosing this one.
+    T probability = T(0);    ///< The probability of this choice.
 };
 
-/// The sums that choose_light() needs; a light's power is the sum of its channels.
+/// The distribution for choose_light(); a light's power is the sum of its channels.
 /// \param powers  The flux of each light, in W.
-/// \return One sum per light.
+/// \return The cumulative sums, one per light.
 template <std::floating_point T>
 [[nodiscard]] LightChoice light_choice(const std::vector<RgbT<T>>& powers) {
     LightChoice choice{std::vector<double>(powers.size())};
@@ -48,10 +48,10 @@ template <std::floating_point T>
     return choice;
 }
 
-/// The probability with which choose_light() returns a light.
-/// \param choice  Of the scene's lights.
+/// The probability that choose_light() returns a light.
+/// \param choice  The distribution of the scene's lights.
 /// \param light   Its number.
-/// \return Its share of the power.
+/// \return Its fraction of the total power.
 template <std::floating_point T>
 [[nodiscard]] T probability_of(const LightChoice& choice,
                                std::uint32_t light) noexcept {
@@ -60,8 +60,8 @@ template <std::floating_point T>
                           choice.cumulative.back());
 }
 
-/// A light, with a probability in proportion to its power.
-/// \param choice  Of the scene's lights; at least one.
+/// Chooses a light with a probability proportional to its power.
+/// \param choice  The distribution of the scene's lights; at least one.
 /// \param u       In [0, 1).
 /// \return Its number and the probability, which is never 0.
 /// \cost A binary search.
@@ -71,8 +71,8 @@ template <std::floating_point T>
     const auto place =
         std::upper_bound(choice.cumulative.begin(), choice.cumulative.end() - 1, power);
     const auto light = static_cast<std::uint32_t>(place - choice.cumulative.begin());
-    // Beside one 1e38 times as strong, a light's share may be too small for T, but the
-    // light's flux is divided by it.
+    // The probability may underflow in T if another light is 1e38 times as strong, but
+    // it must not be 0: the flux of the light is divided by it.
     return {light,
             std::max(probability_of<T>(choice, light), std::numeric_limits<T>::min())};
 }
@@ -87,20 +87,17 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The most shapes that are asked in turn; of more, a tree says which ones to ask.
-/// In the report's room, cut down to its first 1, 2, 3, ... objects, the tree is no
-/// slower than the loop from the third on (benchmarks/rays_room.cpp; \ref ch_bvh).
+/// The largest number of shapes that a loop tests; more shapes are put in a tree. In
+/// the report's room, reduced to its first n objects, the tree is no slower than the
+/// loop for n >= 3 (benchmarks/rays_room.cpp; \ref ch_bvh).
 inline constexpr std::size_t flat_loop_limit = 2;
 
-/// Whether a tree finds the first of so many shapes on a ray, or a loop over all.
-/// \param shapes  How many.
+/// Whether this number of shapes needs a tree; a loop tests fewer shapes.
 [[nodiscard]] constexpr bool needs_tree(std::size_t shapes) noexcept {
     return shapes > flat_loop_limit;
 }
 
-/// A box around a shape of any type: its own bounds(), or those of its bounding sphere.
-/// \param shape  The shape.
-/// \return The box.
+/// The bounding box of a shape: its own bounds(), or those of its bounding sphere.
 template <Shape S>
 [[nodiscard]] auto box_around(const S& shape) {
     if constexpr (requires { bounds(shape); })
@@ -109,8 +106,8 @@ template <Shape S>
         return bounds(bounding_sphere(shape));
 }
 
-/// Where a ray meets a shape of any type, in the arithmetic that is asked for, if the
-/// shape has a choice.
+/// Intersects a ray with a shape of any type, in a given arithmetic if the shape offers
+/// a choice.
 /// \tparam Compute  As for intersect().
 /// \param ray    Hits count in [t_min, t_max].
 /// \param shape  The shape.
@@ -124,7 +121,7 @@ template <typename Compute, std::floating_point T, typename S>
             return intersect(ray, shape);
     };
     if constexpr (std::is_same_v<decltype(ask()), std::optional<FlatHitT<T>>>) {
-        return ask(); // without a copy, which is slow enough to show
+        return ask(); // avoids a copy with a measurable cost
     } else {
         const auto hit = ask();
         if (!hit) return std::nullopt;
@@ -132,8 +129,8 @@ template <typename Compute, std::floating_point T, typename S>
     }
 }
 
-/// Whether a ray meets a shape of any type: by the shape's any-hit test, meets(), if it
-/// has one.
+/// Whether a ray meets a shape of any type. It uses the shape's any-hit test meets(),
+/// if there is one.
 /// \tparam Compute  As for intersect().
 /// \param ray    Hits count in [t_min, t_max].
 /// \param shape  The shape.
@@ -146,7 +143,7 @@ template <typename Compute, std::floating_point T, typename S>
         return hit_of<Compute>(ray, shape).has_value();
 }
 
-/// The lights of a list as a scene keeps them.
+/// The lights of a list in their form within a World.
 template <typename LightList>
 struct KeptLights;
 /// One array per type.
@@ -158,14 +155,14 @@ struct KeptLights<std::tuple<std::vector<L>...>> {
 /// Whether a type is a Scene.
 template <typename S>
 inline constexpr bool is_scene = false;
-/// A Scene is one.
+/// True for a Scene.
 template <typename G, typename M, typename L>
 inline constexpr bool is_scene<Scene<G, M, L>> = true;
 
 } // namespace detail
 
-/// The arithmetic of a world's intersections, as intersect() has it, for its
-/// constructor: `World world(std::move(scene), compute_in<double>)`.
+/// Selects the arithmetic of a world's intersections in its constructor:
+/// `World world(std::move(scene), compute_in<double>)`.
 template <typename Compute>
 inline constexpr std::type_identity<Compute> compute_in{};
 
@@ -176,26 +173,26 @@ struct SceneHitT {
     ObjectId object{}; ///< Which object.
 };
 
-/// A scene that is closed: it owns its shapes, materials and lights, a tree over its
-/// shapes \cite rubin1980, and what its lights are worked out to be. Nothing of it can
-/// be changed any more, so that all of it agrees.
+/// A closed scene. It owns shapes, materials and lights, a tree over the shapes \cite
+/// rubin1980, and data derived from the lights. It cannot be changed, so its members
+/// are always consistent.
 ///
 ///     const World world(std::move(scene));
 /// \tparam S        A Scene.
-/// \tparam Compute  The arithmetic of all intersections, as intersect() has it.
+/// \tparam Compute  The arithmetic of all intersections, as for intersect().
 template <typename S, typename Compute = void>
 class World {
     static_assert(detail::is_scene<S>, "A World is made of a Scene.");
 
 public:
     using Scalar = typename S::Scalar; ///< The precision, from the shapes' types.
-    /// The wide tree, which is made of floats, or the plain one.
+    /// The wide tree for float; the plain tree for other precisions.
     using Tree = std::conditional_t<std::is_same_v<Scalar, float>, Bvh8, BvhT<Scalar>>;
 
     /// Closes a scene.
     /// \param scene  Moved in, or copied.
-    /// \throws std::invalid_argument  if the scene holds data that add() would refuse,
-    ///         or an array was changed so that others do not go with it.
+    /// \throws std::invalid_argument  if the scene contains data that add() would
+    ///         refuse, or its arrays are inconsistent.
     explicit World(S scene, std::type_identity<Compute> = {})
         : shapes_(std::move(scene.shapes)), objects_(std::move(scene.objects)) {
         find_bounds();
@@ -211,35 +208,35 @@ public:
 
     /// All shapes, an array per type.
     [[nodiscard]] const auto& shapes() const noexcept { return shapes_; }
-    /// What each is made of, in the order of shapes().
+    /// The properties of each object, in the order of shapes().
     [[nodiscard]] const auto& objects() const noexcept { return objects_; }
     /// All materials, an array per type.
     [[nodiscard]] const auto& materials() const noexcept { return materials_; }
-    /// How many shapes there are.
+    /// The number of shapes.
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
-    /// A box around the bounding spheres of all shapes.
+    /// The bounding box of the bounding spheres of all shapes.
     [[nodiscard]] const BoxT<Scalar>& box() const noexcept { return box_; }
-    /// Whether a point may lie within a body that absorbs: in a box around all of them.
+    /// Whether a point may lie in an absorbing body: whether it lies in their common
+    /// bounding box.
     [[nodiscard]] bool may_be_in_medium(const Vec3T<Scalar>& point) const noexcept {
         return glm::all(glm::lessThanEqual(media_.low, point)) &&
                glm::all(glm::lessThanEqual(point, media_.high));
     }
-    /// Whether boxes around bodies with a medium overlap, one of which absorbs: who
-    /// leaves one of them may still be in another.
+    /// Whether the bounding box of an absorbing body overlaps that of another body with
+    /// a medium: a path that leaves one of them may still be in the other.
     [[nodiscard]] bool has_nested_media() const noexcept { return nested_media_; }
-    /// How many lights there are: emissive objects and others, in the order in which
-    /// they were added.
+    /// The number of lights, including emissive objects; numbered in order of addition.
     [[nodiscard]] std::size_t light_count() const noexcept { return lights_.size(); }
     /// The flux of each light, W.
     [[nodiscard]] const auto& powers() const noexcept { return powers_; }
-    /// The lights by power.
+    /// The distribution of the lights by power.
     [[nodiscard]] const LightChoice& light_choice() const noexcept { return choice_; }
-    /// Of the shapes, in the tree's order; empty if a loop asks all of them.
+    /// The objects in the tree's order; empty without a tree.
     [[nodiscard]] std::span<const ObjectId> ids() const noexcept { return ids_; }
-    /// Over the shapes, if there are many; else empty.
+    /// The tree over the shapes; empty if there are few.
     [[nodiscard]] const Tree& tree() const noexcept { return tree_; }
 
-    /// What the world knows of a shape besides its geometry.
+    /// The properties of an object.
     [[nodiscard]] const ObjectT<Scalar>& object(ObjectId id) const noexcept {
         return objects_[id.type][id.index];
     }
@@ -247,7 +244,7 @@ public:
     [[nodiscard]] const FrameT<Scalar>& frame(ObjectId id) const noexcept {
         return frames_[id.type][id.index];
     }
-    /// Whether a path can meet a light: it has a surface, or fills the sky.
+    /// Whether a path can meet a light: whether it has a surface or fills the sky.
     /// \param light  Its number.
     [[nodiscard]] bool can_be_met(std::uint32_t light) const {
         if constexpr (any_light([]<typename L>() { return FillsSky<L>; }))
@@ -256,18 +253,18 @@ public:
                                    []<typename L>(const L&) { return FillsSky<L>; });
         return lights_[light].type == 0;
     }
-    /// Calls f(shape) with the shape of an object, as its own type.
+    /// Calls f(shape) with the shape of an object, in its own type.
     template <typename F>
     decltype(auto) visit_shape(ObjectId id, F&& f) const {
         return detail::visit_element(shapes_, id.type, id.index, f);
     }
-    /// Calls f(material) with the material of a number, as its own type.
+    /// Calls f(material) with a material, in its own type.
     template <typename F>
     decltype(auto) visit_material(MaterialId id, F&& f) const {
         return detail::visit_element(materials_, id.type, id.index, f);
     }
-    /// Calls f(light) with the light of a number, as its own type: an AreaLightT for an
-    /// emissive object, any other as it is within the scene.
+    /// Calls f(light) with a light, in its own type: an AreaLightT for an emissive
+    /// object, otherwise its form within a World.
     template <typename F>
     decltype(auto) visit_light(std::uint32_t number, F&& f) const {
         const LightId& id = lights_[number];
@@ -280,18 +277,17 @@ public:
         });
     }
 
-    /// Whether a predicate on types, a lambda `[]<typename G>() { ... }`, holds for one
-    /// of the listed shapes.
+    /// As Scene::any_shape().
     template <typename F>
     [[nodiscard]] static constexpr bool any_shape(F f) noexcept {
         return S::any_shape(f);
     }
-    /// The same for the listed materials.
+    /// As Scene::any_material().
     template <typename F>
     [[nodiscard]] static constexpr bool any_material(F f) noexcept {
         return S::any_material(f);
     }
-    /// The same for the listed lights.
+    /// As Scene::any_light().
     template <typename F>
     [[nodiscard]] static constexpr bool any_light(F f) noexcept {
         return S::any_light(f);
@@ -331,8 +327,8 @@ private:
         if (size_ == 0) box_ = {Vec3T<Scalar>{0}, Vec3T<Scalar>{0}};
     }
 
-    // A normal takes a cross product in double and a square root, which is worth doing
-    // once for what is flat.
+    // Computed once per flat shape: a normal costs a cross product in double and a
+    // square root.
     void make_frames() {
         std::size_t type = 0;
         const auto add = [&]<typename G>(const std::vector<G>& list) {
@@ -387,7 +383,7 @@ private:
             if (!absorbs) continue;
             media_.low = glm::min(media_.low, box.low);
             media_.high = glm::max(media_.high, box.high);
-            // Of very many bodies it is taken for granted.
+            // Assumed for very many bodies, because the test is quadratic.
             nested_media_ = nested_media_ || bodies.size() > 4096;
             for (std::size_t k = 0; k < bodies.size() && !nested_media_; ++k)
                 nested_media_ =
@@ -397,7 +393,7 @@ private:
         }
     }
 
-    // A thousandth wider than it need be, so that no rounding leaves a corner dark.
+    // Larger by 0.1 %, so that rounding does not exclude a corner from a sun's light.
     [[nodiscard]] SphereT<Scalar> around() const {
         const Vec3T<Scalar> half = (box_.high - box_.low) / Scalar(2);
         return {.center = box_.low + half, .radius = Scalar(1.001) * glm::length(half)};
@@ -451,7 +447,7 @@ private:
         frames_;
     std::size_t size_ = 0;
     BoxT<Scalar> box_{};
-    BoxT<Scalar> media_{}; // of bodies that absorb; empty without any
+    BoxT<Scalar> media_{}; // of all absorbing bodies; empty if there are none
     bool nested_media_ = false;
     Tree tree_{};
     std::vector<ObjectId> ids_{};
@@ -467,19 +463,19 @@ namespace detail {
 /// Whether a type is a World.
 template <typename W>
 inline constexpr bool is_world = false;
-/// A World is one.
+/// True for a World.
 template <typename S, typename Compute>
 inline constexpr bool is_world<World<S, Compute>> = true;
 
 } // namespace detail
 
-/// What renderers and photons take: a World, whatever it is made of.
+/// Any World: the argument of renderers and photon passes.
 template <typename W>
 concept AnyWorld = detail::is_world<W>;
 
 namespace detail {
 
-/// A type that must be a World, or a sentence says what to do.
+/// Diagnoses a scene that is not closed.
 template <typename W>
 struct Closed {
     using Type = W; ///< The world.
@@ -488,12 +484,11 @@ struct Closed {
 
 } // namespace detail
 
-/// How a renderer takes its world: as a Ref, with a sentence for who hands in a scene
-/// that is not closed.
+/// A renderer's reference to its world. An unclosed scene gives an error with a remedy.
 template <typename W>
 using WorldRef = Ref<typename detail::Closed<W>::Type>;
 
-/// The first object that a ray meets, by asking every shape in turn: the plain twin of
+/// The first object that a ray meets, by a loop over all shapes: the plain twin of
 /// closest_hit().
 /// \param world  The closed scene.
 /// \param ray    Hits count in [t_min, t_max].
@@ -532,8 +527,8 @@ template <typename S, typename Compute, std::floating_point T>
                       world.shapes());
 }
 
-/// The first object that a ray meets. The tree leaves out what the ray cannot meet, and
-/// asks the rest: the answer is that of closest_hit_plain(), to the last bit.
+/// The first object that a ray meets, found by the tree. The result is the same as that
+/// of closest_hit_plain(), to the last bit.
 /// \param world  The closed scene.
 /// \param ray    Hits count in [t_min, t_max].
 /// \return The nearest hit, the earlier object on a tie; nothing for a miss.
@@ -551,7 +546,7 @@ closest_hit(const World<S, Compute>& world, const RayT<T>& ray) {
     return SceneHitT<T>{nearest.at, world.ids()[nearest.slot]};
 }
 
-/// Whether anything lies on a ray: the question of a shadow ray.
+/// Whether any object intersects a ray, for shadow rays.
 /// \param world  The closed scene.
 /// \param ray    Hits count in [t_min, t_max].
 /// \return True at the first hit found, whichever it is.
