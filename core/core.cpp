@@ -1,7 +1,7 @@
-// The library ljus::core: compiles once what ljus/core.hpp lists. By a compiler line,
+// The library ljus::core instantiates what ljus/core.hpp lists. Without CMake:
 //
 //     g++ -std=c++20 -O2 -fopenmp -Iinclude -c core/core.cpp
 //     g++ -std=c++20 -O2 -fopenmp -Iinclude -DLJUS_CORE app.cpp core.o
-#define LJUS_CORE_EXTERN // not extern, and not inline: here they are made
+#define LJUS_CORE_EXTERN // neither extern nor inline: defined here
 #define LJUS_CORE_INLINE
 #include "ljus/core.hpp"

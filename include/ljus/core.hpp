@@ -1,13 +1,13 @@
 #pragma once
 
 /// \file ljus/core.hpp
-/// \brief What the optional library ljus::core has compiled: the engines in float.
+/// \brief The templates that the optional library ljus::core compiles, in float.
 ///
-/// All of Ljus is in its headers. But what does not depend on a scene's types need not
-/// be compiled again for each program: one that defines `LJUS_CORE` and is linked with
-/// ljus::core takes from there what this list names, and the few functions before
-/// which LJUS_CORE_INLINE stands. ljus.hpp includes the list then, and core/core.cpp,
-/// which makes what it names; a line here is all that it takes.
+/// All of Ljus is in its headers, but code that does not depend on a scene's types can
+/// be compiled once for all programs. A program that defines `LJUS_CORE` and is linked
+/// with ljus::core uses the instantiations in this list, and the functions marked
+/// LJUS_CORE_INLINE. ljus.hpp then includes this list; core/core.cpp instantiates it.
+/// To add an instantiation, add a line here.
 
 #include "ljus/inspect/survey.hpp"
 #include "ljus/io/png.hpp"
@@ -17,7 +17,7 @@
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scene/camera.hpp"
 
-/// `extern` to those who use the library; empty where it is made.
+/// `extern` in programs that use the library; empty in core/core.cpp.
 #ifndef LJUS_CORE_EXTERN
 #define LJUS_CORE_EXTERN extern
 #endif

@@ -16,12 +16,11 @@ namespace ljus {
 template <typename Signature>
 class FunctionRef;
 
-/// A reference to anything that can be called as `R callable(A...)`: what takes it is
-/// compiled once, and not again for each type of callable. As std::function_ref of
-/// C++26, but for objects only.
+/// A reference to an object that can be called as `R callable(A...)`. A function that
+/// takes it is compiled once, not once per type of callable. It is like
+/// std::function_ref of C++26, but for objects only.
 ///
-/// It refers to a callable with a name and does not own it, so that the callable must
-/// live as long as the reference is used. A temporary does not compile.
+/// The callable must outlive the reference. A temporary does not compile.
 template <typename R, typename... A>
 class FunctionRef<R(A...)> {
 public:

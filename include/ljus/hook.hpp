@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/hook.hpp
-/// \brief Hooks: what a type may have beside what its concept asks for.
+/// \brief Hooks: optional functions and constants of a type.
 
 #include <algorithm>
 #include <cstddef>
@@ -13,18 +13,17 @@
 
 namespace ljus::detail {
 
-// A row of a table of hooks. A function whose name is misspelt is never called; the
-// survey, which prints the table, shows that this hook is missing.
+// A row of a table of hooks. A function with a misspelt name is never called; the
+// survey prints the table, which then shows that the hook is missing.
 struct Hook {
     const char* name;    // of the function, or of the constant
-    const char* purpose; // what it is for
-    const char* without; // what happens if it is not there
+    const char* purpose; // its purpose
+    const char* without; // what happens without it
     bool provided;       // whether the type has it
 };
 
-// Stands for a type S where it is asked what S itself has. As S is its base, functions
-// for S take it; but it is neither a shape nor a material, so that the defaults, which
-// are functions for every shape or every material, do not.
+// Derives from S to tell which hooks S itself provides. Overloads written for S accept
+// it. The generic defaults do not, because it is neither a Shape nor a Material.
 template <typename S>
 struct OwnOf : S {
     using Scalar = void; // a material's is a number
@@ -36,12 +35,12 @@ inline constexpr bool is_stand_in = false;
 template <typename S>
 inline constexpr bool is_stand_in<OwnOf<S>> = true;
 
-// The stand-in for any type; one that is final can only stand for itself.
+// The stand-in for any type; a final type stands for itself.
 template <typename S>
 using Own = std::conditional_t<std::is_final_v<S>, S, OwnOf<S>>;
 
-// The name of a type as a compiler spells it, without this namespace. Most compilers
-// tell it only as part of a function's name.
+// The name of a type as the compiler spells it, without this namespace. Most compilers
+// give it only within the name of a function.
 template <typename T>
 [[nodiscard]] std::string type_name() {
 #ifdef __GNUC__ // "... [with T = ljus::SphereT<float>; ...]", or "[T = ...]" of clang
@@ -56,7 +55,7 @@ template <typename T>
     return name;
 }
 
-// A table in one line: what the type has, and what happens without the rest.
+// A table in one line: the hooks of the type, and what happens without the others.
 template <typename Rows>
 [[nodiscard]] std::string to_line(const Rows& rows) {
     std::string has, lacks;

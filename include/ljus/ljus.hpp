@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/ljus.hpp
-/// \brief What a first program needs: all shapes, lights and materials, scenes,
-/// cameras, the renderers, PNG. What else there is, each header of its own gives.
+/// \brief The headers for a first program: all shapes, lights and materials, scenes,
+/// cameras, the renderers, PNG. Other features have their own headers.
 
 #include "ljus/geometry/box.hpp"
 #include "ljus/geometry/isosurface.hpp"

@@ -8,11 +8,11 @@
 namespace ljus {
 
 /// \defgroup ref References
-/// \brief What keeps a reference to an argument takes it as a Ref.
+/// \brief A class that stores a reference to an argument takes it as a Ref.
 /// \{
 
-/// Refers to an object that must outlive it. A temporary does not compile, because it
-/// would be gone before it is used.
+/// Refers to an object that must outlive it. A temporary does not compile, because its
+/// lifetime ends before the reference is used.
 template <typename X>
 class Ref {
 public:

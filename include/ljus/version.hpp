@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/version.hpp
-/// \brief The version of Ljus, and what it asks of the compiler.
+/// \brief The version of Ljus, and its requirements on the compiler.
 
 /// The version of the library; CMake reads it from here.
 #define LJUS_VERSION_MAJOR 0
@@ -27,8 +27,8 @@
 #error "Ljus computes with GLM's plain vectors: compile without GLM_FORCE_INTRINSICS."
 #endif
 
-/// Before a function that is no template and that ljus::core has compiled: `inline` to
-/// those who use headers alone.
+/// Marks a function that is not a template and that ljus::core compiles; it is `inline`
+/// without ljus::core.
 #ifndef LJUS_CORE_INLINE
 #ifdef LJUS_CORE
 #define LJUS_CORE_INLINE
