@@ -32,7 +32,7 @@ namespace ljus {
 
 namespace detail {
 
-[[noreturn]] inline void fail_to_read(const std::string& path, std::string_view why) {
+[[noreturn, gnu::cold]] inline void fail_to_read(const std::string& path, std::string_view why) {
     throw std::runtime_error(
         join({"cannot read '", shown_path(path), "': ", why, "."}));
 }
@@ -54,7 +54,7 @@ inline std::string path_beside(const std::string& file, const std::string& name)
 /// is left. The new file has the older one's permissions. (A program that wants to
 /// receive the error of a file-size limit must ignore SIGXFSZ.)
 /// \throws std::runtime_error  "cannot write 'out/a.png': No space left on device.".
-inline void save_file(const std::string& path, const Bytes& bytes) {
+[[gnu::cold]] inline void save_file(const std::string& path, const Bytes& bytes) {
     detail::FileBeside file(detail::file_to_replace(path));
     file.write(bytes);
     file.close();

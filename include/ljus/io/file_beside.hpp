@@ -37,7 +37,7 @@ using Bytes = std::vector<unsigned char>;
 /// A text from a file or a user, made fit for a message: one line of limited length,
 /// with `?` for each control character and each byte that is not UTF-8.
 /// At most `limit` bytes are shown, then "...".
-[[nodiscard]] inline std::string shown(std::string text, std::size_t limit = 48) {
+[[nodiscard, gnu::cold]] inline std::string shown(std::string text, std::size_t limit = 48) {
     const auto byte = [&](std::size_t i) {
         return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
     };
@@ -60,13 +60,13 @@ using Bytes = std::vector<unsigned char>;
 }
 
 /// A path for a message; it may come from a file. At most 1000 bytes are shown.
-[[nodiscard]] inline std::string shown_path(const std::string& path) {
+[[nodiscard, gnu::cold]] inline std::string shown_path(const std::string& path) {
     return shown(path, 1000);
 }
 
 namespace detail {
 
-[[noreturn]] inline void fail_to_write(const std::string& path, int error) {
+[[noreturn, gnu::cold]] inline void fail_to_write(const std::string& path, int error) {
     throw std::runtime_error(
         join({"cannot write '", shown_path(path), "': ", std::strerror(error), "."}));
 }
@@ -74,7 +74,7 @@ namespace detail {
 // The file that a save replaces. For a symbolic link that is its target, so that the
 // link stays. Folders and devices (/dev/null), and files without write permission, are
 // not replaced.
-inline std::string file_to_replace(const std::string& path) {
+[[gnu::cold]] inline std::string file_to_replace(const std::string& path) {
 #if __has_include(<unistd.h>)
     struct ::stat status = {};
     if (::stat(path.c_str(), &status) != 0) return path;
@@ -96,7 +96,7 @@ inline std::string file_to_replace(const std::string& path) {
 // that is killed before leaves nothing.
 class FileBeside {
 public:
-    explicit FileBeside(const std::string& path, bool nameless = true) : path_(path) {
+    [[gnu::cold]] explicit FileBeside(const std::string& path, bool nameless = true) : path_(path) {
         if (nameless) open_nameless();
         // "x" never opens an existing file, which may belong to another process.
         for (long long number = 0; file_ == nullptr && number < most_names; ++number) {
@@ -113,18 +113,18 @@ public:
     }
     FileBeside(const FileBeside&) = delete;
     FileBeside& operator=(const FileBeside&) = delete;
-    ~FileBeside() {
+    [[gnu::cold]] ~FileBeside() {
         if (file_ != nullptr) std::fclose(file_);
         if (!renamed_ && !name_.empty()) std::remove(name_.c_str());
     }
 
-    void write(const Bytes& bytes) {
+    [[gnu::cold]] void write(const Bytes& bytes) {
         if (bytes.empty()) return;
         if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
             fail_to_write(path_, errno);
     }
 
-    void close() {
+    [[gnu::cold]] void close() {
         if (std::fflush(file_) != 0) fail_to_write(path_, errno);
 #if __has_include(<unistd.h>)
         // Flushed to the disk before the renaming: otherwise a loss of power could
@@ -139,7 +139,7 @@ public:
         if (std::fclose(file) != 0) fail_to_write(path_, errno);
     }
 
-    void rename_to_path() {
+    [[gnu::cold]] void rename_to_path() {
 #ifdef _WIN32
         // Here std::rename does not replace: the older file is renamed first, and
         // renamed back if the new one cannot be.
@@ -158,12 +158,12 @@ public:
 
 private:
     static constexpr long long most_names = 10'000;
-    std::string name_of(long long number) const {
+    [[gnu::cold]] std::string name_of(long long number) const {
         return join({path_, ".part", to_text(number)});
     }
 
     // If this fails, the named file will fail as well, and report the reason.
-    void open_nameless() {
+    [[gnu::cold]] void open_nameless() {
 #if defined(O_TMPFILE) && defined(AT_SYMLINK_FOLLOW)
         struct ::stat status = {};
         if (::stat(name_of(0).c_str(), &status) != 0 && errno != ENOENT) return;
@@ -176,7 +176,7 @@ private:
         if (file_ == nullptr) ::close(number);
 #endif
     }
-    void give_name() {
+    [[gnu::cold]] void give_name() {
 #if defined(O_TMPFILE) && defined(AT_SYMLINK_FOLLOW)
         const std::string mine = join({"/proc/self/fd/", to_text(::fileno(file_))});
         for (long long number = 0; number < most_names; ++number) {

@@ -110,7 +110,7 @@ template <std::floating_point T>
 /// Saves an image as PNG.
 /// \throws std::invalid_argument  as encode_png(); std::runtime_error as save_file().
 template <std::floating_point T>
-void save_png(const ImageT<T>& image, const std::string& path,
+[[gnu::cold]] void save_png(const ImageT<T>& image, const std::string& path,
               const PngSettings& options = {}) {
     save_file(path, encode_png(image, options));
 }

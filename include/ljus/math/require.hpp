@@ -26,7 +26,7 @@ namespace detail {
 // Text is slow to compile: what follows is compiled once for all types of values.
 
 // The concatenation of several texts.
-[[nodiscard]] LJUS_CORE_INLINE std::string
+[[nodiscard, gnu::cold]] LJUS_CORE_INLINE std::string
 join(std::initializer_list<std::string_view> parts);
 
 // Replaces the decimal comma of some locales by a point.
@@ -37,7 +37,7 @@ inline char* with_point(char* digits) {
 
 // One number, or several as the components of a vector; `single` means that they are
 // floats. See to_text().
-[[nodiscard]] LJUS_CORE_INLINE std::string
+[[nodiscard, gnu::cold]] LJUS_CORE_INLINE std::string
 numbers_to_text(std::initializer_list<double> values, bool single);
 
 #ifndef LJUS_CORE // otherwise defined in ljus::core
@@ -78,19 +78,19 @@ LJUS_CORE_INLINE std::string numbers_to_text(std::initializer_list<double> value
 /// A number as text: -1, 0.5, 1e-7, 1e+30, NaN, infinity. It has at least 6 digits, and
 /// more if they are needed to read the same value back.
 template <std::floating_point T>
-[[nodiscard]] std::string to_text(T value) {
+[[nodiscard, gnu::cold]] std::string to_text(T value) {
     return detail::numbers_to_text({double(value)}, std::is_same_v<T, float>);
 }
 
 /// A vector as a message shows it.
 template <std::floating_point T>
-[[nodiscard]] std::string to_text(const Vec3T<T>& v) {
+[[nodiscard, gnu::cold]] std::string to_text(const Vec3T<T>& v) {
     return detail::numbers_to_text({double(v.x), double(v.y), double(v.z)},
                                    std::is_same_v<T, float>);
 }
 
 /// An integer as a message shows it.
-[[nodiscard]] inline std::string to_text(long long value) {
+[[nodiscard, gnu::cold]] inline std::string to_text(long long value) {
     char digits[24];
     std::snprintf(digits, sizeof digits, "%lld", value);
     return digits;
@@ -100,7 +100,7 @@ namespace detail {
 
 // Outside of require(), so that what is inlined everywhere stays small.
 template <typename Value>
-[[noreturn]] void refuse(std::string_view what, const Value& value,
+[[noreturn, gnu::cold]] void refuse(std::string_view what, const Value& value,
                          std::string_view right) {
     throw std::invalid_argument(
         join({what, " is ", to_text(value), "; it must be ", right, "."}));

@@ -110,7 +110,7 @@ template <std::floating_point T>
 /// \param mean  Stored photons per path so far.
 /// \throws std::invalid_argument  with both numbers.
 template <std::floating_point T>
-void require_memory(const PhotonPassSettings& pass, double mean) {
+[[gnu::cold]] void require_memory(const PhotonPassSettings& pass, double mean) {
     const double bytes = expected_bytes<T>(pass.photons, mean);
     if (bytes <= pass.max_memory) return;
     char text[256];
@@ -123,7 +123,7 @@ void require_memory(const PhotonPassSettings& pass, double mean) {
 
 /// Explains in one sentence why a pass that has stored nothing gives up.
 /// \param unsent  Paths that no light could emit.
-[[nodiscard]] inline std::string why_nothing(const PhotonPassSettings& pass,
+[[nodiscard, gnu::cold]] inline std::string why_nothing(const PhotonPassSettings& pass,
                                              MapType map, long long paths,
                                              long long unsent, const FluxAudit& audit) {
     const auto sum = [](const RgbT<double>& flux) { return flux.x + flux.y + flux.z; };

@@ -70,7 +70,7 @@ long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& r
 /// \return The distribution for the pass.
 /// \throws std::invalid_argument  as trace_photons().
 template <std::floating_point T>
-[[nodiscard]] LightChoice start_pass(const PhotonPassSettings& pass,
+[[nodiscard, gnu::cold]] LightChoice start_pass(const PhotonPassSettings& pass,
                                      LightChoice choice) {
     check(pass);
     const std::size_t lights = choice.cumulative.size();
@@ -149,7 +149,7 @@ template <std::floating_point T>
 /// \throws std::invalid_argument  if the scene has no light or more than 65536, a
 ///         setting is out of range, or the memory would not suffice.
 template <AnyWorld W>
-[[nodiscard]] TracedPhotonsT<typename W::Scalar>
+[[nodiscard, gnu::cold]] TracedPhotonsT<typename W::Scalar>
 trace_photons(const W& world, MapType map, const PhotonPassSettings& pass) {
     using T = typename W::Scalar;
     const LightChoice choice = detail::start_pass<T>(pass, world.light_choice());

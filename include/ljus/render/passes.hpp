@@ -149,7 +149,7 @@ caustics_clause(const PhotonMappingSettings& settings) {
 /// \param world  The closed scene.
 /// \return A sentence, or an empty string.
 template <AnyWorld W>
-[[nodiscard]] std::string digits_remark(const W& world) {
+[[nodiscard, gnu::cold]] std::string digits_remark(const W& world) {
     using T = typename W::Scalar;
     constexpr bool single = std::is_same_v<T, float>;
     constexpr double widest = single ? 1e9 : 1e75;
@@ -200,7 +200,7 @@ template <AnyWorld W>
 /// ray hardly ever lies in so narrow a lobe.
 /// \param world  The closed scene.
 template <AnyWorld W>
-[[nodiscard]] std::size_t narrow_lobes(const W& world) {
+[[nodiscard, gnu::cold]] std::size_t narrow_lobes(const W& world) {
     using T = typename W::Scalar;
     const Vec3T<T> wo{T(0.6), T(0), T(0.8)}, mirrored{T(-0.6), T(0), T(0.8)};
     const auto narrow = [&](const auto& material) {
@@ -222,7 +222,7 @@ template <AnyWorld W>
 /// \param settings  What the user asks for.
 /// \return Sentences without a full stop.
 template <AnyWorld W>
-[[nodiscard]] std::vector<std::string>
+[[nodiscard, gnu::cold]] std::vector<std::string>
 scene_remarks(const W& world, const PhotonMappingSettings& settings) {
     std::vector<std::string> remarks;
     if (world.light_count() == 0)

@@ -107,7 +107,7 @@ struct StreamAmong<First, X...> {
 ///                  the map does not keep are removed.
 /// \return The maps, the same for any number of threads.
 template <AnyWorld W, typename Judge>
-[[nodiscard]] PhotonMapsT<typename W::Scalar>
+[[nodiscard, gnu::cold]] PhotonMapsT<typename W::Scalar>
 trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& run,
            const Judge& judge) {
     PhotonMapsT<typename W::Scalar> maps;
@@ -174,7 +174,7 @@ public:
     ///                  is chosen from the photons.
     /// \throws std::invalid_argument  if a setting is out of range, or asks for an
     ///         ability that is not listed.
-    explicit PhotonMapper(WorldRef<W> world, const PhotonMappingSettings& settings = {},
+    [[gnu::cold]] explicit PhotonMapper(WorldRef<W> world, const PhotonMappingSettings& settings = {},
                           Abilities<X...> = {})
         : world_(world), settings_(checked(settings)),
           passes_(choose_passes(needs(world.get()), settings)) {
@@ -273,7 +273,7 @@ private:
         return std::get<typename A::template State<Scalar>>(states_);
     }
 
-    void choose_radii() {
+    [[gnu::cold]] void choose_radii() {
         radius_is_chosen_ = settings_.caustics_estimate.radius == 0;
         if (radius_is_chosen_)
             settings_.caustics_estimate.radius =
@@ -283,7 +283,7 @@ private:
                 float(typical_radius(maps_.general, 64));
     }
 
-    static const PhotonMappingSettings& checked(const PhotonMappingSettings& settings) {
+    [[gnu::cold]] static const PhotonMappingSettings& checked(const PhotonMappingSettings& settings) {
         check(settings);
         const auto require_ability = [](bool listed, bool asked, const char* what,
                                         const char* ability) {

@@ -156,7 +156,7 @@ struct RowRange {
 ///         rows are outside the picture.
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>
-[[nodiscard]] RenderedT<typename C::Scalar> render_rows(const R& renderer,
+[[nodiscard, gnu::cold]] RenderedT<typename C::Scalar> render_rows(const R& renderer,
                                                         const C& camera,
                                                         const RenderSettings& picture,
                                                         const RowRange& rows) {
