@@ -32,7 +32,8 @@ namespace ljus {
 
 namespace detail {
 
-[[noreturn, gnu::cold]] inline void fail_to_read(const std::string& path, std::string_view why) {
+[[noreturn, gnu::cold]] inline void fail_to_read(const std::string& path,
+                                                 std::string_view why) {
     throw std::runtime_error(
         join({"cannot read '", shown_path(path), "': ", why, "."}));
 }

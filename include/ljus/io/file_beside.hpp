@@ -37,7 +37,8 @@ using Bytes = std::vector<unsigned char>;
 /// A text from a file or a user, made fit for a message: one line of limited length,
 /// with `?` for each control character and each byte that is not UTF-8.
 /// At most `limit` bytes are shown, then "...".
-[[nodiscard, gnu::cold]] inline std::string shown(std::string text, std::size_t limit = 48) {
+[[nodiscard, gnu::cold]] inline std::string shown(std::string text,
+                                                  std::size_t limit = 48) {
     const auto byte = [&](std::size_t i) {
         return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
     };
@@ -96,7 +97,8 @@ namespace detail {
 // that is killed before leaves nothing.
 class FileBeside {
 public:
-    [[gnu::cold]] explicit FileBeside(const std::string& path, bool nameless = true) : path_(path) {
+    [[gnu::cold]] explicit FileBeside(const std::string& path, bool nameless = true)
+        : path_(path) {
         if (nameless) open_nameless();
         // "x" never opens an existing file, which may belong to another process.
         for (long long number = 0; file_ == nullptr && number < most_names; ++number) {

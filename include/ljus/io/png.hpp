@@ -111,7 +111,7 @@ template <std::floating_point T>
 /// \throws std::invalid_argument  as encode_png(); std::runtime_error as save_file().
 template <std::floating_point T>
 [[gnu::cold]] void save_png(const ImageT<T>& image, const std::string& path,
-              const PngSettings& options = {}) {
+                            const PngSettings& options = {}) {
     save_file(path, encode_png(image, options));
 }
 

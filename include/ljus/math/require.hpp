@@ -101,7 +101,7 @@ namespace detail {
 // Outside of require(), so that what is inlined everywhere stays small.
 template <typename Value>
 [[noreturn, gnu::cold]] void refuse(std::string_view what, const Value& value,
-                         std::string_view right) {
+                                    std::string_view right) {
     throw std::invalid_argument(
         join({what, " is ", to_text(value), "; it must be ", right, "."}));
 }

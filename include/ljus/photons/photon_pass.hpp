@@ -124,8 +124,9 @@ template <std::floating_point T>
 /// Explains in one sentence why a pass that has stored nothing gives up.
 /// \param unsent  Paths that no light could emit.
 [[nodiscard, gnu::cold]] inline std::string why_nothing(const PhotonPassSettings& pass,
-                                             MapType map, long long paths,
-                                             long long unsent, const FluxAudit& audit) {
+                                                        MapType map, long long paths,
+                                                        long long unsent,
+                                                        const FluxAudit& audit) {
     const auto sum = [](const RgbT<double>& flux) { return flux.x + flux.y + flux.z; };
     const double sent = 1 - static_cast<double>(unsent) / static_cast<double>(paths);
     const double all = sum(audit.emitted) > 0 ? sum(audit.emitted) : 1;

@@ -71,7 +71,7 @@ long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& r
 /// \throws std::invalid_argument  as trace_photons().
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] LightChoice start_pass(const PhotonPassSettings& pass,
-                                     LightChoice choice) {
+                                                LightChoice choice) {
     check(pass);
     const std::size_t lights = choice.cumulative.size();
     require(lights > 0, "the number of lights", 0LL,

@@ -174,8 +174,9 @@ public:
     ///                  is chosen from the photons.
     /// \throws std::invalid_argument  if a setting is out of range, or asks for an
     ///         ability that is not listed.
-    [[gnu::cold]] explicit PhotonMapper(WorldRef<W> world, const PhotonMappingSettings& settings = {},
-                          Abilities<X...> = {})
+    [[gnu::cold]] explicit PhotonMapper(WorldRef<W> world,
+                                        const PhotonMappingSettings& settings = {},
+                                        Abilities<X...> = {})
         : world_(world), settings_(checked(settings)),
           passes_(choose_passes(needs(world.get()), settings)) {
         settings_.caustics.gloss_as_mirrors = settings_.general.gloss_as_mirrors =
@@ -283,7 +284,8 @@ private:
                 float(typical_radius(maps_.general, 64));
     }
 
-    [[gnu::cold]] static const PhotonMappingSettings& checked(const PhotonMappingSettings& settings) {
+    [[gnu::cold]] static const PhotonMappingSettings&
+    checked(const PhotonMappingSettings& settings) {
         check(settings);
         const auto require_ability = [](bool listed, bool asked, const char* what,
                                         const char* ability) {

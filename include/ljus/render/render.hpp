@@ -156,10 +156,9 @@ struct RowRange {
 ///         rows are outside the picture.
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>
-[[nodiscard, gnu::cold]] RenderedT<typename C::Scalar> render_rows(const R& renderer,
-                                                        const C& camera,
-                                                        const RenderSettings& picture,
-                                                        const RowRange& rows) {
+[[nodiscard, gnu::cold]] RenderedT<typename C::Scalar>
+render_rows(const R& renderer, const C& camera, const RenderSettings& picture,
+            const RowRange& rows) {
     using T = typename C::Scalar;
     require_at_least("samples", picture.samples, 1);
     require_image_size(picture.width, picture.height);
