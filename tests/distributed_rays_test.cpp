@@ -60,6 +60,13 @@ std::optional<BsdfSampleT<double>> sample(const Lacquer& lacquer, const D3& wo,
 }
 void check(const Lacquer&) {}
 
+// Two scenes for most cases: each further type of scene takes a second to compile.
+using Studio = Scene<Shapes<Quad, Sphere, Moving<Quad>, Moving<Sphere>>,
+                     Materials<Lambertian, Mirror, Glass, Glossy>, Lights<PointLight>>;
+using StudioD = Scene<Shapes<QuadD, Moving<QuadD>>,
+                      Materials<MattD, MirrorT<double>, Lacquer>,
+                      Lights<PointLightT<double>>>;
+
 /// What a renderer finds along a ray.
 template <typename Renderer, std::floating_point T, StreamLike Stream,
           typename Log = const NoLog>
@@ -291,9 +298,7 @@ TEST_CASE("distributed rays: gloss sees a lamp as the integral over it says") {
 
 TEST_CASE("distributed rays: with point lights and mirrors it is Whitted's, "
           "bit by bit") {
-    using Room =
-        Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Mirror>, Lights<PointLight>>;
-    Room room;
+    Studio room;
     const auto matt = room.add(Lambertian{.albedo = Rgb{0.6f}});
     room.add(Quad{{-5, 0, 5}, {10, 0, 0}, {0, 0, -10}}, matt);
     room.add(Sphere{.center{0, 1, 0}}, room.add(Mirror{Rgb{0.9f}}));
@@ -317,7 +322,7 @@ TEST_CASE("distributed rays: with point lights and mirrors it is Whitted's, "
 TEST_CASE("distributed rays: a moving strip covers a ray as long as it takes to pass") {
     // A strip of width 0.6 that moves by 2 to the right, seen at different x.
     using Strip = Moving<Quad>;
-    Scene<Shapes<Strip>, Materials<Lambertian>> scene;
+    Studio scene;
     const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
     scene.add(Strip{.shape{{0, -1, 0}, {0.6f, 0, 0}, {0, 2, 0}}, .way{2, 0, 0}}, black,
               Rgb{1});
@@ -392,8 +397,7 @@ TEST_CASE("distributed rays: at each time the scene is that of shapes moved by h
 }
 
 TEST_CASE("distributed rays: a moving lamp lights as the mean over its places") {
-    using Room = Scene<Shapes<QuadD, Moving<QuadD>>, Materials<MattD>>;
-    Room room;
+    StudioD room;
     const auto matt = room.add(MattD{.albedo = RgbD{0.5}});
     room.add(QuadD{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}}, matt);
     const D3 way{4, 1, 0};
@@ -433,10 +437,7 @@ TEST_CASE("distributed rays: a scene in which nothing moves draws no time") {
 }
 
 TEST_CASE("distributed rays: every path is L D? (S|G)* E") {
-    using Room =
-        Scene<Shapes<Quad, Moving<Sphere>>,
-              Materials<Lambertian, Mirror, Glass, Glossy>, Lights<PointLight>>;
-    Room room;
+    Studio room;
     const auto matt = room.add(Lambertian{.albedo = Rgb{0.6f}});
     const auto satin = room.add(Glossy{.reflectance = Rgb{0.8f}, .roughness = 0.4f});
     room.add(Quad{{-5, 0, 5}, {10, 0, 0}, {0, 0, -10}}, matt);
@@ -483,10 +484,7 @@ TEST_CASE("distributed rays: every path is L D? (S|G)* E") {
 }
 
 TEST_CASE("distributed rays: the log adds up, ray by ray, in colours") {
-    using Room =
-        Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>, MirrorT<double>>,
-              Lights<PointLightT<double>>>;
-    Room room;
+    StudioD room;
     const auto matt = room.add(LambertianT<double>{.albedo{0.6, 0.3, 0.1}});
     const auto mirror = room.add(MirrorT<double>{.reflectance{0.9, 0.5, 0.2}});
     room.add(QuadT<double>{{-5, 0, 5}, {10, 0, 0}, {0, 0, -10}}, matt);
@@ -517,10 +515,9 @@ TEST_CASE("distributed rays: the log adds up, ray by ray, in colours") {
 
 TEST_CASE("distributed rays: max_depth turns, and no ray of black light") {
     // Facing mirrors never let a ray out.
-    using Hall = Scene<Shapes<QuadT<double>>, Materials<MirrorT<double>>>;
     for (const double share : {1.0, 0.0})
         for (const int depth : {0, 1, 4}) {
-            Hall hall;
+            StudioD hall;
             const auto mirror = hall.add(MirrorT<double>{.reflectance = RgbD{share}});
             hall.add(QuadT<double>{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, mirror);
             hall.add(QuadT<double>{{-1, -1, 1}, {0, 2, 0}, {2, 0, 0}}, mirror);
@@ -534,7 +531,7 @@ TEST_CASE("distributed rays: max_depth turns, and no ray of black light") {
             CHECK(counts.cut_paths == (share > 0 || depth == 0 ? 1u : 0u));
         }
     // A red mirror and a green one: what comes by both of them is black.
-    Hall red_and_green;
+    StudioD red_and_green;
     red_and_green.add(QuadT<double>{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}},
                       red_and_green.add(MirrorT<double>{.reflectance{0, 1, 0}}));
     red_and_green.add(QuadT<double>{{-1, -1, 1}, {0, 2, 0}, {2, 0, 0}},
@@ -551,8 +548,9 @@ TEST_CASE("distributed rays: max_depth turns, and no ray of black light") {
     const Ray down{.origin{0, 1, 0}, .direction{0, -1, 0}};
     for (const int depth : {0, 1}) {
         const auto cut = [&](const auto& material) {
-            const World floor(make_scene(
-                placed(Quad{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}}, material)));
+            Studio scene;
+            scene.add(Quad{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}}, scene.add(material));
+            const World floor(std::move(scene));
             Counts counts;
             StratifiedStream stream;
             (void)seen_along(DistributedTracer(floor, {.max_depth = depth}), down,
@@ -573,10 +571,11 @@ TEST_CASE(
     (void)seen_along(DistributedTracer(world), down_to({2, 0}), stream, counts);
     CHECK(counts.bounce_rays == 0);
     CHECK(counts.shadow_rays == 1);
-    const World shiny(make_scene(
-        placed(Quad{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}},
-               Glossy{.reflectance = Rgb{0.8f}}),
-        placed(Quad{{-1, 4, -1}, {2, 0, 0}, {0, 0, 2}}, Lambertian{}, Rgb{5})));
+    Studio satin;
+    satin.add(Quad{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}},
+              satin.add(Glossy{.reflectance = Rgb{0.8f}}));
+    satin.add(Quad{{-1, 4, -1}, {2, 0, 0}, {0, 0, 2}}, satin.add(Lambertian{}), Rgb{5});
+    const World shiny(std::move(satin));
     counts = {};
     const Ray down{.origin{0, 1, 0}, .direction{0, -1, 0}};
     (void)seen_along(DistributedTracer(shiny), down, stream, counts);
@@ -586,8 +585,7 @@ TEST_CASE(
 
 TEST_CASE("distributed rays: what is below a gloss is seen by the same ray") {
     // No shadow ray goes to the lamp: all lobes must see it by themselves.
-    using Room = Scene<Shapes<QuadD>, Materials<MattD, Lacquer>>;
-    Room room;
+    StudioD room;
     Lobes asked = Lobes::none;
     room.add(QuadD{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}},
              room.add(Lacquer{{.albedo = RgbD{0.5}}, &asked}));
@@ -608,7 +606,7 @@ TEST_CASE("distributed rays: a light draws two numbers if it has a size, else no
     const MattD matt{.albedo = RgbD{0.5}};
     for (const int points : {0, 1, 3})
         for (const int lamps : {0, 1, 2}) {
-            Scene<Shapes<QuadD>, Materials<MattD>, Lights<PointLightT<double>>> room;
+            StudioD room;
             const auto white = room.add(matt);
             room.add(QuadD{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}}, white);
             for (int i = 0; i < points; ++i)
@@ -637,8 +635,7 @@ TEST_CASE("distributed rays: at the extremes") {
                          std::invalid_argument);
     CHECK(DistributedTracer(world, {.max_depth = 0}).settings().max_depth == 0);
     CHECK(DistributedTracer(world).settings().max_depth == 5);
-    using Room = Scene<Shapes<Moving<Sphere>>, Materials<Lambertian>>;
-    Room room;
+    Studio room;
     const auto matt = room.add(Lambertian{.albedo = Rgb{0.5f}});
     const float nan = std::numeric_limits<float>::quiet_NaN();
     CHECK_THROWS_AS(room.add(Moving<Sphere>{{}, {nan, 0, 0}}, matt),
