@@ -199,10 +199,10 @@ refused "there is no option or argument '--nope'" "$scene" --nope
 refused "there is no option or argument '--quality'" "$scene" --quality draft
 refused "--seconds" "$scene" --seconds 0
 refused "--error" "$scene" --error nan
-refused "--error does not go with --seconds: give one of them" "$scene" --seconds 1 --error 0.1
+refused "--error cannot be combined with --seconds: give one of them" "$scene" --seconds 1 --error 0.1
 for option in "--preset fast" "--rays 4" --plan "--explain 1,1" "--renderer path"; do
     # shellcheck disable=SC2086
-    refused "does not go with --seconds, which chooses the settings" "$scene" --seconds 1 \
+    refused "cannot be combined with --seconds, which chooses the settings" "$scene" --seconds 1 \
         $option
 done
 refused "no time takes it away" "$scene" --width 8 --height 8 --error 1e-9
@@ -223,9 +223,9 @@ for option in "--alpha 0.5" "--checkpoint a.check" --resume "--preview a.png" "-
     refused "give --passes N" "$scene" $option
 done
 refused "--passes is for --renderer photon" "$scene" --passes 2 --renderer path
-refused "--more-rays does not go with --passes" "$scene" --passes 2 --more-rays 3
-refused "--explain does not go with --passes" "$scene" --passes 2 --explain 1,1
-refused "--show-photons does not go with --passes" "$scene" --passes 2 --show-photons all
+refused "--more-rays cannot be combined with --passes" "$scene" --passes 2 --more-rays 3
+refused "--explain cannot be combined with --passes" "$scene" --passes 2 --explain 1,1
+refused "--show-photons cannot be combined with --passes" "$scene" --passes 2 --show-photons all
 refused "--resume needs --checkpoint" "$scene" --passes 2 --resume
 refused "its name must end with .png" "$scene" --passes 2 --preview a.jpg
 refused "it must be a file of its own" "$scene" --passes 2 --out a.pfm --checkpoint a.pfm
