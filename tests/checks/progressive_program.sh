@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # The program examples/31_progressive.cpp, killed at random and resumed many times: its sums
-# and its picture have the same bytes as those of a run that was left in peace; and what it
-# refuses.
+# and its picture have the same bytes as those of an undisturbed run; and what it refuses.
 # Usage: progressive_program.sh PROGRAM SCRATCH [KILLS]
 set -euo pipefail
 program=$1
