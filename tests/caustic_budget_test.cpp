@@ -144,7 +144,7 @@ TEST_CASE("caustic_budget: shares follow the scatter, and no others do better") 
     CHECK(tiny[0] + tiny[1] == doctest::Approx(1));
     CHECK(refusal([] {
               (void)share_out(std::array{1.0, -1.0});
-          }) == "a scatter is -1; it must be finite and at least 0.");
+          }) == "the scatter of an object is -1; it must be finite and at least 0.");
     CHECK(refusal([] { (void)share_out(std::array{std::nan("")}); }).find("NaN") !=
           std::string::npos);
     CHECK(refusal([] { (void)share_out(std::array{1.0}, 1.5); }) ==

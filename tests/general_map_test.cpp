@@ -872,7 +872,7 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
         const SurfacePoint place{
             .position{0.19f * float(i % 10) - 0.9f, -1, 0.19f * float(i / 10) - 0.9f},
             .normal{0, 1, 0}};
-        const auto at = fewer.state<Skipping>().verdicts.place_of(place, 1);
+        const auto at = fewer.state<Skipping>().verdicts.cell_of(place, 1);
         lit += fewer.state<Skipping>().verdicts.verdict(at, 0) == Verdict::lit;
     }
     CHECK(lit > 20);
@@ -1004,7 +1004,7 @@ TEST_CASE("general map: for shadow rays alone each lamp sends as many photons") 
             const SurfacePoint place{.position{0.095f * float(i % 20) - 0.9f, -1,
                                                0.095f * float(i / 20) - 0.9f},
                                      .normal{0, 1, 0}};
-            const auto at = verdicts.place_of(place, 1);
+            const auto at = verdicts.cell_of(place, 1);
             for (const std::size_t light : {0u, 1u}) {
                 const Verdict verdict = verdicts.verdict(at, light);
                 known[light] += verdict != Verdict::unknown;

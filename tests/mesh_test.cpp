@@ -40,8 +40,8 @@ MeshData soup(int count, std::uint64_t seed) {
 
 /// What asking the triangles in turn finds.
 template <typename Compute>
-std::optional<FlatHitT<float>> by_loop(Ray ray, const MeshData& data) {
-    std::optional<FlatHitT<float>> nearest;
+std::optional<ShapeHitT<float>> by_loop(Ray ray, const MeshData& data) {
+    std::optional<ShapeHitT<float>> nearest;
     for (std::uint32_t i = 0; i < data.triangles.size(); ++i) {
         const auto hit = intersect<Compute>(ray, detail::triangle_of(data, i));
         if (!hit || (nearest && !(hit->t < nearest->t))) continue;

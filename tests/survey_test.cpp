@@ -38,7 +38,7 @@ auto intersect(const Ray& ray, const Ball& ball) {
     return intersect(ray, ball.inner);
 }
 SurfacePoint surface_point(const Ball& ball, const Ray& ray,
-                           const FlatHitT<float>& hit) {
+                           const ShapeHitT<float>& hit) {
     return surface_point(ball.inner, ray, hit);
 }
 Sphere bounding_sphere(const Ball& ball) {
@@ -302,10 +302,10 @@ TEST_CASE("survey: a hook that is misspelt shows") {
     CHECK(lines[1].starts_with("shape QuadT<float> has bounds, area, "));
     CHECK(lines[2].ends_with(
         " has emission; without absorption (clear), at_point (the "
-        "same anywhere), uses_uv (uv is 0), both_ways (one branch at random), "
+        "same anywhere), uses_uv (uv is 0), split (one branch at random), "
         "pass_through (opaque), only_specular (write both)"));
     CHECK(lines[2].starts_with("material "));
-    CHECK(lines[3].starts_with("material GlassT<float> has absorption, both_ways, "
+    CHECK(lines[3].starts_with("material GlassT<float> has absorption, split, "
                                "only_specular; without emission (black), "));
 }
 

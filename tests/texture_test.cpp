@@ -326,11 +326,11 @@ TEST_CASE("texture: each shape has its own coordinates") {
         CHECK(from({0, 0, 1}).y == doctest::Approx(0.5));
     }
     const Moving<Quad> moving{.shape{.edge_u{1, 0, 0}, .edge_v{0, 1, 0}},
-                              .way{5, 0, 0}};
+                              .displacement{5, 0, 0}};
     CHECK(of(moving, Ray{.origin{0.25f, 0.5f, 1}, .direction{0, 0, -1}}) ==
           Vec2{0.25f, 0.5f});
     // Of a ball that moves they are the globe's, wherever it is.
-    const Moving<Sphere> ball{.shape{.radius = 2}, .way{8, 0, 0}};
+    const Moving<Sphere> ball{.shape{.radius = 2}, .displacement{8, 0, 0}};
     const Vec2 at = of(ball, Ray{.origin{4, 0, -9}, .direction{0, 0, 1}, .time = 0.5f});
     CHECK(at.x == doctest::Approx(0.25));
     CHECK(at.y == doctest::Approx(0.5));

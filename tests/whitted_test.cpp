@@ -328,7 +328,7 @@ TEST_CASE("whitted: roulette has the mean of both branches, at a ray for each tu
         const double both = seen_along(WhittedTracer(world, {.max_depth = depth}),
                                        at_the_ball<double>(), stream, counts)
                                 .x;
-        const WhittedTracer one(world, {.max_depth = depth, .both_ways = false});
+        const WhittedTracer one(world, {.max_depth = depth, .split_glass = false});
         const auto seen = mean_radiance(
             one, 20000, 5, [](RandomStream&) { return at_the_ball<double>(); });
         CAPTURE(depth);
@@ -581,7 +581,7 @@ TEST_CASE("whitted: at the extremes") {
     CHECK(said({.max_depth = 1000}).empty());
     const WhittedSettings silent = WhittedTracer(glass).settings();
     CHECK(silent.max_depth == 5);
-    CHECK(silent.both_ways);
+    CHECK(silent.split_glass);
     CHECK(silent.lamps);
     CHECK(silent.ambient == Rgb{0});
     // A light on the floor, in the middle of the glass, at the camera: no NaN.

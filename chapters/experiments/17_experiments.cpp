@@ -57,8 +57,9 @@ ljus::Camera two_balls_camera() {
 
 /// The sky is seen, but no shadow ray asks for its light. Ambient light takes its
 /// place: the same from everywhere, and no ball shades it.
-ljus::WhittedSettings settings_of(int depth, bool both_ways = true) {
-    return {.max_depth = depth, .both_ways = both_ways, .lamps = false, .ambient = sky};
+ljus::WhittedSettings settings_of(int depth, bool split_glass = true) {
+    return {
+        .max_depth = depth, .split_glass = split_glass, .lamps = false, .ambient = sky};
 }
 
 /// A picture of the two balls, with a progress bar.

@@ -175,7 +175,7 @@ Outcome outcome(const Hall& hall, const Probes& probes, const SkipSettings& skip
         double skipped = 0, wrong = 0, lost = 0, hidden = 0;
         for (std::size_t i = 0; i < probes.points.size(); ++i) {
             const SurfacePoint at{.position = probes.points[i], .normal{0, 1, 0}};
-            const Verdict verdict = grid.verdict(grid.place_of(at, 1), 0);
+            const Verdict verdict = grid.verdict(grid.cell_of(at, 1), 0);
             const double said = verdict == Verdict::lit ? 1 : 0;
             const bool known = verdict != Verdict::unknown;
             const bool bad = known && std::abs(said - probes.seen[i]) > 0.05;
@@ -317,7 +317,7 @@ void wire(const examples::Options& options, long long photons) {
                 const double x = -2 + 4 * (k + 0.5) / points;
                 const SurfacePoint at{.position{float(x), 0, float(z)},
                                       .normal{0, 1, 0}};
-                const bool lit = grid.verdict(grid.place_of(at, 1), 0) == Verdict::lit;
+                const bool lit = grid.verdict(grid.cell_of(at, 1), 0) == Verdict::lit;
                 const double d = std::hypot(x, double(lamp_height), z - lamp_away);
                 const double density =
                     double(photons) * lamp_height / (4 * std::numbers::pi * d * d * d);
@@ -522,7 +522,7 @@ std::array<double, 4> cost_of(const W& world, const Camera& camera, long long ph
                 return occluded(world, spawn_ray_to(q.point, q.lamp)) ? 1 : 0;
             }),
             time([&](const Question& q) {
-                return int(grid.verdict(grid.place_of(q.point, q.side), 0));
+                return int(grid.verdict(grid.cell_of(q.point, q.side), 0));
             }),
             time([&](const Question& q) {
                 return int(verdict_at(map, q.point, q.side, 0, grid.radius(), skip));

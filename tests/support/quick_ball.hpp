@@ -23,7 +23,7 @@ bool meets(const ljus::Ray& ray, const Quick& s) {
     return ljus::intersect(ray, s.ball).has_value();
 }
 inline ljus::SurfacePoint surface_point(const Quick& s, const ljus::Ray& ray,
-                                        const ljus::FlatHitT<float>& hit) {
+                                        const ljus::ShapeHitT<float>& hit) {
     return ljus::surface_point(s.ball, ray, hit);
 }
 inline ljus::Sphere bounding_sphere(const Quick& s) {

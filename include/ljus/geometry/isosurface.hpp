@@ -128,7 +128,7 @@ template <std::floating_point T, typename Value, typename Gradient>
 template <std::floating_point T, LipschitzField Field>
 [[nodiscard]] SurfacePointT<T> surface_point(const IsosurfaceT<T, Field>& surface,
                                              const RayT<T>& ray,
-                                             const FlatHitT<T>& hit) {
+                                             const ShapeHitT<T>& hit) {
     return detail::refined([&](const auto& x) { return surface.field.value(x); },
                            [&](const auto& x) { return surface.field.gradient(x); },
                            ray, hit.t, 4 * SphereTracing{}.tolerance);

@@ -148,11 +148,11 @@ void add_obj(Scene& scene, const LoadedObjT<T>& loaded) {
     }
 }
 
-/// Adds all meshes of a file to a scene, all made of one material.
+/// Adds all meshes of a file to a scene, with one material for all.
 /// \param scene     A scene with meshes.
 /// \param loaded    What load_obj() returned.
 /// \param material  What add() returned for it.
-/// \param radiance  What all of them emit, W/(m^2 sr).
+/// \param radiance  Radiance that each mesh emits, W/(m^2 sr).
 template <typename Scene, std::floating_point T>
 void add_obj(Scene& scene, const LoadedObjT<T>& loaded, MaterialId material,
              const RgbT<T>& radiance = RgbT<T>{0}) {

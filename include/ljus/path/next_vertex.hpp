@@ -227,7 +227,7 @@ template <AnyWorld W, std::floating_point T>
         VertexT<T> resting = vertex;
         world.visit_shape(vertex.id, [&]<typename G>(const G& shape) {
             if constexpr (is_moving<G>)
-                resting.point.position -= vertex.time * shape.way;
+                resting.point.position -= vertex.time * shape.displacement;
         });
         return resting;
     } else {
@@ -332,9 +332,10 @@ namespace detail {
 /// The effect of the thin surfaces between two vertices.
 template <std::floating_point T>
 struct PassageT {
-    RgbT<T> through{T(1)};     ///< Transmittance over its probability.
-    T distance = T(0);         ///< From the vertex to the last thin surface.
-    T stop_probability = T(1); ///< Of reflection, if the path stopped at one.
+    RgbT<T> through{T(1)}; ///< Transmittance over its probability.
+    T distance = T(0);     ///< From the vertex to the last thin surface.
+    T stop_probability =
+        T(1); ///< Probability of reflection, if the path stopped at one.
 };
 
 /// Traces a ray through thin surfaces. At each one the path stops for reflection with

@@ -60,7 +60,7 @@ inline void check(const AdaptiveSettings& rule, int samples) {
     const long long least = rule.first + (rule.two_stage ? rule.more : 0LL);
     require(samples >= least, "samples", static_cast<long long>(samples),
             rule.two_stage ? "at least first + more"
-                           : "at least as many as first rays");
+                           : "at least first, the first rays of a pixel");
 }
 
 /// The result of adaptive rendering.
@@ -70,7 +70,7 @@ struct AdaptiveT {
     ImageT<T> rays{};     ///< Rays of each pixel, including discarded ones.
     double estimate = 0;  ///< The estimated relMSE, without bias.
     bool reached = false; ///< Whether the estimate is at most the target.
-    Counts counts{};      ///< What it cost.
+    Counts counts{};      ///< Cost of the picture.
     bool complete = true; ///< False if the progress callback stopped it.
 };
 

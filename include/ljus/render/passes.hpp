@@ -19,7 +19,7 @@ namespace ljus {
 /// \addtogroup survey
 /// \{
 
-/// What a survey counts in a scene.
+/// Numbers that a survey counts in a scene.
 struct SceneNeeds {
     std::size_t objects = 0;  ///< All objects.
     std::size_t diffuse = 0;  ///< Objects with a non-specular lobe.

@@ -124,8 +124,8 @@ struct ProgressiveState {
 /// for alpha = 2/3. The estimate **does not contain the bias itself**, because all
 /// passes are blurred alike.
 struct ProgressiveError {
-    double pixels = 0; ///< Of a pixel: root mean square over all pixels.
-    double blocks = 0; ///< Of a block's mean, with the correlation of its pixels.
+    double pixels = 0; ///< Error of a pixel: root mean square over all pixels.
+    double blocks = 0; ///< Error of a block's mean, with the correlation of its pixels.
 };
 
 /// Adds a pass to the sums, and shrinks the radius of the next.
@@ -216,8 +216,8 @@ void require_first_pass(const ProgressiveState& state, RenderPass&& pass) {
     const auto again = pass(1LL, 1.0);
     if (!again.complete || detail::hash_of(again.image) == state.first_pass) return;
     throw std::invalid_argument(
-        "The passes so far are of another picture: scene, camera, settings, seed and "
-        "program must be as they were.");
+        "The passes so far are of another picture: continue with the same scene, "
+        "camera, settings, seed and program.");
 }
 
 /// Settings with all automatic choices made: radii of 0 are replaced, and a pilot pass

@@ -38,7 +38,7 @@ struct RenderSettings {
 template <std::floating_point T>
 struct RenderedT {
     ImageT<T> image{};    ///< The mean radiance of each pixel.
-    Counts counts{};      ///< What it cost.
+    Counts counts{};      ///< Cost of the picture.
     bool complete = true; ///< False if the progress callback stopped it.
 };
 
@@ -70,7 +70,7 @@ struct PictureRays {
           pattern(make_pattern(picture.sampling, picture.samples)) {}
 
     const RenderSettings& picture; ///< Size, rays, seed, filter.
-    Pattern pattern;               ///< Of the rays of a pixel.
+    Pattern pattern;               ///< Pattern of the rays of a pixel.
 };
 
 /// One ray of a picture.

@@ -113,14 +113,14 @@ template <Shape S>
 /// \param shape  The shape.
 /// \return The hit; nothing for a miss.
 template <typename Compute, std::floating_point T, typename S>
-[[nodiscard]] std::optional<FlatHitT<T>> hit_of(const RayT<T>& ray, const S& shape) {
+[[nodiscard]] std::optional<ShapeHitT<T>> hit_of(const RayT<T>& ray, const S& shape) {
     const auto ask = [&] {
         if constexpr (requires { intersect<Compute>(ray, shape); })
             return intersect<Compute>(ray, shape);
         else
             return intersect(ray, shape);
     };
-    if constexpr (std::is_same_v<decltype(ask()), std::optional<FlatHitT<T>>>) {
+    if constexpr (std::is_same_v<decltype(ask()), std::optional<ShapeHitT<T>>>) {
         return ask(); // avoids a copy with a measurable cost
     } else {
         const auto hit = ask();
@@ -169,7 +169,7 @@ inline constexpr std::type_identity<Compute> compute_in{};
 /// The first object that a ray meets.
 template <std::floating_point T>
 struct SceneHitT {
-    FlatHitT<T> at{};  ///< Distance, and the shape's own coordinates.
+    ShapeHitT<T> at{}; ///< Distance, and the shape's own coordinates.
     ObjectId object{}; ///< Which object.
 };
 
@@ -313,7 +313,7 @@ private:
         const auto add = [&](const auto& list) {
             require(list.size() == objects_[type].size(), "the number of shapes",
                     static_cast<long long>(list.size()),
-                    "that of their objects: shapes are added by add()");
+                    "the number of their objects: add shapes by add()");
             for (const auto& shape : list) {
                 check(shape);
                 const SphereT<Scalar> bound = bounding_sphere(shape);

@@ -19,7 +19,7 @@ namespace ljus {
 /// \addtogroup obj_reader
 /// \{
 
-/// What a material file says of a material.
+/// A material as described by a material file.
 struct ObjMaterial {
     std::string name{};       ///< Empty for faces without a material.
     glm::dvec3 diffuse{0.5};  ///< Kd, in [0, 1]; 1 if there is a picture and no Kd.
