@@ -42,7 +42,7 @@ BEGINS_NO_EXPRESSION = set(
 OPENS = {"(": ")", "[": "]", "{": "}"}
 COMMUTES = set(
     "dot min max distance hypot is_same_v equal same_as multiply fmax fmin swap has "
-    "box_union".split()
+    "box_union distance2 half_vector larger_cosine same_side schlick_r0 squared_contrast".split()
 )
 DROPPED_CALLS = {
     "abs": 1, "sqrt": 1, "normalize": 1, "floor": 1, "ceil": 1, "round": 1,
