@@ -29,10 +29,10 @@ using TwoBallsScene = ljus::Scene<
     ljus::Lights<ljus::PointLight>>;
 using TwoBalls = ljus::World<TwoBallsScene>;
 
-/// What the sky sends, W/(m^2 sr).
+/// The radiance of the sky, W/(m^2 sr).
 const Rgb sky{0.16f, 0.27f, 0.5f};
 
-/// The picture that everybody knows: a ball of glass before a mirror, over a floor of
+/// Whitted's well-known picture: a ball of glass before a mirror, over a floor of
 /// red and yellow tiles, under a blue sky.
 TwoBalls two_balls() {
     TwoBallsScene scene;

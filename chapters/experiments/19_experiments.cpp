@@ -47,7 +47,7 @@ struct Sizes {
 
 using Matt = ljus::Scene<ljus::Shapes<Quad, Sphere>, ljus::Materials<ljus::Lambertian>>;
 
-/// A room with nothing but diffuse surfaces, its front open.
+/// A room with only diffuse surfaces, its front open.
 ljus::Room<Matt> matt_room() {
     Matt scene;
     ljus::add_cornell_walls(scene);

@@ -390,7 +390,7 @@ Estimate traced_light(const Tracer& tracer, std::uint32_t wall, std::uint32_t qu
 
 /// The mean irradiance that a solution gives to each quarter of a wall.
 std::array<double, 4> quarters_of(const LightMap& map, std::uint32_t wall) {
-    // Which part of a row or column of patches lies in one half of the wall; a row
+    // The fraction of a row or column of patches in one half of the wall; a row
     // across the middle belongs to both halves.
     const auto part = [](std::uint32_t i, std::uint32_t n, bool high) {
         const double from = high ? 0.5 : 0, to = from + 0.5;

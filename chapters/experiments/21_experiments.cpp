@@ -128,7 +128,7 @@ PhotonMappingSettings photon_settings(IndirectLight indirect, double effort,
 
 using Cameras = std::vector<Camera>;
 
-/// A method whose renderer needs nothing but the scene.
+/// A method whose renderer needs only the scene.
 template <typename Make>
 Method by_rays(const std::string& name, const std::string& file, Make make,
                const examples::Options& options) {
@@ -298,7 +298,7 @@ Image judged(const Room<CornellSceneT<float>>& room, int rays, long long photons
     return std::move(rendered.image);
 }
 
-/// The truth: the mean of eight pictures, which tell its own error.
+/// The reference: the mean of eight pictures, whose scatter gives its error.
 /// \param panels  As options, but with the size of what is shown.
 void find_truth(Study& study, int rays, const examples::Options& options,
                 const examples::Options& panels) {
@@ -555,7 +555,7 @@ void equal_error(const Study& study, const std::vector<Method>& all,
 
 // --- Who carries what -----------------------------------------------------------------
 
-/// The classes of paths that are told apart.
+/// The classes of paths that are distinguished.
 constexpr std::array class_names{"EL",      "ES+L",       "EDL", "ES+DL",
                                  "ES*DS+L", "E.*D.*D.*L", "E.*L"};
 
@@ -741,7 +741,7 @@ void views(const Study& study, const std::vector<Method>& all,
 /// Makes the plots, tables and further pictures of chapter 21.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;

@@ -59,7 +59,7 @@ long long add_dots(Image& image, const Room<S>& room,
         const auto y = static_cast<int>(std::floor(place->y));
         if (x < 0 || y < 0 || x >= image.width || y >= image.height) continue;
 
-        // Whatever stands in front of the photon hides it.
+        // Objects in front of the photon hide it.
         const Vec3 way = photon.position - room.camera.position;
         const Ray ray{
             .origin = room.camera.position, .direction = way, .t_max = 0.999f};
@@ -213,7 +213,7 @@ struct Brought {
 };
 
 /// Sends photons one by one.
-/// \param one_photon  Sends one, and returns the flux that it brings.
+/// \param one_photon  Sends one, and returns the flux that arrives.
 template <typename OnePhoton>
 Brought send(const examples::Options& options, long long paths, OnePhoton one_photon) {
     Brought brought;
@@ -618,7 +618,7 @@ void plot_error(const examples::Options& options) {
 /// Makes the pictures, plots and tables behind chapter 22.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;

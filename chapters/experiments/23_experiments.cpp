@@ -138,7 +138,7 @@ struct BruteForce {
     std::size_t bytes() const { return points.size() * sizeof(Vec3); }
 };
 
-/// The radius within which 50 points lie, in the median over places.
+/// The radius that holds 50 points, as the median over centres.
 float radius_of_50(const KdTree8& tree, const std::vector<Vec3>& centers) {
     std::vector<double> radii;
     std::array<Neighbor, 50> room;
@@ -260,7 +260,7 @@ void plot_time(const examples::Options& options) {
 /// Makes the pictures of boxes, the plot and the tables of chapter 23.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long points = 0, photons = 0;

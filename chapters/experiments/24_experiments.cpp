@@ -61,7 +61,7 @@ void census_of_figures(const examples::Options& options, long long count) {
             return photon.kind == kind ? Rgb{1} : Rgb{0};
         });
         std::array<double, 2> lamp{};
-        long long behind = 0; // on the inner side of a matt ball, where nobody looks
+        long long behind = 0; // on the inner side of a matt ball, never visible
         for (const Photon& photon : traced.photons) {
             if (photon.kind != kind) continue;
             lamp[photon.light] += double(photon.flux.y);
@@ -165,7 +165,7 @@ using examples::Boxes;
 constexpr double leak_radius = 0.15; ///< Of the estimates.
 constexpr int leak_steps = 120;      ///< Along the floor, from wall to wall.
 
-/// A place on the floor of the two rooms.
+/// A point on the floor of the two rooms.
 struct FloorPlace {
     const char* name;
     Point at;
@@ -282,7 +282,8 @@ void failures(const examples::Options& options) {
 
 // --- Error against number and radius --------------------------------------------------
 
-/// Estimates of one number of photons: [radius][seed][place], relative to the truth.
+/// Estimates of one number of photons: [radius][seed][place], relative to the
+/// reference.
 using Estimates = std::vector<std::vector<std::vector<double>>>;
 
 /// Variance and squared bias of a radius, over all seeds but one (-1: over all).
@@ -359,7 +360,7 @@ struct Experiment {
 };
 constexpr int seeds = 16;
 
-/// Adds the estimates of one map at all places, and what it costs.
+/// Adds the estimates of one map at all points, and its cost.
 void add_map(const PhotonMap& map, const Quad& lamp, const std::vector<double>& radii,
              Estimates& estimates, Cost& cost) {
     std::vector<Point> places;
@@ -529,7 +530,7 @@ void laws(const examples::Options& options) {
 /// Makes the pictures, plots and tables of chapter 24 that are not the report's.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long photons = 0;

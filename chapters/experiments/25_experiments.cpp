@@ -106,7 +106,7 @@ Hall three_balls(float radius) {
     return Hall(std::move(hall));
 }
 
-/// Points of the floor with the part of the lamp that they see, by brute force.
+/// Points of the floor with the visible fraction of the lamp, by brute force.
 struct Probes {
     std::vector<Vec3> points{}; ///< On the floor.
     std::vector<double> seen{}; ///< In [0, 1].
@@ -292,7 +292,7 @@ Hall wire_hall(float width) {
 }
 
 void wire(const examples::Options& options, long long photons) {
-    // In the middle of the shadow nothing of the light is seen, and the cells around a
+    // In the middle of the shadow the light is invisible, and the cells around a
     // point hold a strip of it 3 h long and as wide as the shadow. No shadow photon
     // falls into it with the probability exp(-density * 3 h * width).
     constexpr float radius = 0.2f;
@@ -412,7 +412,7 @@ void judge_room(examples::Table& table, const char* name, const W& world,
                 const examples::Options& options) {
     const auto places =
         places_of(world, camera, options.pick<std::size_t>(200, 4000, 20000), 5);
-    std::vector<double> seen; // place by place and lamp by lamp; -1: it faces away
+    std::vector<double> seen; // for each point and lamp; -1: it faces away
     for (const Vertex& place : places)
         for (std::uint32_t lamp = 0; lamp < world.light_count(); ++lamp) {
             int rays = 0, through = 0;
@@ -710,7 +710,7 @@ void indirect(const examples::Options& options) {
 /// Makes the pictures, plots and tables behind chapter 25.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long photons = 100000;

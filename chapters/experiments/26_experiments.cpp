@@ -390,7 +390,7 @@ std::vector<bool> caustic_region(const Room<S>& room, const Image& light,
     return region;
 }
 
-/// The truth as the mean of two pictures; how they differ tells its error.
+/// The reference as the mean of two pictures; their difference gives its error.
 template <typename S>
 CausticTruth caustic_truth(const Room<S>& room, const examples::Options& options,
                            long long photons) {
@@ -465,7 +465,7 @@ void errors_of_figure_11(const examples::Options& options, const Sizes& sizes) {
 /// Makes the plots, tables and pictures of chapter 26 that are not the report's.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;

@@ -85,8 +85,8 @@ struct Mean {
     }
 };
 
-/// The part of Epanechnikov's kernel in a corner whose edges lie at s and t, over the
-/// radius, by the midpoint rule.
+/// The fraction of Epanechnikov's kernel in a corner whose edges lie at s and t, over
+/// the radius, by the midpoint rule.
 double corner_by_rule(double s, double t) {
     constexpr int n = 200;
     double sum = 0;
@@ -100,9 +100,9 @@ double corner_by_rule(double s, double t) {
 }
 
 constexpr float border_radius = 0.1f; ///< Of the disc that photons are counted in.
-constexpr int border_steps = 24;      ///< From the edge to where it is out of reach.
+constexpr int border_steps = 24;      ///< From the edge to the distance of the radius.
 
-/// A place on the square, and what estimates read there.
+/// A point on the square, and the estimates there.
 struct Place {
     const char* name;
     float x, y;
@@ -148,7 +148,8 @@ Borders measure_borders(int maps, std::uint64_t seed) {
     return found;
 }
 
-/// The estimates from an edge inwards, beside the part of the kernel that lies inside.
+/// The estimates from an edge inwards, beside the fraction of the kernel that lies
+/// inside.
 void plot_edge(const Borders& found, const examples::Options& options) {
     examples::Plot plot{
         .name = "final-gathering-edge",
@@ -205,7 +206,7 @@ struct Deviation {
 /// \param how     How many photons an estimate takes.
 /// \param chosen  Whether the photon of a record becomes a point.
 /// \param wanted  Whether the second record's photon counts at the first one's point.
-/// \param share   The part of all photons that counts.
+/// \param share   The fraction of all photons that counts.
 template <typename Chosen, typename Wanted>
 Deviation deviation(const PhotonMap& map, const IrradiancePointSettings& how,
                     const Chosen& chosen, const Wanted& wanted, double share) {
@@ -534,7 +535,7 @@ void ratio(const examples::Options& options, const Sizes& sizes) {
 /// Makes the plots and tables of chapter 28.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;

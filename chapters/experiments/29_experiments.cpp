@@ -46,7 +46,7 @@ struct Sizes {
 // --- A corner where irradiance is known ----------------------------------------------
 
 /// The irradiance on a floor at a distance from an endless wall of height 1 whose
-/// radiosity is 1; nothing else shines.
+/// radiosity is 1; nothing else emits light.
 double beside_wall(double x) {
     return 0.5 * (1 - x / std::hypot(x, 1.0));
 }
@@ -70,7 +70,7 @@ constexpr double corner_step = 0.1;               ///< Side of a square of the f
 constexpr int corner_places = 40;                 ///< Where it is asked.
 constexpr std::array reaches{0.1, 0.3, 1.0, 4.0}; ///< Of the records.
 
-/// How far from the wall a place is: from 0.01 to 1.5 of its height.
+/// The distance of a point from the wall: from 0.01 to 1.5 of its height.
 double corner_place(int i) {
     return 0.01 * std::pow(150.0, double(i) / (corner_places - 1));
 }
@@ -100,10 +100,10 @@ IrradianceCacheT<double> exact_cache(int run, std::uint64_t seed) {
     return cache;
 }
 
-/// The errors of interpolation with one reach at all places, as means over the runs.
+/// The errors of interpolation with one reach at all points, as means over the runs.
 struct AtCorner {
     std::array<double, corner_places> squares{};  ///< Of the relative error.
-    std::array<double, corner_places> gathered{}; ///< How often nothing is near enough.
+    std::array<double, corner_places> gathered{}; ///< Lookups without a near point.
 };
 
 /// Adds the errors of one cache, which is one of `runs`.
@@ -214,7 +214,7 @@ double mean_error(const ImageT<T>& image, const ImageT<U>& truth) {
     return sum / all - 1;
 }
 
-/// A reference from eight independent pictures, which tell its noise.
+/// A reference from eight independent pictures, whose scatter gives its noise.
 examples::Oracle oracle_of(const std::function<Image(int, std::uint64_t)>& shot,
                            int rays, int side) {
     constexpr int pieces = 8;
@@ -594,10 +594,10 @@ World<Stage> penumbra_stage(const Lamp& lamp) {
 
 constexpr std::array shadow_rays{1, 2, 4, 9};
 
-/// The light that the closed form finds at one place, as a part of the whole lamp's;
-/// one value for each number of shadow rays.
+/// The light that the closed form finds at one point, as a fraction of the whole
+/// lamp's; one value for each number of shadow rays.
 struct InPenumbra {
-    double x = 0; ///< Of the place; the penumbra is -1 to 1.
+    double x = 0; ///< Position; the penumbra is -1 to 1.
     std::array<double, shadow_rays.size()> bias{}, noise{}, sampled{};
 };
 
@@ -700,7 +700,7 @@ void penumbra(const examples::Options& options) {
 /// Makes the plots and tables of chapter 29, and the picture by the preset `fast`.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 24 --photons 1000 --seeds 2
 /// \file chapters/experiments/30_experiments.cpp
-/// \brief Chapter 30: the experiments behind its tables and plots: how many photons each
-/// mirror and each glass should get.
+/// \brief Chapter 30: the experiments behind its tables and plots: how many photons
+/// each mirror and each glass should get.
 
 #include <algorithm>
 #include <array>
@@ -72,7 +72,7 @@ Room<Stage> two_balls(float albedo) {
     return {World(std::move(stage)), camera};
 }
 
-/// The part of the floor that is looked at.
+/// The part of the floor in view.
 struct Grid {
     int width = 96, height = 72;
     [[nodiscard]] Vec3 at(int x, int y) const {
@@ -134,8 +134,8 @@ PhotonMap caustics_of(const World<Stage>& stage, long long photons, std::uint64_
                                .photons);
 }
 
-/// Errors of a way to share out: bias and variance, absolute, relative to all light and
-/// relative to the mean light of the caustic on that half of the floor.
+/// Errors of a way to divide photons: bias and variance, absolute, relative to all
+/// light and relative to the mean light of the caustic on that half of the floor.
 struct Errors {
     BiasVariance absolute, relative, own;
     double flip = 0;
@@ -263,7 +263,7 @@ void two_rooms(const std::vector<Known>& rooms, const Grid& grid, float radius,
     save_table(options.out, found);
 }
 
-/// Variance in the dark against the share of the light glass, beside the law.
+/// Variance in the dark against the fraction of the light glass, beside theory.
 void by_share(const std::vector<Known>& rooms, const Grid& grid, float radius,
               const Sizes& sizes, const examples::Options& options) {
     examples::Plot plot{
@@ -294,7 +294,8 @@ void by_share(const std::vector<Known>& rooms, const Grid& grid, float radius,
     save_plot(options.out, plot);
 }
 
-/// The pictures of the lit room: few photons, shared out as lights see them and by area.
+/// The pictures of the lit room: few photons, divided as lights see the objects, and by
+/// area.
 void pictures(const examples::Options& options) {
     for (const auto& [how, budget] : {std::pair{"seen", CausticBudget::as_seen},
                                       std::pair{"area", CausticBudget::area}}) {
@@ -407,7 +408,7 @@ void four_balls_shares(const FourBalls& balls, const examples::Options& options)
     const auto seen = aimed_as_seen(balls, targets);
     const auto percent = [](double x) { return examples::text(100 * x, "%.0f %%"); };
     for (std::size_t k = 0; k < targets.size(); ++k) {
-        // Glass comes before mixtures, or not: the ball is known by its place.
+        // Glass may come before or after mixtures: the ball is known by its position.
         const float z = balls.room.world.visit_shape(targets[k], [](const auto& shape) {
             return bounding_sphere(shape).center.z;
         });
@@ -502,7 +503,7 @@ void four_balls(const examples::Options& options, const Sizes& sizes) {
 /// Makes the figures of chapter 30.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;

@@ -36,7 +36,7 @@ struct Sizes {
     int seeds = 0;        ///< Runs behind each bias and variance.
 };
 
-/// The most memory that this program has taken so far; NaN where nobody tells.
+/// The peak memory of this program; NaN if the system does not report it.
 double peak_megabytes() {
 #if __has_include(<sys/resource.h>)
     struct ::rusage usage = {};
@@ -60,7 +60,7 @@ Vec3 place(const Strip& strip, int i) {
     return {float(strip.at(i, places)), 0, 0.5f * std::sin(2.4f * float(i))};
 }
 
-/// A picture one row high: what an estimate reads at the places, relative to the light
+/// A picture one row high: the estimates at the points, relative to the light
 /// in the middle.
 Image read_strip(const PhotonMap& map, const Strip& strip, double radius) {
     Image row = make_image(places, 1);
@@ -339,7 +339,7 @@ void one_map(const examples::Options& options, const Sizes& sizes) {
     save_table(options.out, table);
 }
 
-/// Three passes at a place near the edge of the light: photons of their own, and discs
+/// Three passes at a point near the edge of the light: photons of their own, and discs
 /// that shrink.
 void draw_discs(const examples::Options& options) {
     const World stage(examples::window_scene<Stage>());
@@ -451,7 +451,7 @@ struct Milestone {
     double seconds = 0;           ///< Of the first seed.
     double megabytes = 0;         ///< The most that it took up to here.
     double estimate = 0;          ///< Of its error.
-    double radius = 0;            ///< As a share of the first radius.
+    double radius = 0;            ///< As a fraction of the first radius.
     double faster = 0;            ///< relMSE with the exponent that edges like better.
 };
 
@@ -629,7 +629,7 @@ void pictures(const examples::Options& options, const Sizes& sizes) {
 /// Makes the tables and plots of chapter 31.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;

@@ -1,8 +1,8 @@
 // smoke: --quality draft --width 16 --height 16 --most 10 --repeats 1 --truth 64
 /// \file chapters/experiments/32_experiments.cpp
 /// \brief Chapter 32: the experiments behind its tables and plots: where the times of
-/// table 1 come from, what a loop and a thread cost, and the same bytes for any number of
-/// threads.
+/// table 1 come from, what a loop and a thread cost, and the same bytes for any number
+/// of threads.
 
 #include <algorithm>
 #include <array>
@@ -61,7 +61,7 @@ double median(std::vector<double> values) {
 
 /// Times of the form fixed + each * rays.
 struct Line {
-    double fixed = 0; ///< Seconds, whatever the number of rays.
+    double fixed = 0; ///< Seconds, independent of the number of rays.
     double each = 0;  ///< Seconds for one ray in every pixel.
 };
 
@@ -108,7 +108,8 @@ FirstPass first_pass(const R& room, const PhotonMappingSettings& settings) {
 }
 
 /// The second pass, with the report's numbers of rays: medians of pairs of pictures.
-/// \param shot  Renders the picture with some rays per pixel and some threads: its Timing.
+/// \param shot  Renders the picture with some rays per pixel and some threads: its
+///              Timing.
 template <typename Shot>
 Times time_pairs(Shot shot, const Sizes& sizes, int threads) {
     Times times;
@@ -322,7 +323,7 @@ void draw_schedules(const Image& costs, const examples::Options& options) {
     save_drawing(options.path(""), drawing);
 }
 
-/// The picture of costs, and how well the work can be shared out.
+/// The picture of costs, and how evenly the work can be divided.
 void schedules(const Image& costs, const examples::Options& options) {
     const double all = sum_of(strips_of(costs, costs.width));
     float most = 0;
@@ -406,7 +407,7 @@ float sum_by_thread(const std::vector<float>& values, std::size_t threads) {
 }
 // [sum by thread]
 
-/// The same in blocks of a size that has nothing to do with the number of threads.
+/// The same in blocks whose size does not depend on the number of threads.
 // [sum by block]
 float sum_by_block(const std::vector<float>& values, int threads) {
     constexpr std::size_t size = 512;
@@ -545,7 +546,7 @@ void false_sharing(const examples::Options& options, int repeats) {
     save_table(options.path(""), table);
 }
 
-/// A loop that does nothing: what it costs to wake the threads, and a block.
+/// An empty loop: the cost of waking the threads, and of a block.
 void empty_loops(const examples::Options& options, int threads) {
     examples::Table table{.name = "parallel-empty",
                           .columns = {"threads", "loop of 2 blocks, microseconds",

@@ -47,7 +47,7 @@ using Room3 = decltype(all_materials_room());
 
 // --- Why one over the root -----------------------------------------------------------
 
-/// The luminance that each of many rays through one pixel brings: one of the floor,
+/// The luminance of each of many rays through one pixel: one of the floor,
 /// where the lamp is large and no glass is near.
 std::vector<double> values_of_pixel(const Room3& room,
                                     const examples::Options& options) {
@@ -120,7 +120,7 @@ void one_pixel(const Room3& room, const examples::Options& options) {
             squares += (m - 1) * (m - 1) / double(means.size());
         table.rows.push_back({std::to_string(n), text(std::sqrt(squares), "%.3f"),
                               text(std::sqrt(squares * double(n)), "%.3f")});
-        // One ray brings light or shadow, and little in between.
+        // One ray finds light or shadow, and little in between.
         if (n > 1) add_histogram(plot.rows, means);
     }
     save_plot(options.path(""), plot);

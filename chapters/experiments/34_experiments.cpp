@@ -202,7 +202,7 @@ void endings(const Room4& room, const examples::Oracle& oracle,
 
 // --- Which pixels deserve rays -------------------------------------------------------
 
-/// A way to share out rays, by the number of them.
+/// A way to distribute rays, by their number.
 struct Sharing {
     std::string name;                                    ///< As in plots.
     std::function<AdaptiveSettings(int samples)> rule{}; ///< None: the same everywhere.
@@ -273,7 +273,7 @@ ImageT<double> own_truth(const Renderer& renderer, const Camera& camera, int siz
     return truth;
 }
 
-/// A renderer by which ways to share out rays are tried.
+/// A renderer with which ways to distribute rays are tried.
 template <typename Renderer>
 struct Trial {
     std::string name; ///< In names of files.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/quick_ball.hpp
-/// \brief A shape of a reader that counts how often it is asked whether it is met.
+/// \brief A user's shape that counts the calls of its any-hit test.
 
 #include <optional>
 
@@ -9,7 +9,7 @@
 
 namespace reader {
 
-/// A ball that is quick to say whether it is met, and counts how often it is asked.
+/// A ball with an any-hit test of its own, which counts its calls.
 struct Quick {
     ljus::Sphere ball{};
     int* asked = nullptr;
