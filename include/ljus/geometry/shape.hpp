@@ -18,7 +18,7 @@
 namespace ljus {
 
 /// \defgroup shape Shapes
-/// \brief What a scene asks of a shape.
+/// \brief The functions that a scene requires of a shape.
 ///
 /// A shape needs the functions of the concept Shape: intersect(), surface_point(),
 /// bounding_sphere() and check(). The table lists its optional functions, the purpose

@@ -139,9 +139,9 @@ decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f
 }
 // [visit_material_at]
 
-/// Whether a vertex lies on an object that is nearly_specular(). It is the object that
-/// is asked, not the place: photons are aimed at whole objects.
-/// \param material  What it is made of there.
+/// Whether a vertex lies on an object that is nearly_specular(). This is a property of
+/// the whole object, not of the point, because photons are aimed at whole objects.
+/// \param material  The material at the vertex.
 template <AnyWorld W, std::floating_point T, Material M>
 [[nodiscard]] bool nearly_specular_at(const W& world, const VertexT<T>& vertex,
                                       const M& material) {

@@ -345,7 +345,7 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
 /// \param mapper    The world, the maps, the limits.
 /// \param vertex    The surface.
 /// \param material  Its material.
-/// \param gather    Whether the general map stands for all light but caustics.
+/// \param gather    Whether the general map provides all light except caustics.
 /// \param context   The random stream of the path; counts rays and photons; its batch
 ///                  may delay the query of the caustics map.
 /// \param add       The sum of the path.

@@ -29,7 +29,7 @@ struct CameraT {
 };
 using Camera = CameraT<float>; ///< CameraT in float.
 
-/// Where a camera stands and what it looks at.
+/// The position, orientation and field of view of a camera.
 template <std::floating_point T>
 struct ViewT {
     Vec3T<T> position{T(0)};            ///< The pinhole, in scene units.
@@ -40,7 +40,7 @@ struct ViewT {
 using View = ViewT<float>; ///< ViewT in float.
 
 /// The camera of a view.
-/// \param view  Where it stands and what it looks at.
+/// \param view  Its position, orientation and field of view.
 /// \return The camera.
 /// \throws std::invalid_argument  if the position and target are equal, `up` is along
 ///         the view, or the angle is out of range.

@@ -29,7 +29,7 @@ struct ObjMaterial {
     double dissolve = 1;      ///< d, or 1 - Tr: 0 is clear.
     int illumination = 2;     ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass.
     std::string picture{};    ///< map_Kd, which Kd multiplies: its path; empty: none.
-    std::string picture_at{}; ///< Where that stands: "room.mtl, line 12".
+    std::string picture_at{}; ///< Its position: "room.mtl, line 12".
 
     /// Whether it is glass: by illum, or because d says that it is mostly clear.
     [[nodiscard]] bool is_glass() const noexcept {
