@@ -91,7 +91,7 @@ namespace detail {
 /// If the gradient vanishes, the normal faces the ray.
 /// \param value     f, in double.
 /// \param gradient  Its gradient, in double.
-/// \param t         What intersect() returned.
+/// \param t         Result of intersect().
 /// \param rounding  Error bound of the values of f, including the solver's tolerance.
 /// \return Position, error bound, outward normal.
 template <std::floating_point T, typename Value, typename Gradient>

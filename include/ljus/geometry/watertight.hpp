@@ -66,7 +66,7 @@ template <std::same_as<Watertight> Test, std::floating_point T>
 /// \param ray       Its direction may have any length but zero; hits lie in
 ///                  [t_min, t_max].
 /// \param triangle  Any three vertices; a triangle without an area is never hit.
-/// \param shear     What prepare() returned for this ray.
+/// \param shear     Result of prepare() for this ray.
 /// \return t, and the barycentric u, v; nothing for a miss or a non-finite input.
 /// \cost 6 products for most misses; a hit needs 6 more for its edges, one division,
 ///       and 7 products for t, u and v.

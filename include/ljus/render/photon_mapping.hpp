@@ -89,7 +89,7 @@ struct StreamAmong<First, X...> {
 };
 
 /// The kinds of photons that the general map keeps.
-/// \param settings  What the user asks for.
+/// \param settings  The user's settings.
 [[nodiscard]] inline PhotonKinds kept_kinds(const PhotonMappingSettings& settings) {
     const bool only_indirect = settings.indirect == IndirectLight::photons ||
                                settings.indirect == IndirectLight::gather ||

@@ -121,8 +121,8 @@ enum class Preset : std::uint8_t {
 /// The settings of a preset. The number of photons depends on the size of the picture,
 /// because smaller pixels show smaller errors; radii are chosen from the photons.
 /// \param preset  Which one.
-/// \param width   Of the picture, in pixels.
-/// \param height  Of the picture, in pixels.
+/// \param width   Width of the picture, in pixels.
+/// \param height  Height of the picture, in pixels.
 /// \return All settings; seeds and threads are the caller's.
 [[nodiscard]] inline PhotonMappingSettings preset_settings(Preset preset, int width,
                                                            int height) {

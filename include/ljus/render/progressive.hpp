@@ -158,7 +158,7 @@ void add_pass(ProgressiveState& state, const ImageT<T>& image) {
 // [add_pass]
 
 /// The picture so far.
-/// \param state  Of at least one pass.
+/// \param state  The sums of at least one pass.
 /// \return The mean of the passes, W/(m^2 sr).
 /// \throws std::invalid_argument  if there is no pass.
 template <std::floating_point T = float>

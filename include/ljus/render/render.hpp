@@ -110,7 +110,7 @@ struct PixelSampleT {
 /// Sends one ray through a pixel, as the pixel loop does.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera.
-/// \param rays      Of the picture.
+/// \param rays      The rays of the picture.
 /// \param at        Which ray.
 /// \param counts    Counts the rays.
 /// \param log       Receives each vertex and each term, without the weight.

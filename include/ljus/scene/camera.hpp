@@ -78,8 +78,8 @@ template <std::floating_point T>
 /// The primary ray through a point of the picture.
 /// \param camera  The camera.
 /// \param pixel   From the upper left corner: x in [0, width], y in [0, height].
-/// \param width   Of the picture, in pixels.
-/// \param height  Of the picture, in pixels.
+/// \param width   Width of the picture, in pixels.
+/// \param height  Height of the picture, in pixels.
 /// \return A ray from the pinhole, its direction of unit length.
 /// \report{Section 3.2, Fig. 3}
 // [primary_ray]
@@ -119,8 +119,8 @@ concept CameraLike = requires(const C& camera, const Vec2T<typename C::Scalar>& 
 /// The position of a point in the picture: the inverse of primary_ray().
 /// \param camera  The camera.
 /// \param point   Any point.
-/// \param width   Of the picture, in pixels.
-/// \param height  Of the picture, in pixels.
+/// \param width   Width of the picture, in pixels.
+/// \param height  Height of the picture, in pixels.
 /// \return In pixels from the upper left corner, possibly outside the picture; nothing
 ///         for a point beside or behind the camera, or a result that is not finite.
 /// \report{Section 3.2, Fig. 3}

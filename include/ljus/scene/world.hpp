@@ -565,7 +565,7 @@ template <typename S, typename Compute, std::floating_point T>
 /// \param light  The number of one of its lights.
 /// \param from   The lit point; under a sun, within the sphere around the scene.
 /// \param u      Point of the unit square.
-/// \param time   Of the path, in [0, 1].
+/// \param time   Time of the path, in [0, 1].
 /// \return The sample; nothing if the light does not shine in this direction.
 /// \report{Section 3.2.3}
 template <AnyWorld W, std::floating_point T>
