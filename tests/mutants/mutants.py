@@ -42,7 +42,9 @@ BEGINS_NO_EXPRESSION = set(
 OPENS = {"(": ")", "[": "]", "{": "}"}
 COMMUTES = set(
     "dot min max distance hypot is_same_v equal same_as multiply fmax fmin swap has "
-    "box_union distance2 half_vector larger_cosine same_side schlick_r0 squared_contrast".split()
+    "box_union distance2 half_vector larger_cosine same_side schlick_r0 squared_contrast "
+    "fujii_term oren_nayar_ratio rough_as_printed rough_fon rough_fujii rough_full "
+    "rough_weight".split()
 )
 DROPPED_CALLS = {
     "abs": 1, "sqrt": 1, "normalize": 1, "floor": 1, "ceil": 1, "round": 1,
