@@ -32,7 +32,7 @@ using Ray = ljus::RayT<double>;
 
 constexpr double pi = std::numbers::pi;
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     int shots = 0;  ///< Rays for each count.
     int pixels = 0; ///< Side of the rings.

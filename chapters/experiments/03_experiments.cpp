@@ -35,7 +35,7 @@ using ljus::Rgb;
 
 constexpr double pi = std::numbers::pi;
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     int seeds = 0; ///< Runs behind each error.
     int most = 0;  ///< Samples of a run, at most.

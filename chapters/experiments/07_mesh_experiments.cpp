@@ -26,7 +26,7 @@ namespace {
 using Open = Scene<Shapes<Mesh, Sphere, Quad>, Materials<Lambertian, Mirror, Glass>>;
 using Room = World<Open>;
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     long long photons = 0; ///< Aimed at the glass.
     int cuts = 0;          ///< Of the finest ball of the tables.

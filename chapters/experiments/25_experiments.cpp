@@ -1,6 +1,6 @@
 // smoke: --quality draft --photons 1000 --width 24 --height 24 --cuts 1
 /// \file chapters/experiments/25_experiments.cpp
-/// \brief Chapter 25: what is saved where photons make rays needless, and what is lost.
+/// \brief Chapter 25: the savings where photons replace rays, and the errors.
 
 #include <algorithm>
 #include <array>
@@ -110,7 +110,7 @@ Hall three_balls(float radius) {
 struct Probes {
     std::vector<Vec3> points{}; ///< On the floor.
     std::vector<double> seen{}; ///< In [0, 1].
-    std::size_t everywhere = 0; ///< How many of the first lie all over the floor.
+    std::size_t everywhere = 0; ///< This many, first, over the whole floor.
 };
 // [probe]
 double part_seen(const Hall& hall, const Vec3& at, int n) {
@@ -161,9 +161,9 @@ VerdictGrid verdicts_of(const Hall& hall, const SkipSettings& skip, long long ph
     return make_verdict_grid(traced.photons, 1, skip, options.threads);
 }
 
-/// How often a rule skips rays, and how often it is wrong; parts of 1.
+/// How often a rule skips rays, and how often it is wrong; fractions.
 struct Outcome {
-    double skipped = 0; ///< Points with a verdict, of all.
+    double skipped = 0; ///< Fraction of points with a verdict.
     double wrong = 0;   ///< Points with one that is more than 5 % of the lamp off.
     double lost = 0;    ///< Points called lit, of those that miss more than 5 % of it.
 };
@@ -427,7 +427,7 @@ void judge_room(examples::Table& table, const char* name, const W& world,
             }
             seen.push_back(rays == 0 ? -1 : double(through) / rays);
         }
-    // Where a lamp is seen whole or not at all: what a perfect rule could skip.
+    // Points that see a lamp wholly or not at all: a perfect rule could skip these.
     double clear = 0, all = 0;
     for (const double part : seen) {
         all += part >= 0;
@@ -469,8 +469,8 @@ void rooms(const examples::Options& options, long long photons) {
 }
 
 /// Nanoseconds of a shadow ray, of a verdict from the grid, and of a verdict by the
-/// plain twin, which asks the map, all at the same points and for the first lamp; and
-/// of a photon, from the lamp into the grid.
+/// plain twin, which searches the map, all at the same points and for the first lamp;
+/// and of a photon, from the lamp into the grid.
 template <AnyWorld W>
 std::array<double, 4> cost_of(const W& world, const Camera& camera, long long photons,
                               const examples::Options& options) {

@@ -1,6 +1,6 @@
 // smoke: --quality draft --width 24 --height 24 --seeds 2 --truth 16
 /// \file chapters/experiments/29_experiments.cpp
-/// \brief Chapter 29: what interpolating irradiance costs and what it buys.
+/// \brief Chapter 29: the cost and the gain of interpolating irradiance.
 
 #include <algorithm>
 #include <array>
@@ -36,7 +36,7 @@ using Box = decltype(cornell_box());
 using Mapper = PhotonMapper<decltype(Box::world), StratifiedStream, Gathering>;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     int seeds = 0; ///< Runs behind each bias and variance.
     int truth = 0; ///< Rays per pixel of the references.
@@ -115,7 +115,7 @@ void add_run(AtCorner& corner, const IrradianceCacheT<double>& cache, double rea
         const auto found = interpolate(cache, Vec3T<double>{corner_place(i), 0, 0},
                                        Vec3T<double>{0, 0, 1}, reach);
         if (!found) {
-            corner.gathered[slot] += 1.0 / runs; // exactly
+            corner.gathered[slot] += 1.0 / runs; // exact
             continue;
         }
         const double e = found->x / exact - 1;
@@ -169,7 +169,7 @@ void table_of_corner(const Corner& corner, const examples::Options& options) {
     examples::show_table(options, table);
 }
 
-/// Exact records, no noise: what is wrong then is the interpolation alone.
+/// Exact records without noise: the error is that of the interpolation alone.
 void corner(const examples::Options& options) {
     const int runs = options.pick(32, 400, 2000);
     Corner found{};
@@ -192,7 +192,7 @@ PhotonMappingSettings fast(int side, std::uint64_t seed, int threads) {
     return settings;
 }
 
-/// Indirect light alone, by a renderer of the whole.
+/// Indirect light alone, from a renderer of all light.
 template <typename Renderer>
 Image indirect_light(const Box& room, const Renderer& renderer,
                      const RenderSettings& picture) {
@@ -279,7 +279,7 @@ struct Knob {
     bool cached = true;    ///< Or gathered at every vertex.
 };
 
-/// Each knob of the cache turned, while the others stay where they are.
+/// Each setting of the cache varied, with the others fixed.
 std::vector<Knob> all_knobs() {
     std::vector<Knob> all{Knob{.name = "tile 3, 25 rays, 6 nearest, reach 1"}};
     for (const int tile : {2, 3, 4, 6})
@@ -326,7 +326,7 @@ Turned turn(const Bench& bench, const Knob& knob) {
     return found;
 }
 
-/// Which references there are, and how good they are.
+/// The references, and their errors.
 void table_of_oracles(const Bench& bench) {
     examples::show_table(
         bench.options,
@@ -338,7 +338,7 @@ void table_of_oracles(const Bench& bench) {
                    text(bench.traced.noise, "%.2g")}}});
 }
 
-/// Indirect light alone, one knob after the other.
+/// Indirect light alone, one setting after the other.
 void knobs(const examples::Options& options, const Sizes& sizes) {
     const Box room = cornell_box();
     const auto settings = fast(sizes.side, options.seed, options.threads);

@@ -29,7 +29,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     long long photons = 0; ///< Of a caustics map.
     int seeds = 0;         ///< Maps behind each error.
@@ -98,7 +98,7 @@ Image floor_light(const PhotonMap& map, const Grid& grid, float radius,
     return image;
 }
 
-/// The direct light on the floor, on paper; the balls throw shadows.
+/// The direct light on the floor in closed form; the balls cast shadows.
 Image direct_light(const Grid& grid) {
     Image image = make_image(grid.width, grid.height);
     for (int y = 0; y < grid.height; ++y)
@@ -141,7 +141,7 @@ struct Errors {
     double flip = 0;
 };
 
-/// A room and all that is known of it.
+/// A room and its references.
 struct Known {
     std::string name;
     Room<Stage> room;
@@ -169,7 +169,7 @@ Known known_room(const std::string& name, float albedo, const Grid& grid, float 
     double mean = 0;
     for (const Rgb& c : known.truth.pixels)
         mean += double(c.x) / double(known.truth.pixels.size());
-    known.gain = 1 / mean; // the epsilon of relative errors is made for that
+    known.gain = 1 / mean; // the epsilon of relative errors assumes that
     known.pilots = pilot_caustics(known.room.world,
                                   PhotonPassSettings{.photons = sizes.photons,
                                                      .seed = options.seed,
@@ -323,7 +323,7 @@ void pictures(const examples::Options& options) {
     }
 }
 
-/// Rays through balls of two indices, as Snell has it: where they land.
+/// Rays through balls of two indices by Snell's law, and where they land.
 void draw_rays(const examples::Options& options) {
     examples::Drawing figure{.name = "budget-rays",
                              .description = "The same light through two balls: index "
@@ -356,7 +356,7 @@ void draw_rays(const examples::Options& options) {
 
 // --- The report's four balls ---------------------------------------------------------
 
-/// The four balls of figure 11, and what is known of their light.
+/// The four balls of figure 11, and the settings of their light.
 struct FourBalls {
     decltype(four_glass_room()) room = four_glass_room();
     float radius = 0.15f;          ///< Of the estimate.
@@ -397,7 +397,7 @@ std::vector<double> aimed_as_seen(const FourBalls& balls,
     return seen;
 }
 
-/// What the pilot finds of each ball, and its share by each budget.
+/// The pilot's results for each ball, and its fraction by each budget.
 void four_balls_shares(const FourBalls& balls, const examples::Options& options) {
     examples::Table table{.name = "budget-four-balls",
                           .columns = {"ball", "index", "flux, W", "area, m²", "as seen",
@@ -491,7 +491,7 @@ void four_balls_errors(const FourBalls& balls, const examples::Options& options,
     save_table(options.out, table);
 }
 
-/// What each ball of figure 11 gets, and what it does to the picture.
+/// The photons of each ball of figure 11, and their effect on the picture.
 void four_balls(const examples::Options& options, const Sizes& sizes) {
     const FourBalls balls = known_balls(options, sizes);
     four_balls_shares(balls, options);

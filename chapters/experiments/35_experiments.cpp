@@ -1,11 +1,11 @@
 // smoke: --quality draft --seeds 3 --only radius
 /// \file chapters/experiments/35_experiments.cpp
-/// \brief Chapter 35: the experiments behind its tables and plots: every knob of the
-/// photon mapper, turned. Error against time and memory, what half of the time costs,
+/// \brief Chapter 35: the experiments behind its tables and plots: every setting of the
+/// photon mapper, varied. Error against time and memory, the cost of halving the time,
 /// and the settings that no other beats.
 ///
-/// Each setting that is done is a line of trades-notebook.json; what is there is not
-/// done again, so that a run can be stopped and gone on with. ./scripts/trades builds
+/// Each finished setting is a line of trades-notebook.json and is not
+/// measured again, so that a run can be stopped and continued. ./scripts/trades builds
 /// and runs it.
 
 #include <cstdio>
@@ -31,8 +31,8 @@ using examples::text;
 
 // --- The rooms -----------------------------------------------------------------------
 
-/// A ball of glass in a closed grey room, below a small lamp: most of what is bright is
-/// one caustic.
+/// A ball of glass in a closed grey room, below a small lamp: most of the bright region
+/// is one caustic.
 template <std::floating_point T>
 Room<CornellSceneT<T>> make_caustic() {
     CornellSceneT<T> scene;
@@ -72,7 +72,7 @@ struct Around {
     Setting middle;
     float unit; ///< Half of the room's width, the unit of radii.
     int size;   ///< Of the pictures.
-    bool full;  ///< Farther than in a draft.
+    bool full;  ///< A wider range than in a draft.
     std::vector<Setting> all{};
 
     /// The middle's settings of photons and rays.
@@ -244,7 +244,7 @@ std::vector<Setting> settings_of(const std::string& knob, float unit, int size,
     return around.all;
 }
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Request {
     std::string only = "all"; ///< A knob.
     int size = 40;            ///< Side of the pictures.
