@@ -70,8 +70,8 @@ double mean_of(const Image& image) {
     return sum / double(image.pixels.size());
 }
 
-/// Whether a number is another one, but for a part of it. (doctest's Approx allows for
-/// its epsilon times 1 as well, which for small numbers is everything.)
+/// Whether two numbers are equal within a relative tolerance. (doctest's Approx allows
+/// for its epsilon times 1 as well, which for small numbers is everything.)
 bool near(double x, double right, double part) {
     return std::abs(x - right) <= part * std::abs(right);
 }

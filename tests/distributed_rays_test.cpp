@@ -475,7 +475,7 @@ TEST_CASE("distributed rays: every path is L D? (S|G)* E") {
     CHECK(kinds.contains("ESDL shadow ray"));
     CHECK(longest <= 7); // E, 4 turns, D, L
 
-    // The same picture whatever the number of threads, and no bad sample in it.
+    // The same picture for any number of threads, without a bad sample.
     const auto one = render(tracer, lens, picture);
     auto three_threads = picture;
     three_threads.threads = 3;

@@ -244,7 +244,7 @@ TEST_CASE("photon mapping: a path goes both ways eight times, and loses nothing"
                 // Of the tree of paths each edge once: what two ways share is one ray.
                 CHECK(counts.bounce_rays < rays);
                 // Both ways from eight surfaces; and one ray from each later one, which
-                // are those of the longest way but for E, L and the eight.
+                // are those of the longest path without E, L and the eight.
                 CHECK(counts.bounce_rays == 16 + longest - 10);
             }
         }

@@ -137,7 +137,7 @@ TEST_CASE("shadow photons: which way a side faces") {
     CHECK(detail::facing(detail::SmallNormal{90, 0, 90}, 1) == 0);
     CHECK(detail::facing(detail::SmallNormal{0, 90, 90}, 1) == 1);
     CHECK(detail::facing(detail::SmallNormal{73, 73, 73}, 1) == 0);
-    // A photon faces where it came from, whatever the normal says.
+    // A photon faces its origin, on either side of the normal.
     for (const int up : {127, -127}) {
         Photon photon = on_floor(0, 0, PhotonKind::direct);
         photon.normal.y = static_cast<std::int8_t>(up);
@@ -428,7 +428,7 @@ TEST_CASE("shadow photons: what is known to be lit has the same bytes without ra
         CHECK(unable.counts.shadow_rays == before.counts.shadow_rays);
         settings.skip.rule = SkipRule::enough;
         const PhotonMapper few(world, settings, abilities<Skipping>);
-        CHECK(few.maps().general.empty()); // nobody else asks for it
+        CHECK(few.maps().general.empty()); // nothing else needs it
         const auto after = render(few, camera, small);
         CHECK(after.image.pixels == before.image.pixels);
         CHECK(after.counts.shadow_rays + after.counts.skipped_rays ==
@@ -611,7 +611,7 @@ TEST_CASE("shadow photons: no indirect ray where no indirect photon is near") {
     }
     CHECK(sum < 0.95 * should);
 
-    // A place next to an indirect photon is never called dark, whatever its brick.
+    // A point next to an indirect photon is never called dark, in any brick.
     const auto photons = photons_of(world, 300);
     SkipSettings skip{.indirect_rays = true, .radius = 0.05f};
     const VerdictGrid grid = make_verdict_grid(photons, 1, skip);

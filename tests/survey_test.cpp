@@ -417,7 +417,7 @@ TEST_CASE("survey: lengths whose squares leave the range, and a gloss, by what i
     CHECK(said(2e9f) ==
           "coordinates reach 2e+09: above 1e9 the squares of areas leave the range of "
           "float; use double, or a larger unit of length");
-    // Along each axis, to both sides, whatever smaller thing comes before or after.
+    // Along each axis, to both sides, with smaller shapes before or after.
     for (int axis = 0; axis < 3; ++axis)
         for (const float side : {-1.5e9f, 1.5e9f}) {
             Scene<Shapes<Sphere>, Materials<Lambertian>> scene;
