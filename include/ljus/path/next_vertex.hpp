@@ -332,10 +332,9 @@ namespace detail {
 /// The effect of the thin surfaces between two vertices.
 template <std::floating_point T>
 struct PassageT {
-    RgbT<T> through{T(1)}; ///< Transmittance over its probability.
-    T distance = T(0);     ///< From the vertex to the last thin surface.
-    T stop_probability =
-        T(1); ///< Probability of reflection, if the path stopped at one.
+    RgbT<T> through{T(1)};     ///< Transmittance over its probability.
+    T distance = T(0);         ///< From the vertex to the last thin surface.
+    T stop_probability = T(1); ///< Probability of reflection at a stop; else 1.
 };
 
 /// Traces a ray through thin surfaces. At each one the path stops for reflection with

@@ -71,10 +71,9 @@ template <Material M, std::floating_point T, typename Irradiance, typename Strea
 /// What gather rays look up where they end.
 template <std::floating_point T>
 struct GatherLookupT {
-    const IrradiancePointsT<T>* points;      ///< The points with known irradiance.
-    const PhotonMapT<T>* caustics = nullptr; ///< For glossy surfaces; or none.
-    DensityEstimateSettings
-        caustics_estimate{};       ///< Density estimate of caustics there.
+    const IrradiancePointsT<T>* points;          ///< The points with known irradiance.
+    const PhotonMapT<T>* caustics = nullptr;     ///< For glossy surfaces; or none.
+    DensityEstimateSettings caustics_estimate{}; ///< Estimate of caustics there.
     bool gloss_as_mirrors = false; ///< As in the PhotonPassSettings of the map.
 
     /// Irradiance points alone, without caustics on glossy surfaces.

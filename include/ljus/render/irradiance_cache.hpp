@@ -106,10 +106,9 @@ namespace detail {
 /// The irradiance gathered for one row of tiles.
 template <std::floating_point T>
 struct GatheredRowT {
-    std::vector<Vec3T<T>> positions; ///< The points, in world space.
-    std::vector<GatheredT<T>>
-        records;     ///< Light gathered there, in the same order.
-    Counts counts{}; ///< What it cost.
+    std::vector<Vec3T<T>> positions;   ///< The points, in world space.
+    std::vector<GatheredT<T>> records; ///< Their gathered light, in this order.
+    Counts counts{};                   ///< What it cost.
 };
 
 /// Gathers irradiance at the first diffuse surfaces that a camera ray meets: these are
