@@ -16,7 +16,7 @@ inline std::string csv_folder(int argc, char** argv) {
     return {};
 }
 
-/// Saves a table, if somebody asked for one.
+/// Saves a table if --csv was given.
 inline void save_csv(const std::string& folder, const examples::Table& table) {
     if (!folder.empty()) save_table(folder, table);
 }

@@ -1,15 +1,16 @@
 /// \file equal_error.cpp
-/// \brief A scene's file at equal error: the processor seconds that a preset takes on one
-/// thread, and the two errors that it leaves, for several seeds.
+/// \brief Time and error of a scene file: the processor seconds that a preset takes on
+/// one thread, and its two errors, for several seeds.
 ///
-/// The reference comes from another algorithm, the path tracer, in pieces that tell its own
-/// noise. It is made once, in minutes to hours:
+/// The reference comes from another algorithm, the path tracer, in pieces that give its
+/// own noise. It is made once, in minutes to hours:
 ///
 ///     bench_equal_error scene.json --reference ref --make 8 --rays 4096
 ///     bench_equal_error scene.json --reference ref --preset fast --seeds 5
 ///
-/// Each line says what a seed brought: relMSE and block error, both less the reference's own
-/// share, the difference of the means, and seconds beside the pace of the machine.
+/// Each line gives the result of a seed: relMSE and block error, both minus the
+/// reference's own noise, the difference of the means, seconds, and the speed of the
+/// machine.
 
 #include <algorithm>
 #include <array>
@@ -35,7 +36,7 @@ namespace {
 
 using namespace ljus;
 
-/// What the user asked for.
+/// The options.
 struct Request {
     std::string scene;           ///< File.
     std::string reference;       ///< Files NAME-0.pfm, NAME-1.pfm, ...
@@ -79,8 +80,8 @@ double processor_seconds() {
     return double(std::clock()) / double(CLOCKS_PER_SEC);
 }
 
-/// Seconds that this machine takes for a fixed piece of work, a chain of 1e8 dependent
-/// multiplications and additions: who compares seconds of two machines divides by it.
+/// Seconds that this machine takes for a fixed task, a chain of 1e8 dependent
+/// multiplications and additions: divide by it to compare the seconds of two machines.
 double pace() {
     const double start = processor_seconds();
     double x = 0.5;
@@ -119,7 +120,7 @@ void make_reference(const Request& request, const Subject& subject) {
     }
 }
 
-/// The reference, and the error that it has itself.
+/// The reference, and its own error.
 struct Reference {
     ImageT<double> image{};
     double noise = 0;       ///< relMSE of the mean of the pieces.

@@ -1,5 +1,5 @@
 /// \file four_glass_room.cpp
-/// \brief The report's four-glass room, whole: tables 1 and 2 as a benchmark.
+/// \brief The report's four-glass room: tables 1 and 2 as a benchmark.
 ///
 /// 400 x 400 pixels, depth 4, 100 000 caustic photons, radius 0.05, as in the report.
 /// The counters say how many rays were traced per camera ray, and how many per second.
@@ -16,7 +16,7 @@ namespace {
 
 using namespace ljus;
 
-/// Depth 4 and no roulette, as the report has it.
+/// Depth 4 and no roulette, as in the report.
 PhotonMappingSettings report_settings(int shadow_rays, int threads) {
     PhotonMappingSettings settings{.max_depth = 4, .roulette_depth = 5};
     settings.shadow_rays = shadow_rays;

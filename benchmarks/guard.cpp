@@ -1,6 +1,7 @@
 /// \file guard.cpp
-/// \brief Small work of which every instruction is counted, so that nothing becomes
-/// dearer unseen: tests/checks/performance.sh runs it under callgrind and compares.
+/// \brief Small tasks whose instructions are counted, so that no function becomes
+/// slower unnoticed: tests/checks/performance.sh runs them under callgrind and
+/// compares.
 ///
 /// Each case is a function `guard_...`, which callgrind names. A case `..._plain` has a
 /// fast twin without that word; their ratio is guarded as well. The work is the same at
@@ -38,10 +39,10 @@ using namespace ljus;
 
 namespace {
 
-/// What all cases add to, so that no work is left out.
+/// All cases add to this, so that no work is optimised away.
 volatile double result = 0;
 
-/// What the cases work on; made before they are counted.
+/// The data of the cases, made before counting begins.
 struct Work {
     std::vector<Ray> rays;
     std::vector<Vec3> points;

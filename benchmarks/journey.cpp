@@ -1,10 +1,10 @@
 /// \file journey.cpp
-/// \brief The way of one camera ray, or of one photon, through the library: the functions
-/// that it enters, in order. ./scripts/journey compiles this with -finstrument-functions,
-/// runs it and reads what it prints.
+/// \brief The journey of one camera ray, or of one photon, through the library: the
+/// functions that it enters, in order. ./scripts/journey compiles this with
+/// -finstrument-functions, runs it and reads what it prints.
 //
-//     journey camera-ray     one vertex, one shadow ray, and the step on
-//     journey photon         it leaves its lamp, is stored, and is scattered
+//     journey camera-ray     one vertex with its shadow ray, and the next step
+//     journey photon         a photon is emitted, stored and scattered
 
 #include <cstdio>
 #include <cstring>
@@ -30,7 +30,7 @@ World<Room> first_picture() {
     return World(std::move(scene));
 }
 
-/// Whether a path tracer's ray brought light by a shadow ray.
+/// Whether a path tracer's ray found light by a shadow ray.
 bool send_ray(const PathTracer<World<Room>>& tracer, std::uint64_t path) {
     auto stream = random_stream(1, Pass::camera, 0, path);
     Counts counts;
@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
     const World<Room> world = first_picture();
     const PathTracer tracer(world, {.max_depth = 1});
     for (std::uint64_t path = 0; path < 1000; ++path) {
-        std::printf("new\n"); // what was recorded of a path that took another way goes
+        std::printf("new\n"); // discards the record of a path of another kind
         if (photon ? send_photon(world, path) : send_ray(tracer, path)) return 0;
     }
     return 1;

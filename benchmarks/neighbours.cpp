@@ -1,22 +1,23 @@
 /// \file neighbours.cpp
-/// \brief Points near a point: the k-d trees of the book, and their peers.
+/// \brief Searches for near points: the k-d trees of the book, and other libraries
+/// (peers).
 ///
-/// Each peer stands behind one adapter struct:
+/// Each peer is called through one adapter struct:
 ///
 ///     struct Peer {
 ///         explicit Peer(const std::vector<ljus::Vec3>& points);       // builds
 ///         float sum_within(ljus::Vec3 center, float radius) const;    // visits a ball
-///         float sum_blocks(ljus::Vec3 center, float radius) const;    // for an estimate
-///         float sum_nearest(ljus::Vec3 center, std::size_t k) const;  // k nearest
-///         float any(ljus::Vec3 center, float radius) const;           // 1 or 0
-///         float one(ljus::Vec3 center) const;                         // the nearest
+///         float sum_blocks(ljus::Vec3 center, float radius) const;    // for an
+///         estimate float sum_nearest(ljus::Vec3 center, std::size_t k) const;  // k
+///         nearest float any(ljus::Vec3 center, float radius) const;           // 1 or
+///         0 float one(ljus::Vec3 center) const;                         // the nearest
 ///     };
 ///
 /// The sums are of a payload of the points found, so that no peer gets away without
 /// touching what a photon map reads, and so that all peers can be seen to agree. What a
-/// peer cannot do is left out. `--table`, and `--csv FOLDER`, prints the times of all in one run: processor
-/// time of one thread, peers in turn, the median of seven rounds, and how many times as
-/// long as the wide tree each takes.
+/// peer cannot do is left out. `--table`, and `--csv FOLDER`, prints the times of all
+/// in one run: processor time of one thread, peers in turn, the median of seven rounds,
+/// and how many times as long as the wide tree each takes.
 
 #include <algorithm>
 #include <array>
@@ -161,7 +162,7 @@ struct Cloud {
 };
 
 #ifdef LJUS_BENCH_NANOFLANN
-/// The installed nanoflann's words.
+/// The parameters of the installed nanoflann.
 struct Installed {
     static constexpr const char* name = "nanoflann";
     static constexpr const char* stopped = "  stopped";
@@ -173,7 +174,7 @@ struct Installed {
 };
 #endif
 #ifdef LJUS_BENCH_NANOFLANN_LATEST
-/// The newer one's.
+/// The parameters of the newer one.
 struct Latest {
     static constexpr const char* name = "nanoflann, newer";
     static constexpr const char* stopped = "  stopped";
@@ -257,7 +258,7 @@ struct NanoflannStopped : Nanoflann<Words> {
 };
 
 #ifdef LJUS_BENCH_KDTREEPP
-/// What libkdtree++ calls of an allocator, and C++20 has taken away.
+/// Functions of an allocator that libkdtree++ calls and C++20 has removed.
 template <typename T>
 struct OldAllocator : std::allocator<T> {
     using pointer = T*;
@@ -325,7 +326,7 @@ std::vector<Vec3> points_of(int kind, std::size_t count) {
                      : structures::in_caustics(count, unit);
 }
 
-/// A radius within which about 50 of them lie, in the median.
+/// A radius that holds about 50 of them, as a median.
 float radius_for_50(const std::vector<Vec3>& points) {
     const ljus::KdTree8 tree(points, 1);
     std::vector<float> radii;
@@ -367,7 +368,7 @@ constexpr bool has() {
         };
 }
 
-/// Asks a peer. `any` and `one` ask beside the points, the others at them.
+/// Queries a peer: `any` and `one` beside the points, the others at them.
 template <Query query, typename Peer>
 float ask(const Peer& peer, const Vec3& center, float radius) {
     const Vec3 beside = center + 0.3f * radius;
@@ -456,16 +457,16 @@ std::pair<std::vector<double>, double> print_line(const char* what,
     return {ratios, all[0][all[0].size() / 2]};
 }
 
-float sink = 0; // what the peers return, so that none is left out
+float sink = 0; // sum of all results, so that no call is optimised away
 
-/// A table of the book: one peer, and where it stands among all.
+/// A table of the book: one peer, and its index.
 struct Book {
     examples::Table table;
     std::size_t peer; ///< The one that stops at the first point follows.
 };
 
-/// The centres of 10 000 searches, one behind the other in memory: fetching them from
-/// afar is no part of a search.
+/// The centres of 10 000 searches, contiguous in memory: fetching them from
+/// elsewhere is not part of a search.
 std::vector<Vec3> centers_of(const std::vector<Vec3>& points) {
     std::vector<Vec3> centers;
     for (std::size_t i = 1; i <= 10000; ++i)
@@ -548,7 +549,7 @@ void must_agree() {
         for (std::size_t i = 0; i < points.size(); i += 97) {
             const float difference =
                 a.sum_within(points[i], radius) - b.sum_within(points[i], radius);
-            if (std::abs(difference) < 7.0f) continue; // one on the edge, rounded
+            if (std::abs(difference) < 7.0f) continue; // one on the edge
             std::fprintf(stderr, "Two peers find different points near number %zu.\n",
                          i);
             std::exit(1);
@@ -565,7 +566,7 @@ constexpr List<A..., B...> operator+(List<A...>, List<B...>) {
 template <typename Words>
 using Both = List<Nanoflann<Words>, NanoflannStopped<Words>>;
 
-/// All peers that are there.
+/// All available peers.
 constexpr auto all_peers = List<WideTree>{}
 #ifdef LJUS_BENCH_NANOFLANN
                            + Both<Installed>{}

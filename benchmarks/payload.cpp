@@ -1,12 +1,12 @@
 /// \file payload.cpp
-/// \brief What a photon carries beside its place, and in which order: the time of a
-/// search in a ball, where the map fits the cache and where it does not.
+/// \brief The data of a photon besides its position, and their order in memory: the
+/// time of a search in a ball, for maps that fit the cache and for larger ones.
 ///
-/// A search finds about 50 photons and adds up all that they carry; times are
+/// A search finds about 50 photons and adds up all of their data; times are
 /// nanoseconds per search. The tree is the same each time. What differs is how many
-/// bytes a photon carries, whether they stand in the order of the tree or of the emission,
-/// and whether the next search is near the last one, as in neighbouring pixels, or
-/// anywhere. A photon of a photon map carries 32 bytes.
+/// bytes a photon carries, whether they stand in the order of the tree or of the
+/// emission, and whether the next search is near the last one, as in neighbouring
+/// pixels, or anywhere. A photon of a photon map carries 32 bytes.
 
 #include <algorithm>
 #include <array>
@@ -38,7 +38,7 @@ double cpu_seconds() {
 struct Map {
     std::vector<Vec3> points{};
     ljus::KdTree8 tree{};
-    float radius = 0; ///< Holds about 50 in the median.
+    float radius = 0; ///< Holds about 50, as a median.
 
     explicit Map(std::size_t count) {
         ljus::RandomStream stream = ljus::random_stream(1, ljus::Pass::user, 0, 0);
@@ -55,7 +55,7 @@ struct Map {
     }
 };
 
-float sink = 0; // what is found, so that nothing is left out
+float sink = 0; // sum of the results, so that no work is optimised away
 
 /// Nanoseconds per search that reads `floats` numbers of each photon found: the least
 /// of five runs.

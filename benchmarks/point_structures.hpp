@@ -1,9 +1,9 @@
 #pragma once
 
 /// \file point_structures.hpp
-/// \brief What else finds points near a point: hash grid, Morton order, octree.
+/// \brief Other structures that find near points: hash grid, Morton order, octree.
 ///
-/// Each as one would write it in an afternoon, with the interface of the trees. They are
+/// Simple implementations with the interface of the trees. They are
 /// here to be compared with; the library does not use them.
 
 #include <algorithm>
@@ -97,7 +97,7 @@ inline double cube_distance2(const Vec3& low, float side, const Vec3& center) {
     return ljus::detail::box_distance2(low, low + side, center);
 }
 
-/// Points sorted along Morton's curve, 21 bits an axis: an octree without nodes, whose
+/// Points sorted along Morton's curve, 21 bits per axis: an octree without nodes, whose
 /// cells are found by bisection.
 struct MortonOrder {
     Cube cube;
@@ -259,12 +259,12 @@ struct Octree {
     }
 };
 
-/// The k nearest by a structure that knows balls only: the ball is doubled until it
-/// holds enough.
+/// The k nearest by a structure that can only search balls: the ball is doubled until
+/// it holds enough.
 /// \param structure  Any of these.
 /// \param center     Where from.
 /// \param first      The radius to begin with.
-/// \param found      Room for the k nearest; the farthest is put first.
+/// \param found      Space for the k nearest; the farthest comes first.
 /// \return How many were found.
 template <typename Structure>
 std::size_t nearest_by_balls(const Structure& structure, const Vec3& center,

@@ -18,7 +18,7 @@ using ljus::Vec3;
 
 namespace {
 
-/// Either tree of the library; the triangles' own test is in double.
+/// One of the library's two trees; the test of a triangle is in double.
 template <typename Tree>
 struct House {
     const rays::Mesh& mesh;
@@ -44,14 +44,14 @@ struct House {
     }
 };
 
-/// What a row of the book's tables holds of one mesh: times over those of a peer, ray set
+/// A row of the book's tables for one mesh: times over those of a peer, ray set
 /// by ray set.
 struct Ratios {
     std::vector<std::string> wide, plain; ///< Embree's over ours.
     std::vector<std::string> tiny;        ///< tinybvh's over ours.
 };
 
-/// Asks all rays of a set, prints the row of the terminal and keeps the ratios.
+/// Traces all rays of a set, prints a row on the terminal and keeps the ratios.
 template <typename Embree, typename Tiny>
 void row(const char* name, const std::vector<Ray>& set, bool any,
          const House<ljus::Bvh>& plain, const House<ljus::TriangleBvh>& wide,
@@ -70,7 +70,7 @@ void row(const char* name, const std::vector<Ray>& set, bool any,
     ratios.tiny.push_back(over(3, 1));
 }
 
-/// Rays from the camera of a mesh, from what they meet, and to a lamp.
+/// Rays from the camera of a mesh, from their hits, and to a lamp.
 rays::RaySets sets_of(const rays::Named& named, const House<ljus::TriangleBvh>& wide) {
     const auto first_hit = [&](const Ray& ray) -> std::optional<ljus::SurfacePoint> {
         const NearestHit found = wide.nearest(ray);
@@ -83,7 +83,7 @@ rays::RaySets sets_of(const rays::Named& named, const House<ljus::TriangleBvh>& 
                           {0, 1, 0}, {-0.5f, 2.5f, -0.5f}, {1, 0, 0}, {0, 0, 1});
 }
 
-/// The corners of a mesh, as the peers take them.
+/// The corners of a mesh, in the form that the peers expect.
 std::vector<float> corners_of(const rays::Mesh& mesh) {
     std::vector<float> vertices;
     for (const Triangle& t : mesh)

@@ -14,7 +14,7 @@
 
 #include "rays_timing.hpp"
 
-/// Prints the best of some runs, and their middle one.
+/// Prints the best and the median of some runs.
 int main() {
     const auto room = ljus::final_room();
     const ljus::PathTracer tracer(room.world);

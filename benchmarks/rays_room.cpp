@@ -20,7 +20,7 @@ namespace {
 
 /// What the report's program does, by its text and its structure: triangles and spheres
 /// only, so that a quad is two of them; groups of pointers to a base class; a virtual
-/// function that solves the printed equations, whatever is known of nearer hits; and
+/// function that solves the printed equations, regardless of nearer hits; and
 /// the first hit for a shadow ray, too, which is then compared with the lamp.
 namespace report {
 
@@ -112,8 +112,8 @@ struct Loop {
 
 } // namespace report
 
-/// The same idea at its best: the library's tests and its 22 shapes behind a virtual
-/// function, and a shadow ray that stops at the first hit.
+/// The best version of that idea: the library's tests and its 22 shapes behind a
+/// virtual function, and a shadow ray that stops at the first hit.
 struct Object {
     virtual ~Object() = default;
     virtual bool intersect(const Ray& ray, float& t) const = 0;
@@ -173,7 +173,7 @@ struct InTurn {
 template <typename W>
 InTurn(const W&) -> InTurn<W>; // clang finds it by itself from version 17 on
 
-/// The library's tree; of one or two shapes its loop.
+/// The library's tree; for one or two shapes, its loop.
 template <typename W>
 struct ByTree {
     const W& world;
@@ -186,7 +186,7 @@ struct ByTree {
 template <typename W>
 ByTree(const W&) -> ByTree<W>;
 
-/// The same shapes, whose intersections are worked out in double. It has no lights: only
+/// The same shapes with intersections in double. It has no lights: only
 /// rays are cast in it.
 template <typename S>
 auto in_double(const ljus::World<S>& world) {
@@ -222,7 +222,8 @@ void add_to(rays::Embree& embree, const ljus::AnyWorld auto& world) {
 }
 #endif
 
-/// From how many objects on the tree is faster: the room, cut down to its first few.
+/// The number of objects from which the tree is faster: the room, cut down to its first
+/// few.
 void print_crossover(const ljus::AnyWorld auto& whole, const std::vector<Ray>& set,
                      const std::string& folder) {
     examples::Table table{

@@ -108,8 +108,8 @@ inline std::vector<Named> meshes() {
 /// Three sets of rays, as a renderer casts them.
 struct RaySets {
     std::vector<Ray> primary; ///< From a pinhole, pixel by pixel, row by row.
-    std::vector<Ray> diffuse; ///< From where those hit, in random directions.
-    std::vector<Ray> shadow;  ///< From there to points of a lamp.
+    std::vector<Ray> diffuse; ///< From their hits, in random directions.
+    std::vector<Ray> shadow;  ///< From the same hits to points of a lamp.
 };
 
 /// The rays for a mesh or a room. `first_hit(ray)` returns an optional
@@ -159,7 +159,7 @@ inline ljus::TriangleBvh wide_tree(const Mesh& mesh) {
     return {static_cast<std::uint32_t>(mesh.size()),
             [&](std::uint32_t i) -> const ljus::Triangle& { return mesh[i]; }, 1};
 }
-/// A triangle at a place of a tree: where the tree has it, or where the mesh does.
+/// The triangle in a slot of a tree: the tree's own copy, or the mesh's triangle.
 template <typename Tree>
 Triangle triangle_at(const Tree& tree, const Mesh& mesh, std::uint32_t place) {
     if constexpr (requires { tree.triangle(place); })

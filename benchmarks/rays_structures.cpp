@@ -19,7 +19,7 @@ using ljus::Vec3;
 
 namespace {
 
-/// Asks every triangle.
+/// Tests every triangle.
 struct Loop {
     static constexpr const char* name = "loop";
     const rays::Mesh& mesh;
@@ -65,12 +65,12 @@ bool same(const NearestHit& a, const NearestHit& b) {
                          a.at.v == b.at.v));
 }
 
-/// What a row of the book's tables holds of one mesh.
+/// A row of the book's tables for one mesh.
 struct Cells {
     std::vector<std::string> rays, build, bytes; ///< Of each structure.
 };
 
-/// Builds one, three times; asks it all rays, three times; prints the row.
+/// Builds a structure and traces all rays, three times each; prints the row.
 template <typename Structure>
 std::vector<NearestHit> row(const rays::Mesh& mesh, std::span<const Ray> set,
                             const std::vector<NearestHit>* expected, Cells& cells) {
@@ -120,7 +120,7 @@ Cells compare_on(const char* name, const rays::Mesh& mesh, Vec3 eye, bool all_ra
     }
     std::printf("%s, %zu triangles, %zu rays\n  %-11s %9s %10s %8s\n", name,
                 mesh.size(), set.size(), "", "build, ms", "ns per ray", "bytes");
-    // The loop is asked as many rays as it answers in a few seconds.
+    // The loop gets only as many rays as it can trace in a few seconds.
     const std::size_t some =
         std::min(set.size(), all_rays ? set.size() : 100000000 / mesh.size());
     const std::span<const Ray> few(set.data(), some);
@@ -171,7 +171,7 @@ int main(int argc, char** argv) {
                                          values.end());
             };
             add(times, name, cells.rays, 0);
-            if (count < 100000) continue; // the loop has nothing to build
+            if (count < 100000) continue; // the loop builds nothing
             add(builds, name + ": build, ms", cells.build, 1);
             add(builds, name + ": bytes per triangle", cells.bytes, 1);
         }

@@ -1,12 +1,12 @@
 #pragma once
 
 /// \file rays_structures.hpp
-/// \brief Other ways to cut space, over triangles: a grid, an octree, a k-d tree. Each is
-/// as simple as it can be and still finds what asking every triangle finds.
+/// \brief Other subdivisions of space over triangles: a grid, an octree, a k-d tree.
+/// Each is as simple as possible and finds the same hits as testing every triangle.
 ///
-/// All three cut space and not the crowd: a triangle is noted in every cell that its box
-/// touches, so that it may be asked more than once. Positions along a ray are computed in
-/// double, and boxes grow by `slack`, far more than that is rounded.
+/// All three divide space, not the set of triangles: a triangle is listed in every cell
+/// that its box touches, so that it may be tested more than once. Positions along a ray
+/// are computed in double, and boxes grow by `slack`, far more than the rounding error.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ namespace rays {
 using ljus::NearestHit;
 using Point = ljus::Vec3T<double>;
 
-/// What all of them share: the triangles, and a box around all.
+/// Common to all of them: the triangles, and a box around all.
 struct Crowd {
     const std::vector<ljus::Triangle>& mesh;
     std::vector<ljus::Box> boxes{};
@@ -46,7 +46,7 @@ struct Crowd {
     }
 };
 
-/// The part of a ray in a box: empty if first > last.
+/// The interval of a ray in a box: empty if first > last.
 struct Span {
     double first, last;
 };
@@ -115,7 +115,8 @@ struct Grid {
                              : next.y < next.z ? 1
                                                : 2;
             const auto k = static_cast<std::size_t>(axis);
-            // A hit beyond the wall waits: something in the next cell may be nearer.
+            // A hit beyond the wall must wait: a triangle in the next cell may be
+            // nearer.
             if (next[axis] > double(ray.t_max) || next[axis] > span.last)
                 return nearest;
             at[k] += step[k];
@@ -145,7 +146,7 @@ private:
     }
 };
 
-/// A cube cut in eight, and each eighth again (Glassner 1984).
+/// A cube divided into eight octants, recursively (Glassner 1984).
 struct Octree {
     static constexpr const char* name = "octree";
     static constexpr std::uint32_t enough = 8; ///< Triangles in a leaf.
@@ -169,7 +170,7 @@ struct Octree {
     }
     NearestHit closest(ljus::Ray ray) const {
         NearestHit nearest;
-        // The child with these bits turned comes first along the ray.
+        // The child with these bits flipped comes first along the ray.
         const unsigned turned = (ray.direction.x < 0 ? 1u : 0u) |
                                 (ray.direction.y < 0 ? 2u : 0u) |
                                 (ray.direction.z < 0 ? 4u : 0u);
@@ -200,7 +201,7 @@ private:
                     if (touch(crowd.boxes[i], part)) parts[which].push_back(i);
                 sum += parts[which].size();
             }
-        // Not if most triangles would lie in most of the parts.
+        // Do not split if most triangles would lie in most children.
         if (sum == 0 || sum > 4 * things.size()) {
             nodes[node] = {static_cast<std::uint32_t>(list.size()),
                            static_cast<std::uint32_t>(things.size()), true};
@@ -217,7 +218,7 @@ private:
               NearestHit& nearest) const {
         const Node at = nodes[node];
         const Span span = span_in(ray, box);
-        // A corner of an eighth may be passed by a rounding.
+        // Rounding may let the ray miss the corner of an octant.
         const double doubt = 1e-12 * (1 + std::abs(span.first));
         if (!(span.first <= span.last + doubt)) return;
         if (at.leaf) {
@@ -231,8 +232,8 @@ private:
     }
 };
 
-/// A k-d tree: one plane a node, where the surface area heuristic puts it (MacDonald and
-/// Booth 1990), tried in 32 places along each axis.
+/// A k-d tree: one plane per node, chosen by the surface area heuristic (MacDonald and
+/// Booth 1990) from 32 candidates along each axis.
 struct KdTree {
     static constexpr const char* name = "k-d tree";
     static constexpr int places = 32;
@@ -285,7 +286,7 @@ struct KdTree {
                 } else if (t + doubt < span.first) {
                     at = t > 0 ? far : near; // behind the ray there is nothing
                 } else {                     // both; for NaN as well
-                    // A plane that the ray starts at, or runs along, is no end of the
+                    // A plane that the ray starts at, or runs along, does not end the
                     // nearer side.
                     const bool crossed = std::isfinite(t) && t > 0;
                     const double from_plane = crossed ? t - doubt : span.first;
@@ -333,7 +334,7 @@ private:
                 Point below = size, above = size;
                 below[axis] *= double(k) / places;
                 above[axis] -= below[axis];
-                // An empty side saves more than its share.
+                // Favour empty sides.
                 const double saved = low == 0 || high == 0 ? 0.8 : 1.0;
                 const double cost =
                     1.0 + saved * (area(below) * low + area(above) * high) / area(size);

@@ -1,9 +1,9 @@
 #pragma once
 
 /// \file rays_timing.hpp
-/// \brief How the benchmarks of rays take time; Embree and tinybvh behind adapters.
+/// \brief Timing for the benchmarks of rays; adapters for Embree and tinybvh.
 ///
-/// A way to the first hit is a struct
+/// A method to find the first hit is a struct
 ///
 ///     struct Peer {
 ///         float closest(const ljus::Ray& ray) const; // t of the first hit, or -1
@@ -24,7 +24,7 @@
 #if __has_include(<embree3/rtcore.h>) && defined(LJUS_BENCH_EMBREE)
 #include <embree3/rtcore.h>
 #endif
-// Its eight-wide tree is for processors with these instructions alone.
+// Its eight-wide tree needs these instructions.
 #if defined(LJUS_BENCH_TINYBVH) && defined(__AVX2__) && defined(__FMA__)
 #define NO_THREADED_BUILDS // one thread, as all others here
 #define TINYBVH_IMPLEMENTATION
@@ -40,21 +40,22 @@ inline double seconds() {
     return double(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// In place of a peer that is not installed: its time is NaN, and no other's.
+/// In place of a peer that is not installed: only its time is NaN.
 struct NoPeer {
     float closest(const ljus::Ray&) const { return -1; }
     bool any(const ljus::Ray&) const { return false; }
 };
 
-/// Nanoseconds a ray of each peer, each block of rays by one peer after the other, the
-/// best of some runs of each block; and the sums of the answers, to see that peers agree.
+/// Nanoseconds per ray of each peer, each block of rays by one peer after the other,
+/// the best of some runs of each block; and the sums of the answers, to see that peers
+/// agree.
 template <typename... Peer>
 struct Times {
     std::array<double, sizeof...(Peer)> nanoseconds{};
     std::array<double, sizeof...(Peer)> sums{};
 };
 
-/// Takes the times.
+/// Measures the times.
 template <typename... Peer>
 Times<Peer...> compare(std::span<const ljus::Ray> set, bool any, const Peer&... peers) {
     Times<Peer...> times;
@@ -103,7 +104,8 @@ struct Embree {
         rtcReleaseScene(scene);
         rtcReleaseDevice(device);
     }
-    /// Adds vertices, `width` floats each, and `corners` indices a primitive, in order.
+    /// Adds vertices, `width` floats each, and `corners` indices per primitive, in
+    /// order.
     void add(RTCGeometryType type, const std::vector<float>& vertices, int width,
              int corners) {
         const RTCGeometry geometry = rtcNewGeometry(device, type);

@@ -1,10 +1,10 @@
 /// \file triangle_tests.cpp
-/// \brief What a ray-triangle test costs that leaks nothing: Moeller-Trumbore in float and
+/// \brief The cost of a ray-triangle test without leaks: Moeller-Trumbore in float and
 /// in double, and the watertight test.
 ///
-/// `pairs` meets a new ray with a new triangle each time: all hit, none, or every other.
-/// `loop` asks one ray for the nearest of 128 triangles, as a leaf or a small scene does;
-/// there what belongs to the ray is prepared once. Time is per test.
+/// `pairs` meets a new ray with a new triangle each time: all hit, none, or every
+/// other. `loop` asks one ray for the nearest of 128 triangles, as a leaf or a small
+/// scene does; there the ray's own quantities are computed once. Time is per test.
 ///
 ///     bench_triangle_tests --benchmark_enable_random_interleaving=true
 ///         --benchmark_repetitions=9 --benchmark_report_aggregates_only=true
@@ -62,7 +62,7 @@ Pairs make_pairs(Aim aim) {
         pairs.triangles.push_back(triangle);
     }
     if (aim != mixed) return pairs;
-    // In no order that a processor could learn.
+    // In an order that a branch predictor cannot learn.
     for (std::size_t i = pairs.rays.size(); i-- > 1;) {
         const auto j = static_cast<std::size_t>(n.next() * static_cast<double>(i + 1));
         std::swap(pairs.rays[i], pairs.rays[j]);

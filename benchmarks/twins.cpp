@@ -1,5 +1,5 @@
 /// \file twins.cpp
-/// \brief Each fast twin beside its plain one: what a build gains by it.
+/// \brief Each fast twin beside its plain one: the speed-up in a build.
 ///
 /// A fast twin must not be slower than its plain one in any build. This table is made
 /// with one compiler and one set of flags; the six that count are
@@ -8,10 +8,10 @@
 ///         $cxx -std=c++20 $flags -Iinclude benchmarks/twins.cpp -o twins &&
 ///         echo "$cxx $flags" && ./twins; done; done
 ///
-/// `./twins photons` and so on run one part alone. Times are of this process; each block
-/// of queries is answered by one twin after the other, and the best of some runs counts,
-/// so that other work on the machine hardly does. "same" says that both gave the same
-/// counts and the same sums.
+/// `./twins photons` and so on run one part only. Times are of this process; each block
+/// of queries is answered by one twin after the other, and the best of some runs
+/// counts, so that other work on the machine hardly matters. "same" says that both gave
+/// the same counts and the same sums.
 
 #include <algorithm>
 #include <cmath>
@@ -37,18 +37,18 @@ using namespace ljus;
 
 namespace {
 
-/// What the answers to some queries add up to.
+/// Counts and sums of the results of some queries.
 struct Sums {
     double count = 0;
     double sum = 0;
 };
 
 /// Runs `plain(first, last)` and `fast(first, last)` over all queries and prints a row.
-/// \param tolerance  By how much the sums may differ, relative.
+/// \param tolerance  Allowed relative difference of the sums.
 template <typename Plain, typename Fast>
 void row(const char* name, std::size_t queries, double tolerance, Plain plain,
          Fast fast) {
-    // So many that a processor does not learn the branches of a block by heart: with
+    // Enough that the branch predictor does not learn the branches of a block: with
     // 500, those of a search for one neighbour took it half their time.
     const std::size_t block = std::min<std::size_t>(queries, 5000);
     double seconds[2] = {};
@@ -121,8 +121,8 @@ PhotonRoom photon_room() {
     return room;
 }
 
-/// Both estimates of the radiance, by one kernel, with a radius within which so many
-/// photons lie in the mean.
+/// Both estimates of the radiance, by one kernel, with a radius that holds this many
+/// photons on average.
 void estimates(const PhotonRoom& room, const char* name, Kernel kernel, int within) {
     const Lambertian matt{};
     const Vec3 wo{0.6f, 0, 0.8f};

@@ -1,29 +1,29 @@
-# Break it: does a test notice when one term of a header is wrong?
+# Break it: does a test notice if one term of a header is wrong?
 #
 #   ljus_break_it(NAME   sphere-discriminant      # unique
 #                 HEADER geometry/sphere.hpp      # below include/ljus; or examples/...
-#                 TEST   sphere                   # tests/sphere_test.cpp must notice
+#                 TEST   sphere                   # tests/sphere_test.cpp must fail
 #                 FROM   "discriminant >= C(0)"   # occurs exactly once in the header
 #                 TO     "discriminant <= C(0)"
 #                 [CASES "sphere: a hit*"]        # only these test cases are run
 #                 [COMPILED])                     # in a program of its own, see below
 #   ljus_break_it_programs()                      # after the last row
 #
-# All rows of a test are in one program, and each time it runs, the environment variable
-# LJUS_BREAK_IT names the row in whose header FROM is replaced by TO (break_it_patch.py says
-# how). So FROM must lie in the body of a function, and what breaks there must show when
-# the program runs: a constant that the compiler computes stays whole. A row of another
-# kind, or one that does not compile beside the others, says COMPILED; it has a program of
-# its own, which costs the compiler's time.
+# One program holds all rows of a test. When it runs, the environment variable LJUS_BREAK_IT
+# names the row whose FROM is replaced by TO (break_it_patch.py says how). FROM must therefore
+# be in the body of a function, and the mistake must have an effect at run time: what the
+# compiler evaluates is not broken. A row that cannot meet this, or that does not compile
+# beside the others, says COMPILED; it gets a program of its own, which takes longer to
+# compile.
 #
 # The CTest entry break_it.NAME (labels: break_it and the test's name) passes only if the
 # program runs to its end and reports at least one failed assertion; break_it.TEST.unbroken
-# passes if no assertion fails where nothing is broken. The row's verdict.txt says what was
-# changed, and which test case noticed it by which assertion. A text that is not there exactly
-# once stops the build, and so does a header that does not compile; a crash is not a test
-# that notices. Texts with quotes or several lines are written [[like this]].
+# passes if no assertion fails with the headers as they are. The row's verdict.txt says what
+# was changed, and which assertion of which test case noticed. The build stops if FROM does
+# not occur exactly once, or if a header does not compile; a crash does not count as noticed.
+# Texts with quotes or several lines are written [[like this]].
 #
-# None of this is in the target all, and CTest knows the entries by -C BreakIt only:
+# None of this is part of the target all, and CTest lists the entries only with -C BreakIt:
 #
 #   cmake --build build --target break_it         # or break_it_TEST
 #   ctest --test-dir build -C BreakIt -L '^break_it$'
@@ -36,8 +36,8 @@ if(NOT Python3_Interpreter_FOUND)
 endif()
 add_custom_target(break_it)
 
-# A program from the test cases of a test that match, and broken headers: alone (one row) or
-# switched. Its rows are given as ROW HEADER ROW HEADER... .
+# Builds a program from the matching test cases of a test and its broken headers; `how` is
+# alone (one row) or switched. The rows are given as ROW HEADER ROW HEADER... .
 function(ljus_break_it_program target test cases how)
     set(folder "${CMAKE_BINARY_DIR}/break_it/${test}")
     set(include_folder "${folder}/switched")
@@ -71,7 +71,8 @@ function(ljus_break_it_program target test cases how)
         COMMENT "Breaking the headers of ${target}"
         VERBATIM)
 
-    # The broken headers come first on the include path; they may leave something unused.
+    # The broken headers come first on the include path. No warnings: a broken term may leave
+    # a variable unused.
     add_executable(${target} EXCLUDE_FROM_ALL ${written} $<TARGET_OBJECTS:ljus_test_main>)
     target_include_directories(${target} BEFORE PRIVATE "${include_folder}")
     target_link_libraries(${target} PRIVATE ljus ljus_test_support)
@@ -80,7 +81,7 @@ function(ljus_break_it_program target test cases how)
         target_link_libraries(${target} PRIVATE ljus_test_compilation)
         ljus_include_shown(${target})
     endif()
-    if(NOT MSVC) # most of a broken header's time is spent in compiling its test
+    if(NOT MSVC) # most of the time goes into compiling the test
         target_compile_options(${target} PRIVATE -O1)
     endif()
     set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${folder}")
@@ -144,7 +145,7 @@ function(ljus_break_it)
         LABELS "break_it;${row_TEST}" TIMEOUT 900)
 endfunction()
 
-# The programs that hold the rows of one test each.
+# Adds the programs, each of which holds the rows of one test.
 function(ljus_break_it_programs)
     get_property(tests GLOBAL PROPERTY ljus_break_it_tests)
     list(REMOVE_DUPLICATES tests)

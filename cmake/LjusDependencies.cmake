@@ -1,6 +1,6 @@
-# What the project uses from others. Each package is looked for where it is installed;
-# if it is not, and LJUS_FETCH allows it, its pinned upstream commit is fetched into the
-# build folder. LJUS_<NAME>_REPOSITORY and LJUS_<NAME>_COMMIT point it elsewhere.
+# Packages that the project uses. A package that is not installed is fetched into the build
+# folder at a pinned commit, if LJUS_FETCH allows it. LJUS_<NAME>_REPOSITORY and
+# LJUS_<NAME>_COMMIT choose another source.
 include_guard(DIRECTORY)
 include(FetchContent)
 
@@ -41,12 +41,12 @@ ljus_package(benchmark HEADER benchmark/benchmark.h PACKAGE benchmark
     TARGET benchmark::benchmark APT libbenchmark-dev
     REPOSITORY https://github.com/google/benchmark.git
     COMMIT 192ef10025eb2c4cdd392bc502f0c852196baa48 # 1.9.5
-    INCLUDE BUILD) # compiled: the repository is a CMake project of its own
+    INCLUDE BUILD) # not only headers: it is compiled as a CMake project of its own
 
 # ljus_dependency(<name> [REQUIRED])
 #
-# Makes the target ljus_<name> and sets LJUS_HAS_<NAME>. A package that is REQUIRED and
-# nowhere to be had is an error with one sentence to act on.
+# Makes the target ljus_<name> and sets LJUS_HAS_<NAME>. If a REQUIRED package is neither
+# installed nor fetched, CMake stops with one sentence that says what to do.
 function(ljus_dependency name)
     string(TOUPPER "${name}" upper)
     set(LJUS_HAS_${upper} TRUE PARENT_SCOPE)
@@ -84,7 +84,8 @@ function(ljus_dependency name)
                    "${${about}_APT}); going on without it")
 endfunction()
 
-# Sets `result` to where the package was found, and gives ljus_<name> what it needs.
+# Sets `result` to the location of the installed package, or to FALSE, and adds the package to
+# the target ljus_<name>.
 function(ljus_find_installed name result)
     set(about ljus_package_${name})
     string(TOUPPER "${name}" upper)
@@ -92,7 +93,7 @@ function(ljus_find_installed name result)
     if(target AND NOT TARGET "${target}")
         find_package("${${about}_PACKAGE}" CONFIG QUIET)
         if(TARGET "${target}")
-            # A project that takes Ljus by add_subdirectory must see it, too.
+            # Projects that use Ljus by add_subdirectory must see the target as well.
             get_target_property(imported "${target}" IMPORTED)
             if(imported)
                 set_target_properties("${target}" PROPERTIES IMPORTED_GLOBAL TRUE)
@@ -116,8 +117,8 @@ function(ljus_find_installed name result)
     set(${result} FALSE PARENT_SCOPE)
 endfunction()
 
-# Fetches a package. Only headers are taken: nothing of its CMake project is run, but
-# for a package that must be compiled.
+# Fetches a package. Only its headers are used: its CMake project is not run, except for a
+# package that must be compiled.
 function(ljus_fetch name repository commit)
     set(include "${ljus_package_${name}_INCLUDE}")
     string(REPLACE "_" "-" content "ljus-${name}")
@@ -142,7 +143,7 @@ function(ljus_fetch name repository commit)
     target_include_directories(ljus_${name} SYSTEM INTERFACE "${folder}/${include}")
 endfunction()
 
-# Sets LJUS_HAS_OPENMP, as LJUS_OPENMP asks.
+# Looks for OpenMP as LJUS_OPENMP demands, and sets LJUS_HAS_OPENMP.
 macro(ljus_openmp)
     set(LJUS_HAS_OPENMP FALSE)
     if(LJUS_OPENMP STREQUAL "AUTO" OR LJUS_OPENMP)

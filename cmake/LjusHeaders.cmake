@@ -1,7 +1,7 @@
-# ljus_sort_headers(<required> <optional>): all headers, found where they belong.
+# ljus_sort_headers(<required> <optional>): lists all headers below include/.
 #
-# A header that needs a package beyond GLM and stb is optional: it is checked only where
-# that package is there, and no other header includes it.
+# A header that needs a package other than GLM and stb is optional: it is checked only if
+# that package is installed, and no other header includes it.
 set(LJUS_OPTIONAL_PACKAGES nlohmann/json.hpp tiny_obj_loader.h stb/stb_image.h)
 
 function(ljus_sort_headers required optional)
@@ -20,7 +20,7 @@ function(ljus_sort_headers required optional)
     set(${optional} "${with}" PARENT_SCOPE)
 endfunction()
 
-# The headers of other packages that an optional header of ours names.
+# The headers of other packages that this header includes.
 function(ljus_packages_of header result)
     file(READ "${header}" text)
     set(packages)

@@ -1,6 +1,6 @@
 # Install rules: headers, a CMake package and a pkg-config file, and the compiled library
-# ljus::core unless LJUS_INSTALL_CORE is OFF. The package goes to share/, because without
-# that library nothing in it depends on the machine.
+# ljus::core unless LJUS_INSTALL_CORE is OFF. The CMake package goes to share/, because
+# without that library it does not depend on the architecture.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -34,7 +34,7 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/ljus-config.cmake"
               cmake/LjusPrecompiledHeader.cmake
     DESTINATION "${ljus_package_folder}")
 
-# The folder of ljus.pc is PREFIX/share/pkgconfig, so the prefix is found from there.
+# ljus.pc is in PREFIX/share/pkgconfig and finds the prefix relative to that folder.
 file(RELATIVE_PATH ljus_pc_prefix
     "${CMAKE_INSTALL_FULL_DATADIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
 configure_file(cmake/ljus.pc.in "${CMAKE_CURRENT_BINARY_DIR}/ljus.pc" @ONLY)

@@ -1,11 +1,11 @@
-# A program that shows mistakes: it is compiled against headers in which the rows of
-# tests/break_it that it names, `.row = "NAME"`, can be switched on while it runs.
+# A program that shows mistakes is compiled against headers in which the rows of
+# tests/break_it that it names, `.row = "NAME"`, can be switched on at run time.
 #
-#   ljus_can_break_headers(RESULT)        # is Python there?
+#   ljus_can_break_headers(RESULT)        # is Python installed?
 #   ljus_show_mistakes(TARGET SOURCE)     # break_it_gallery.py says how
 #
-# Such a program must take everything from the headers: neither ljus::core nor what was
-# precompiled knows of the mistakes.
+# Such a program uses neither ljus::core nor a precompiled header, because those were
+# compiled without the mistakes.
 
 set(LJUS_MISTAKES_FOLDER "${CMAKE_CURRENT_LIST_DIR}")
 
@@ -34,7 +34,7 @@ function(ljus_show_mistakes target source)
         VERBATIM)
     target_sources(${target} PRIVATE "${folder}/ljus_break_it.hpp")
     target_include_directories(${target} BEFORE PRIVATE "${folder}")
-    # What is broken may leave something unused.
+    # A broken term may leave a variable unused.
     target_compile_options(${target} PRIVATE -w)
     if(NOT MSVC)
         target_compile_options(${target} PRIVATE $<$<CONFIG:Debug>:-O1>)

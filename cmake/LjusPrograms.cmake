@@ -1,21 +1,21 @@
-# A program of the book: examples/NN_name.cpp, which one copies, and what only the book needs,
+# The programs of the book: examples/NN_name.cpp are for readers to copy; only the book needs
 # chapters/experiments/NN_experiments.cpp and chapters/drawings/NN_drawings.cpp.
 #
-#   ljus_program(SOURCE [QUICK])   a program of the name of its file, and its test
+#   ljus_program(SOURCE [QUICK])   adds a program named like its file, and its test
 #
-# QUICK: under LJUS_EXAMPLES_QUICK it is compiled for the test run, which gives it little to
-# do, and not for speed. Lines in the source say more:
+# QUICK: if LJUS_EXAMPLES_QUICK is set, it is compiled for the test run, whose task is small,
+# and not for speed. Lines at the top of the source say more:
 #
 #   // figures: fig-1 fig-15      the report's items that it makes (./scripts/figures fig-1)
-#   // smoke: --width 16 --rays 1 the test runs it with these arguments, and --out
-#   // needs: mpi                 it is left out where Open MPI is not installed
-#   // headers: broken            it is compiled against headers with mistakes to switch on
-#                                 (cmake/LjusMistakes.cmake); without Python against the
-#                                 plain ones
+#   // smoke: --width 16 --rays 1 the test runs it with these arguments and --out
+#   // needs: mpi                 it is left out if Open MPI is not installed
+#   // headers: broken            it is compiled against headers in which mistakes can be
+#                                 switched on (cmake/LjusMistakes.cmake), or against the
+#                                 plain ones if Python is not installed
 include(LjusMistakes)
 include(LjusWriteIfDifferent)
 
-# The headers of quick programs, compiled once.
+# Precompiles the headers of quick programs once.
 function(ljus_quick_headers)
     if(TARGET ljus_example_headers)
         return()
@@ -31,7 +31,7 @@ endfunction()
 function(ljus_program source)
     cmake_parse_arguments(PARSE_ARGV 1 this "QUICK" "" "")
     get_filename_component(name "${source}" NAME_WE)
-    # A changed line counts at once.
+    # CMake runs again when these lines change.
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${source}")
     file(STRINGS "${source}" needs_mpi LIMIT_COUNT 4 REGEX "^// needs: mpi")
     file(STRINGS "${source}" broken LIMIT_COUNT 4 REGEX "^// headers: broken")
@@ -62,7 +62,8 @@ function(ljus_program source)
         ljus_quick_headers()
         target_link_libraries(${name} PRIVATE ljus_core)
         target_compile_options(${name} PRIVATE $<$<NOT:$<CXX_COMPILER_ID:MSVC>>:-O1>)
-        # At -O1 g++ 12 takes the move of a short string for one beyond its end.
+        # At -O1, g++ 12 warns that moving a short string reads beyond its end, which it
+        # does not.
         if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
             target_compile_options(${name} PRIVATE
                 -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)

@@ -1,4 +1,4 @@
-# Writes a file only if that changes it, so that nothing is rebuilt for nothing.
+# Writes a file only if its text changes, so that nothing is rebuilt needlessly.
 function(ljus_write_if_different file text)
     if(EXISTS "${file}")
         file(READ "${file}" old)

@@ -1,6 +1,6 @@
-# Runs PROGRAM, a test compiled against broken headers, with the row NAME; fails unless it
-# runs to its end and reports at least one failed assertion. What was broken, and who noticed
-# it by what, is printed, and written to FOLDER/verdict.txt: ./scripts/test shows it.
+# Runs PROGRAM, a test compiled against broken headers, with the row NAME; fails unless the
+# program runs to its end and reports at least one failed assertion. Prints the change and the
+# assertion that noticed it, and writes them to FOLDER/verdict.txt for ./scripts/test.
 cmake_minimum_required(VERSION 3.22)
 set(ENV{LJUS_BREAK_IT} "${NAME}")
 set(arguments --no-colors=true)
@@ -32,13 +32,13 @@ if(failed EQUAL 0)
         "is not a test that notices.\n${output}")
 endif()
 
-# The change, each line of it with a sign; a text may have quotes, brackets and semicolons.
+# The change, its lines marked - and +; the texts may hold quotes, brackets and semicolons.
 file(READ "${FOLDER}/from.txt" from)
 file(READ "${FOLDER}/to.txt" to)
 string(REPLACE "\n" "\n    - " from "${from}")
 string(REPLACE "\n" "\n    + " to "${to}")
 set(verdict "${NAME}, in ${HEADER}:\n    - ${from}\n    + ${to}\n")
-# Each test case that noticed, once; brackets would join the words of a list.
+# Each test case that noticed, once; brackets and semicolons would confuse CMake's lists.
 string(REGEX REPLACE "[][;]" "." plain "${output}")
 string(REGEX MATCHALL "TEST CASE: [^\n]*" cases "${plain}")
 list(REMOVE_DUPLICATES cases)

@@ -2,11 +2,11 @@
 
     break_it_gallery.py HEADERS FOLDER PROGRAM TESTS
 
-HEADERS is the folder that has ljus/ in it, PROGRAM a source file that names rows of
-TESTS/break_it/*.cmake, each as `.row = "NAME"`. Into FOLDER go the headers that these
-rows change, and ljus_break_it.hpp: what the program switches them with, and what it
-tells of them: the line as it was and as it is broken, and the test case that notices.
-break_it_patch.py says how a header can hold several mistakes.
+HEADERS is the folder that contains ljus/; PROGRAM is a source file that names rows of
+TESTS/break_it/*.cmake, each as `.row = "NAME"`. The headers that these rows change are
+written to FOLDER, with ljus_break_it.hpp: the switch, and a description of each row, which
+is the line before and after the change and the test case that notices. break_it_patch.py
+says how a header can hold several mistakes.
 """
 
 import re
@@ -24,29 +24,29 @@ SWITCH = """\
 
 namespace ljus_break_it {
 
-/// What there is to tell of a row.
+/// The description of a row.
 struct Told {
-    const char* name;   ///< Of the row; it is empty for "nothing is broken".
-    const char* header; ///< As the row names it.
-    const char* from;   ///< The text as it is.
-    const char* to;     ///< The text of the mistake.
+    const char* name;   ///< The row's name; empty for "nothing is broken".
+    const char* header; ///< The header, as the row gives it.
+    const char* from;   ///< The correct text.
+    const char* to;     ///< The text with the mistake.
     const char* test;   ///< tests/TEST_test.cpp notices.
     const char* noticed; ///< The first test case that is run.
-    int line;            ///< Where that case begins.
+    int line;            ///< The line where that case begins.
 };
 inline constexpr std::array told{
     Told{"", "", "", "", "", "", 0},
 ROWS};
 
-/// Which of them is switched on.
+/// The number of the row that is switched on; 0: none.
 inline int row = 0;
 
-/// What is computed while the program is compiled is not broken.
+/// Whether this row is switched on; never in what the compiler evaluates.
 constexpr bool on(int number) noexcept {
     return !std::is_constant_evaluated() && row == number;
 }
 
-/// The number of a row; 0 if there is none of this name.
+/// The number of the row with this name; 0 if there is none.
 inline int number_of(const char* name) noexcept {
     for (std::size_t i = 0; i < told.size(); ++i)
         if (std::strcmp(told[i].name, name) == 0) return static_cast<int>(i);
@@ -56,7 +56,7 @@ inline int number_of(const char* name) noexcept {
 } // namespace ljus_break_it
 """
 
-# The words of a CMake command: brackets, quoted, bare; and comments.
+# The arguments of a CMake command, in brackets, quoted or bare; and comments.
 WORD = re.compile(
     r"""\#[^\n]* | \[(?P<end>=*)\[(?P<bracket>.*?)\](?P=end)\] |
         "(?P<quoted>(?:\\.|[^"\\])*)" | (?P<bare>[^\s()"\#]+) | (?P<close>\))""",
@@ -66,7 +66,7 @@ FIELDS = ("NAME", "HEADER", "TEST", "FROM", "TO", "CASES")
 
 
 def rows_in(text):
-    """The rows of a file, each as the fields of ljus_break_it()."""
+    """The rows of a file, each as the arguments of its ljus_break_it()."""
     for call in re.finditer(r"^ljus_break_it\(", text, re.MULTILINE):
         row, field = {"COMPILED": ""}, None
         at = call.end()
@@ -91,7 +91,7 @@ def rows_in(text):
 
 
 def noticing_case(row, tests):
-    """The first test case that the row's CASES lets run, and its line."""
+    """The first test case that matches the row's CASES, and its line."""
     text = patch.read(tests / f"{row['TEST']}_test.cpp")
     asked = [
         re.escape(p).replace(r"\*", ".*").replace(r"\?", ".")
@@ -108,7 +108,7 @@ def noticing_case(row, tests):
 
 
 def literal(text):
-    """A string of C++."""
+    """A C++ string literal."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
     return f'"{escaped}"'
 

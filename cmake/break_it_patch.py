@@ -1,24 +1,24 @@
-"""Makes the headers of one program of broken headers; LjusBreakIt.cmake calls it.
+"""Makes the broken headers of one program; LjusBreakIt.cmake calls it.
 
     break_it_patch.py HEADERS FOLDER TEST CASES switched ROW HEADER [ROW HEADER]...
     break_it_patch.py HEADERS FOLDER TEST CASES alone ROW HEADER
 
-HEADERS is the folder that has ljus/ in it. HEADER is a path below ljus/, or begins with
-examples/, the folder beside HEADERS. In FOLDER/rows/ROW, from.txt and to.txt say what the
-row replaces by what; the header in which this is done is written there, too.
+HEADERS is the folder that contains ljus/. HEADER is a path below ljus/, or begins with
+examples/, the folder beside HEADERS. In FOLDER/rows/ROW, the row replaces the text of
+from.txt by that of to.txt; the changed header is written there as well.
 
-A row that is alone is compiled against that header. Other rows share one program, and its
-headers, in FOLDER/switched, hold all of them: the body of a function that rows break is
-there once as it was and once for each of these rows,
+With `alone`, the test is compiled against that header. With `switched`, all rows share one
+program and its headers in FOLDER/switched: a function that rows break has one body as it
+was and one for each of these rows,
 
     { if (!on(1) && !on(2)) { as it was } else if (on(1)) { broken } else { broken } }
 
-and the environment variable LJUS_BREAK_IT, the name of a row, says which of them runs.
-#line gives each copy the name and lines of the file that it comes from, so that the
-compiler's messages name the row.
+and the environment variable LJUS_BREAK_IT, the name of a row, chooses among them. #line
+gives each copy the name and lines of the file that it comes from, so that the compiler's
+messages name the row.
 
-Beside the headers stands a copy of the file TEST that has only the test cases that CASES
-lets doctest run: the others would only cost the compiler's time.
+The file TEST is copied beside the headers with only the test cases that match CASES, since
+compiling the others would only take time.
 """
 
 import functools
@@ -39,7 +39,7 @@ namespace ljus_break_it {
 
 inline constexpr const char* names[] = {"nothing is broken", NAMES};
 
-/// The number of the row that the environment names; a row that is not here ends it all.
+/// The number of the row that LJUS_BREAK_IT names; ends the program if there is none.
 inline int chosen() noexcept {
     const char* const name = std::getenv("LJUS_BREAK_IT");
     if (name == nullptr || *name == '\\0') return 0;
@@ -53,7 +53,7 @@ inline int chosen() noexcept {
 }
 inline const int row = chosen();
 
-/// What is computed while the program is compiled is not broken.
+/// Whether this row is switched on; never in what the compiler evaluates.
 constexpr bool on(int number) noexcept {
     return !std::is_constant_evaluated() && row == number;
 }
@@ -61,8 +61,8 @@ constexpr bool on(int number) noexcept {
 } // namespace ljus_break_it
 """
 
-# What may hold braces that are not code. Names and numbers are there so that the quote of
-# 1'000 begins no character.
+# Text whose braces are not code. Names and numbers are matched so that the quote of 1'000
+# does not begin a character literal.
 NOT_CODE = re.compile(
     r"""//[^\n]* | /\*.*?\*/ | ^[ \t]*\#(?:\\\n|[^\n])* |
         R"(?P<end>\w*)\(.*?\)(?P=end)" | "(?:\\.|[^"\\\n])*" | '(?:\\.|[^'\\\n])+' |
@@ -72,11 +72,11 @@ NOT_CODE = re.compile(
 
 
 class Problem(Exception):
-    """One sentence for whoever wrote the row."""
+    """One sentence for the author of the row."""
 
 
 def blanked(text):
-    """The text with spaces in place of comments, strings and directives."""
+    """The text with comments, strings and directives replaced by spaces."""
 
     def blank(match):
         if match["word"]:
@@ -87,7 +87,7 @@ def blanked(text):
 
 
 def closing(code, at):
-    """Where the brace at this place is closed."""
+    """The position of the brace that closes the one at this position."""
     depth = 0
     for brace in re.compile(r"[{}]").finditer(code, at):
         depth += 1 if brace[0] == "{" else -1
@@ -108,7 +108,7 @@ def without_template(head):
 
 
 def opened_by(head):
-    """What a brace after these words opens: a 'scope', a function's 'body' or 'else'."""
+    """What a brace after this text opens: a 'scope', a function's 'body', or 'else'."""
     head = re.sub(r"\balignas\s*\([^()]*\)", "", without_template(head))
     if re.search(r"\benum\b", head):
         return "else"
@@ -129,7 +129,7 @@ def opened_by(head):
 
 @functools.cache  # rows share headers
 def function_bodies(text):
-    """Where the functions' bodies begin and end, their braces included."""
+    """The beginnings and ends of all function bodies, braces included."""
     code = blanked(text)
     bodies = []
     head = at = parentheses = 0
@@ -173,7 +173,7 @@ class Row:
         self.new = read(self.folder / "to.txt")
 
     def find(self):
-        """Where FROM begins and ends in the header."""
+        """The beginning and end of FROM in the header."""
         text = read(self.source)
         if self.old == self.new:
             raise Problem("FROM and TO are the same text")
@@ -191,7 +191,7 @@ class Row:
         write(self.broken, text[: self.start] + self.new + text[self.end :])
 
     def find_body(self):
-        """The function's body that FROM lies in, without its braces."""
+        """The function body that contains FROM, without its braces."""
         for start, end in function_bodies(read(self.source)):
             if start < self.start and self.end < end:
                 return start + 1, end - 1
@@ -202,7 +202,7 @@ class Row:
 
 
 def without_other_cases(text, cases):
-    """The source of a test without the test cases that doctest leaves out."""
+    """The source of a test without the test cases that do not match CASES."""
     patterns = [
         re.escape(pattern).replace(r"\*", ".*").replace(r"\?", ".")
         for pattern in cases.split(",")
@@ -229,12 +229,12 @@ def write(file, text):
 
 
 def line_of(text, at, file):
-    """Says that what follows stands at this place of this file."""
+    """A #line directive: the next line has this number in this file."""
     return f'\n#line {text.count(chr(10), 0, at) + 1} "{file.as_posix()}"\n'
 
 
 def switched(text, source, rows_of):
-    """The header with a switch in each body; rows_of: {(start, end) of a body: rows}."""
+    """The header with a switch in each body; rows_of is {(start, end) of a body: rows}."""
     result = '#include "ljus_break_it.hpp"' + line_of(text, 0, source)
     done = 0
     for (start, end), rows in sorted(rows_of.items()):

@@ -1,4 +1,4 @@
-// The library ljus::core instantiates what ljus/core.hpp lists. Without CMake:
+// The library ljus::core: instantiates the templates listed in ljus/core.hpp. Without CMake:
 //
 //     g++ -std=c++20 -O2 -fopenmp -Iinclude -c core/core.cpp
 //     g++ -std=c++20 -O2 -fopenmp -Iinclude -DLJUS_CORE app.cpp core.o

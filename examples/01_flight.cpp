@@ -46,8 +46,8 @@ auto ring_of_balls() {
     return World(std::move(scene));
 }
 
-/// The camera at a moment in [0, 1): once around, rising and sinking; the end is the
-/// beginning.
+/// The camera at a time in [0, 1): it circles once, rising and sinking, and ends where
+/// it began.
 Camera camera_at(float moment) {
     const float turn = 2 * std::numbers::pi_v<float> * moment;
     return look_at(
@@ -79,8 +79,8 @@ int main(int argc, char** argv) {
         int frames = 0;
         long long photons = 0;
         line.about("A sequence of frames: the camera flies around a ball of glass.");
-        line.add("--frames", frames, "How many; 0: by the quality", 0, 100000);
-        line.add("--photons", photons, "Of the caustics map; 0: by the quality", 0,
+        line.add("--frames", frames, "Number of frames; 0: by the quality", 0, 100000);
+        line.add("--photons", photons, "Caustic photons; 0: by the quality", 0,
                  100000000);
         const examples::Options options =
             line.parse({.draft{.width = 160, .height = 90, .samples = 4},
@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
         const auto world = ring_of_balls();
 
         // [frames]
-        const PhotonMapper mapper(world, settings); // photons see no camera
+        const PhotonMapper mapper(world, settings); // no photon depends on the camera
         const int columns = std::min(frames, 4), rows = std::min(2, (frames + 3) / 4);
         Image sheet = make_image(columns * options.width, rows * options.height);
         RenderSettings picture = examples::picture_settings(options);

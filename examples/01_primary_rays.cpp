@@ -23,11 +23,11 @@ constexpr int columns = 6, rows = 4;
 const Camera camera =
     look_at({.position{-4.2f, 1.6f, 0}, .target{0.4f, 0.7f, 0}, .vfov_degrees = 30});
 
-/// What it looks at.
+/// The scene that it sees.
 const Sphere ball{.center{0.3f, 0.75f, 0}, .radius = 0.75f};
 const Quad ground{.corner{-1.6f, 0, 1.7f}, .edge_u{4, 0, 0}, .edge_v{0, 0, -3.4f}};
 
-/// The camera that stands beside.
+/// The second camera, beside the first.
 constexpr int width = 720, height = 380;
 const Camera onlooker = look_at(
     {.position{-5.2f, 4.0f, 8.5f}, .target{-0.75f, 0.65f, 0}, .vfov_degrees = 25});
@@ -44,7 +44,7 @@ Point corner(int x, int y) {
     return seen(point_at(ray, 2.1f / glm::dot(ray.direction, camera.forward)));
 }
 
-/// The ray through a place of the picture, up to what it hits.
+/// The ray through a point of the picture, up to its first hit.
 void draw_ray(Drawing& drawing, const Vec2& pixel, const Pen& pen) {
     static const World world(
         make_scene(placed(ground, Lambertian{}), placed(ball, Lambertian{})));
@@ -55,7 +55,7 @@ void draw_ray(Drawing& drawing, const Vec2& pixel, const Pen& pen) {
     if (hit) draw_dot(drawing, end, 2.5, pen.color);
 }
 
-/// The outline of the ball: a circle around the way to the onlooker.
+/// The outline of the ball: a circle around the line to the second camera.
 std::vector<Point> outline() {
     const Vec3 way = onlooker.position - ball.center;
     const float near = ball.radius * ball.radius / glm::dot(way, way);

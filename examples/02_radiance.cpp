@@ -17,7 +17,7 @@ constexpr double emitted = 0.9; // its radiance, W/(m^2 sr)
 constexpr double albedo = 0.8;  // of the wall
 const Vec3 eye{8, 0.6f, 5};     // the camera stays where it is
 
-/// A ball that shines, and a wall behind it.
+/// A glowing ball in front of a wall.
 auto lamp_before_wall(float distance) {
     Scene<Shapes<Sphere, Quad>, Materials<Lambertian>> scene;
     const auto white = scene.add(Lambertian{.albedo = Rgb{float(albedo)}});
@@ -63,8 +63,8 @@ int main(int argc, char** argv) {
             const auto picture = examples::rendered(name, tracer, camera, options);
             save_png(picture.image, options.path(name + ".png"));
 
-            // A ball whose rim is at the angle a from its middle makes E = pi L sin^2 a;
-            // the wall sends albedo E / pi of it back into each direction.
+            // A ball whose rim is at the angle a from its centre gives E = pi L sin^2
+            // a; the wall sends albedo E / pi of it back into each direction.
             const double sine = radius / double(distance);
             table.rows.push_back({text(double(distance)),
                                   text(radiance_seen(tracer, {0, 0, distance}), "%.4f"),

@@ -20,15 +20,14 @@ namespace {
 constexpr double r0 = schlick_r0(1.0, 1.5);  // of glass: 0.04
 constexpr double truth = r0 + (1 - r0) / 21; // the integral of f from 0 to 1
 
-/// What glass reflects of the light from the cosine c, times how much light comes from
-/// there.
+/// The reflectance of glass at the cosine c, times the amount of light from there.
 // [integrand]
 double f(double c) {
     return 2 * c * schlick(r0, c);
 }
 // [integrand]
 
-/// Ways to draw a cosine from a number u of [0, 1), each with its density.
+/// Densities, each with a way to draw a cosine from a number u in [0, 1).
 // [ways]
 struct Uniform {
     static double sample(double u) { return u; }
@@ -57,7 +56,7 @@ Estimate integrate(const Way& way, int n, RandomStream& stream) {
 }
 // [estimator]
 
-/// One run as it goes on, with two standard errors to each side.
+/// The running mean of one run, with two standard errors to each side.
 examples::Plot running_mean(int most) {
     examples::Plot plot{.name = "monte_carlo-running",
                         .columns = {"samples n", "estimate", "+ 2 standard errors",
@@ -79,7 +78,7 @@ examples::Plot running_mean(int most) {
     return plot;
 }
 
-/// Prints what a density finds with more and more samples.
+/// Prints the estimates of a density with more and more samples.
 template <typename Way>
 void print_way(const std::string& name, const Way& way) {
     using examples::text;

@@ -1,8 +1,8 @@
 // figures: fig-2
 // smoke: --quality draft --width 16 --height 16 --rays 1 --photons 2000
 /// \file 04_light_transport.cpp
-/// \brief Figure 2: a room in direct light alone, in all of its light, and what lies
-/// between the two.
+/// \brief Figure 2: a room in direct light alone, in all of its light, and their
+/// difference.
 
 #include <cstdio>
 
@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long photons = 0;
         line.about("Chapter 4, light transport: figure 2.");
-        line.add("--photons", photons, "Of the caustics map; 0: by the quality", 0,
+        line.add("--photons", photons, "Caustic photons; 0: by the quality", 0,
                  100000000);
         const examples::Options options =
             line.parse({.draft{.width = 96, .height = 96, .samples = 9},

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24
 /// \file 05_ray.cpp
-/// \brief Where a shadow ray starts: at a fixed distance, or as far away as the error of
-/// the point demands. One room in five sizes.
+/// \brief The start of a shadow ray: at a fixed distance from the surface, or at one
+/// that follows from the error of the point. One room in five sizes.
 
 #include <algorithm>
 #include <cmath>
@@ -41,8 +41,8 @@ auto make_room(double size) {
 }
 
 /// The ray from a hit of a ray at t to a lamp.
-/// \param fixed  How far along it starts, from O + tD as in the report's program; 0: as
-///               far away as the error of the point demands.
+/// \param fixed  The distance at which it starts, from O + tD as in the report's
+///               program; 0: a distance that follows from the error of the point.
 Ray shadow_ray(const Ray& ray, float t, const SurfacePoint& point, const Vec3& lamp,
                float fixed) {
     if (fixed == 0) return spawn_ray_to(point, SurfacePoint{.position = lamp});
@@ -50,7 +50,7 @@ Ray shadow_ray(const Ray& ray, float t, const SurfacePoint& point, const Vec3& l
     return {point_at(ray, t), way / glm::length(way), fixed, glm::length(way)};
 }
 
-/// The light at what a ray hits, of a lamp above the room and of an orange one below the
+/// The light where a ray hits, from a lamp above the room and an orange one below the
 /// lid.
 template <typename Room>
 Rgb seen(const Room& room, const Ray& ray, double size, float fixed) {
@@ -63,7 +63,7 @@ Rgb seen(const Room& room, const Ray& ray, double size, float fixed) {
         if (occluded(room, shadow)) return;
         const Vec3 way = (lamp - here.point.position) / float(size);
         const float squared = glm::dot(way, way);
-        // Both sides are lit: whatever leaks through the lid is to be seen.
+        // Both sides are lit, so that light leaking through the lid can be seen.
         const float cosine = glm::dot(here.point.normal, way) / std::sqrt(squared);
         light += power * std::abs(cosine) / squared;
     };

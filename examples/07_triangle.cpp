@@ -1,6 +1,6 @@
 // smoke: --quality draft --width 24
 /// \file 07_triangle.cpp
-/// \brief A tetrahedron by the report's formula, which forgets that a triangle ends, and
+/// \brief A tetrahedron by the report's formula, which lacks the triangle's edges, and
 /// with the conditions on u and v.
 
 #include <array>

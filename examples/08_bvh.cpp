@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 32 --height 32
 /// \file 08_bvh.cpp
-/// \brief Trees of boxes over many triangles, and how many of their nodes the ray of each
-/// pixel visits.
+/// \brief Bounding volume hierarchies over many triangles, and the number of nodes that
+/// each pixel's ray visits.
 
 #include <cmath>
 #include <cstdio>
@@ -45,7 +45,7 @@ std::vector<Triangle> balls() {
 }
 
 /// Finds the first triangle that a ray hits, and counts the nodes on the way to it.
-/// \param triangle_at  The triangle of a slot: the tree keeps them in its own order.
+/// \param triangle_at  The triangle of a slot; the tree orders them in its own way.
 template <typename Tree, typename TriangleAt>
 int nodes_visited(const Tree& tree, const Ray& ray, TriangleAt triangle_at) {
     NearestHit nearest;
@@ -58,7 +58,7 @@ int nodes_visited(const Tree& tree, const Ray& ray, TriangleAt triangle_at) {
     return nodes;
 }
 
-/// From blue over green and yellow to red.
+/// A colour from blue through green and yellow to red.
 Rgb heat(float x) {
     const auto ramp = [x](float middle) {
         return glm::clamp(1.5f - std::abs(4 * x - middle), 0.0f, 1.0f);

@@ -1,7 +1,7 @@
 // figures: fig-9
 // smoke: --quality draft
 /// \file 10_reflection.cpp
-/// \brief Figure 9: a ray that a mirror reflects, R = 2I - D, as reflect() has it.
+/// \brief Figure 9: a ray that a mirror reflects, R = 2I - D, computed by reflect().
 // runs in the folder of its drawing
 
 #include <ljus/optics/reflection.hpp>
@@ -15,7 +15,7 @@ using Vec = ljus::Vec3T<double>;
 int main() {
     const Vec normal{0, 1, 0};
     const Vec d = 1.7 * glm::normalize(Vec{1, -0.75, 0});
-    const Vec i = d - glm::dot(d, normal) * normal; // the part along the mirror
+    const Vec i = d - glm::dot(d, normal) * normal; // the component along the mirror
     const Vec r = ljus::reflect(d, normal);
 
     Drawing drawing{.name = "fig-9",

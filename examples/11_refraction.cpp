@@ -21,7 +21,7 @@ int main() {
     const Vec3d d = glm::normalize(Vec3d{1, -0.9, 0});
     const auto refracted = ljus::refract(d, normal, n1 / n2);
     if (!refracted)
-        return 1; // total reflection, which there is only in the denser medium
+        return 1; // total reflection, which happens only in the denser medium
     const Vec3d r = *refracted;
 
     Drawing drawing{.name = "fig-10",

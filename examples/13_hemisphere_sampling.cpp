@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 16 --rays 1
 /// \file 13_hemisphere_sampling.cpp
-/// \brief A diffuse material that draws its directions by the cosine, and a ball of it
-/// under a lamp for which there are no shadow rays.
+/// \brief A diffuse material that samples directions in proportion to the cosine, and a
+/// ball of it under a lamp, without shadow rays.
 
 #include <cmath>
 #include <numbers>
@@ -19,7 +19,7 @@ struct Matt {
     Rgb albedo{0.5f};     ///< In [0, 1].
 };
 
-/// Its only part is diffuse.
+/// Its only lobe is diffuse.
 Lobes lobes(const Matt&) {
     return Lobes::diffuse;
 }
@@ -36,20 +36,21 @@ float pdf(const Matt&, const Vec3& wo, const Vec3& wi, Lobes = Lobes::all) {
 }
 
 // [sample]
-/// A direction, and the weight f cos / pdf of what comes from there. For naive
-/// directions call sample_naive_hemisphere() and pdf_naive_hemisphere(), also in pdf().
+/// A direction, and the weight f cos / pdf of the light from there. For naive
+/// directions call sample_naive_hemisphere() and pdf_naive_hemisphere(), the latter in
+/// pdf() as well.
 std::optional<BsdfSample> sample(const Matt& matt, const Vec3& wo, const Vec3& u,
                                  Transport, Lobes which = Lobes::all) {
     if (!has(which, Lobes::diffuse) || wo.z == 0) return std::nullopt;
     Vec3 wi = sample_cosine_hemisphere(Vec2{u.x, u.y});
     const float density = pdf_cosine_hemisphere(wi);
     const Rgb weight = matt.albedo * std::numbers::inv_pi_v<float> * wi.z / density;
-    wi.z = std::copysign(wi.z, wo.z); // on the side from which one looks
+    wi.z = std::copysign(wi.z, wo.z); // on the side of wo
     return diffuse_sample(wi, weight, density);
 }
 // [sample]
 
-/// Refuses what would make light.
+/// Refuses an albedo that would create light.
 void check(const Matt& matt) {
     require_unit("matt.albedo", matt.albedo);
 }
@@ -72,7 +73,7 @@ int main(int argc, char** argv) {
         scene.add(Sphere{.center{0.5f, 6, 0.8f}, .radius = 1.1f}, black, Rgb{14});
         const World world(std::move(scene));
 
-        // No shadow rays: all of the light is found by the directions of sample().
+        // No shadow rays: only the directions of sample() find the light.
         const PathTracer tracer(world, {.sample_lights = false});
         const Camera camera =
             look_at({.position{0, 2.4f, 6}, .target{0, 0.8f, 0}, .vfov_degrees = 32});

@@ -2,7 +2,7 @@
 // smoke: --quality draft --width 24 --height 24 --rays 1
 /// \file 14_oren_nayar.cpp
 /// \brief Figure 14: a rough ball by the report's formula and roughnesses, and by EON
-/// with roughnesses that mean something.
+/// with roughnesses within its range.
 
 #include <string>
 

@@ -18,13 +18,14 @@ using Row =
     Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, ThinGlass, Eon, Mirror,
                                           Metal, RoughMetal, Globe, Tiles>>;
 
-/// The ball at a place of the row, from the left.
+/// The ball with this index in the row, from the left.
 Sphere ball_at(int place) {
     return {.center{2.4f * (float(place) - 3.5f), 1, 0}, .radius = 1};
 }
 
-/// Calls f(place, material) for each ball.
-/// \param white  Whether all that can be white is; gold cannot.
+/// Calls f(index, material) for each ball.
+/// \param white  Whether to make materials white, where that is possible (not for
+///               gold).
 template <typename F>
 void for_each_ball(bool white, F f) {
     const auto color = [&](const Rgb& usual) { return white ? Rgb{1} : usual; };
@@ -77,8 +78,8 @@ Image in_a_room(const examples::Options& options) {
     return examples::rendered("room", mapper, camera, options).image;
 }
 
-/// Each ball alone under a sky of radiance 1, at half the exposure: what loses no light
-/// is as grey as the sky.
+/// Each ball alone under a sky of radiance 1, at half the exposure: a ball that loses
+/// no light is as grey as the sky.
 void in_a_furnace(bool white, Image& figure, const examples::Options& options) {
     for_each_ball(white, [&](int place, const auto& material) {
         Row scene;
@@ -111,7 +112,7 @@ int main(int argc, char** argv) {
                         .report{.width = 1200, .height = 300, .samples = 64},
                         .reference{.width = 1600, .height = 400, .samples = 2048}});
         Image figure = in_a_room(options);
-        figure.height *= 3; // room for two rows more
+        figure.height *= 3; // space for two more rows
         figure.pixels.resize(3 * figure.pixels.size());
         for (const bool white : {false, true}) in_a_furnace(white, figure, options);
         save_png(figure, options.path("fig-4.png"));

@@ -42,8 +42,8 @@ int main(int argc, char** argv) {
             {.position{0.2f, 2.1f, 8}, .target{-0.1f, 1.1f, 0}, .vfov_degrees = 32});
 
         for (int depth = 0; depth <= 5; ++depth) {
-            // The sky is seen, but no shadow ray asks for its light. Ambient light
-            // takes its place: the same from everywhere, and no ball shades it.
+            // The sky is visible, but no shadow ray is sent to it. Constant ambient
+            // light, which no ball shades, replaces its light.
             const WhittedTracer tracer(
                 world, {.max_depth = depth, .lamps = false, .ambient = sky});
             const std::string name = "whitted-depth-" + std::to_string(depth);

@@ -1,7 +1,8 @@
 // smoke: --quality draft --width 24 --height 16 --rays 9
 /// \file 18_distributed_rays.cpp
-/// \brief A billiard table by distributed rays: each ray draws its point in the pixel,
-/// on the lens and on the lamps, its moment, and its direction off the glossy ball.
+/// \brief A billiard table by distributed rays: for each ray, random numbers choose the
+/// point in the pixel, on the lens and on the lamps, the time, and the direction off
+/// the glossy ball.
 
 #include <ljus/ljus.hpp>
 
@@ -47,7 +48,7 @@ int main(int argc, char** argv) {
         scene.add(Sphere{.radius = 90}, black, Rgb{0.05f, 0.06f, 0.08f}, true); // sky
         const World world(std::move(scene));
 
-        // A lens of radius 0.08, focused on the ball that lies still.
+        // A lens of radius 0.08, focused on the ball at rest.
         const Camera pinhole = look_at(
             {.position{0, 3.2f, 6.5f}, .target{0, 0.3f, -0.4f}, .vfov_degrees = 36});
         const LensCamera camera = with_lens(

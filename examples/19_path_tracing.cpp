@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
         const World world(std::move(scene));
         const Camera camera = cornell_box().camera;
 
-        // The mean of the picture is the same three times; its noise is not.
+        // The three pictures have the same mean, but not the same noise.
         const auto render_by = [&](const std::string& way,
                                    const PathTracingSettings& settings) {
             const PathTracer tracer(world, settings);

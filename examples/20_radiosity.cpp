@@ -27,13 +27,13 @@ int main(int argc, char** argv) {
         if (size == 0) size = 7 * options.pick(0.2, 0.1, 0.0625);
 
         // [light and view]
-        // The light on all patches, once, for all cameras.
+        // The light on all patches, computed once for all cameras.
         const auto room = final_room();
         const auto solved =
             make_radiosity(room.world, {.patches{.size = size},
                                         .factors{.analytic = false, .rays = 2048}});
 
-        // A view only looks the light up.
+        // A view only looks up the light.
         const LightMapView view(room.world, solved->map);
         const auto seen = examples::rendered("view", view, room.camera, options);
         // [light and view]

@@ -24,8 +24,8 @@ int main(int argc, char** argv) {
         const std::uint64_t seed = options.seed + 77;
         const int threads = options.threads;
 
-        // Rays per pixel, photons and patches are what a second of a processor paid for
-        // in a picture of 100 x 100 pixels: the chapter's experiments measure it.
+        // Rays per pixel, photons and patches are chosen so that a picture of 100 x 100
+        // pixels took a processor second in the chapter's experiments.
         const auto save = [&](const std::string& name, const auto& renderer, int rays) {
             const examples::StopWatch watch;
             const auto picture = examples::rendered(name, renderer, room.camera,
@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
         save("distributed", DistributedTracer(room.world), 252);
         save("paths", PathTracer(room.world), 82);
 
-        // Radiosity solves for all patches at once; the picture only looks them up.
+        // Radiosity solves for all patches at once; rendering only looks them up.
         const auto solved = make_radiosity(
             room.world,
             {.patches{.size = 0.097},
@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
                  .analytic = false, .rays = 512, .seed = seed, .threads = threads}});
         save("radiosity", LightMapView(room.world, solved->map), 17);
 
-        // Two passes: one more ray leaves each diffuse surface, and the photons are
+        // Two passes: one gather ray leaves each diffuse surface, and the photon map is
         // looked up where it ends.
         PhotonMappingSettings settings{.indirect = IndirectLight::map,
                                        .general{.photons = 16516,

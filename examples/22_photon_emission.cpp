@@ -1,7 +1,7 @@
 // smoke: --quality draft --photons 500 --width 40 --height 40
 /// \file 22_photon_emission.cpp
-/// \brief Chapter 22: where photons land, those straight from the lamps and those that
-/// have met a surface before.
+/// \brief Chapter 22: where photons land, directly from the lamps and after meeting a
+/// surface.
 
 #include <cstdio>
 #include <string>
@@ -28,7 +28,7 @@ void add_dots(Image& image, const Room<Scene>& room,
         if (!at || at->x < 0 || at->y < 0 || at->x >= float(image.width) ||
             at->y >= float(image.height))
             continue;
-        // Whatever stands in front of the photon hides it.
+        // Objects in front of the photon hide it.
         const Ray ray{
             .origin = eye, .direction = photon.position - eye, .t_max = 0.999f};
         if (!occluded(room.world, ray))
@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
             {.photons = count, .seed = options.seed, .shadow_photons = false});
         for (const PhotonKind kind : {PhotonKind::direct, PhotonKind::indirect}) {
             std::vector<Photon> photons;
-            double flux = 0; // the green part, as a share of what the lamps send out
+            double flux = 0; // the green channel, as a fraction of the lamps' flux
             for (const Photon& photon : traced.photons)
                 if (photon.kind == kind) {
                     photons.push_back(photon);

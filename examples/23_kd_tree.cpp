@@ -1,7 +1,7 @@
 // smoke: --quality draft --photons 500 --width 60
 /// \file 23_kd_tree.cpp
-/// \brief Chapter 23: what a search in a k-d tree looks at, photons on a floor from
-/// above.
+/// \brief Chapter 23: the points that a search in a k-d tree visits, on a floor seen
+/// from above.
 
 #include <algorithm>
 #include <cstdio>
@@ -18,8 +18,8 @@ using namespace ljus;
 
 namespace {
 
-/// Where photons lie on the floor of the report's room, those behind its glass ball
-/// among them.
+/// The positions of photons on the floor of the report's room, with the caustic of its
+/// glass ball.
 std::vector<Vec3> on_floor(long long photons, std::uint64_t seed) {
     const auto room = final_room();
     std::vector<Vec3> points;
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
         Vec3 low = points[0], high = points[0];
         for (const Vec3& p : points) low = glm::min(low, p), high = glm::max(high, p);
         const float scale =
-            float(options.width - 1) / std::max(high.x - low.x, 1e-6f); // pixels a unit
+            float(options.width - 1) / std::max(high.x - low.x, 1e-6f); // per unit
         Image image = make_image(options.width, int(scale * (high.y - low.y)) + 1);
         const auto dot = [&](const Vec3& p, const Rgb& color) {
             const int right = image.width - 1, bottom = image.height - 1;
@@ -67,8 +67,8 @@ int main(int argc, char** argv) {
         };
         for (const Vec3& p : points) dot(p, Rgb{0.15f});
 
-        // The 400 nearest. The walk hands out each photon whose distance it computes,
-        // and asks whether a box so far away can hold anything better.
+        // The 400 nearest. The walk passes on each photon whose distance it computes,
+        // and asks whether a box at some distance can hold a nearer one.
         const KdTree tree{std::span<const Vec3>(points)};
         const Vec3 center =
             low +

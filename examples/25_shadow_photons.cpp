@@ -1,6 +1,7 @@
 // smoke: --quality draft --photons 1000 --width 24 --height 24
 /// \file 25_shadow_photons.cpp
-/// \brief Chapter 25: what photons know of each lamp, in every pixel, by three rules.
+/// \brief Chapter 25: what photons tell about each lamp, in every pixel, by three
+/// rules.
 
 #include <string>
 
@@ -15,7 +16,7 @@ using namespace ljus;
 
 namespace {
 
-/// Whether some of a lamp could shine on a surface.
+/// Whether any point of a lamp faces a surface.
 template <AnyWorld W>
 bool faces(const W& world, const Vertex& vertex, std::uint32_t lamp) {
     for (const Vec2 u :
@@ -27,8 +28,8 @@ bool faces(const W& world, const Vertex& vertex, std::uint32_t lamp) {
     return false;
 }
 
-/// What is known of a lamp where each pixel looks: yellow for lit, blue for shadow, red
-/// where a ray must tell, and the drawing of the room where no ray is asked.
+/// The verdict on a lamp in each pixel: yellow for lit, blue for shadow, red where a
+/// ray must decide, and the drawing of the room where no ray is needed.
 template <typename Mapper>
 Image verdict_map(const Mapper& mapper, const Camera& camera, std::uint32_t lamp,
                   const examples::Options& options) {
@@ -70,7 +71,7 @@ int main(int argc, char** argv) {
         for (const SkipRule rule :
              {SkipRule::report, SkipRule::any, SkipRule::enough}) {
             PhotonMappingSettings settings;
-            settings.caustics.photons = 0; // no verdict asks for them
+            settings.caustics.photons = 0; // verdicts do not use them
             settings.general = {
                 .photons = photons, .seed = options.seed, .threads = options.threads};
             settings.skip.rule = rule;

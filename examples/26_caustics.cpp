@@ -45,13 +45,13 @@ Image in_a_row(const std::vector<Image>& pictures) {
     return all;
 }
 
-/// Pictures by the report's settings, with more and more caustic photons, and what they
-/// cost in seconds of all processors.
+/// Pictures by the report's settings, with more and more caustic photons, and their
+/// cost in processor seconds.
 void figure_11(const GlassRoom& room, long long most,
                const examples::Options& options) {
     struct Column {
         long long photons;
-        const char* report; ///< Time that the report gives.
+        const char* report; ///< The report's time.
     };
     examples::Table table{.name = "table-2",
                           .columns = {"photons", "the report's time", "photons, s",

@@ -1,7 +1,7 @@
 // figures: fig-1 fig-15
 // smoke: --quality draft --width 24 --height 24 --rays 1 --photons 1000
 /// \file 27_two_pass.cpp
-/// \brief Figures 1 and 15: the report's renderer, whole, in two passes.
+/// \brief Figures 1 and 15: the report's whole renderer, in two passes.
 
 #include <cstdio>
 #include <string>
@@ -20,13 +20,14 @@ template <typename Scene>
 void make_figure(const std::string& name, const Room<Scene>& room,
                  const PhotonMappingSettings& settings,
                  const examples::Options& options) {
-    // The first pass: photons fly, and those that gather behind mirrors and glass are
-    // kept in the caustics map.
+    // The first pass: photons are traced, and those that arrive by way of mirrors and
+    // glass are stored in the caustics map.
     const examples::StopWatch watch;
     const PhotonMapper mapper(room.world, settings);
     const double first = watch.seconds();
 
-    // The second pass: rays from the camera, which ask the map at each diffuse surface.
+    // The second pass: rays from the camera, which look up the map at each diffuse
+    // surface.
     const auto picture = examples::rendered(name, mapper, room.camera, options);
     const double second = watch.seconds() - first;
     save_png(picture.image, options.path(name + ".png"));

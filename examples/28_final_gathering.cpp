@@ -15,10 +15,10 @@ using namespace ljus;
 
 namespace {
 
-/// A renderer that shows what a gather ray would bring, if the camera cast it.
+/// A renderer that shows what a gather ray finds: it sends gather rays from the camera.
 template <typename Mapper>
 struct PointsSeen {
-    using Stream = RandomStream; ///< What render() gives it to draw from.
+    using Stream = RandomStream; ///< The random stream that render() passes to it.
     const Mapper& mapper;        ///< With the irradiance points of Gathering.
 };
 template <typename Mapper>
@@ -49,8 +49,8 @@ int main(int argc, char** argv) {
         settings.general.seed = settings.caustics.seed = options.seed;
         settings.general.threads = settings.caustics.threads = options.threads;
         settings.general.shadow_photons = false;
-        // 0: as wide as a typical 64 photons of the general map lie, or 32 of the
-        // other.
+        // 0: the radius that typically holds 64 photons of the general map, or 32 of
+        // the caustics map.
         settings.general_estimate.radius = settings.caustics_estimate.radius = 0;
 
         const auto save = [&](const std::string& name, const auto& renderer,

@@ -37,19 +37,18 @@ int main(int argc, char** argv) {
         PhotonMapper mapper(room.world, settings,
                             abilities<StratifiedStream, Gathering>);
 
-        // Of all light, only that which has met two diffuse surfaces or more.
+        // Only light that has been reflected by two or more diffuse surfaces.
         const auto save_indirect = [&](const std::string& name) {
             const OnlyPaths indirect(mapper, "E.*D.*D.*L");
             save_png(
                 examples::rendered(name, indirect, room.camera, picture, options).image,
                 options.path("irradiance_cache-" + name + ".png"), {.exposure = 2});
         };
-        save_indirect("everywhere"); // the cache is empty: each place gathers anew
+        save_indirect("everywhere"); // the cache is empty: gathers in every pixel
         mapper.fill_cache(room.camera, picture);
         save_indirect("interpolated");
 
-        // The points as dots: as photons that have come to them from the side that is
-        // seen.
+        // Draws the points as dots: as photons that arrive from the visible side.
         const IrradianceCache& cache = mapper.state<Gathering>().cache;
         std::vector<Photon> points;
         for (std::size_t i = 0; i < cache.records.size(); ++i)

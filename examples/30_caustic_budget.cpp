@@ -1,6 +1,6 @@
 // smoke: --quality draft --width 16 --height 12 --rays 1
 /// \file 30_caustic_budget.cpp
-/// \brief Chapter 30: two balls of glass and 3000 caustic photons, shared out in two ways.
+/// \brief Chapter 30: two balls of glass and 3000 caustic photons, divided in two ways.
 
 #include <string>
 #include <utility>

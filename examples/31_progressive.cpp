@@ -20,9 +20,9 @@ int main(int argc, char** argv) {
         double every = 2;
         bool resume = false;
         line.about("Chapter 31, progressive photons: the Cornell box.");
-        line.add("--passes", passes, "How many photon maps", 1, 1'000'000'000);
+        line.add("--passes", passes, "Number of photon maps", 1, 1'000'000'000);
         line.add("--every", every, "Seconds between checkpoints", 0, 1e6);
-        line.add("--resume", resume, "Go on from progressive.check in the folder");
+        line.add("--resume", resume, "Continue from progressive.check in the folder");
         const examples::Options options =
             line.parse({.draft{.width = 64, .height = 64, .samples = 1},
                         .report{.width = 400, .height = 400, .samples = 1},

@@ -1,6 +1,7 @@
 // needs: mpi
 /// \file 32_many_machines.cpp
-/// \brief Chapter 32: both passes on many machines, with Open MPI: the bytes of one.
+/// \brief Chapter 32: both passes on many machines, with Open MPI; byte for byte the
+/// picture of one machine.
 ///
 ///     mpirun -n 8 32_many_machines scene.json --out folder
 
@@ -23,12 +24,12 @@ using namespace ljus;
 
 namespace {
 
-/// One of several processes that have a job together: its number, from 0 on.
+/// One of several processes that share a job; its number counts from 0.
 struct Rank {
     int number = 0, count = 1;
 };
 
-/// The photons of the caustics map: this rank traces a part, and gets those of all ranks.
+/// The photons of the caustics map: this rank traces some, and receives all.
 // [photons]
 template <AnyWorld W>
 std::vector<Photon> photons_of(const W& world, const PhotonPassSettings& pass,
@@ -55,8 +56,7 @@ std::vector<Photon> photons_of(const W& world, const PhotonPassSettings& pass,
 }
 // [photons]
 
-/// The strips of rows that a rank renders. The ranks take turns: each has its share of the
-/// slow parts of a picture.
+/// The strips of rows that a rank renders, dealt out in turn to share the slow regions.
 // [strips]
 std::vector<RowRange> strips_of(const Rank& rank, int height) {
     constexpr int strip = 8; // rows
@@ -75,14 +75,14 @@ void body(examples::CommandLine& line) {
     std::string path;
     line.about("Photon mapping on many machines: mpirun -n 8 32_many_machines SCENE.");
     line.add_positional("SCENE", path, "A scene file");
-    line.add("--caustic-photons", pass.photons, "Aimed at mirrors and glass", 0,
+    line.add("--caustic-photons", pass.photons, "Photons aimed at mirrors and glass", 0,
              1'000'000'000);
     const examples::Options options = line.parse();
     const examples::StopWatch watch;
     auto file = load_json(path);
     const World world(std::move(file.scene));
     pass.seed = options.seed;
-    const PhotonMappingSettings settings{.caustics{.photons = 0}}; // but those of ranks
+    const PhotonMappingSettings settings{.caustics{.photons = 0}}; // traced below
     PhotonMapper mapper(world, settings, abilities<StratifiedStream>);
     mapper.set_caustics(make_photon_map(photons_of(world, pass, rank)));
 
@@ -96,7 +96,7 @@ void body(examples::CommandLine& line) {
         std::copy(strip.pixels.begin(), strip.pixels.end(),
                   image.pixels.begin() + std::ptrdiff_t(rows.first) * picture.width);
     }
-    // Each pixel is 0 on all ranks but one, so that no sum is rounded.
+    // Each pixel is 0 on all ranks except one, so no sum is rounded.
     Rgb* const pixels = image.pixels.data();
     MPI_Reduce(rank.number == 0 ? MPI_IN_PLACE : pixels, pixels,
                3 * int(image.pixels.size()), MPI_FLOAT, MPI_SUM, 0, MPI_COMM_WORLD);
@@ -110,10 +110,10 @@ void body(examples::CommandLine& line) {
 
 /// Renders on many machines.
 int main(int argc, char** argv) {
-    int threads = 0; // only the first one talks to the other ranks
+    int threads = 0; // only the main thread calls MPI
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads);
     const int code = examples::run_main(argc, argv, body);
-    // A rank that has failed has said why; the others would wait for it for ever.
+    // A rank that fails has printed why; end the others, which would wait for it.
     if (code != 0) MPI_Abort(MPI_COMM_WORLD, code);
     MPI_Finalize();
     return code;

@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
         const auto room = four_glass_room();
         const PhotonMapper mapper(room.world, settings);
 
-        // The second pass: seconds on the wall, and those of all processors together.
+        // The second pass: wall-clock seconds, and processor seconds.
         const auto shot = [&](int rays, int by) {
             RenderSettings picture = picture_settings(options);
             picture.samples = rays;
@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
                 (void)rendered("table-1", mapper, room.camera, picture, options);
             });
         };
-        (void)shot(1, threads); // the threads are started once, before any clock runs
+        (void)shot(1, threads); // starts the threads before any clock runs
 
         const auto oracle = find_oracle(
             "four-glass", room, std::min(options.pick(20, 64, 100), options.width),
@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
                                      {1000, 1391, 640, 2.17}}) {
             if (row.rays > options.pick(100, 1000, 1000)) continue;
             std::vector<double> one, all, ratio, work;
-            for (int i = 0; i < options.pick(3, 3, 5); ++i) { // pairs, in turns
+            for (int i = 0; i < options.pick(3, 3, 5); ++i) { // pairs, alternating
                 const examples::Timing a = shot(row.rays, 1);
                 const examples::Timing b = shot(row.rays, threads);
                 one.push_back(a.wall);

@@ -1,7 +1,7 @@
 // figures: table-3
 // smoke: --quality draft --width 8 --height 8
 /// \file 33_rays_table.cpp
-/// \brief Chapter 33: what more rays per pixel cost, and what they bring. Table 3.
+/// \brief Chapter 33: time and error with more rays per pixel. Table 3.
 
 #include <algorithm>
 #include <string>
@@ -39,11 +39,11 @@ auto mappers_of(const World& world, bool fixed_depth,
     return mappers;
 }
 
-/// How far pictures with a number of rays are from the reference.
+/// The error of pictures with a number of rays.
 struct Errors {
     double pixels = 0; ///< relMSE.
-    double blocks = 0; ///< The same of the means of 10 x 10 pixels.
-    double flip = 0;   ///< Of the first seed.
+    double blocks = 0; ///< relMSE of the means of 10 x 10 pixels.
+    double flip = 0;   ///< FLIP of the first seed.
 };
 
 template <typename Mapper>

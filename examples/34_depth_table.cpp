@@ -1,7 +1,7 @@
 // figures: table-4
 // smoke: --quality draft --width 16 --height 16 --rays 1
 /// \file 34_depth_table.cpp
-/// \brief Chapter 34: what deeper paths cost, and the light that they bring. Table 4.
+/// \brief Chapter 34: the cost of deeper paths, and the light that they add. Table 4.
 
 #include <algorithm>
 #include <string>

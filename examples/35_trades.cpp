@@ -1,6 +1,6 @@
 // smoke: --quality draft --width 16 --height 16 --seconds 0.05
 /// \file 35_trades.cpp
-/// \brief Chapter 35: one room in the same time, by five ways to spend it.
+/// \brief Chapter 35: one room by five settings, each in the same time.
 
 #include <algorithm>
 #include <string>
@@ -19,7 +19,7 @@ using examples::text;
 namespace {
 
 /// The mean of as many pictures as fit into the time.
-/// \param shoot  Makes a picture with the seed that it is given.
+/// \param shoot  Makes a picture with the given seed.
 template <typename Shoot>
 ProgressiveState mean_within(double seconds, Shoot shoot) {
     ProgressiveState mean{.alpha = 1};
@@ -29,15 +29,15 @@ ProgressiveState mean_within(double seconds, Shoot shoot) {
         add_pass(mean, shoot(std::uint64_t(mean.passes) + 1));
         examples::stop_if_asked();
         took = examples::processor_seconds() - begin;
-    } while (took + took / double(mean.passes) / 2 < seconds); // the last one by half
+    } while (took + took / double(mean.passes) / 2 < seconds); // within half a picture
     return mean;
 }
 
-/// A way to make a picture with photons.
+/// Settings for a picture with photons.
 struct Way {
     std::string name;
     PhotonMappingSettings settings{};
-    int rays = 1; ///< Per pixel of one picture.
+    int rays = 1; ///< Rays per pixel of one picture.
 };
 
 } // namespace
@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         double seconds = 0;
         line.about("Chapter 35, trades: the Cornell box after the same seconds.");
-        line.add("--seconds", seconds, "Of all processors, for each picture", 0, 1e6);
+        line.add("--seconds", seconds, "Processor seconds for each picture", 0, 1e6);
         const examples::Options options =
             line.parse({.draft{.width = 60, .height = 60}});
         if (!line.given("--seconds")) seconds = options.pick(0.5, 20.0, 20.0);

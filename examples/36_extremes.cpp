@@ -16,8 +16,8 @@ using namespace ljus;
 
 namespace {
 
-/// The room of figure 1, as far from the origin along each axis as asked. Its points are
-/// worked out in double, and rounded to T once.
+/// The room of figure 1, moved by a distance along each axis. Its points are computed
+/// in double, and rounded to T once.
 template <std::floating_point T>
 Room<ReportSceneT<T>> room_at(double away) {
     const auto exact = final_room<double>();

@@ -18,8 +18,8 @@ namespace {
 
 constexpr int size = 160; // pixels on a side
 
-/// Snell's law as in `ljus::refract`, with one line left out: a square below 0 is taken
-/// for 0, although it means that all light is reflected.
+/// Snell's law as in `ljus::refract`, with one line left out: a square below 0 counts
+/// as 0, although it means that all light is reflected.
 // [wrong]
 std::optional<Vec3> wrong_refract(const Vec3& direction, const Vec3& normal,
                                   float eta) {
@@ -49,7 +49,8 @@ Rgb sky_color(const Vec3& direction) {
 using Refract = std::optional<Vec3>(const Vec3& direction, const Vec3& normal,
                                     float eta);
 
-/// What a swimmer sees above: the sky within a cone, and the mirrored floor beside it.
+/// The view of a swimmer who looks up: the sky within a cone, the mirrored floor around
+/// it.
 Image pool(Refract* refract) {
     const Camera camera = look_at({.position{0, -1, 0},
                                    .target{0, 0, -0.45f},

@@ -1,6 +1,7 @@
 // smoke:
 /// \file 38_flatland.cpp
-/// \brief Chapter 38: sixty photons in a room of the plane, and where they are stored.
+/// \brief Chapter 38: sixty photons in a two-dimensional room, and where they are
+/// stored.
 // runs in the folder of its picture
 
 #include <string>

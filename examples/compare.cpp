@@ -31,7 +31,7 @@ using namespace ljus;
 using Map = ImageT<double>;
 using examples::text;
 
-/// What the user asked for, besides what all programs share.
+/// The user's options, besides those that all programs share.
 struct Request {
     std::string image;
     std::string reference;
@@ -66,7 +66,7 @@ Image load(const std::string& path) {
         const auto width = static_cast<std::size_t>(image.width);
         throw std::runtime_error("the pixel in column " + std::to_string(i % width) +
                                  ", row " + std::to_string(i / width) + " of '" + path +
-                                 "' is not finite: no error can be told");
+                                 "' is not finite, so that no error can be measured");
     }
     return image;
 }
@@ -79,7 +79,8 @@ void require_alike(const Image& a, const std::string& a_path, const Image& b,
         return std::to_string(image.width) + " x " + std::to_string(image.height);
     };
     throw std::runtime_error("'" + a_path + "' has " + size(a) + " pixels and '" +
-                             b_path + "' " + size(b) + ": they must be alike");
+                             b_path + "' " + size(b) +
+                             ": they must have the same size");
 }
 
 /// The mean over pixels and channels.
@@ -91,7 +92,7 @@ double level_of(const Image& image) {
 
 /// All errors of a picture, in the order in which they are printed.
 struct Errors {
-    double mean = 0;     ///< Of the picture.
+    double mean = 0;     ///< Mean of the picture.
     double truth = 0;    ///< Mean of the reference.
     double rmse = 0;     ///< rmse().
     double relative = 0; ///< rel_mse().
@@ -157,8 +158,9 @@ void print_json(const Errors& errors, const Request& request) {
                 errors.hdr_flip);
 }
 
-/// The chance that an average of normal numbers is off by more than `z` of the standard
-/// errors that were estimated from them: the two tails of Student's distribution.
+/// The probability that a mean of normal numbers is off by more than `z` standard
+/// errors, where the standard error is estimated from the same numbers: the two tails
+/// of Student's distribution.
 /// \param z     Above 0.
 /// \param runs  At least 2.
 double chance_beyond(double z, std::size_t runs) {
@@ -175,8 +177,8 @@ double chance_beyond(double z, std::size_t runs) {
     return 1 - 2 * scale * inside;
 }
 
-/// The picture and its pieces, block by block: which blocks are off by more than their
-/// own noise?
+/// Compares the mean of the picture and its pieces block by block: which blocks are off
+/// by more than their noise?
 void blocks(const Image& image, const Image& reference, const Request& request) {
     std::vector<Image> runs{image};
     for (const std::string& path : request.pieces) {
@@ -218,7 +220,7 @@ void blocks(const Image& image, const Image& reference, const Request& request) 
     examples::save_text(request.blocks, table);
 }
 
-/// A number for each pixel, and the colours that fit it.
+/// A number for each pixel, and the colours to draw it with.
 void save_map(const Image& image, const Image& reference, const Request& request,
               const std::string& path) {
     Map map = make_image<double>(image.width, image.height);
@@ -242,7 +244,7 @@ void save_map(const Image& image, const Image& reference, const Request& request
             map.pixels[i] = RgbT<double>(value);
             sizes.push_back(std::abs(value));
         }
-        // All but the largest hundredth are within the colours.
+        // 99 % of the numbers are within the range of the colours.
         const auto most = sizes.begin() + std::ptrdiff_t(0.99 * double(sizes.size()));
         std::nth_element(sizes.begin(), most, sizes.end());
         high = *most > 0 ? *most : 1;
@@ -256,7 +258,7 @@ void save_map(const Image& image, const Image& reference, const Request& request
 void body(examples::CommandLine& line) {
     Request request;
     line.about("How much a picture differs from a reference. PFM and HDR files hold "
-               "radiance; others, as PNG, are made linear first.");
+               "radiance; others, such as PNG, are converted to linear first.");
     line.without({"--quality", "--seed", "--threads", "--width", "--height", "--rays"});
     line.add_positional("PICTURE", request.image, "The picture");
     line.add_positional("REFERENCE", request.reference, "The truth");
@@ -264,10 +266,10 @@ void body(examples::CommandLine& line) {
     line.add("--epsilon", request.epsilon,
              "Of relMSE: radiance squared; 0: (0.1 times the reference's mean)^2", 0,
              1e12);
-    line.add("--trimmed", request.trimmed, "The part of the pixels left out", 0, 0.5);
+    line.add("--trimmed", request.trimmed, "Fraction of the pixels left out", 0, 0.5);
     line.add("--block", request.block, "Side of a block in pixels", 1, 65536);
     line.add("--exposure", request.exposure, "Of FLIP, in stops", -100, 100);
-    line.add("--ppd", request.ppd, "Of FLIP, pixels a degree", 1, 1000);
+    line.add("--ppd", request.ppd, "Pixels per degree, for FLIP", 1, 1000);
     line.add("--pieces", request.pieces,
              "More runs like PICTURE with other seeds: each block's standard error");
     line.add("--blocks", request.blocks, "CSV file for the blocks' means and errors");
@@ -276,13 +278,13 @@ void body(examples::CommandLine& line) {
         "Map of the errors, written to --out (error-map.png): FLIP, relative to the\n"
         "reference, or which pixels are brighter and which darker",
         {"none", "flip", "relative", "difference"});
-    line.add("--range", request.range, "Of the map's colours; 0: as it is needed", 0,
-             1e12);
+    line.add("--range", request.range,
+             "Range of the map's colours; 0: chosen by the errors", 0, 1e12);
     line.add("--json", request.json, "One line of JSON");
     const examples::Options options = line.parse();
     if (!request.blocks.empty() && request.pieces.empty())
-        throw std::invalid_argument("--blocks needs --pieces: from one run no standard "
-                                    "error can be told");
+        throw std::invalid_argument("--blocks needs --pieces: one run alone gives no "
+                                    "standard error");
     const std::string map_path =
         options.path(options.file.empty() ? "error-map.png" : options.file);
     if (line.given("--out") && request.map == "none") request.map = "flip";

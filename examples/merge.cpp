@@ -1,12 +1,12 @@
 /// \file merge.cpp
-/// \brief Puts the slices of a picture together: ljus-merge.
+/// \brief Merges the slices of a picture: ljus-merge.
 ///
 ///     render scene.json --slice 3/16 --out part        on one machine of sixteen
 ///     ljus-merge part/* --out picture.png              when all are there
 ///
-/// The picture has the bytes of one that a single process renders. A slice that is
-/// missing, there twice, damaged, or of another picture is told by name, and there is
-/// no picture.
+/// The picture is byte for byte the one that a single process renders. If a slice is
+/// missing, given twice, damaged, or of another picture, the program names it and
+/// writes no picture.
 
 #include <algorithm>
 #include <cstdio>
@@ -21,7 +21,7 @@
 
 namespace {
 
-/// The files of what the user named: of a folder, all slices in it.
+/// The files that the user named; a folder stands for all slices in it.
 std::vector<std::string> files_of(const std::vector<std::string>& names) {
     std::vector<std::string> files;
     for (const std::string& name : names) {
@@ -43,7 +43,7 @@ std::vector<std::string> files_of(const std::vector<std::string>& names) {
 
 void body(examples::CommandLine& line) {
     std::vector<std::string> names;
-    line.about("Puts the slices of a picture together: of `render --slice K/N`.");
+    line.about("Merges the slices of a picture, made by `render --slice K/N`.");
     line.without({"--quality", "--seed", "--threads", "--width", "--height", "--rays"});
     line.add("SLICE", names, "Files, or folders of files NAME.slice");
     line.file_types({".png", ".hdr", ".pfm"});
@@ -54,7 +54,7 @@ void body(examples::CommandLine& line) {
     const examples::MergedPicture merged = examples::merge_slices(files_of(names));
     if (merged.wide) {
         examples::save_picture(merged.image, path, merged.exposure);
-    } else { // each number was one in float, and is so again
+    } else { // the numbers were float, so this is exact
         auto image = ljus::make_image(merged.image.width, merged.image.height);
         std::transform(merged.image.pixels.begin(), merged.image.pixels.end(),
                        image.pixels.begin(),

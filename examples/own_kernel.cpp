@@ -6,8 +6,7 @@
 
 #include "own_kernel.hpp"
 
-/// Draws the caustic of a glass ball, each photon a hill of Hann's shape, into
-/// own_kernel.png.
+/// Draws the caustic of a glass ball with a Hann kernel into own_kernel.png.
 int main() {
     using namespace ljus;
     Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Glass>, Lights<PointLight>> scene;
@@ -18,7 +17,7 @@ int main() {
     const World world(std::move(scene));
     const PhotonMapper mapper(world, {.caustics{.photons = 100000}});
     const DensityEstimateOf<reader::Hann> gather{.radius = 0.12f};
-    check(gather); // refuses a kernel that makes or loses light
+    check(gather); // refuses a kernel that creates or loses light
 
     const Camera camera = look_at({.position{1.5f, 6, 3.5f}, .target{0.8f, 0, 0}});
     Image image = make_image(320, 240);

@@ -32,7 +32,7 @@ inline std::optional<float> intersect(const ljus::Ray& ray, const Crate& box) {
 /// The point that a ray hit: its normal is the axis along which it is farthest out, and
 /// it is put onto that side.
 inline ljus::SurfacePoint surface_point(const Crate& box, const ljus::Ray& ray,
-                                        const ljus::FlatHitT<float>& hit) {
+                                        const ljus::ShapeHitT<float>& hit) {
     const ljus::Vec3 middle = (box.low + box.high) / 2.0f;
     ljus::Vec3 x = point_at(ray, hit.t), normal{0};
     const ljus::Vec3 out = (x - middle) / (box.high - box.low);

@@ -1,16 +1,16 @@
 /// \file render.cpp
-/// \brief Renders a scene file: by photon mapping, or by path tracing as its judge.
+/// \brief Renders a scene file: by photon mapping, or by path tracing as a reference.
 ///
 ///     render scene.json --preset fast --out picture.png
 ///     render scene.json --renderer path --rays 1000 --out picture.pfm
 ///     render scene.json --seconds 5            the best picture for that time
 ///     render scene.json --plan                 what would run, and why
 ///     render scene.json --passes 100 --checkpoint a.check --preview a.png
-///                                              maps that converge; --resume goes on
-///     render scene.json --slice 3/16 --out part    a part of it; see ljus-merge
+///                                              progressive maps; --resume continues
+///     render scene.json --slice 3/16 --out part    some of its rows; see ljus-merge
 ///
-/// Each setting stands in common/render_settings.hpp, once: --help and the JSON file
-/// beside the picture follow from there.
+/// Each setting is listed once, in common/render_settings.hpp; --help and the JSON file
+/// beside the picture follow from that list.
 
 #include <algorithm>
 #include <cinttypes>
@@ -29,9 +29,9 @@
 #include "ljus/inspect/photon_dots.hpp"
 #include "ljus/inspect/survey.hpp"
 #include "ljus/io/load_json.hpp"
+#include "ljus/io/load_obj.hpp"
 #include "ljus/render/adaptive.hpp"
 #include "ljus/scenes/room.hpp"
-#include "ljus/io/load_obj.hpp"
 
 namespace {
 
@@ -87,7 +87,7 @@ RenderedT<T> run(const Renderer& renderer, const CameraT<T>& camera, const Reque
 
 template <typename S>
 RenderedT<typename S::Scalar> path_trace(const Room<S>& room, const Request& r) {
-    // Its paths meet narrow lobes by themselves, as by DirectLight::mis.
+    // Its paths sample narrow lobes themselves, as with DirectLight::mis.
     for (const auto& remark : scene_remarks(room.world, {.direct = DirectLight::mis}))
         std::fprintf(stderr, "%s\n", remark.c_str());
     const PathTracer tracer(room.world, r.path);
@@ -110,7 +110,7 @@ void fill_cache(Mapper& mapper, const CameraT<T>& camera, const Request& r) {
                     cache.counts.bounce_rays);
 }
 
-/// Makes photon maps and what is gathered from them, and then the picture.
+/// Makes the photon maps, the irradiance cache if there is one, and then the picture.
 template <typename S>
 RenderedT<typename S::Scalar> map_photons(const Room<S>& room, Request& r) {
     const examples::StopWatch watch;
@@ -133,12 +133,12 @@ RenderedT<typename S::Scalar> map_photons(const Room<S>& room, Request& r) {
             examples::print_map("general map", maps.general, settings.general.photons);
     }
     if (passes.cache) fill_cache(mapper, room.camera, r);
-    r.photon = mapper.settings(); // with the radii and the shares that were chosen
+    r.photon = mapper.settings(); // with the chosen radii and fractions
     if (!r.quiet && !maps.caustics.empty()) examples::print_caustics(r.photon);
     return run(mapper, room.camera, r);
 }
 
-/// A picture in passes, each with photons of its own; see \ref progressive.
+/// Renders a picture in passes, each with its own photons; see \ref progressive.
 template <typename S>
 RenderedT<typename S::Scalar> render_passes(const Room<S>& room, Request& r) {
     const auto& abilities = examples::recipe_abilities;
@@ -166,7 +166,7 @@ RenderedT<typename S::Scalar> render_passes(const Room<S>& room, Request& r) {
     return rendered;
 }
 
-/// A picture for some seconds, or with some error: its settings are chosen.
+/// Renders a picture within a time or with an error, by settings that it chooses.
 template <typename S>
 RenderedT<typename S::Scalar> render_promised(const Room<S>& room, Request& r) {
     const examples::StopWatch watch;
@@ -178,7 +178,7 @@ RenderedT<typename S::Scalar> render_promised(const Room<S>& room, Request& r) {
     auto kept = keep(room.world, room.camera, r.picture, r.promise, now, r.quiet, tell);
     r.photon = kept.recipe.settings;
     r.picture.samples = kept.recipe.rays;
-    r.preset = static_cast<Preset>(kept.choice.recipe); // a recipe each, in their order
+    r.preset = static_cast<Preset>(kept.choice.recipe); // one per preset
     r.kept = {{"why", kept.why},
               {r.promise.seconds > 0 ? "seconds" : "error",
                std::max(r.promise.seconds, r.promise.error)},
@@ -199,7 +199,7 @@ RenderedT<typename S::Scalar> render_promised(const Room<S>& room, Request& r) {
     return std::move(kept.rendered);
 }
 
-/// A drawing of the scene, and on it the photons of one kind, or of all.
+/// Draws the scene, with the photons of one kind or of all as dots.
 template <typename S>
 RenderedT<typename S::Scalar> draw_photons(const Room<S>& room, const Request& r) {
     using T = typename S::Scalar;
@@ -236,7 +236,7 @@ RenderedT<typename S::Scalar> draw_photons(const Room<S>& room, const Request& r
     return drawn;
 }
 
-/// The scene of a request; what is wrong with its meshes goes to the terminal.
+/// Loads the scene of a request; prints remarks about its meshes on the terminal.
 template <std::floating_point T>
 LoadedSceneT<T> load_scene(const Request& r) {
     std::string troubles;
@@ -245,7 +245,7 @@ LoadedSceneT<T> load_scene(const Request& r) {
     return loaded;
 }
 
-/// Where the picture or the slice goes.
+/// The path of the picture or the slice.
 std::string path_of(const Request& r, const examples::Options& options) {
     if (!options.file.empty()) return options.path(options.file);
     const std::string stem = std::filesystem::path(r.scene).stem().string();
@@ -254,8 +254,8 @@ std::string path_of(const Request& r, const examples::Options& options) {
                         std::to_string(r.part.count) + ".slice");
 }
 
-/// Saves a picture, and beside it all that tells how it was made; or a slice of one,
-/// with the same in it.
+/// Saves a picture, and beside it a file that says how it was made; or a slice, which
+/// holds both.
 template <std::floating_point T>
 void save_result(const std::string& path, const Request& r, nlohmann::ordered_json json,
                  const RenderedT<T>& rendered, double seconds) {
@@ -323,17 +323,16 @@ void run_request(examples::CommandLine& line, Request& r,
     if (!r.quiet || r.plan) print_heading(room.world, loaded.name, r);
     if (r.plan || r.hooks) return print_plan(room.world, r);
     if (!r.pixel.empty())
-        (void)pixel_of(r); // refused before any work is done
+        (void)pixel_of(r); // refuse a wrong pixel before any work is done
     else {
         examples::require_writable(path);
         examples::require_pass_files(r.passes, path);
     }
 
     examples::when_stopped_say(
-        r.part.count > 0
-            ? "the slice is not saved; the same command makes it again"
-            : "no picture is saved; a picture that can be stopped and gone "
-              "on with is made by --passes N --checkpoint FILE");
+        r.part.count > 0 ? "the slice is not saved; the same command makes it again"
+                         : "no picture is saved; a picture that can be stopped and "
+                           "continued is made by --passes N --checkpoint FILE");
     const examples::StopWatch watch;
     const bool promised = r.promise.seconds > 0 || r.promise.error > 0;
     const RenderedT<T> rendered = !r.photons.empty()    ? draw_photons(room, r)

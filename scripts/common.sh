@@ -1,9 +1,9 @@
-# Shared by the scripts of this folder; to be sourced. Works with bash 3.2 (macOS).
+# Sourced by the scripts of this folder. Works with bash 3.2 (macOS).
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 me=$(basename "$0")
 
-# One sentence on stderr, and out: 2 for bad usage, 1 for anything else.
+# Both print one sentence on stderr and exit: with 2 for bad usage, with 1 for other errors.
 usage_error() { echo "$me: $*" >&2; exit 2; }
 fail() { echo "$me: $*" >&2; exit 1; }
 
@@ -12,7 +12,8 @@ show_help() { sed -n '2,/^$/s/^# \{0,1\}//p' "$root/scripts/$me"; }
 
 jobs=${LJUS_JOBS:-$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)}
 
-# configure FOLDER [cmake options]: Ninja when it is there, and quiet when all is well.
+# configure FOLDER [cmake options]: uses Ninja if it is installed; prints CMake's output only
+# on failure.
 configure() {
     local folder=$1 log status=0
     shift
@@ -24,7 +25,7 @@ configure() {
     cmake -S "$root" -B "$folder" "$@" >"$log" 2>&1 || status=$?
     grep -E '^-- Ljus: .*(fetched|not installed|not found|left out)' "$log" || true
     if [ "$status" -ne 0 ]; then
-        # Its own sentence, if it is one of ours; all that it said, if not.
+        # Only the error sentence if it is one of ours; otherwise all of CMake's output.
         if grep -q 'Ljus: .* is not installed; install' "$log"; then
             fail "$(sed -n '/Ljus: .* is not installed; install/,/^ *$/p' "$log" |
                 sed '/^Call Stack/,$d' | tr -s ' \n' '  ' | sed 's/^ *Ljus: //; s/ *$//')"

@@ -70,8 +70,8 @@ double mean_of(const Image& image) {
     return sum / double(image.pixels.size());
 }
 
-/// Whether a number is another one, but for a part of it. (doctest's Approx allows for
-/// its epsilon times 1 as well, which for small numbers is everything.)
+/// Whether two numbers are equal within a relative tolerance. (doctest's Approx allows
+/// for its epsilon times 1 as well, which for small numbers is everything.)
 bool near(double x, double right, double part) {
     return std::abs(x - right) <= part * std::abs(right);
 }
@@ -360,7 +360,8 @@ TEST_CASE("adaptive: a rule without sense is refused with its value") {
     refused({.more = 1, .two_stage = true}, 64, "more is 1; it must be at least 2.");
     refused({.batches = 0, .two_stage = true}, 64,
             "batches is 0; it must be at least 1.");
-    refused({}, 15, "samples is 15; it must be at least as many as first rays.");
+    refused({}, 15,
+            "samples is 15; it must be at least first, the first rays of a pixel.");
     refused({.two_stage = true}, 31,
             "samples is 31; it must be at least first + more.");
 }

@@ -226,7 +226,7 @@ TEST_CASE("all lights: in a fog and in colours, from both sides") {
 }
 
 TEST_CASE("all lights: a verdict for each light, by its number") {
-    // Point lights 1, 2 and 3 above the floor, of which one thing or another is known.
+    // Point lights 1, 2 and 3 above the floor, each with some verdict.
     Lit scene = lit_floor(false);
     const Lambertian white{.albedo = Rgb{0.5f}};
     for (const float power : {1.0f, 10.0f, 100.0f})

@@ -319,7 +319,7 @@ TEST_CASE("wide bvh: where its middle is, its bytes, and leaves of sixteen") {
 
 TEST_CASE("wide bvh: large trees, too, are collapsed to the least surface") {
     // Enough boxes that some nodes had better stay closed. A twin by recursion: the
-    // least sum of what lies below a node in so many places side by side.
+    // least total cost of a node's subtrees in this many adjacent slots.
     Numbers n{8};
     int closed = 0;
     for (int round = 0; round < 20; ++round) {

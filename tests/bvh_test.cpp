@@ -147,7 +147,7 @@ TEST_CASE("bvh: a wide range of leaves, and the same bytes for any number of thr
                                 one.nodes().size() * sizeof one.nodes()[0]) == 0);
         }
     }
-    // At most so many bytes a thing.
+    // An upper bound on the bytes per primitive.
     const Bvh finest(boxes, {.leaf_size = 1});
     CHECK(finest.nodes().capacity() * 32 + finest.primitive_ids().capacity() * 4 <=
           68 * boxes.size());

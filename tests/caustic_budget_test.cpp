@@ -122,7 +122,8 @@ TEST_CASE("caustic_budget: shares follow the scatter, and no others do better") 
         for (int j = 1; i + j < 100; ++j)
             CHECK(variance(i / 100.0, j / 100.0, (100 - i - j) / 100.0) >=
                   least * (1 - 1e-12));
-    // The floor: nobody starves, at a variance of at most 1/(1 - floor) of the least.
+    // The floor: each object gets photons, at a variance of at most 1/(1 - floor) of
+    // the least.
     for (const double floor : {0.1, 0.5, 1.0}) {
         const auto some = share_out(std::array{1.0, 3.0, 4.0}, floor);
         CHECK(some[0] + some[1] + some[2] == doctest::Approx(1));
@@ -144,7 +145,7 @@ TEST_CASE("caustic_budget: shares follow the scatter, and no others do better") 
     CHECK(tiny[0] + tiny[1] == doctest::Approx(1));
     CHECK(refusal([] {
               (void)share_out(std::array{1.0, -1.0});
-          }) == "a scatter is -1; it must be finite and at least 0.");
+          }) == "the scatter of an object is -1; it must be finite and at least 0.");
     CHECK(refusal([] { (void)share_out(std::array{std::nan("")}); }).find("NaN") !=
           std::string::npos);
     CHECK(refusal([] { (void)share_out(std::array{1.0}, 1.5); }) ==
@@ -223,7 +224,7 @@ TEST_CASE("caustic_budget: no shares are the photons of old, byte by byte") {
         CHECK(old->photon.ray.direction == now->photon.ray.direction);
         CHECK(a.counter == b.counter);
     }
-    // A share of 0 is never chosen, whatever rounding leaves over: here it is half.
+    // A share of 0 is never chosen, in spite of rounding: here it is half.
     for (std::uint64_t path = 0; path < 2000; ++path) {
         auto stream = random_stream(2, Pass::caustics_photons, 0, path);
         const std::array shares{0.5, 0.0};
@@ -276,7 +277,7 @@ TEST_CASE("caustic_budget: the pilot measures flux, area and scatter") {
                      .normal = small_normal(Vec3{0, 1, 0})});
         return pilot_caustics(world, pass, 0.1f, light, wide)[0].visible;
     };
-    // All 100 e W in a disc of radius 50, or so many as are asked by default.
+    // All 100 e W in a disc of radius 50, or in the default number of photons.
     CHECK(lit_by(100, 50) ==
           doctest::Approx(flux / (1.1 * 1e4 / (pi * 2500) + 0.058)).epsilon(0.05));
     CHECK(lit_by(100, 0) == doctest::Approx(flux / 110).epsilon(0.05));
@@ -323,7 +324,7 @@ TEST_CASE("caustic_budget: the pilot's numbers, one photon after the other") {
     }
     const float radius = 0.15f, wide = 0.6f;
     const auto pilots = pilot_caustics(room, pass, radius, light, wide);
-    CHECK(asked == 0);   // nobody waits for a pilot
+    CHECK(asked == 0);   // there is no pilot
     auto bright = light; // shadow photons are no light, and count nowhere
     std::erase_if(bright, [](const auto& p) { return p.kind == PhotonKind::shadow; });
     REQUIRE(bright.size() < 2500);
@@ -434,8 +435,8 @@ TEST_CASE("caustic_budget: the pilot's numbers, one photon after the other") {
 }
 
 TEST_CASE("caustic_budget: how many paths a pilot has, and that it does not give up") {
-    // A mirror throws all of its light at the sky, but for a little square. The light
-    // of 1 W/sr in front of it and its image at height 4 see the same cone.
+    // A mirror throws all of its light at the sky, except onto a small square. The
+    // light of 1 W/sr in front of it and its image at height 4 see the same cone.
     Room room;
     room.add(Quad{.corner{-0.5f, 0, -0.5f}, .edge_u{0, 0, 1}, .edge_v{1, 0, 0}},
              room.add(Mirror{.reflectance = Rgb{1}}));

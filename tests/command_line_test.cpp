@@ -222,7 +222,7 @@ TEST_CASE(
     CHECK(folder.count() == 0);
     // The next program in this process is not stopped by it.
     CHECK(run([](CommandLine&) {}) == 0);
-    // Ctrl-C that nobody looked at counts as well.
+    // An unhandled Ctrl-C counts as well.
     CHECK(run([](CommandLine&) { std::raise(SIGINT); }) == 130);
     CHECK(run([](CommandLine&) { std::raise(SIGTERM); }) == 143);
     std::signal(SIGINT, SIG_DFL);

@@ -174,7 +174,7 @@ TEST_CASE("full glossy: what is not made by compensated_glossy() is refused by n
 }
 
 TEST_CASE("compensated glossy: what comes back is a geometric series, in colours") {
-    // Reflected twice, of which a share finds out; or three times, ...
+    // Reflected twice, after which a fraction leaves; or three times, ...
     for (const double loss : {0.0, 0.1, 0.5, 0.9}) {
         const ljus::RgbT<double> facet{1, 0.6, 0.2};
         const auto found = ljus::detail::multiple_scattering(facet, loss);

@@ -125,6 +125,6 @@ TEST_CASE("determinism: float and double render the same room") {
         x += double(a.pixels[i].y);
         y += b.pixels[i].y;
     }
-    // The same random numbers, but for their last bits: closer than two seeds.
+    // The same random numbers except for their last bits: closer than two seeds.
     CHECK(x == doctest::Approx(y).epsilon(0.02));
 }

@@ -324,8 +324,9 @@ TEST_CASE("distributed rays: a moving strip covers a ray as long as it takes to 
     using Strip = Moving<Quad>;
     Studio scene;
     const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
-    scene.add(Strip{.shape{{0, -1, 0}, {0.6f, 0, 0}, {0, 2, 0}}, .way{2, 0, 0}}, black,
-              Rgb{1});
+    scene.add(
+        Strip{.shape{{0, -1, 0}, {0.6f, 0, 0}, {0, 2, 0}}, .displacement{2, 0, 0}},
+        black, Rgb{1});
     const World world(std::move(scene));
     const DistributedTracer tracer(world);
     for (const double x : {-0.1, 0.1, 0.35, 0.6, 1.0, 1.7, 2.1, 2.45, 2.7}) {
@@ -369,11 +370,12 @@ TEST_CASE("distributed rays: at each time the scene is that of shapes moved by h
             Still still;
             const auto sm = still.add(white);
             for (const auto& s : std::get<0>(scene.shapes))
-                still.add(Sphere{s.shape.center + time * s.way, s.shape.radius}, sm);
-            for (const auto& q : std::get<1>(scene.shapes))
                 still.add(
-                    Quad{q.shape.corner + time * q.way, q.shape.edge_u, q.shape.edge_v},
-                    sm);
+                    Sphere{s.shape.center + time * s.displacement, s.shape.radius}, sm);
+            for (const auto& q : std::get<1>(scene.shapes))
+                still.add(Quad{q.shape.corner + time * q.displacement, q.shape.edge_u,
+                               q.shape.edge_v},
+                          sm);
             for (const auto& t : std::get<2>(scene.shapes)) still.add(t, sm);
             const World stopped(std::move(still));
             for (int i = 0; i < 60; ++i) {
@@ -474,7 +476,7 @@ TEST_CASE("distributed rays: every path is L D? (S|G)* E") {
     CHECK(kinds.contains("ESDL shadow ray"));
     CHECK(longest <= 7); // E, 4 turns, D, L
 
-    // The same picture whatever the number of threads, and no bad sample in it.
+    // The same picture for any number of threads, without a bad sample.
     const auto one = render(tracer, lens, picture);
     auto three_threads = picture;
     three_threads.threads = 3;

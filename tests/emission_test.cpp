@@ -624,7 +624,8 @@ TEST_CASE("emission: one point of the square says where on a light, the other wh
         CHECK((moved.origin != first.origin) == c.origin_by_point);
         CHECK(moved.direction == first.direction);
         CHECK((turned.direction != first.direction) == c.direction_by_direction);
-        // A ray leaves a surface a rounding error away, on the side to where it goes.
+        // A ray starts a rounding error away from the surface, on the side of its
+        // direction.
         CHECK(glm::distance(turned.origin, first.origin) < 1e-5f);
     }
 }
@@ -1121,7 +1122,7 @@ TEST_CASE("emission: from within a bound a lamp aims at all that it can shine on
         CHECK(point_at.size == 2);
         CHECK_FALSE(point_at.at_area);
     }
-    // So no photon of the lamp is aimed in vain.
+    // So every aimed photon of the lamp can hit.
     const LightChoice only{.cumulative = {1, 1}};
     for (long long i = 0; i < 1000; ++i) {
         RandomStream stream = stream_of(i);

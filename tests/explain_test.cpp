@@ -52,7 +52,7 @@ void check_sums(const Renderer& renderer, const Camera& camera, bool last = fals
     }
 }
 
-// A renderer whose rays are NaN, but for every other one.
+// A renderer of which every other ray is NaN.
 struct HalfNan {
     using Stream = RandomStream;
 };
@@ -91,7 +91,7 @@ TEST_CASE("explain: the largest sum is first, in whichever channel") {
     CHECK(apart.sums[0].value == glm::dvec3{1, 5, 0});
     CHECK(apart.radiance == Rgb{3, 5, 3});
     CHECK(apart.samples == 4);
-    // Four rays are kept, if there are so many, and sixteen sums are shown.
+    // At most four rays are kept, and sixteen sums are shown.
     for (const int samples : {2, 4, 9})
         CHECK(detail::take_apart(Colors{}, camera,
                                  {.width = 3, .height = 2, .samples = samples}, 2, 1)

@@ -158,7 +158,7 @@ TEST_CASE_TEMPLATE("extremes: albedo 0 and 1, roughness 0 and most", T, float, d
           24 * 24 / 2); // what is left are the lamps, and what mirrors them
     CHECK(white > 1.3 * plain);
     // A matt surface of roughness 0 is Lambert's, a glossy mirror of roughness 0 a
-    // mirror: but for rounding the same paths.
+    // mirror: the same paths, except for rounding.
     CHECK(mean_of(checked<T>({.matt = 0}).rendered.image) ==
           doctest::Approx(plain).epsilon(0.02));
     CHECK(mean_of(checked<T>({.gloss = 0}).rendered.image) ==

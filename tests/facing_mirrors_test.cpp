@@ -1,6 +1,6 @@
 // concept: reflection
 /// \file facing_mirrors_test.cpp
-/// \brief After n mirrors there is R^n left, whoever traces the path.
+/// \brief After n mirrors there is R^n left, with every renderer.
 
 #include <doctest/doctest.h>
 

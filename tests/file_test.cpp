@@ -335,7 +335,7 @@ TEST_CASE("file: what another file names stands beside it, or at the root") {
 
 #if __has_include(<sys/resource.h>)
 TEST_CASE("file: what somebody else may write is not replaced") {
-    // Only who may do everything can become somebody else.
+    // Only root can change the user.
     if (::geteuid() != 0) return;
     const ScratchFolder folder;
     const std::string path = folder.file("a");

@@ -77,7 +77,7 @@ Vertex at(const World<Flat>& scene, float x, float y) {
     return vertex_at(scene, ray, *hit);
 }
 
-/// Indirect photons, so many on the unit square, 1 W in all, from above or below.
+/// A number of indirect photons on the unit square, 1 W in all, from above or below.
 PhotonMap even_photons(int count, std::uint64_t seed, bool above = true) {
     auto stream = random_stream(test_seed(seed), Pass::user, 0, 0);
     std::vector<Photon> photons;
@@ -116,7 +116,8 @@ TEST_CASE("final gathering: what lies on the surface near its edges") {
         CHECK(part(0.5f, 0.45f, 0.1f) == 1); // the diagonal is no edge
         CHECK(part(0.05f, 0.4f, 0.1f) == doctest::Approx(detail::kernel_part(0.5f)));
         CHECK(part(0.98f, 0.6f, 0.1f) == doctest::Approx(detail::kernel_part(0.2f)));
-        // From below as from above, and whatever lies farther down or leans.
+        // The same from below as from above, ignoring photons farther down or on tilted
+        // surfaces.
         Flat more = open;
         const auto grey = more.add(Lambertian{});
         more.add(Quad{.corner{-9, -9, -0.5f}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
@@ -284,7 +285,7 @@ TEST_CASE("final gathering: points answer for their own side and their own surfa
     CHECK(irradiance_at(points, Vec3{0}, Vec3{0, 0, 1}).x == 1);
     CHECK(irradiance_at(points, Vec3{0}, Vec3{0, 0, -1}).x == 2);
     CHECK(irradiance_at(points, Vec3{0}, Vec3{1, 0, 0}).x == 3);
-    CHECK(irradiance_at(points, Vec3{0}, Vec3{0, 1, 0}).x == 0); // nobody knows
+    CHECK(irradiance_at(points, Vec3{0}, Vec3{0, 1, 0}).x == 0); // no point near
     points.radius = 0.5f;
     CHECK(irradiance_at(points, Vec3{0}, Vec3{1, 0, 0}).x == 0); // too far
     CHECK(irradiance_at(IrradiancePoints{}, Vec3{0}, Vec3{1, 0, 0}).x == 0);
@@ -357,12 +358,12 @@ TEST_CASE("final gathering: an estimate of few photons, added up by hand") {
             CHECK(double(a[c]) == ljus_test::within(b[c], 1e-5));
     };
     const glm::dvec3 one{1, 2, 3}, two{5, 7, 4};
-    // Fewer than asked for: as far as the radius that is given, whatever the settings'
+    // Fewer than k: up to the given radius, independent of the settings'
     // own says, which may be 0 for one that is chosen.
     for (const float said : {0.0f, 0.1f})
         near(estimate({.nearest = 50, .radius = said}, 0.4f),
              2.0 * ((1 - 0.0625) * one + (1 - 0.25) * two) / (pi * 0.16));
-    // Three, of which one is below the floor: the farthest gives the radius alone.
+    // Three, one of them below the floor: the farthest only gives the radius.
     near(estimate({.nearest = 3}, 0.4f), 2.0 * (1 - 0.25) * one / (pi * 0.04));
     CHECK(estimate({.nearest = 2}, 0.4f) == Rgb{0}); // the other one lies below
     CHECK(estimate({.nearest = 50}, 0.04f) == Rgb{0});
@@ -415,7 +416,7 @@ TEST_CASE("final gathering: points at photons, with all the light that is there"
             CHECK_FALSE(points.empty());
             for (std::size_t i = 0; i < points.records.size(); ++i) {
                 const Vec3 place = points.tree.point(i);
-                const bool below = place.x == -3; // a point whatever `every` is
+                const bool below = place.x == -3; // a point for any `every`
                 CHECK(points.records[i].normal == Vec3{0, 0, below ? -1.0f : 1.0f});
                 // I cos / d^2, and 2 (1 - 1/4) of a photon over its disc.
                 const double d2 = 4 + double(place.x) * double(place.x) + 0.25;
@@ -451,7 +452,7 @@ TEST_CASE("final gathering: points at photons, with all the light that is there"
             double(two.records[i].irradiance.y) ==
             ljus_test::within(8 / (d2 * std::sqrt(d2)) + 2 * 1.5 / (pi * 0.01), 1e-3));
     }
-    // Without a radius: four times as far as so many photons lie typically.
+    // Without a radius: four times the distance that typically holds this many photons.
     const IrradiancePoints chosen = of_pairs(0, 3);
     CHECK(chosen.radius == 4 * typical_radius(pairs, 50));
     // Of n photons on a unit square, k lie in a disc of the area k / n.
@@ -528,7 +529,7 @@ TEST_CASE("final gathering: what a gather ray brings, along a known way") {
 }
 
 TEST_CASE("final gathering: the irradiance of a square, from its own side") {
-    // A square of side 2 at height 1, of which each point sends albedo E / pi: its form
+    // A square of side 2 at height 1, each point of which sends albedo E / pi: its form
     // factor by Howell's C-11, four corners. 20 000 random rays would know it to 0.6 %,
     // stratified ones to 0.2 %. And the harmonic mean of the lengths, 1 / cos, of those
     // that meet it.
@@ -1113,7 +1114,7 @@ TEST_CASE("final gathering: rays meet what moves where it is at their time") {
         auto context = context_of(stream, counts);
         const auto seen =
             gather_irradiance(world, points, vertex, {.rays = 400}, context);
-        // 1 / length = cos / height, of which the mean over the cosine's is 2 / 3.
+        // 1 / length = cos / height, whose cosine-weighted mean is 2 / 3.
         const double height = 1 + 4 * double(time);
         CHECK(double(seen.distance) == ljus_test::within(1.5 * height, 0.01));
     }
@@ -1174,7 +1175,7 @@ PhotonMappingSettings shiny_settings(const char* how, std::uint64_t seed) {
 /// What a quotient of found and right should be.
 constexpr double exact = 1;
 
-/// How often a mean would be so far from what is right, but for a bias.
+/// The probability that a correct mean, apart from a bias, is this far off.
 double chance_of(const Mean& mean, double right, double bias) {
     const double off = std::abs(mean.mean - right) - bias;
     return off > 0 ? student_tail(off / mean.error(), mean.count - 1) : 1;

@@ -575,7 +575,7 @@ TEST_CASE("flatland: of two lamps the second half of the numbers is the second's
         CHECK(sample_lamp(scene, {u, 0.3}).lamp == &scene.objects[1]);
     CHECK(sample_lamp(scene, {0.75, 0.3}).probability == within(0.5, 1e-15));
 
-    // What does not shine is no lamp, first or last, whatever rounding leaves over.
+    // Objects that emit nothing are not lamps, first or last, in spite of rounding.
     Scene many;
     for (int i = 0; i < 40; ++i)
         many.objects.push_back({Circle{.radius = 0.1 + 0.037 * (i % 7)}, Lambertian{},

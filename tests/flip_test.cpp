@@ -91,7 +91,7 @@ TEST_CASE("flip: pictures without edges are as different as their colours") {
     for (const int size : {1, 2, 30}) {
         const ImageD one = make_image<double>(size, size, a);
         const ImageD other = make_image<double>(size, size, b);
-        // Sums that cancel leave features of 1e-17, of which a root is taken.
+        // Sums that cancel leave features of 1e-17, whose root is taken.
         CHECK(flip(one, other) == Approx(detail::color_error(a, b)).epsilon(1e-7));
     }
     CHECK(flip(make_image(9, 9, Rgb(1)), make_image(9, 9)) ==

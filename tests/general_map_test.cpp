@@ -145,7 +145,7 @@ ClosedRoom box_scene(bool turned) {
     return World(std::move(scene));
 }
 
-/// Which quarter of which wall a photon of the box lies on.
+/// The wall of the box, and its quarter, on which a photon lies.
 std::size_t quarter_of(const Photon& photon) {
     const std::vector<Rectangle> walls = box_walls();
     std::size_t best = 0;
@@ -872,11 +872,11 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
         const SurfacePoint place{
             .position{0.19f * float(i % 10) - 0.9f, -1, 0.19f * float(i / 10) - 0.9f},
             .normal{0, 1, 0}};
-        const auto at = fewer.state<Skipping>().verdicts.place_of(place, 1);
+        const auto at = fewer.state<Skipping>().verdicts.cell_of(place, 1);
         lit += fewer.state<Skipping>().verdicts.verdict(at, 0) == Verdict::lit;
     }
     CHECK(lit > 20);
-    // Who keeps the map keeps its shadows, whatever the verdicts ask for.
+    // A mapper that keeps the map keeps its shadow photons, with any verdicts.
     const auto with_shadows = make([](auto& s) {
         s.skip.rule = SkipRule::any;
         s.keep_general_map = true;
@@ -998,13 +998,13 @@ TEST_CASE("general map: for shadow rays alone each lamp sends as many photons") 
         how.general.shadow_photons = false; // no map keeps them, but verdicts ask
         const PhotonMapper mapper(world, how, abilities<Skipping>);
         const auto& verdicts = mapper.state<Skipping>().verdicts;
-        // Of places all over the floor: so many know something of a lamp.
+        // Points all over the floor: the number that have a verdict on a lamp.
         std::array<int, 2> known{};
         for (int i = 0; i < 400; ++i) {
             const SurfacePoint place{.position{0.095f * float(i % 20) - 0.9f, -1,
                                                0.095f * float(i / 20) - 0.9f},
                                      .normal{0, 1, 0}};
-            const auto at = verdicts.place_of(place, 1);
+            const auto at = verdicts.cell_of(place, 1);
             for (const std::size_t light : {0u, 1u}) {
                 const Verdict verdict = verdicts.verdict(at, light);
                 known[light] += verdict != Verdict::unknown;
@@ -1046,7 +1046,7 @@ TEST_CASE("general map: how caustic photons are shared out, by which light") {
     REQUIRE(shares.size() == 2);
     CHECK(shares[0] + shares[1] == doctest::Approx(1));
     CHECK(shares[0] != in_the_dark[0]); // the light of the room counts
-    // The pilot tells nobody of itself: neither of its passes
+    // The pilot reports no progress: neither of its passes
     // is the one that is watched.
     int told = 0;
     const auto tell = [&](long long, long long) { return ++told < 0; };

@@ -231,7 +231,7 @@ TEST_CASE("glass: both ways at once are what one way is in the mean") {
             CAPTURE(cosine);
             const GlassT<double> m{.index = index};
             const Vec3T<double> wo{std::sqrt(1 - cosine * cosine), 0, cosine};
-            const auto both = both_ways(m, wo, Transport::radiance);
+            const auto both = split(m, wo, Transport::radiance);
             const double share = reflected_share(m, wo);
             if (!both) {
                 CHECK(share == doctest::Approx(1)); // total reflection
@@ -246,6 +246,6 @@ TEST_CASE("glass: both ways at once are what one way is in the mean") {
             const auto down = sample(m, wo, {0.5, 0.5, 0.9999999}, Transport::radiance);
             REQUIRE(down);
             CHECK(glm::distance(down->wi, refracted.wi) < 1e-12);
-            CHECK(both_ways(m, wo, Transport::flux)->at(1).eta_scale == 1);
+            CHECK(split(m, wo, Transport::flux)->at(1).eta_scale == 1);
         }
 }

@@ -109,7 +109,7 @@ namespace {
 
 using Hall = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Mirror, Glass, Glossy>>;
 
-/// A floor at z = 0 under a ceiling of which each point sends E / (2 pi).
+/// A floor at z = 0 under a ceiling, each point of which sends E / (2 pi).
 Hall hall(bool glass = false) {
     Hall scene;
     scene.add(Quad{.corner{-50, -50, 0}, .edge_u{100, 0, 0}, .edge_v{0, 100, 0}},
@@ -211,7 +211,7 @@ TEST_CASE("irradiance cache: points where a camera ray meets something matt") {
     shiny.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
               shiny.add(Glossy{}));
     CHECK(gathered(World(shiny), down, {}).positions.empty());
-    // Of many slabs only so many ways as are rendered, eight; at 80
+    // Of many slabs only as many paths as are rendered, eight; at 80
     // degrees both ways are strong.
     Hall panes = hall();
     const auto glass = panes.add(Glass{.index = 1.5f});
@@ -228,7 +228,7 @@ TEST_CASE("irradiance cache: points where a camera ray meets something matt") {
                           .direction = glm::normalize(Vec3{5.7f, 0.1f * float(i), -1})};
         const std::size_t ways = gathered(many, slanted, {.rays = 1}).positions.size();
         CHECK(ways <= 8);
-        CHECK(ways >= 5); // but for those that are too faint
+        CHECK(ways >= 5); // without those that are too faint
     }
 }
 

@@ -163,7 +163,7 @@ TEST_CASE("kd_tree8: many balls at once find what each of them finds alone") {
                 CHECK(at == found.blocks.size());
                 CHECK(at == told.size());
                 const bool all = n > 0 && balls == 7 && radius == infinity;
-                if (all) CHECK(at == (balls - 1) * ((n + 7) / 8)); // but for the NaN
+                if (all) CHECK(at == (balls - 1) * ((n + 7) / 8)); // all but the NaN
             }
 }
 

@@ -96,7 +96,7 @@ TEST_CASE("kd_tree: each range is split in the middle, by one of the axes") {
         const KdTree tree{std::span<const Vec3>(set.points)};
         const auto& p = tree.points();
         // Halves that differ by one point at most, down to leaves of 16: the depth is
-        // that of a balanced tree, whatever the points.
+        // that of a balanced tree for any points.
         const auto split = [&](auto self, std::size_t first, std::size_t last) -> int {
             if (last - first <= 16) return 0;
             const std::size_t middle = first + (last - first) / 2;

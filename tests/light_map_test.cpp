@@ -107,7 +107,7 @@ TEST_CASE("light_map: blended light is continuous, and as even as the patches") 
                 CHECK(glm::distance(blended_light(grid, {u, 0}, rough),
                                     blended_light(grid, {u, 1}, rough)) < 1e-14);
     }
-    // An even slope comes back as it was, but for the outermost half of a patch.
+    // A linear slope is reproduced, except in the outermost half of a patch.
     for (const PatchGrid& grid :
          {patch_grid(Quad{}, 0.1),
           patch_grid(Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 0.05)}) {
@@ -278,7 +278,7 @@ TEST_CASE("light_map: it comes back, bit by bit, and gives the same picture") {
     const LightMapKey& key = all->map.key;
     const LightMap back = load_light_map(path, key);
     CHECK(same(all->map, back));
-    // Where so many patches are allowed, and not where one fewer is.
+    // It is accepted with this limit on patches, and refused with one fewer.
     const std::size_t patches = back.irradiance.size();
     CHECK(same(back, load_light_map(path, key, patches)));
     CHECK_THROWS_WITH_AS((void)load_light_map(path, key, patches - 1),

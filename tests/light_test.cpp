@@ -548,7 +548,7 @@ TEST_CASE("light: without more said, each of the three") {
 }
 
 TEST_CASE("light: a spot of a hundredth of a degree keeps its digits in float") {
-    // 1 - cos is 1.5e-8 there, of which float's cosine knows nothing.
+    // 1 - cos is 1.5e-8 there, which a cosine in float cannot represent.
     const double angle = 0.01 * pi / 180, w = 2 * std::pow(std::sin(angle / 2), 2);
     const SpotLight spot{
         .intensity = Rgb{1}, .inner_degrees = 0, .outer_degrees = 0.01f};

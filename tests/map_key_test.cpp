@@ -43,7 +43,8 @@ std::uint64_t hash_of(const V&... values) {
 struct Parts {
     Sphere ball{.center{0, 1, -3}, .radius = 1};
     Quad wall{{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}};
-    Moving<Sphere> moving{.shape = {.center{2, 1, -3}, .radius = 0.5f}, .way{1, 0, 0}};
+    Moving<Sphere> moving{.shape = {.center{2, 1, -3}, .radius = 0.5f},
+                          .displacement{1, 0, 0}};
     Metaballs blobs{.blobs = {{.center{3, 0, 0}, .radius = 1, .weight = 1},
                               {.center{3, 1, 0}, .radius = 1, .weight = 1}}};
     MeshData mesh{.positions = {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}},
@@ -128,7 +129,7 @@ TEST_CASE("map_key: whatever a scene is made of is part of its key") {
     other([](Parts& p) { p.ball.center.z = std::nextafter(p.ball.center.z, 0.f); });
     other([](Parts& p) { p.ball.radius = 2; });
     other([](Parts& p) { p.wall.edge_v.y = 5; });
-    other([](Parts& p) { p.moving.way.y = 1; });
+    other([](Parts& p) { p.moving.displacement.y = 1; });
     other([](Parts& p) { p.blobs.blobs[1].weight = 0.5f; });
     other([](Parts& p) { p.blobs.blobs.pop_back(); });
     other([](Parts& p) { p.mesh.positions[2].y = 2; });

@@ -40,8 +40,8 @@ MeshData soup(int count, std::uint64_t seed) {
 
 /// What asking the triangles in turn finds.
 template <typename Compute>
-std::optional<FlatHitT<float>> by_loop(Ray ray, const MeshData& data) {
-    std::optional<FlatHitT<float>> nearest;
+std::optional<ShapeHitT<float>> by_loop(Ray ray, const MeshData& data) {
+    std::optional<ShapeHitT<float>> nearest;
     for (std::uint32_t i = 0; i < data.triangles.size(); ++i) {
         const auto hit = intersect<Compute>(ray, detail::triangle_of(data, i));
         if (!hit || (nearest && !(hit->t < nearest->t))) continue;
@@ -195,7 +195,7 @@ TEST_CASE("mesh: smooth_normals() finds the normals of a sphere and of a ring") 
         .positions{{0, 0, 0}, {1, 0, 0}, {-0.5f, std::sqrt(0.75f), 0}, {0, 0, 1}},
         .triangles{{0, 1, 2}, {0, 1, 3}}};
     for (const bool collapsed : {false, true}) {
-        // A triangle without an area has no say, and takes nobody's normal away.
+        // A triangle without an area has no influence on the normals.
         if (collapsed) blunt.triangles.push_back({0, 0, 1});
         smooth_normals(blunt);
         CHECK(glm::distance(blunt.normals[0], Vec3{0, -0.6f, 0.8f}) < 1e-6f);

@@ -233,7 +233,7 @@ TEST_CASE("metaballs: more than 16 blobs on a ray go to the heap and stay the sa
         REQUIRE(a.has_value() == b.has_value());
         if (a) CHECK(*a == doctest::Approx(double(*b)).epsilon(1e-5));
     }
-    // And so do those that differ, in whatever order they stand.
+    // So do different ones, in any order.
     Metaballs one_way{};
     for (int i = 0; i < 40; ++i)
         one_way.blobs.push_back({.center = Vec3(Point{0, 0, -4} + n.point(0.3)),

@@ -1,7 +1,7 @@
 // concept: shape
-// Shapes on their way, against the same ones moved by hand; and what photons see of them,
-// against paths. Of the standard errors that four means are held to one is a false alarm in
-// ten thousand runs: they are at most a quarter of what is allowed.
+// Shapes on their way, against the same ones moved by hand; and what photons see of
+// them, against paths. Of the standard errors that four means are held to one is a
+// false alarm in ten thousand runs: they are at most a quarter of what is allowed.
 #include "ljus/geometry/moving.hpp"
 
 #include <doctest/doctest.h>
@@ -60,7 +60,7 @@ TEST_CASE_TEMPLATE("moving: a shape is where its time says, and in its bounds", 
     int hits = 0;
     for (int i = 0; i < 500; ++i) {
         const Moving<S> moving{any(), vec(30)};
-        const glm::dvec3 way(moving.way);
+        const glm::dvec3 way(moving.displacement);
         const Sphere ball = bounding_sphere(moving),
                      still = bounding_sphere(moving.shape);
         const Box box = bounds(moving), first = bounds(moving.shape);
@@ -95,11 +95,11 @@ TEST_CASE_TEMPLATE("moving: a shape is where its time says, and in its bounds", 
         }
         // No larger than they have to be.
         REQUIRE(ball.radius ==
-                doctest::Approx(still.radius + glm::length(moving.way) / 2));
+                doctest::Approx(still.radius + glm::length(moving.displacement) / 2));
         for (int axis = 0; axis < 3; ++axis)
             REQUIRE(box.high[axis] - box.low[axis] ==
                     doctest::Approx(first.high[axis] - first.low[axis] +
-                                    std::abs(moving.way[axis]))
+                                    std::abs(moving.displacement[axis]))
                         .epsilon(1e-4));
         REQUIRE(area(moving) == area(moving.shape));
         const auto u = n.square<float>();
@@ -111,14 +111,15 @@ TEST_CASE_TEMPLATE("moving: a shape is where its time says, and in its bounds", 
     Moving<S> bad{any(), {1, 2, 3}};
     CHECK_NOTHROW(check(bad));
     for (int axis = 0; axis < 3; ++axis) {
-        bad.way = {1, 2, 3};
-        bad.way[axis] = infinity;
+        bad.displacement = {1, 2, 3};
+        bad.displacement[axis] = infinity;
         CHECK_THROWS_AS(check(bad), std::invalid_argument);
     }
-    CHECK_THROWS_WITH_AS(check(Moving<S>{any(), {0, not_a_number, 0}}),
-                         "moving.way is (0, NaN, 0); it must be finite in every "
-                         "component.",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        check(Moving<S>{any(), {0, not_a_number, 0}}),
+        "moving.displacement is (0, NaN, 0); it must be finite in every "
+        "component.",
+        std::invalid_argument);
     const S nowhere = translated(any(), Vec3{0, infinity, 0}); // refused as it is
     CHECK_THROWS_AS(check(Moving<S>{nowhere, {1, 2, 3}}), std::invalid_argument);
     CHECK(detail::is_moving<Moving<S>>);

@@ -138,7 +138,7 @@ TEST_CASE("own light: photons leave it as the fall-off says, angle by angle") {
 }
 
 TEST_CASE("own light: aimed photons bring a ball what those sent everywhere bring") {
-    // Two balls, of which one hides a part of the other, near the axis of the lamp;
+    // Two balls, one partly hidden by the other, near the axis of the lamp;
     // the near one is seen in a narrow cone around the axis, 1 - cos^(n + 1) of it all.
     Stage open;
     const auto glass = open.add(Glass{});

@@ -82,7 +82,7 @@ TEST_CASE("own material: one that is only specular need not say that it has no f
     CHECK(back.x == doctest::Approx(1).epsilon(1e-9));
     CHECK(back.y == 0);
 
-    // A ball of it inside a white lamp is red, whatever renders it.
+    // A ball of it inside a white lamp is red with every renderer.
     using namespace ljus;
     Scene<Shapes<Sphere>, Materials<Lambertian, reader::RedMirror>> scene;
     const auto black = scene.add(Lambertian{.albedo = Rgb{0}});

@@ -213,7 +213,7 @@ TEST_CASE("form_factors: rays agree with the closed form") {
     CHECK(worst_row > 0); // symmetry costs the sums, which each row of rays had right
     CHECK(worst_row < 5 / std::sqrt(2.0 * rays));
 
-    // The same rays, whatever the number of threads.
+    // The same rays for any number of threads.
     const auto again = make_form_factors(World(box), all,
                                          {.analytic = false,
                                           .rays = rays,
@@ -429,7 +429,7 @@ TEST_CASE("patches: how many cells an edge of any length is cut into") {
     };
     CHECK(quad(1, 0.5, 0.3).columns == 4);
     CHECK(quad(1, 0.5, 0.3).rows == 2);
-    // Lengths that are multiples of the size, but for rounding, get no further cell.
+    // Lengths that are multiples of the size, up to rounding, get no extra cell.
     for (int n = 1; n <= 60; ++n) {
         CHECK(quad(n * 0.1, 1, 0.1).columns == std::uint32_t(n));
         CHECK(quad(n * 0.7, 1, 0.7).columns == std::uint32_t(n));
@@ -548,7 +548,8 @@ TEST_CASE("form_factors: each patch, each pair and each seed has numbers of its 
     CHECK(share(0, 3, 1) == doctest::Approx(share(1, 2, 1)).epsilon(0.1));
     CHECK(std::abs(share(0, 3, 1) - share(1, 2, 1)) > 1e-9);
     CHECK(share(0, 3, 1) != share(0, 3, 2));
-    // Sides that face away from each other see nothing, whatever their product says.
+    // Sides that face away from each other exchange nothing, although the product is
+    // positive.
     Stage<double> away;
     const auto matt = away.add(LambertianT<double>{});
     away.add(QuadT<double>{V(0), {0, 1, 0}, {1, 0, 0}}, matt);           // downwards

@@ -274,7 +274,7 @@ TEST_CASE_TEMPLATE("path tracing: a square lamp twice as far lights 0.2598 as mu
             return RayT<T>{.origin{T(-3), T(3), T(0)},
                            .direction = glm::normalize(Vec3T<T>{T(3), T(-3), T(0)})};
         };
-        // E1 x E2 points down, to where the lamp shines.
+        // E1 x E2 points down, as the lamp does.
         const World world(std::move(scene));
         const PathTracer tracer(world);
         const Mean seen = mean_radiance(tracer, 200000, 17, ray);
@@ -484,7 +484,7 @@ TEST_CASE("path tracing: the plain one, path by path, in closed form") {
     }
     CHECK(std::abs(first - 500) < 5 * std::sqrt(250.0)); // once in 1.7 million
 
-    // Without a light nobody is asked, on a matt floor and in a mirror.
+    // Without a light there are no shadow rays, on a matt floor or in a mirror.
     Hall dark;
     dark.add(floor, dark.add(LambertianT<double>{.albedo = D3{1}}));
     dark.add(ceiling, dark.add(MirrorT<double>{}));

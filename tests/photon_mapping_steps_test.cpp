@@ -159,10 +159,9 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
                                      ask(maps.general, settings.general_estimate,
                                          one_kind(PhotonKind::indirect))});
                             if (indirect == IndirectLight::cache && diffuse) {
-                                const Rgb irradiance =
-                                    irradiance_between(world, known.points, known.cache,
-                                                       vertex, material,
-                                                       settings.gather, plain);
+                                const Rgb irradiance = irradiance_between(
+                                    world, known.points, known.cache, vertex, material,
+                                    settings.gather, plain);
                                 if constexpr (std::is_same_v<decltype(material),
                                                              const Lambertian&>) {
                                     right.push_back(
@@ -245,7 +244,7 @@ TEST_CASE("photon mapping: a path goes both ways eight times, and loses nothing"
                 // Of the tree of paths each edge once: what two ways share is one ray.
                 CHECK(counts.bounce_rays < rays);
                 // Both ways from eight surfaces; and one ray from each later one, which
-                // are those of the longest way but for E, L and the eight.
+                // are those of the longest path without E, L and the eight.
                 CHECK(counts.bounce_rays == 16 + longest - 10);
             }
         }
@@ -407,11 +406,10 @@ TEST_CASE("photon mapping: behind a glossy surface only photons answer for gloss
     room.add(Quad{{-9, 1, -9}, {18, 0, 0}, {0, 0, 18}}, gloss);
     room.add(PointLight{.position{0, 0.5f, 0}, .intensity = Rgb{1}});
     const World world(std::move(room));
-    for (const auto& [indirect, owner] :
-         {std::pair{IndirectLight::rays, "shadow ray"},
-          {IndirectLight::map, "general map"},
-          {IndirectLight::gather, "shadow ray"},
-          {IndirectLight::cache, "shadow ray"}}) {
+    for (const auto& [indirect, owner] : {std::pair{IndirectLight::rays, "shadow ray"},
+                                          {IndirectLight::map, "general map"},
+                                          {IndirectLight::gather, "shadow ray"},
+                                          {IndirectLight::cache, "shadow ray"}}) {
         const std::string who = owner; // captured below
         CAPTURE(who);
         const auto settings = distinct(indirect, DirectLight::sampled);
@@ -570,13 +568,13 @@ PhotonMappingSettings few_photons(IndirectLight indirect = IndirectLight::rays) 
 
 } // namespace
 
-TEST_CASE("photon mapping: what takes an ability that is not listed is refused") {
+TEST_CASE("photon mapping: an ability that is needed but not listed is refused") {
     const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
     const auto said = [&](const PhotonMappingSettings& settings, auto listed) {
         return refusal([&] { (void)PhotonMapper(room, settings, listed); });
     };
     const std::string gathering =
-        "indirect light by gathering takes an ability that is not listed: "
+        "indirect light by gathering needs an ability that is not listed: "
         "abilities<Gathering> of ljus/render/gathering.hpp.";
     for (const IndirectLight indirect : {IndirectLight::gather, IndirectLight::cache}) {
         const auto settings = few_photons(indirect);
@@ -589,7 +587,7 @@ TEST_CASE("photon mapping: what takes an ability that is not listed is refused")
     for (const Preset preset : {Preset::draft, Preset::fast})
         CHECK(said(preset_settings(preset, 8, 8), abilities<>) == gathering);
 
-    const std::string skipping = "leaving out needless rays takes an ability that is "
+    const std::string skipping = "leaving out needless rays needs an ability that is "
                                  "not listed: abilities<Skipping> "
                                  "of ljus/render/skipping.hpp.";
     for (const SkipRule rule : {SkipRule::any, SkipRule::enough, SkipRule::report}) {
@@ -604,7 +602,7 @@ TEST_CASE("photon mapping: what takes an ability that is not listed is refused")
     CHECK(said(dark, abilities<Skipping>).empty());
 
     const std::string budgeting =
-        "a budget of caustic photons takes an ability that is not listed: "
+        "a budget of caustic photons needs an ability that is not listed: "
         "abilities<Budgeting> of ljus/render/budgeting.hpp.";
     for (const CausticBudget budget :
          {CausticBudget::equal, CausticBudget::flux, CausticBudget::area,
@@ -750,5 +748,5 @@ TEST_CASE("photon mapping: caustics photons that were traced elsewhere") {
     PhotonMapper gathered(room, none, abilities<Gathering>);
     CHECK(refusal([&] {
               gathered.set_caustics(own.maps().caustics);
-          }).starts_with("Irradiance was gathered without"));
+          }).starts_with("The irradiance was already gathered"));
 }

@@ -373,7 +373,7 @@ TEST_CASE("progressive: both radii shrink, and no pass repeats another") {
     const auto pass = [&](const PhotonMappingSettings& how, long long i, double scale) {
         return photon_mapping_pass(world, camera, how, picture, i, scale);
     };
-    // A pass is what it is, whatever came before.
+    // A pass does not depend on earlier ones.
     const auto hash = [](const auto& rendered) {
         return detail::hash_of(rendered.image);
     };
@@ -660,7 +660,7 @@ void work(const std::string& path, long long passes, const RenderPass& pass) {
     });
 }
 
-/// Runs it in a process of its own, which is killed after so many microseconds.
+/// Runs it in a process of its own, which is killed after some microseconds.
 /// \return Whether it came to its end by itself, and that was a good one.
 template <typename RenderPass>
 bool survives(const std::string& path, long long passes, const RenderPass& pass,

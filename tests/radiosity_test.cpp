@@ -338,7 +338,7 @@ TEST_CASE("radiosity: elimination exchanges rows where it has to") {
             for (std::size_t i = 0; i < n; ++i)
                 CHECK(glm::distance(b[i], right[i]) < 1e-11);
         }
-    // The largest by its size, whatever its sign: 1e-20 would lose all digits.
+    // The largest in absolute value: 1e-20 would lose all digits.
     for (const double sign : {1.0, -1.0}) {
         std::vector<double> a{1e-20, 1, -0.5 * sign, sign, 3, 2, 0.5, 1, 1};
         std::vector<Color> b{Color(1 - 0.5 * sign), Color(sign + 5), Color(2.5)};

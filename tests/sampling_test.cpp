@@ -308,7 +308,7 @@ TEST_CASE_TEMPLATE("sampling: near the horizon the height of a direction keeps i
                    "digits",
                    T, float, double) {
     // The larger of |2 u - 1| is the radius: for these u it is not rounded, and the
-    // height is sqrt((1 - r) (1 + r)) but for three roundings.
+    // height is sqrt((1 - r) (1 + r)) up to three roundings.
     const long double u2 = 2 * std::numeric_limits<T>::epsilon();
     for (int k = 2; k < 30; ++k)
         for (const T other : {T(0.5), T(0.625), T(0.25)}) {

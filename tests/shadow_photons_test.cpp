@@ -43,7 +43,7 @@ SurfacePoint floor_point(float x, float z) {
 }
 Verdict verdict_of(const VerdictGrid& grid, const SurfacePoint& point, int side,
                    std::size_t light = 0) {
-    return grid.verdict(grid.place_of(point, side), light);
+    return grid.verdict(grid.cell_of(point, side), light);
 }
 std::vector<Photon> photons_of(const ClosedRoom& room, long long count,
                                std::uint64_t seed = 1) {
@@ -137,7 +137,7 @@ TEST_CASE("shadow photons: which way a side faces") {
     CHECK(detail::facing(detail::SmallNormal{90, 0, 90}, 1) == 0);
     CHECK(detail::facing(detail::SmallNormal{0, 90, 90}, 1) == 1);
     CHECK(detail::facing(detail::SmallNormal{73, 73, 73}, 1) == 0);
-    // A photon faces where it came from, whatever the normal says.
+    // A photon faces its origin, on either side of the normal.
     for (const int up : {127, -127}) {
         Photon photon = on_floor(0, 0, PhotonKind::direct);
         photon.normal.y = static_cast<std::int8_t>(up);
@@ -244,7 +244,7 @@ TEST_CASE("shadow photons: in one place each light has its own photons") {
             for (std::size_t light = 1; light < 4; ++light)
                 CHECK(verdict_of(grid, middle, 1, light) ==
                       (light == hidden ? Verdict::shadow : Verdict::lit));
-            CHECK(grid.indirect_near(grid.place_of(middle, 1)));
+            CHECK(grid.indirect_near(grid.cell_of(middle, 1)));
         }
     }
 }
@@ -428,7 +428,7 @@ TEST_CASE("shadow photons: what is known to be lit has the same bytes without ra
         CHECK(unable.counts.shadow_rays == before.counts.shadow_rays);
         settings.skip.rule = SkipRule::enough;
         const PhotonMapper few(world, settings, abilities<Skipping>);
-        CHECK(few.maps().general.empty()); // nobody else asks for it
+        CHECK(few.maps().general.empty()); // nothing else needs it
         const auto after = render(few, camera, small);
         CHECK(after.image.pixels == before.image.pixels);
         CHECK(after.counts.shadow_rays + after.counts.skipped_rays ==
@@ -611,7 +611,7 @@ TEST_CASE("shadow photons: no indirect ray where no indirect photon is near") {
     }
     CHECK(sum < 0.95 * should);
 
-    // A place next to an indirect photon is never called dark, whatever its brick.
+    // A point next to an indirect photon is never called dark, in any brick.
     const auto photons = photons_of(world, 300);
     SkipSettings skip{.indirect_rays = true, .radius = 0.05f};
     const VerdictGrid grid = make_verdict_grid(photons, 1, skip);
@@ -623,7 +623,7 @@ TEST_CASE("shadow photons: no indirect ray where no indirect photon is near") {
             const Vec3 step{float(i % 3 - 1), float(i / 3 % 3 - 1), float(i / 9 - 1)};
             const SurfacePoint point{.position = photon.position + 0.0499f * step,
                                      .normal = normal};
-            REQUIRE(grid.indirect_near(grid.place_of(point, side)));
+            REQUIRE(grid.indirect_near(grid.cell_of(point, side)));
         }
     }
 }
@@ -677,7 +677,7 @@ TEST_CASE("shadow photons: extremes") {
         SkipSettings dark = wide;
         dark.indirect_rays = true;
         const VerdictGrid seven = make_verdict_grid(photons, 7, dark);
-        CHECK_FALSE(seven.indirect_near(seven.place_of(point, 1)));
+        CHECK_FALSE(seven.indirect_near(seven.cell_of(point, 1)));
         for (std::size_t light = 0; light < 7; ++light)
             CHECK(verdict_of(seven, point, 1, light) == Verdict::unknown);
     }
@@ -741,7 +741,7 @@ TEST_CASE("shadow photons: extremes") {
                 .position = photon.position,
                 .normal = glm::normalize(Vec3T<double>(photon.normal))};
             const auto place =
-                grid.place_of(at, photon_side(photon.direction, at.normal));
+                grid.cell_of(at, photon_side(photon.direction, at.normal));
             known += grid.verdict(place, 0) != Verdict::unknown ? 1 : 0;
         }
         CHECK(known * 50 > int(traced.photons.size()) / 2);
@@ -973,10 +973,10 @@ TEST_CASE(
                                           on_floor(9, 0, PhotonKind::direct)};
         const VerdictGrid grid = make_verdict_grid(
             photons, 1, {.rule = rule, .indirect_rays = true, .radius = 0.5f});
-        CHECK(grid.indirect_near(grid.place_of(floor_point(0, 0), 1)));
-        CHECK(grid.indirect_near(grid.place_of(floor_point(0.4f, 0), 1)));
-        CHECK_FALSE(grid.indirect_near(grid.place_of(floor_point(9, 0), 1)));
-        CHECK_FALSE(grid.indirect_near(grid.place_of(floor_point(0, 0), -1)));
+        CHECK(grid.indirect_near(grid.cell_of(floor_point(0, 0), 1)));
+        CHECK(grid.indirect_near(grid.cell_of(floor_point(0.4f, 0), 1)));
+        CHECK_FALSE(grid.indirect_near(grid.cell_of(floor_point(9, 0), 1)));
+        CHECK_FALSE(grid.indirect_near(grid.cell_of(floor_point(0, 0), -1)));
     }
 }
 

@@ -41,7 +41,7 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 TEST_CASE("shape: every hit has a distance, a flat one also coordinates") {
     CHECK(as_hit(2.5f).t == 2.5f);
     CHECK(as_hit(2.5f).u == 0.0f);
-    const FlatHitT<float> flat{1, 0.25f, 0.5f};
+    const ShapeHitT<float> flat{1, 0.25f, 0.5f};
     CHECK(as_hit(flat).t == 1.0f);
     CHECK(as_hit(flat).v == 0.5f);
 }
@@ -85,7 +85,7 @@ TEST_CASE("shape: a sphere too small for its distance still has a normal") {
         for (const float radius : {1e-30f, 1e-12f, 1e-6f, 1e-3f}) {
             const Sphere grain{{far, far, -far}, radius};
             const Ray ray{.direction = glm::normalize(grain.center)};
-            FlatHitT<float> hit{.t = glm::length(grain.center)};
+            ShapeHitT<float> hit{.t = glm::length(grain.center)};
             if (const auto t = intersect<double>(ray, grain)) hit.t = *t;
             const SurfacePoint p = surface_point(grain, ray, hit);
             CHECK(is_finite(p.position));
@@ -285,9 +285,9 @@ TEST_CASE("shape: what there is without more said") {
     CHECK(Triangle{}.v1 == Vec3{0});
     CHECK(Triangle{}.v2 == Vec3{0});
     CHECK(Triangle{}.v3 == Vec3{0});
-    CHECK(Moving<Sphere>{}.way == Vec3{0});
+    CHECK(Moving<Sphere>{}.displacement == Vec3{0});
     CHECK(Ray{}.time == 0);
-    const FlatHitT<float> hit;
+    const ShapeHitT<float> hit;
     CHECK((hit.t == 0 && hit.u == 0 && hit.v == 0 && hit.part == 0));
     const SurfacePoint point;
     CHECK((point.position == Vec3{0} && point.error == Vec3{0}));
@@ -328,7 +328,7 @@ requires is_shape<S> std::optional<float> intersect(const Ray& ray, const S& s) 
 }
 template <typename S>
 requires is_shape<S> SurfacePoint surface_point(const S& s, const Ray& ray,
-                                                const FlatHitT<float>& hit) {
+                                                const ShapeHitT<float>& hit) {
     return ljus::surface_point(s.ball, ray, hit);
 }
 template <typename S>
@@ -350,7 +350,7 @@ requires(R == row("meets")) bool meets(const Ray&, const One<R>&) {
 }
 template <std::size_t R>
 requires(R == row("shading_normal")) Vec3
-    shading_normal(const One<R>&, const FlatHitT<float>&, const Vec3& n) {
+    shading_normal(const One<R>&, const ShapeHitT<float>&, const Vec3& n) {
     return n;
 }
 template <std::size_t R>
@@ -409,7 +409,7 @@ requires(R == row("corners_of")) std::array<Vec3, 3> corners_of(const One<R>&) {
 }
 template <std::size_t R>
 requires(R == row("texture_coordinates")) Vec2
-    texture_coordinates(const One<R>&, const FlatHitT<float>&, const SurfacePoint&) {
+    texture_coordinates(const One<R>&, const ShapeHitT<float>&, const SurfacePoint&) {
     return Vec2{0};
 }
 template <std::size_t R>

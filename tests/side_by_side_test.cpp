@@ -53,7 +53,7 @@ std::vector<Mean> blocks(int seeds, MakeImage make) {
     return means;
 }
 
-/// Blocks of two renderers: the same but for chance and a stated bias, relative.
+/// Blocks of two renderers: equal up to noise and a stated relative bias.
 void same(const std::vector<Mean>& a, const std::vector<Mean>& b, double bias) {
     double worst = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {

@@ -46,7 +46,7 @@ SoapFilmT<T> film_of(FilmColor color, T thickness, T index = T(1.33)) {
     return film;
 }
 
-/// A liquid that nobody has: it reflects so much that no mistake is small.
+/// An unreal liquid that reflects so much that no mistake is small.
 SoapFilm strong() {
     return {.thickness = 260, .index = 2.4f};
 }
@@ -150,7 +150,7 @@ TEST_CASE("soap film: one that cannot be is refused in a sentence") {
           "soap_film.table.index is 1.5; it must be soap_film.index: make it with "
           "bake_film_table(index).");
     CHECK(refusal({.color = FilmColor::table, .table{.index = 1.33f}}).empty());
-    CHECK(refusal({.table{.index = 1.5f}}).empty()); // nobody asks it
+    CHECK(refusal({.table{.index = 1.5f}}).empty()); // it is not used
     CHECK(refusal({.thickness = 1000001}).find("soap_film.thickness is 1000001") == 0);
     CHECK(refusal({.scale = INFINITY}).find("soap_film.scale is infinity") == 0);
     CHECK(refusal({.scale = NAN}).find("soap_film.scale is NaN") == 0);

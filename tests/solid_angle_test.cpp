@@ -388,7 +388,7 @@ inline std::optional<float> intersect(const Ray& ray, const Blind& s) {
     return ljus::intersect(ray, s.ball);
 }
 inline SurfacePoint surface_point(const Blind& s, const Ray& ray,
-                                  const FlatHitT<float>& hit) {
+                                  const ShapeHitT<float>& hit) {
     return ljus::surface_point(s.ball, ray, hit);
 }
 inline Sphere bounding_sphere(const Blind& s) {

@@ -1,5 +1,5 @@
 /// \file sphere_test.cpp
-/// \brief What must hold for a sphere, whatever formula finds the hit.
+/// \brief Properties of a sphere, for any formula that finds the hit.
 
 #include "ljus/geometry/sphere.hpp"
 

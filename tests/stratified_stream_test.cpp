@@ -161,7 +161,7 @@ TEST_CASE("stratified stream: of which seed, pixel and path its numbers are") {
     start_ray(neighbour, 4, 11, 4, pattern);
     CHECK(neighbour.key == stream.key); // of the pixel
     CHECK(neighbour.rest.key != stream.rest.key);
-    // A bounce begins at a place of its own, whatever was drawn before.
+    // A bounce begins at a fixed dimension, however many numbers were drawn before.
     StratifiedStream more = stream;
     (void)next_3d<double>(more);
     CHECK(more.dimension == 2);

@@ -1,5 +1,5 @@
 /// \file stratified_test.cpp
-/// \brief Primary rays: as many as asked for, spread evenly, whatever the number.
+/// \brief Primary rays: the requested number, spread evenly, for any number.
 ///
 /// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
 /// none failed.

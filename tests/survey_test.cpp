@@ -38,7 +38,7 @@ auto intersect(const Ray& ray, const Ball& ball) {
     return intersect(ray, ball.inner);
 }
 SurfacePoint surface_point(const Ball& ball, const Ray& ray,
-                           const FlatHitT<float>& hit) {
+                           const ShapeHitT<float>& hit) {
     return surface_point(ball.inner, ray, hit);
 }
 Sphere bounding_sphere(const Ball& ball) {
@@ -302,10 +302,10 @@ TEST_CASE("survey: a hook that is misspelt shows") {
     CHECK(lines[1].starts_with("shape QuadT<float> has bounds, area, "));
     CHECK(lines[2].ends_with(
         " has emission; without absorption (clear), at_point (the "
-        "same anywhere), uses_uv (uv is 0), both_ways (one branch at random), "
+        "same anywhere), uses_uv (uv is 0), split (one branch at random), "
         "pass_through (opaque), only_specular (write both)"));
     CHECK(lines[2].starts_with("material "));
-    CHECK(lines[3].starts_with("material GlassT<float> has absorption, both_ways, "
+    CHECK(lines[3].starts_with("material GlassT<float> has absorption, split, "
                                "only_specular; without emission (black), "));
 }
 
@@ -417,7 +417,7 @@ TEST_CASE("survey: lengths whose squares leave the range, and a gloss, by what i
     CHECK(said(2e9f) ==
           "coordinates reach 2e+09: above 1e9 the squares of areas leave the range of "
           "float; use double, or a larger unit of length");
-    // Along each axis, to both sides, whatever smaller thing comes before or after.
+    // Along each axis, to both sides, with smaller shapes before or after.
     for (int axis = 0; axis < 3; ++axis)
         for (const float side : {-1.5e9f, 1.5e9f}) {
             Scene<Shapes<Sphere>, Materials<Lambertian>> scene;

@@ -326,11 +326,11 @@ TEST_CASE("texture: each shape has its own coordinates") {
         CHECK(from({0, 0, 1}).y == doctest::Approx(0.5));
     }
     const Moving<Quad> moving{.shape{.edge_u{1, 0, 0}, .edge_v{0, 1, 0}},
-                              .way{5, 0, 0}};
+                              .displacement{5, 0, 0}};
     CHECK(of(moving, Ray{.origin{0.25f, 0.5f, 1}, .direction{0, 0, -1}}) ==
           Vec2{0.25f, 0.5f});
     // Of a ball that moves they are the globe's, wherever it is.
-    const Moving<Sphere> ball{.shape{.radius = 2}, .way{8, 0, 0}};
+    const Moving<Sphere> ball{.shape{.radius = 2}, .displacement{8, 0, 0}};
     const Vec2 at = of(ball, Ray{.origin{4, 0, -9}, .direction{0, 0, 1}, .time = 0.5f});
     CHECK(at.x == doctest::Approx(0.25));
     CHECK(at.y == doctest::Approx(0.5));
@@ -362,7 +362,7 @@ TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named")
     CHECK(said([&] {
               (void)decode_image(bytes, "half.png");
           }).find("half.png is damaged: ") == 0);
-    // Sizes that nobody can mean: of a bitmap, 0 x 0 and 2^30 x 2^30.
+    // Impossible sizes: of a bitmap, 0 x 0 and 2^30 x 2^30.
     for (const int high : {0x00, 0x40}) {
         Bytes bitmap(54 + 4);
         const Bytes head{'B', 'M', 58, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40};
@@ -524,7 +524,7 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
         damaged.resize(i);
         REQUIRE(refusal_of(damaged).find("a is damaged: it ends ") == 0);
     }
-    // A chunk of which the picture depends, with a name of bytes that are no letters.
+    // A critical chunk whose name is not of letters.
     Bytes chunk{0, 0, 0, 0, 'A', 0x1b, 0xff, '\n'};
     const std::uint32_t sum = detail::png_sum(chunk, 4, 8);
     for (const int shift : {24, 16, 8, 0})
@@ -581,7 +581,7 @@ TEST_CASE("texture: the tables of a JPEG file, segment by segment") {
     const auto add = [](Bytes& to, std::initializer_list<int> values) {
         for (const int value : values) to.push_back(static_cast<unsigned char>(value));
     };
-    // A table of so many entries, all of them codes of 8 bits, or the rest of 9.
+    // A table of this many entries, all codes of 8 bits, or the others of 9.
     const auto table = [&](Bytes& to, int entries) {
         add(to, {0, 0, 0, 0, 0, 0, 0, 0, std::min(entries, 255),
                  entries - std::min(entries, 255), 0, 0, 0, 0, 0, 0, 0});

@@ -335,7 +335,7 @@ TEST_CASE("film colour: a table by hand, to its last row and behind it") {
         .paths = 3,
         .longest = 4,
         .cells = {row(1), row(1), row(2), row(2), row(3), row(3), row(9), row(9),
-                  row(INFINITY)}}; // one more than it has: nobody reads it
+                  row(INFINITY)}}; // one more than it has: not read
     const auto at = [&](double path) { return look_up(table, 1.0, path).x; };
     CHECK(at(0) == 1);
     CHECK(at(0.25) == 1.5);

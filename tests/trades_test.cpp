@@ -225,7 +225,7 @@ TEST_CASE("trades: noise is relative to the pixel, where that is known") {
     // A firefly: 10 once, and 0.1 as all around. Over the mean of nine, 0.65.
     CHECK(noise_of(0.1f, 10) ==
           ljus_test::within(4.95 * 4.95 / (0.65 * 0.65 + 0.01), 1e-4));
-    // Black but for it: nothing is divided by 0.
+    // Black except for it: no division by 0.
     CHECK(std::isfinite(noise_of(0, 0)));
     CHECK(noise_of(0, 0) == 0);
 }

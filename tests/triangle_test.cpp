@@ -1,5 +1,5 @@
 /// \file triangle_test.cpp
-/// \brief What must hold for a triangle, whatever formula finds the hit.
+/// \brief Properties of a triangle, for any formula that finds the hit.
 
 #include "ljus/geometry/triangle.hpp"
 

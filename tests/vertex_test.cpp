@@ -65,7 +65,7 @@ TEST_CASE("vertex: what a path is in after a surface") {
 
 TEST_CASE("vertex: roulette leaves the mean as it was") {
     // Survivors are divided by the probability of surviving: three channels and four
-    // throughputs, of which one is a false alarm in 40 000 runs.
+    // throughputs; one false alarm in 40 000 runs.
     for (const Rgb before : {Rgb{0.9f, 0.5f, 0.1f}, Rgb{0.01f, 0.02f, 0}, Rgb{0.3f},
                              Rgb{2.25f, 1, 0.5f}}) {
         Mean after[3];
@@ -81,7 +81,7 @@ TEST_CASE("vertex: roulette leaves the mean as it was") {
             CHECK(std::abs(apart(after[c], double(before[c]), 1e-6)) <
                   once_in_a_million);
     }
-    // Above 1 nobody dies, and nothing is changed: inside glass throughputs are 2.25.
+    // Above 1 no path ends, and none is changed: inside glass throughputs are 2.25.
     Rgb bright{2.25f, 1, 0.5f};
     CHECK(survives(bright, 1.0f, 0.9999999f));
     CHECK(bright == Rgb{2.25f, 1, 0.5f});
@@ -731,8 +731,9 @@ TEST_CASE("vertex: coordinates of a texture, for those that look up by them") {
         return vertex_at(world, ray, *closest_hit(world, ray)).uv;
     };
     CHECK(uv(13) == Vec2{0.75f, 0.25f});
-    CHECK(uv(3) == Vec2{0}); // nobody asks
-    // A hit of a ball brings no coordinates: its normal, here (0.6, 0, 0.8), tells them.
+    CHECK(uv(3) == Vec2{0}); // not used
+    // A hit of a ball brings no coordinates: its normal, here (0.6, 0, 0.8), tells
+    // them.
     scene.add(Sphere{.center{20, 0.5f, -5}, .radius = 5}, paper);
     CHECK(uv(23).x != uv(17).x);
     CHECK(glm::distance(uv(23), map_coordinates(GlobeMap{}, Vec3{0.6f, 0, 0.8f})) <

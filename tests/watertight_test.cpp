@@ -198,7 +198,7 @@ TEST_CASE_TEMPLATE("watertight: what lies farther away than any number is a miss
 
 TEST_CASE_TEMPLATE("watertight: the axis is the one along which the ray is longest", T,
                    float, double) {
-    // Then nothing leans by more than 45 degrees; whatever the order of the others.
+    // Then nothing leans by more than 45 degrees, for any order of the others.
     for (const T x : {T(0), T(1e-9), T(1), T(2), T(-3)})
         for (const T y : {T(0), T(1e-9), T(1), T(2), T(-3)})
             for (const T z : {T(0), T(1e-9), T(1), T(2), T(-3)}) {

@@ -271,7 +271,7 @@ TEST_CASE("whitted: a mirror costs one ray, a matt floor none but its shadow ray
     (void)seen_along(WhittedTracer(world), down, stream, counts);
     CHECK(counts.bounce_rays == 0);
     CHECK(counts.shadow_rays == 1);
-    // A mirror asks no light, and without a light nobody is asked.
+    // A mirror sends no shadow ray, and without a light none is sent.
     counts = {};
     const RayT<double> up{.origin{0.3, 5, -0.2}, .direction{0, -1, 0}};
     (void)seen_along(WhittedTracer(world), up, stream, counts);
@@ -319,7 +319,7 @@ TEST_CASE("whitted: the tree doubles only if every ray meets glass again") {
 }
 
 TEST_CASE("whitted: roulette has the mean of both branches, at a ray for each turn") {
-    // Two means, of which one is a false alarm in 250 000 runs; with 20 further seeds
+    // Two means; one false alarm in 250 000 runs; with 20 further seeds
     // there was none.
     const World world(ball_scene<double>(GlassT<double>{glass_index}));
     for (const int depth : {2, 5}) {
@@ -328,7 +328,7 @@ TEST_CASE("whitted: roulette has the mean of both branches, at a ray for each tu
         const double both = seen_along(WhittedTracer(world, {.max_depth = depth}),
                                        at_the_ball<double>(), stream, counts)
                                 .x;
-        const WhittedTracer one(world, {.max_depth = depth, .both_ways = false});
+        const WhittedTracer one(world, {.max_depth = depth, .split_glass = false});
         const auto seen = mean_radiance(
             one, 20000, 5, [](RandomStream&) { return at_the_ball<double>(); });
         CAPTURE(depth);
@@ -581,7 +581,7 @@ TEST_CASE("whitted: at the extremes") {
     CHECK(said({.max_depth = 1000}).empty());
     const WhittedSettings silent = WhittedTracer(glass).settings();
     CHECK(silent.max_depth == 5);
-    CHECK(silent.both_ways);
+    CHECK(silent.split_glass);
     CHECK(silent.lamps);
     CHECK(silent.ambient == Rgb{0});
     // A light on the floor, in the middle of the glass, at the camera: no NaN.

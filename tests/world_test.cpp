@@ -542,8 +542,8 @@ TEST_CASE("world: what was changed in place is checked, what grew past add() ref
     auto grown = sound;
     std::get<0>(grown.shapes).push_back(Quad{});
     CHECK(close(grown) ==
-          "the number of shapes is 3; it must be that of their objects: "
-          "shapes are added by add().");
+          "the number of shapes is 3; it must be the number of their objects: "
+          "add shapes by add().");
     auto shrunk = sound;
     std::get<0>(shrunk.shapes).pop_back();
     CHECK(close(shrunk).find("the number of shapes is 1;") == 0);

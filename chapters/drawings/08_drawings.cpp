@@ -143,7 +143,7 @@ void draw_tree(const std::string& folder) {
     }
     const ljus::Bvh tree(boxes, {.leaf_size = 2});
     const ljus::Ray ray{.origin{-0.1f, 0.9f, 0}, .direction{1, 0.28f, 0}};
-    // What the ray meets first, and the boxes on the way to it.
+    // The first hit of the ray, and the boxes before it.
     int asked = 0, visited = 0;
     double nearest = 7.3;
     tree.closest(

@@ -68,7 +68,7 @@ void draw_field(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
-/// Sphere tracing in the plane: from each point the ray goes on by |f| / lambda.
+/// Sphere tracing in the plane: from each point the ray advances by |f| / lambda.
 void draw_steps(const std::string& folder) {
     Drawing drawing{.name = "metaballs-steps",
                     .description = "A ray at the surface. Around each point of sphere "

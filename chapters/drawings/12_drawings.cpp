@@ -76,7 +76,7 @@ void draw_polarisations(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
-/// Rays of several angles, as thick as the share of the flux that they carry.
+/// Rays of several angles, their width in proportion to their flux.
 void draw_shares(const std::string& folder) {
     Drawing drawing{.name = "fresnel-shares",
                     .description = "Four rays that meet glass at growing angles; the "

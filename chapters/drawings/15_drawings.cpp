@@ -109,7 +109,7 @@ void draw_distribution(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
-/// The light as a bar; each part of the mixture takes a piece of it.
+/// The light as a bar; each lobe of the mixture takes a piece of it.
 void draw_mixture(const std::string& folder) {
     Drawing drawing{.name = "materials-mixture",
                     .description = "A bar of all light. The mirror takes the share r, "

@@ -43,7 +43,7 @@ void draw_room(Drawing& drawing) {
     draw_line(drawing, {{5.0, 4.0}, {5.8, 4.0}}, {.color = colors::orange, .width = 6});
 }
 
-/// A shadow ray from a place to the lamp.
+/// A shadow ray from a point to the lamp.
 void draw_shadow_ray(Drawing& drawing, const Vec& from) {
     draw_line(drawing, {flat(from), lamp_place},
               {.color = colors::orange, .dashed = true});

@@ -46,7 +46,7 @@ void draw_penumbra(const std::string& folder) {
     draw_line(drawing, {{-3.6, 0}, {3.6, 0}}, {.width = 2});
     draw_line(drawing, {lamp[0], lamp[1]}, {colors::orange, 6});
     draw_line(drawing, {object[0], object[1]}, {.width = 5});
-    // One point in the penumbra, with shadow rays to five places of the lamp.
+    // One point in the penumbra, with shadow rays to five points of the lamp.
     const Point x{(inner[1].x + outer[1].x) / 2, 0};
     for (int i = 0; i < 5; ++i) {
         const Point y{-0.7 + 1.4 * (i + 0.5) / 5, 3};
@@ -80,7 +80,7 @@ void draw_lens_and_film(Drawing& drawing, double height) {
                    "currentColor", -12);
 }
 
-/// Camera rays: all from one place on the film meet in the plane of focus.
+/// Camera rays: all from one point on the film meet in the plane of focus.
 /// \param confusion  The letter c of the chapter for points at the depth `far`.
 void draw_camera_rays(Drawing& drawing, double far, double confusion) {
     draw_lens_and_film(drawing, 0);

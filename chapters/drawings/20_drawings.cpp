@@ -16,7 +16,7 @@ using examples::Drawing;
 using examples::Point;
 namespace colors = examples::colors;
 
-/// Two patches with a small part of each, and the angles at both.
+/// Two patches with an area element on each, and the angles at both.
 void draw_form_factor(const std::string& folder) {
     Drawing drawing{.name = "radiosity-form-factor",
                     .description =
@@ -97,8 +97,8 @@ void draw_exchange(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
-/// The error against time, from the table radiosity-trade.csv of 20_experiments.cpp: for
-/// gnuplot, which reads the table when all programs have run.
+/// The error against time, from the table radiosity-trade.csv of 20_experiments.cpp:
+/// for gnuplot, which reads the table when all programs have run.
 void plot_trade(const std::string& folder) {
     examples::save_text(
         folder + "/radiosity-trade.gp",

@@ -35,7 +35,7 @@ void draw_kinds(const std::string& folder) {
     draw_area(drawing, {box[0], box[1], box[2], box[3]}, "currentColor");
     draw_line(drawing, {box[0], box[1], box[2], box[3], box[0]}, {.width = 2});
     const Point lamp{1.6, h}, top{2.9, 1.9};
-    // The line goes on through the box to the floor.
+    // The line continues through the box to the floor.
     const double slope = (top.y - lamp.y) / (top.x - lamp.x);
     const Point bottom{top.x + (0.9 - top.y) / slope, 0.9},
         floor{top.x - top.y / slope, 0};

@@ -32,7 +32,7 @@ void draw_verdicts(const std::string& folder) {
                     .low{-0.2, -0.75},
                     .high{7.2, 2.7},
                     .scale = 90};
-    // How much of the lamp a place sees: from 0 at x = 2.6 to 1 at x = 4.4.
+    // The visible fraction of the lamp: from 0 at x = 2.6 to 1 at x = 4.4.
     const auto seen = [](double x) {
         return std::min(1.0, std::max(0.0, (x - 2.6) / 1.8));
     };

@@ -30,7 +30,7 @@ const flatland::Scene room{{
 }};
 
 /// The gather rays of a point of the floor.
-/// \return The harmonic mean of their lengths; a ray that meets nothing adds 0.
+/// \return The harmonic mean of their lengths; a ray that hits nothing adds 0.
 double draw_gather_rays(Drawing& drawing, double x, int rays, const char* color) {
     double inverse = 0;
     for (int k = 0; k < rays; ++k) {
@@ -88,7 +88,7 @@ double distance_on_floor(double x, double width, double height) {
     return 1 / inverse;
 }
 
-/// Points on a floor, how far each of them counts, and a place that asks.
+/// Points on a floor, the reach of each, and a point where irradiance is interpolated.
 void draw_idea(const std::string& folder) {
     constexpr double width = 9, height = 2.4, reach = 0.5;
     constexpr std::array places{0.12, 0.45, 0.8, 1.35, 1.9, 2.4, 3.0, 3.5, 4.2, 4.75};

@@ -15,7 +15,7 @@ using examples::Drawing;
 using examples::Point;
 namespace colors = examples::colors;
 
-/// The variance that two objects add, over the share of the first one.
+/// The variance due to two objects, against the fraction of the first one.
 void draw_sum(const std::string& folder) {
     Drawing drawing{.name = "budget-sum",
                     .description = "The variances that two objects add to a picture, "

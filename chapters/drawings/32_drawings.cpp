@@ -21,7 +21,7 @@ namespace colors = examples::colors;
 
 constexpr const char* thread_colors[] = {colors::blue, colors::orange, colors::green};
 
-/// A part of the list, who adds it up, and what comes out.
+/// A part of the list, the thread that adds it up, and the sum.
 struct Part {
     std::size_t first, last;
     int thread;

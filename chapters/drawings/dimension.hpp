@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file chapters/drawings/dimension.hpp
-/// \brief How long something in a drawing is: an arrow with two heads, and its letter.
+/// \brief A length in a drawing: an arrow with two heads, and its letter.
 
 #include <cmath>
 #include <string>
@@ -17,7 +17,7 @@ namespace examples {
 /// \param name     The letter, as draw_label() writes it.
 /// \param color    As CSS has it.
 /// \param aside    The letter's distance from the arrow in pixels; above 0 it stands to
-///                 the left of somebody who goes from `from` to `to`.
+///                 the left when going from `from` to `to`.
 inline void draw_dimension(Drawing& drawing, const Point& from, const Point& to,
                            const std::string& name,
                            const std::string& color = "currentColor",

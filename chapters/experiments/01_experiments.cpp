@@ -1,6 +1,6 @@
 // smoke: --quality draft --width 24 --height 16 --rays 2 --pixels 8
 /// \file chapters/experiments/01_experiments.cpp
-/// \brief Chapter 1: what patterns of rays in a pixel are worth; exposures and fields
+/// \brief Chapter 1: the error of patterns of rays in a pixel; exposures and fields
 /// of view.
 
 #include <algorithm>
@@ -154,7 +154,7 @@ void plot_errors(const std::string& folder, int pixels, int most) {
     save_table(folder, table);
 }
 
-/// A floor of tiles to the horizon: what is too fine for the pixels.
+/// A floor of tiles to the horizon, too fine for the pixels.
 struct Tiles {
     using Stream = ljus::RandomStream;
 };
@@ -198,7 +198,7 @@ void exposures(const examples::Options& options) {
     for (int stops = -4; stops <= 4; stops += 2)
         save_png(seen.image, options.path("exposure" + std::to_string(stops) + ".png"),
                  {.exposure = double(stops)});
-    // What a program writes if it forgets the curve.
+    // The picture of a program that forgets the curve.
     Image linear = seen.image;
     for (Rgb& c : linear.pixels)
         for (int k = 0; k < 3; ++k) c[k] = float(ljus::srgb_decode(double(c[k])));

@@ -32,7 +32,7 @@ using Ray = ljus::RayT<double>;
 
 constexpr double pi = std::numbers::pi;
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     int shots = 0;  ///< Rays for each count.
     int pixels = 0; ///< Side of the rings.
@@ -40,7 +40,7 @@ struct Sizes {
 
 // --- Counting rays --------------------------------------------------------------------
 
-/// The share of random directions from a point for which `hits` says yes.
+/// The fraction of random directions from a point for which `hits` is true.
 template <typename Hits>
 Estimate count(const Vec& from, int shots, std::uint64_t seed, Hits hits) {
     auto stream = ljus::random_stream(seed, ljus::Pass::user, 0, 0);
@@ -421,7 +421,7 @@ double deviation_of_noise(Filter filter, std::uint64_t number) {
     return std::sqrt(variance(white));
 }
 
-/// The time that a filter takes to choose a place in the pixel.
+/// The time that a filter takes to sample a point in the pixel.
 double nanoseconds_per_ray(Filter filter, std::uint64_t number) {
     return examples::nanoseconds_a_call(20000.0, [&] {
         float sum = 0;
@@ -439,7 +439,7 @@ void table_of_filters(const examples::Options& options, int samples) {
     examples::Table table{.name = "radiance-filter-table",
                           .columns = {"", "passes at 0.25", "passes at 1.5", "measured",
                                       "noise", "ns per ray"}};
-    // Waves of 1.5 whose crests stand at the middles of every other pixel: +, -, +, ...
+    // Waves of 1.5 whose crests are at the centres of every other pixel: +, -, +, ...
     const int side = 32;
     for (std::size_t i = 0; i < std::size(filters); ++i) {
         const auto waves = picture_of({.frequency = 1.5, .half = side / 2.0},

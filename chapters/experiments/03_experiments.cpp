@@ -35,7 +35,7 @@ using ljus::Rgb;
 
 constexpr double pi = std::numbers::pi;
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     int seeds = 0; ///< Runs behind each error.
     int most = 0;  ///< Samples of a run, at most.
@@ -166,7 +166,7 @@ void coverage(const std::string& folder, int runs) {
 
 // --- Which density --------------------------------------------------------------------
 
-/// Plot and table: the densities beside f, and what each brings.
+/// Plot and table: the densities beside f, and the error of each.
 void importance(const std::string& folder, int samples) {
     const Table steps;
     examples::Plot plot{
@@ -227,7 +227,7 @@ double both(Weights rule, ljus::RandomStream& stream) {
 }
 // [both]
 
-/// Plot and table: the weights, and what they bring for two samples.
+/// Plot and table: the weights, and the error of two samples with them.
 void multiple(const std::string& folder, int samples) {
     examples::Plot plot{.name = "monte_carlo-weights",
                         .columns = {"cosine c", "cosine by balance",
@@ -272,7 +272,7 @@ void multiple(const std::string& folder, int samples) {
     save_table(folder, table);
 }
 
-/// Table: samples that are only looked at with some probability.
+/// Table: samples that are evaluated only with some probability.
 void roulette(const std::string& folder, int samples) {
     examples::Table table{.name = "monte_carlo-roulette",
                           .columns = {"survives with", "samples looked at", "mean",
@@ -408,7 +408,7 @@ void hemisphere(const std::string& folder, const Sizes& sizes) {
 
 // --- The trade ------------------------------------------------------------------------
 
-/// Error against time for all that the chapter has, as it is measured.
+/// Error against time for all estimators of the chapter, as they are measured.
 struct Trade {
     examples::Plot plot{.name = "monte_carlo-trade",
                         .columns = {"time (microseconds)", "uniform", "cosine",
@@ -422,8 +422,8 @@ struct Trade {
                                       "time for 0.1 %, µs"}};
 };
 
-/// When the error is 0.1 %: from the curve, or where that does not reach so far, by its
-/// fitted slope.
+/// The time at which the error is 0.1 %: from the curve, or, if that ends earlier, by
+/// its fitted slope.
 double time_for_a_thousandth(const std::vector<double>& times,
                              const std::vector<double>& errors) {
     const auto law = examples::fit_power(times, errors);
@@ -484,7 +484,7 @@ auto by_points(Points points) {
     };
 }
 
-/// Plot: error against time for all that the chapter has.
+/// Plot: error against time for all estimators of the chapter.
 void trade(const std::string& folder, const Sizes& sizes) {
     const Table steps;
     const Uniform uniform;

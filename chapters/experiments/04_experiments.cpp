@@ -1,7 +1,8 @@
 // smoke: --quality draft --width 16 --height 16 --rays 1 --photons 2000 --truth 2
 /// \file chapters/experiments/04_experiments.cpp
-/// \brief Chapter 4: the experiments behind its tables and plots: the parts of a picture by
-/// their paths, Eq. 1 with and without visibility, and what of an error can be seen.
+/// \brief Chapter 4: the experiments behind its tables and plots: the parts of a
+/// picture by their paths, Eq. 1 with and without visibility, and what of an error can
+/// be seen.
 
 #include <algorithm>
 #include <array>
@@ -114,7 +115,7 @@ void truncations(const examples::Options& options) {
     save_table(options.path(""), table);
 }
 
-/// A room with nothing but diffuse surfaces: walls, two balls, a lamp.
+/// A room with only diffuse surfaces: walls, two balls, a lamp.
 auto matt_room() {
     ljus::Scene<ljus::Shapes<ljus::Quad, ljus::Sphere>,
                 ljus::Materials<ljus::Lambertian>>
@@ -133,8 +134,8 @@ auto matt_room() {
 }
 using MattRoom = decltype(matt_room());
 
-/// The first bounce of Eq. 1, integrated over the area of the lamp: light from points x''
-/// of the lamp, which x' sends on to the eye.
+/// The first bounce of Eq. 1, integrated over the area of the lamp: light from points
+/// x'' of the lamp, which x' sends on to the eye.
 // [area form]
 struct AreaForm {
     using Stream = ljus::RandomStream;
@@ -176,7 +177,7 @@ void visibility(const examples::Options& options) {
                  options.path(seen ? "g-visible.png" : "g-report.png"));
 }
 
-/// A map of FLIP as a picture: black where nobody sees a difference, white from 1/3 on.
+/// A map of FLIP as a picture: black where no difference is visible, white from 1/3 on.
 void save_flip_map(const Image& image, const Image& truth, const std::string& path) {
     auto map = flip_map(image, truth);
     for (auto& c : map.pixels)

@@ -1,7 +1,7 @@
 // smoke: --quality draft --cases 50
 /// \file chapters/experiments/05_experiments.cpp
-/// \brief Chapter 5: the experiments behind its plot and table: how often a ray starts on
-/// the wrong side of the surface that it leaves.
+/// \brief Chapter 5: the experiments behind its plot and table: how often a ray starts
+/// on the wrong side of the surface that it leaves.
 
 #include <array>
 #include <bit>
@@ -180,7 +180,7 @@ double nanoseconds(Way way) {
         15);
 }
 
-/// Plot and table: what each way gets wrong, by the size of the scene and in all.
+/// Plot and table: the wrong starts of each way, by the size of the scene and in all.
 void compare(const std::string& folder, int cases) {
     examples::Plot plot{.name = "ray-wrong",
                         .columns = {"size of the object, in scene units"},

@@ -1,7 +1,7 @@
 // smoke: --quality draft --cases 2000
 /// \file chapters/experiments/06_experiments.cpp
-/// \brief Chapter 6: the experiments behind its plots and its table: how often the printed
-/// formula fails, and what a better one costs.
+/// \brief Chapter 6: the experiments behind its plots and its table: how often the
+/// printed formula fails, and what a better one costs.
 
 #include <algorithm>
 #include <cmath>
@@ -59,9 +59,9 @@ float hit(const Ray& ray, const Sphere& sphere) {
     }
 }
 
-/// What a way got wrong on some rays.
+/// The errors of a way on some rays.
 struct Errors {
-    double wrong = 0;     ///< Share of rays whose hit or miss is wrong.
+    double wrong = 0;     ///< Fraction of rays whose hit or miss is wrong.
     double largest_t = 0; ///< Largest error of t, in radii, where both hit.
 };
 
@@ -161,7 +161,7 @@ double nanoseconds() {
     });
 }
 
-/// Table: what each way costs, and what it gets wrong.
+/// Table: the cost and the errors of each way.
 void tabulate_trade(const std::string& folder, std::size_t count) {
     const double times[] = {nanoseconds<printed>(), nanoseconds<glms>(),
                             nanoseconds<robust>(), nanoseconds<in_double>()};

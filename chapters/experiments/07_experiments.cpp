@@ -1,7 +1,7 @@
 // smoke: --quality draft --cases 300 --width 24
 /// \file chapters/experiments/07_experiments.cpp
-/// \brief Chapter 7: the experiments behind its plot and its first table: a vertex under
-/// the microscope, and what a test costs that lets no ray slip through.
+/// \brief Chapter 7: the experiments behind its plot and its first table: a vertex
+/// under the microscope, and the cost of a watertight test.
 
 #include <algorithm>
 #include <array>
@@ -126,8 +126,8 @@ Mesh dented_ball(double size, const Point& center) {
 /// What rays from within are aimed at.
 enum Aim { anywhere, edges, vertices, exactly };
 
-/// Rays from within. All origins are made first: in one loop with the directions, g++ 12
-/// from -O2 on aims from the doubles that an origin was rounded from, and misses.
+/// Rays from within. All origins are made first: in one loop with the directions, g++
+/// 12 from -O2 on aims from the doubles that an origin was rounded from, and misses.
 std::vector<Ray> rays_from_within(const Mesh& mesh, double size, Aim aim, int count) {
     Numbers n{static_cast<std::uint64_t>(aim) + 1};
     std::vector<Ray> rays(static_cast<std::size_t>(count));
@@ -147,7 +147,7 @@ std::vector<Ray> rays_from_within(const Mesh& mesh, double size, Aim aim, int co
     return rays;
 }
 
-/// The share of rays from within that meet no triangle.
+/// The fraction of rays from within that hit no triangle.
 template <Way way>
 double leaks(const Mesh& mesh, double size, Aim aim, int rays) {
     long lost = 0;

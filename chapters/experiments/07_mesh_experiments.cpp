@@ -1,7 +1,7 @@
 // smoke: --quality draft --photons 3000 --cuts 2 --width 24 --height 16 --rays 1
 /// \file chapters/experiments/07_mesh_experiments.cpp
-/// \brief Chapter 7: the experiments behind its other plot and table: what smooth normals do
-/// to light, and what a mesh costs.
+/// \brief Chapter 7: the experiments behind its other plot and table: the effect of
+/// smooth normals on light, and what a mesh costs.
 
 #include <cmath>
 #include <cstdio>
@@ -26,7 +26,7 @@ namespace {
 using Open = Scene<Shapes<Mesh, Sphere, Quad>, Materials<Lambertian, Mirror, Glass>>;
 using Room = World<Open>;
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     long long photons = 0; ///< Aimed at the glass.
     int cuts = 0;          ///< Of the finest ball of the tables.
@@ -55,10 +55,10 @@ Room glass_room(const MeshData& glass) {
 }
 
 /// The photons that a glass mesh sends to the floor.
-/// \param factor  Whether they are scattered as flux, with the adjoint's factor. Scattered
-///                as radiance they go the same way without it; the n^2 of radiance is
-///                left out, too.
-/// \param share   Becomes their part of the flux that met the glass.
+/// \param factor  Whether they are scattered as flux, with the adjoint's factor.
+///                Scattered as radiance they go the same way without it; the n^2 of
+///                radiance is left out, too.
+/// \param share   Set to their fraction of the flux that hit the glass.
 std::vector<Photon> glass_photons(const Room& room, long long count, bool factor,
                                   std::uint64_t seed, double& share) {
     const LightChoice choice = room.light_choice();

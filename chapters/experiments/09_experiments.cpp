@@ -1,7 +1,7 @@
 // smoke: --quality draft --cases 200
 /// \file chapters/experiments/09_experiments.cpp
-/// \brief Chapter 9: the experiments behind its plots and its table: four solvers for the
-/// same rays.
+/// \brief Chapter 9: the experiments behind its plots and its table: four solvers for
+/// the same rays.
 
 #include <algorithm>
 #include <array>
@@ -48,7 +48,7 @@ double hit(const Ray& ray, const Balls& balls) {
         return intersect<ljus::SphereTracing>(ray, balls).value_or(miss);
 }
 
-/// A ray and what it is shot at.
+/// A ray and its target.
 struct Case {
     Ray ray;
     Balls balls;
@@ -100,9 +100,9 @@ double truth(const Case& c) {
     return t ? static_cast<double>(*t) : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// What a way got wrong.
+/// The errors of a solver.
 struct Errors {
-    double wrong = 0;    ///< Share of rays whose hit or miss is wrong.
+    double wrong = 0;    ///< Fraction of rays whose hit or miss is wrong.
     double distance = 0; ///< The largest distance |f|/|grad f| of a hit to the surface.
 };
 
@@ -195,7 +195,7 @@ void plot_time(const examples::Options& options, int count) {
     save_plot(options.path(""), plot);
 }
 
-/// Table: what each solver costs, and what it gets wrong.
+/// Table: the cost and the errors of each solver.
 void tabulate(const examples::Options& options, int count) {
     Numbers n{7};
     const auto heaps = made(count, [&] { return heap(n, 8); });

@@ -1,7 +1,7 @@
 // smoke: --quality draft --bounces 100
 /// \file chapters/experiments/10_experiments.cpp
 /// \brief Chapter 10: the experiments behind its plots and its table: light between two
-/// mirrors, and what rounding does to a ray that is reflected for ever.
+/// mirrors, and the rounding of a ray that is reflected again and again.
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 24 --rays 1
 /// \file chapters/experiments/14_experiments.cpp
 /// \brief Chapter 14: the experiments behind its tables and plots: six models of rough
-/// surfaces, and what they return of a white sky.
+/// surfaces, and the fraction of a white sky that they reflect.
 
 #include <algorithm>
 #include <cmath>

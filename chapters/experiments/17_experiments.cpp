@@ -29,10 +29,10 @@ using TwoBallsScene = ljus::Scene<
     ljus::Lights<ljus::PointLight>>;
 using TwoBalls = ljus::World<TwoBallsScene>;
 
-/// What the sky sends, W/(m^2 sr).
+/// The radiance of the sky, W/(m^2 sr).
 const Rgb sky{0.16f, 0.27f, 0.5f};
 
-/// The picture that everybody knows: a ball of glass before a mirror, over a floor of
+/// Whitted's well-known picture: a ball of glass before a mirror, over a floor of
 /// red and yellow tiles, under a blue sky.
 TwoBalls two_balls() {
     TwoBallsScene scene;
@@ -57,8 +57,9 @@ ljus::Camera two_balls_camera() {
 
 /// The sky is seen, but no shadow ray asks for its light. Ambient light takes its
 /// place: the same from everywhere, and no ball shades it.
-ljus::WhittedSettings settings_of(int depth, bool both_ways = true) {
-    return {.max_depth = depth, .both_ways = both_ways, .lamps = false, .ambient = sky};
+ljus::WhittedSettings settings_of(int depth, bool split_glass = true) {
+    return {
+        .max_depth = depth, .split_glass = split_glass, .lamps = false, .ambient = sky};
 }
 
 /// A picture of the two balls, with a progress bar.

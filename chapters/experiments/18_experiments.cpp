@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 16 --rays 4 --most 4
 /// \file chapters/experiments/18_experiments.cpp
 /// \brief Chapter 18: the experiments behind its tables, plots and pictures: edges,
-/// soft shadows, gloss, a lens and motion, and what evenly spread numbers cost.
+/// soft shadows, gloss, a lens and motion, and the cost of evenly spread numbers.
 
 #include <algorithm>
 #include <array>
@@ -236,7 +236,8 @@ void curves(const std::string& name, const Shot& shot, int most,
     std::vector<std::string> cells{name};
     for (const auto& curve : error)
         cells.push_back(examples::text(slope(n, curve), "%.2f"));
-    // The number of random rays that have the error of one: it falls as n^-1/2.
+    // The number of random rays with the same error as one such ray; error falls as
+    // n^-1/2.
     const double ratio = error[0].back() / error[2].back();
     cells.push_back(examples::text(error[2].back(), "%.2g"));
     cells.push_back(examples::text(ratio * ratio, "%.1f"));
@@ -268,7 +269,7 @@ void jagged(const Shot& shot, const examples::Options& options) {
              options.path("distributed_rays-pixel-few.png"));
 }
 
-// What evenly spread numbers cost.
+// The cost of evenly spread numbers.
 
 template <typename Ball>
 using Balls = ljus::Scene<ljus::Shapes<Ball, Quad>, ljus::Materials<ljus::Lambertian>,

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 16 --height 16 --rays 1 --most 4 --runs 3 --paths 50
 /// \file chapters/experiments/19_experiments.cpp
-/// \brief Chapter 19: the experiments behind its tables, plots and pictures: who finds
-/// the lamp, roulette, and what a fixed depth leaves out.
+/// \brief Chapter 19: the experiments behind its tables, plots and pictures: how paths find
+/// the lamp, roulette, and the light that a fixed depth leaves out.
 
 #include <algorithm>
 #include <array>
@@ -36,7 +36,7 @@ using ljus::Vec3;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     int most = 0;  ///< Most rays per pixel in the curves of noise.
     int runs = 0;  ///< Of roulette with a constant probability.
@@ -47,7 +47,7 @@ struct Sizes {
 
 using Matt = ljus::Scene<ljus::Shapes<Quad, Sphere>, ljus::Materials<ljus::Lambertian>>;
 
-/// A room with nothing but diffuse surfaces, its front open.
+/// A room with only diffuse surfaces, its front open.
 ljus::Room<Matt> matt_room() {
     Matt scene;
     ljus::add_cornell_walls(scene);
@@ -61,7 +61,7 @@ ljus::Room<Matt> matt_room() {
 }
 
 /// The camera of all measurements of noise: it does not see the lamp, whose edge is
-/// noisier than all the rest.
+/// noisier than everything else.
 ljus::Camera low_camera() {
     return ljus::look_at(
         {.position{0, 1, 4.4f}, .target{0, 0.6f, 0}, .vfov_degrees = 22});
@@ -185,7 +185,7 @@ void in_the_box(const examples::Options& options) {
     print(table, options);
 }
 
-/// A path log that adds up the light that one owner carries.
+/// A path log that sums the light of one owner.
 struct OwnerLog {
     std::string_view owner;
     Rgb sum{0};
@@ -317,7 +317,7 @@ Mean furnace_mean(float albedo, const PathTracingSettings& settings, int paths,
             1 + double(counts.bounce_rays) / paths};
 }
 
-/// Plot: what a fixed depth leaves out, in furnaces and in the room.
+/// Plot: the light that a fixed depth leaves out, in furnaces and in the room.
 void depths(const examples::Options& options, const Sizes& sizes) {
     const std::array albedos{0.5f, 0.75f, 0.9f};
     examples::Plot plot{.name = "path_tracing-depth",
@@ -371,7 +371,7 @@ void depths(const examples::Options& options, const Sizes& sizes) {
     }
 }
 
-/// The variance of a path in a furnace of emission 1, if it goes on with a constant
+/// The variance of a path in a furnace of emission 1, if it continues with a constant
 /// probability p.
 double furnace_variance(double rho, double p) {
     const double r = rho / p, s = rho * rho / p, mean = 1 / (1 - rho);
@@ -446,7 +446,7 @@ void constant_chances(const examples::Options& options, const Sizes& sizes) {
     print(table, options);
 }
 
-/// A roulette: the probability to go on is throughput / threshold, or most if less.
+/// A roulette: the probability of surviving is throughput / threshold, at most `most`.
 struct RouletteCase {
     std::string name;
     double threshold, most;

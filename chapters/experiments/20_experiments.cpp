@@ -36,7 +36,7 @@ using Color = RgbT<double>;
 constexpr double pi = std::numbers::pi;
 using Stage = Scene<Shapes<Quad>, Materials<Lambertian>>;
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     double patch = 0; ///< Side of the finest patches of the room.
     int steps = 0;    ///< How many sizes of patches.
@@ -65,7 +65,7 @@ struct Lap {
 
 // --- The rooms ------------------------------------------------------------------------
 
-/// A block that stands on the floor, turned around its middle.
+/// A block on the floor, rotated about its centre.
 void add_block(Stage& scene, MaterialId matt, const Vec3& middle, const Vec3& size,
                double degrees) {
     const auto angle = float(degrees * pi / 180);
@@ -199,7 +199,8 @@ void residuals(const examples::Options& options, const Sizes& sizes) {
 /// Pictures: the room after a few shots.
 void progress(const examples::Options& options) {
     const auto room = block_room();
-    // Four patches of the lamp, in every quality, so that four shots are direct light.
+    // The lamp has four patches in every quality, so that four shots give the direct
+    // light.
     const Patches patches = make_patches(room.world, {.size = 0.31});
     const auto factors = make_form_factors(
         room.world, patches,
@@ -361,7 +362,7 @@ constexpr std::uint32_t wall_count = 5; ///< Of the room, before its blocks.
 template <typename Value>
 using Quarters = std::array<std::array<Value, 4>, wall_count>;
 
-/// The light on a quarter of a wall, by paths that begin there.
+/// The light on a quarter of a wall, by paths that start there.
 template <typename Tracer>
 Estimate traced_light(const Tracer& tracer, std::uint32_t wall, std::uint32_t quarter,
                       int paths, std::uint64_t seed) {
@@ -390,7 +391,7 @@ Estimate traced_light(const Tracer& tracer, std::uint32_t wall, std::uint32_t qu
 
 /// The mean irradiance that a solution gives to each quarter of a wall.
 std::array<double, 4> quarters_of(const LightMap& map, std::uint32_t wall) {
-    // Which part of a row or column of patches lies in one half of the wall; a row
+    // The fraction of a row or column of patches in one half of the wall; a row
     // across the middle belongs to both halves.
     const auto part = [](std::uint32_t i, std::uint32_t n, bool high) {
         const double from = high ? 0.5 : 0, to = from + 0.5;

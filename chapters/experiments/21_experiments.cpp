@@ -37,7 +37,7 @@ namespace {
 using Cornell = World<CornellSceneT<float>>;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     int rungs = 0; ///< Efforts tried, each four times the one before.
     int seeds = 0; ///< Runs of each.
@@ -50,16 +50,16 @@ struct Sizes {
 struct Shot {
     Image image{};           ///< The picture.
     Counts counts{};         ///< Rays of the view.
-    double solution = 0;     ///< Seconds for what does not know the camera.
+    double solution = 0;     ///< Seconds for what does not depend on the camera.
     double view = 0;         ///< Seconds for the picture.
-    std::size_t memory = 0;  ///< Bytes of what is kept for other views.
-    std::size_t working = 0; ///< Bytes of what is needed while it is made.
+    std::size_t memory = 0;  ///< Bytes kept for other views.
+    std::size_t working = 0; ///< Peak bytes while it is made.
     long long photons = 0;   ///< How many were emitted.
 
     [[nodiscard]] double seconds() const { return solution + view; }
 };
 
-/// A renderer with all that an effort decides: rays, photons and radius, or patches.
+/// A renderer whose rays, photons and radius, or patches, follow from an effort.
 struct Method {
     std::string name; ///< As in plots.
     std::string file; ///< As in names of files.
@@ -109,7 +109,7 @@ std::size_t bytes_of(const PhotonMap& map) {
     return map.tree.bytes() + map.records.bytes();
 }
 
-/// The photon maps' efforts: as many photons as there are rays to make use of them, and
+/// The photon maps' efforts: photons in proportion to the rays, and
 /// a radius that shrinks with their sixth root, so that bias and noise fall together.
 // [photon effort]
 PhotonMappingSettings photon_settings(IndirectLight indirect, double effort,
@@ -128,7 +128,7 @@ PhotonMappingSettings photon_settings(IndirectLight indirect, double effort,
 
 using Cameras = std::vector<Camera>;
 
-/// A method whose renderer needs nothing but the scene.
+/// A method whose renderer needs only the scene.
 template <typename Make>
 Method by_rays(const std::string& name, const std::string& file, Make make,
                const examples::Options& options) {
@@ -211,7 +211,7 @@ struct Rung {
     double rays = 0;       ///< Of the view.
     double photons = 0;    ///< Emitted.
     BiasVariance pixels{}; ///< The two parts of relMSE.
-    BiasVariance blocks{}; ///< The same of the means of 10 x 10 pixels.
+    BiasVariance blocks{}; ///< The same for means of 10 x 10 pixels.
     Image image{};         ///< Of the first seed.
 
     [[nodiscard]] double error(bool block) const {
@@ -220,7 +220,7 @@ struct Rung {
     }
 };
 
-/// A room, its truth, and what all methods made of it.
+/// A room, its reference, and the results of all methods.
 struct Study {
     std::string name;                      ///< Of the room.
     Room<CornellSceneT<float>> room;       ///< The room.
@@ -233,7 +233,7 @@ struct Study {
 /// A path tracer for the reference: at every surface the random numbers of a pixel's
 /// rays are stratified, and caustics come from photons.
 struct Judge {
-    using Stream = StratifiedStream; ///< What render() gives it to draw from.
+    using Stream = StratifiedStream; ///< The random stream that render() passes to it.
     const Cornell& world;            ///< Of a room.
     const PhotonMap& caustics;       ///< Empty in the matt room.
     DensityEstimateSettings gather;  ///< In discs smaller than a pixel.
@@ -273,7 +273,7 @@ Rgb radiance(const Judge& judge, const Ray& ray, auto& context) {
 }
 // [judge]
 
-/// A room by the judge.
+/// A room by the renderer of the reference.
 /// \param photons  Of the caustics map.
 /// \param radius   Of its discs, m.
 /// \param options  Its size, and the number of threads.
@@ -298,7 +298,7 @@ Image judged(const Room<CornellSceneT<float>>& room, int rays, long long photons
     return std::move(rendered.image);
 }
 
-/// The truth: the mean of eight pictures, which tell its own error.
+/// The reference: the mean of eight pictures, whose scatter gives its error.
 /// \param panels  As options, but with the size of what is shown.
 void find_truth(Study& study, int rays, const examples::Options& options,
                 const examples::Options& panels) {
@@ -331,7 +331,7 @@ void climb(Study& study, const std::vector<Method>& all,
             std::vector<Image> images;
             std::vector<double> seconds;
             for (int seed = 0; seed < sizes.seeds; ++seed) {
-                // A processor's clock may tick a hundred times a second only.
+                // A processor clock may tick only a hundred times a second.
                 Shot shot;
                 Lap lap;
                 double spent = 0;
@@ -401,7 +401,7 @@ void plots(const Study& study, const std::vector<Method>& all,
     }
 }
 
-/// Slopes, and what of the best run's error is bias.
+/// Slopes, and the bias in the best run's error.
 void split_table(const Study& study, const std::vector<Method>& all,
                  const examples::Options& options) {
     examples::Table table{.name = "side_by_side-" + study.name + "-split",
@@ -473,7 +473,7 @@ double effort_for(const std::vector<Rung>& rungs, double seconds) {
     return 1;
 }
 
-/// All renderers, each as good as it gets in the same time; `larger`: what is shown of
+/// All renderers at the same time; `larger`: also the pictures of
 /// the first of the times, in more pixels by the same effort.
 void equal_time(const Study& study, const std::vector<Method>& all,
                 const std::vector<Method>& larger, const examples::Options& options) {
@@ -540,7 +540,7 @@ void equal_error(const Study& study, const std::vector<Method>& all,
         }
         table.rows.push_back(row);
         if (study.name != "matt") continue;
-        // The panel: where it has the first error, or as near to it as it came.
+        // The panel: the run with the first error, or the closest one.
         const double effort =
             examples::reach(column(rungs, [](const Rung& r) { return r.effort; }),
                             errors(rungs, targets[1].block), targets[1].error);
@@ -555,7 +555,7 @@ void equal_error(const Study& study, const std::vector<Method>& all,
 
 // --- Who carries what -----------------------------------------------------------------
 
-/// The classes of paths that are told apart.
+/// The classes of paths that are distinguished.
 constexpr std::array class_names{"EL",      "ES+L",       "EDL", "ES+DL",
                                  "ES*DS+L", "E.*D.*D.*L", "E.*L"};
 
@@ -571,7 +571,7 @@ struct ClassSum {
 };
 using ClassSums = std::array<ClassSum, class_names.size()>;
 
-/// What is the same for all renderers when their classes are measured.
+/// Settings common to all renderers when their classes are measured.
 struct ClassStudy {
     const Study& study;
     const examples::Options& options;
@@ -579,7 +579,7 @@ struct ClassStudy {
     std::vector<LightPathExpression> classes{};
 };
 
-/// The means over the seeds of what `make` finds.
+/// The means over the seeds of the results of `make`.
 template <typename Make>
 ClassSums over_seeds(const ClassStudy& of, Make make) {
     ClassSums sums{};
@@ -688,7 +688,7 @@ void class_table(const Study& study, const examples::Options& options,
 
 // --- One solution, many views ---------------------------------------------------------
 
-/// The cost of the first view and of each further one, and what is kept in memory.
+/// The cost of the first view and of each further one, and the memory kept.
 void views(const Study& study, const std::vector<Method>& all,
            const std::vector<Method>& larger, const examples::Options& options,
            const Sizes& sizes) {
@@ -741,7 +741,7 @@ void views(const Study& study, const std::vector<Method>& all,
 /// Makes the plots, tables and further pictures of chapter 21.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;

@@ -1,6 +1,6 @@
 // smoke: --quality draft --photons 500 --paths 2000 --width 40 --height 40
 /// \file chapters/experiments/22_experiments.cpp
-/// \brief Chapter 22: what roulette may not lose, and what aiming saves; spots and
+/// \brief Chapter 22: roulette that loses no flux, and the savings of aiming; spots and
 /// suns, and photons that are spread evenly.
 
 #include <algorithm>
@@ -35,7 +35,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     long long photons = 0; ///< Dots in the pictures.
     long long paths = 0;   ///< Photons behind each number of the tables.
@@ -59,7 +59,7 @@ long long add_dots(Image& image, const Room<S>& room,
         const auto y = static_cast<int>(std::floor(place->y));
         if (x < 0 || y < 0 || x >= image.width || y >= image.height) continue;
 
-        // Whatever stands in front of the photon hides it.
+        // Objects in front of the photon hide it.
         const Vec3 way = photon.position - room.camera.position;
         const Ray ray{
             .origin = room.camera.position, .direction = way, .t_max = 0.999f};
@@ -70,7 +70,7 @@ long long add_dots(Image& image, const Room<S>& room,
     return seen;
 }
 
-/// How many photons of either kind there are, and what they carry.
+/// The number and the flux of the photons of either kind.
 void count_photons(const examples::Options& options, long long count) {
     const auto room = final_room<float>();
     const auto traced = trace_photons(
@@ -97,7 +97,7 @@ void count_photons(const examples::Options& options, long long count) {
 
 // --- Roulette -------------------------------------------------------------------------
 
-/// The roulette of the report's program: who survives is not divided by the
+/// The roulette of the report's program: survivors are not divided by the
 /// probability.
 // [uncompensated]
 std::optional<Rgb> play_uncompensated(Rgb flux, Rgb weight, float u) {
@@ -108,10 +108,10 @@ std::optional<Rgb> play_uncompensated(Rgb flux, Rgb weight, float u) {
 }
 // [uncompensated]
 
-/// How a photon's life ends.
+/// How a photon's path ends.
 enum class End { roulette, uncompensated, faint };
 
-/// The flux that arrives at each surface of a photon's way, in units of the light's,
+/// The flux that arrives at each surface of a photon's path, in units of the light's,
 /// and how many surfaces a photon met.
 struct Arrivals {
     std::array<double, 16> at{}; ///< At the first surface, the second, ...
@@ -119,7 +119,7 @@ struct Arrivals {
     double surfaces = 0;         ///< The mean over the photons.
 };
 
-/// Photons in a closed room, all of whose walls reflect the same share.
+/// Photons in a closed room, all of whose walls have the same albedo.
 Arrivals bounce(float albedo, End end, long long paths, std::uint64_t seed) {
     Scene<Shapes<Sphere>, Materials<Lambertian>, Lights<PointLight>> scene;
     const auto wall = scene.add(Lambertian{.albedo = Rgb{albedo}});
@@ -213,7 +213,7 @@ struct Brought {
 };
 
 /// Sends photons one by one.
-/// \param one_photon  Sends one, and returns the flux that it brings.
+/// \param one_photon  Sends one, and returns the flux that arrives.
 template <typename OnePhoton>
 Brought send(const examples::Options& options, long long paths, OnePhoton one_photon) {
     Brought brought;
@@ -282,7 +282,7 @@ void plot_aims(const examples::Options& options, const Brought& everywhere,
     const auto milliseconds = [](const Brought& b, std::size_t n) {
         return double(n) * b.nanoseconds * 1e-6;
     };
-    // No fewer than 16 means behind a point.
+    // At least 16 means for each point.
     for (std::size_t n = 1; 16 * n <= everywhere.each.size(); n *= 4)
         plot.rows.push_back(
             {milliseconds(everywhere, n), spread_of_means(everywhere, n), nothing});
@@ -403,7 +403,7 @@ Orders follow(const W& room, const LightChoice& choice, Stream stream) {
     return brought;
 }
 
-/// The mean of one pass, and how far passes lie apart.
+/// The mean of one pass, and the scatter of the passes.
 struct Spread {
     Orders mean{}, deviation{}; ///< Over the seeds, relative to the mean.
 };
@@ -525,7 +525,7 @@ void compare_numbers(const examples::Options& options) {
 // --- Roulette with another probability ------------------------------------------------
 
 /// The flux of one photon that arrives at all surfaces together, if it survives each
-/// with the probability p and then carries rho / p of what it had.
+/// with the probability p and then carries rho / p times its flux.
 void compare_probabilities(const examples::Options& options, long long paths) {
     const double rho = 0.75;
     examples::Table table{.name = "emission-probability",
@@ -618,7 +618,7 @@ void plot_error(const examples::Options& options) {
 /// Makes the pictures, plots and tables behind chapter 22.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;

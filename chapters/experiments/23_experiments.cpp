@@ -1,6 +1,6 @@
 // smoke: --quality draft --points 3000 --photons 500 --width 60
 /// \file chapters/experiments/23_experiments.cpp
-/// \brief Chapter 23: the boxes of a k-d tree, and what a search costs beside other
+/// \brief Chapter 23: the boxes of a k-d tree, and the cost of a search beside other
 /// structures.
 
 #include <algorithm>
@@ -28,8 +28,8 @@ namespace {
 
 // --- Pictures: photons of the floor, seen from above ----------------------------------
 
-/// Where photons lie on the floor of the report's room, those behind its glass ball
-/// among them.
+/// The positions of photons on the floor of the report's room, with those behind its
+/// glass ball included.
 std::vector<Vec3> on_floor(const examples::Options& options, long long photons) {
     const auto room = final_room<float>();
     std::vector<Vec3> points;
@@ -138,7 +138,7 @@ struct BruteForce {
     std::size_t bytes() const { return points.size() * sizeof(Vec3); }
 };
 
-/// The radius within which 50 points lie, in the median over places.
+/// The radius that holds 50 points, as the median over centres.
 float radius_of_50(const KdTree8& tree, const std::vector<Vec3>& centers) {
     std::vector<double> radii;
     std::array<Neighbor, 50> room;
@@ -151,7 +151,7 @@ float radius_of_50(const KdTree8& tree, const std::vector<Vec3>& centers) {
     return float(radii[radii.size() / 2]);
 }
 
-double sink = 0; // what searches find goes here, so that none is left out
+double sink = 0; // sum of the results, so that no search is optimised away
 
 /// Times of one structure: building, all within a ball, the 50 nearest.
 template <typename Make>
@@ -260,7 +260,7 @@ void plot_time(const examples::Options& options) {
 /// Makes the pictures of boxes, the plot and the tables of chapter 23.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long points = 0, photons = 0;

@@ -61,7 +61,7 @@ void census_of_figures(const examples::Options& options, long long count) {
             return photon.kind == kind ? Rgb{1} : Rgb{0};
         });
         std::array<double, 2> lamp{};
-        long long behind = 0; // on the inner side of a matt ball, where nobody looks
+        long long behind = 0; // on the inner side of a matt ball, never visible
         for (const Photon& photon : traced.photons) {
             if (photon.kind != kind) continue;
             lamp[photon.light] += double(photon.flux.y);
@@ -77,7 +77,7 @@ void census_of_figures(const examples::Options& options, long long count) {
     }
     examples::show_table(options, table);
 
-    // Each photon knows its lamp: what either would light, and does not.
+    // Each photon knows its lamp: the regions that either lamp does not reach.
     Image image = drawing;
     (void)dots(image, [](const Photon& photon) {
         if (photon.kind != PhotonKind::shadow) return Rgb{0};
@@ -88,8 +88,8 @@ void census_of_figures(const examples::Options& options, long long count) {
 
 // --- The map as a picture -------------------------------------------------------------
 
-/// The general map, looked at: no shadow ray and no indirect ray, only what the photons
-/// say where a camera path first meets a matt surface.
+/// The general map seen directly: no shadow rays and no indirect rays, only the
+/// estimate of the photons where a camera path first hits a matt surface.
 template <AnyWorld W>
 struct MapView {
     using Stream = RandomStream;
@@ -146,14 +146,14 @@ void map_as_picture(const examples::Options& options) {
 
 // --- Irradiance -----------------------------------------------------------------------
 
-/// What direct photons say of the irradiance at a point of the floor y = 0.
+/// The estimate by direct photons of the irradiance at a point of the floor y = 0.
 double irradiance(const PhotonMap& map, const Point& at, double radius) {
     return examples::irradiance_read(map, Vec3(at), Vec3{0, 1, 0},
                                      {.radius = float(radius)},
                                      one_kind(PhotonKind::direct));
 }
 
-/// What a rectangular lamp above it gives that point.
+/// The exact irradiance there of a rectangular lamp above.
 double irradiance_from(const Quad& lamp, const Point& at) {
     return examples::irradiance_from(lamp, at, {0, 1, 0});
 }
@@ -165,7 +165,7 @@ using examples::Boxes;
 constexpr double leak_radius = 0.15; ///< Of the estimates.
 constexpr int leak_steps = 120;      ///< Along the floor, from wall to wall.
 
-/// A place on the floor of the two rooms.
+/// A point on the floor of the two rooms.
 struct FloorPlace {
     const char* name;
     Point at;
@@ -178,7 +178,7 @@ constexpr std::array<FloorPlace, 6> floor_places{
      {"at the wall between, dark side", {1e-6, 0, 0.5}},
      {"half a radius into the dark", {0.075, 0, 0.5}}}};
 
-/// What the photons say of the floor, as a mean over several maps.
+/// The estimates on the floor, as a mean over several maps.
 struct FloorEstimates {
     std::array<double, leak_steps + 1> along{}; ///< From the left wall to the right.
     std::array<double, floor_places.size()> at_places{};
@@ -244,7 +244,7 @@ void table_of_floor(const examples::TwoRooms& rooms, const FloorEstimates& found
     examples::show_table(options, table);
 }
 
-/// The two rooms as pictures, light that has bounced included: by the map, and by path
+/// The two rooms as pictures, with indirect light: by the map, and by path
 /// tracing.
 void leak_pictures(const examples::TwoRooms& rooms, long long photons,
                    const examples::Options& options) {
@@ -282,7 +282,8 @@ void failures(const examples::Options& options) {
 
 // --- Error against number and radius --------------------------------------------------
 
-/// Estimates of one number of photons: [radius][seed][place], relative to the truth.
+/// Estimates of one number of photons: [radius][seed][place], relative to the
+/// reference.
 using Estimates = std::vector<std::vector<std::vector<double>>>;
 
 /// Variance and squared bias of a radius, over all seeds but one (-1: over all).
@@ -329,7 +330,7 @@ Slope slope_of(const std::vector<double>& x, int seeds, Y y) {
     return {fit(-1), 2.13 * std::sqrt(squares * (seeds - 1) / seeds)};
 }
 
-/// What a map of one number of photons costs, the least of all seeds: the machine may
+/// The cost of a map of one number of photons, the least of all seeds: the machine may
 /// be busy.
 struct Cost {
     double trace = 1e30, build = 1e30; ///< In seconds.
@@ -359,7 +360,7 @@ struct Experiment {
 };
 constexpr int seeds = 16;
 
-/// Adds the estimates of one map at all places, and what it costs.
+/// Adds the estimates of one map at all points, and its cost.
 void add_map(const PhotonMap& map, const Quad& lamp, const std::vector<double>& radii,
              Estimates& estimates, Cost& cost) {
     std::vector<Point> places;
@@ -478,7 +479,7 @@ void save_slopes(const Experiment& all, const examples::Options& options) {
     examples::show_table(options, table);
 }
 
-/// What a smaller error costs.
+/// The cost of a smaller error.
 void save_trade(const Experiment& all, const examples::Options& options) {
     examples::Plot plot{.name = "general-best",
                         .columns = {"photons emitted", "at the best radius", "N^(-2/3)",
@@ -529,7 +530,7 @@ void laws(const examples::Options& options) {
 /// Makes the pictures, plots and tables of chapter 24 that are not the report's.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long photons = 0;

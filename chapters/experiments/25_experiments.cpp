@@ -1,6 +1,6 @@
 // smoke: --quality draft --photons 1000 --width 24 --height 24 --cuts 1
 /// \file chapters/experiments/25_experiments.cpp
-/// \brief Chapter 25: what is saved where photons make rays needless, and what is lost.
+/// \brief Chapter 25: the savings where photons replace rays, and the errors.
 
 #include <algorithm>
 #include <array>
@@ -106,11 +106,11 @@ Hall three_balls(float radius) {
     return Hall(std::move(hall));
 }
 
-/// Points of the floor with the part of the lamp that they see, by brute force.
+/// Points of the floor with the visible fraction of the lamp, by brute force.
 struct Probes {
     std::vector<Vec3> points{}; ///< On the floor.
     std::vector<double> seen{}; ///< In [0, 1].
-    std::size_t everywhere = 0; ///< How many of the first lie all over the floor.
+    std::size_t everywhere = 0; ///< This many, first, over the whole floor.
 };
 // [probe]
 double part_seen(const Hall& hall, const Vec3& at, int n) {
@@ -161,9 +161,9 @@ VerdictGrid verdicts_of(const Hall& hall, const SkipSettings& skip, long long ph
     return make_verdict_grid(traced.photons, 1, skip, options.threads);
 }
 
-/// How often a rule skips rays, and how often it is wrong; parts of 1.
+/// How often a rule skips rays, and how often it is wrong; fractions.
 struct Outcome {
-    double skipped = 0; ///< Points with a verdict, of all.
+    double skipped = 0; ///< Fraction of points with a verdict.
     double wrong = 0;   ///< Points with one that is more than 5 % of the lamp off.
     double lost = 0;    ///< Points called lit, of those that miss more than 5 % of it.
 };
@@ -175,7 +175,7 @@ Outcome outcome(const Hall& hall, const Probes& probes, const SkipSettings& skip
         double skipped = 0, wrong = 0, lost = 0, hidden = 0;
         for (std::size_t i = 0; i < probes.points.size(); ++i) {
             const SurfacePoint at{.position = probes.points[i], .normal{0, 1, 0}};
-            const Verdict verdict = grid.verdict(grid.place_of(at, 1), 0);
+            const Verdict verdict = grid.verdict(grid.cell_of(at, 1), 0);
             const double said = verdict == Verdict::lit ? 1 : 0;
             const bool known = verdict != Verdict::unknown;
             const bool bad = known && std::abs(said - probes.seen[i]) > 0.05;
@@ -292,7 +292,7 @@ Hall wire_hall(float width) {
 }
 
 void wire(const examples::Options& options, long long photons) {
-    // In the middle of the shadow nothing of the light is seen, and the cells around a
+    // In the middle of the shadow the light is invisible, and the cells around a
     // point hold a strip of it 3 h long and as wide as the shadow. No shadow photon
     // falls into it with the probability exp(-density * 3 h * width).
     constexpr float radius = 0.2f;
@@ -317,7 +317,7 @@ void wire(const examples::Options& options, long long photons) {
                 const double x = -2 + 4 * (k + 0.5) / points;
                 const SurfacePoint at{.position{float(x), 0, float(z)},
                                       .normal{0, 1, 0}};
-                const bool lit = grid.verdict(grid.place_of(at, 1), 0) == Verdict::lit;
+                const bool lit = grid.verdict(grid.cell_of(at, 1), 0) == Verdict::lit;
                 const double d = std::hypot(x, double(lamp_height), z - lamp_away);
                 const double density =
                     double(photons) * lamp_height / (4 * std::numbers::pi * d * d * d);
@@ -412,7 +412,7 @@ void judge_room(examples::Table& table, const char* name, const W& world,
                 const examples::Options& options) {
     const auto places =
         places_of(world, camera, options.pick<std::size_t>(200, 4000, 20000), 5);
-    std::vector<double> seen; // place by place and lamp by lamp; -1: it faces away
+    std::vector<double> seen; // for each point and lamp; -1: it faces away
     for (const Vertex& place : places)
         for (std::uint32_t lamp = 0; lamp < world.light_count(); ++lamp) {
             int rays = 0, through = 0;
@@ -427,7 +427,7 @@ void judge_room(examples::Table& table, const char* name, const W& world,
             }
             seen.push_back(rays == 0 ? -1 : double(through) / rays);
         }
-    // Where a lamp is seen whole or not at all: what a perfect rule could skip.
+    // Points that see a lamp wholly or not at all: a perfect rule could skip these.
     double clear = 0, all = 0;
     for (const double part : seen) {
         all += part >= 0;
@@ -469,8 +469,8 @@ void rooms(const examples::Options& options, long long photons) {
 }
 
 /// Nanoseconds of a shadow ray, of a verdict from the grid, and of a verdict by the
-/// plain twin, which asks the map, all at the same points and for the first lamp; and
-/// of a photon, from the lamp into the grid.
+/// plain twin, which searches the map, all at the same points and for the first lamp;
+/// and of a photon, from the lamp into the grid.
 template <AnyWorld W>
 std::array<double, 4> cost_of(const W& world, const Camera& camera, long long photons,
                               const examples::Options& options) {
@@ -522,7 +522,7 @@ std::array<double, 4> cost_of(const W& world, const Camera& camera, long long ph
                 return occluded(world, spawn_ray_to(q.point, q.lamp)) ? 1 : 0;
             }),
             time([&](const Question& q) {
-                return int(grid.verdict(grid.place_of(q.point, q.side), 0));
+                return int(grid.verdict(grid.cell_of(q.point, q.side), 0));
             }),
             time([&](const Question& q) {
                 return int(verdict_at(map, q.point, q.side, 0, grid.radius(), skip));
@@ -710,7 +710,7 @@ void indirect(const examples::Options& options) {
 /// Makes the pictures, plots and tables behind chapter 25.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long photons = 100000;

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 24 --rays 1 --photons 300 --seeds 2
 /// \file chapters/experiments/26_experiments.cpp
-/// \brief Chapter 26: a caustic on paper, and the error of estimates by radius, number
-/// of photons and kernel; the errors of figure 11.
+/// \brief Chapter 26: a caustic in closed form, and the error of estimates by radius,
+/// number of photons and kernel; the errors of figure 11.
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     long long photons = 0; ///< The largest number of photons.
     int seeds = 0;         ///< Maps behind each error.
@@ -49,7 +49,7 @@ struct Setup {
     double index = 1.5;  ///< n.
 };
 
-/// Where a ray of light lands, and how much of it.
+/// The point where a ray of light lands, and its fraction of the flux.
 struct Landing {
     double rho = 0;   ///< Signed distance from the axis.
     double share = 0; ///< (1 - F)^2.
@@ -118,8 +118,8 @@ constexpr std::array kernels{Kernel::box, Kernel::cone, Kernel::gaussian,
 constexpr std::array kernel_names{"box", "cone", "Gaussian", "Epanechnikov",
                                   "biweight"};
 
-/// The profile of the caustic, by geometric optics and by photons, and what the kernels
-/// make of few photons.
+/// The profile of the caustic, by geometric optics and by photons, and the estimates of
+/// the kernels with few photons.
 void profile(const examples::Options& options, long long photons) {
     const Setup setup;
     const World stage = ball_stage(setup);
@@ -282,9 +282,9 @@ void error_by_kernel(const examples::Options& options, const Sizes& sizes) {
 
 // --- The errors of figure 11 ----------------------------------------------------------
 
-/// The caustics without a radius: each photon is joined to the pinhole, and counted in
-/// the pixel that sees it. A pixel's radiance is the mean over its solid angle. An area
-/// dA around the photon covers cos dA / d^2 of that angle.
+/// The caustics without a radius: each photon is connected to the pinhole, and counted
+/// in the pixel that sees it. A pixel's radiance is the mean over its solid angle. An
+/// area dA around the photon covers cos dA / d^2 of that angle.
 // [light image]
 template <typename S>
 Image light_image(const Room<S>& room, const RenderSettings& picture,
@@ -390,7 +390,7 @@ std::vector<bool> caustic_region(const Room<S>& room, const Image& light,
     return region;
 }
 
-/// The truth as the mean of two pictures; how they differ tells its error.
+/// The reference as the mean of two pictures; their difference gives its error.
 template <typename S>
 CausticTruth caustic_truth(const Room<S>& room, const examples::Options& options,
                            long long photons) {
@@ -465,7 +465,7 @@ void errors_of_figure_11(const examples::Options& options, const Sizes& sizes) {
 /// Makes the plots, tables and pictures of chapter 26 that are not the report's.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;

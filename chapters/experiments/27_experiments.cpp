@@ -38,9 +38,9 @@ void parts(const ljus::Room<Scene>& room, const PhotonMappingSettings& settings,
         const auto result = rendered(name, one, room.camera, picture, options);
         save_png(result.image, options.path(std::string(name) + ".png"));
     };
-    save("ES*D?L", "fig-1-direct");       // lamps, and what they light
+    save("ES*D?L", "fig-1-direct");       // lamps, and direct light
     save("ES*DS+L", "fig-1-caustics");    // the caustics map
-    save("E.*D.*D.*L", "fig-1-indirect"); // all that comes later
+    save("E.*D.*D.*L", "fig-1-indirect"); // all longer paths
     // [parts]
 }
 

@@ -29,7 +29,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     long long photons = 0; ///< The largest number of photons.
     int seeds = 0;         ///< Runs behind each bias and variance.
@@ -69,7 +69,7 @@ PhotonMap even_photons(int count, std::uint64_t seed) {
 /// Lets every photon count, for estimate_irradiance().
 constexpr auto all_photons = [](std::uint32_t) { return true; };
 
-/// A mean, and how sure it is.
+/// A mean, and its standard error.
 struct Mean {
     double count = 0, sum = 0, squares = 0;
 
@@ -85,8 +85,8 @@ struct Mean {
     }
 };
 
-/// The part of Epanechnikov's kernel in a corner whose edges lie at s and t, over the
-/// radius, by the midpoint rule.
+/// The fraction of Epanechnikov's kernel in a corner whose edges lie at s and t, over
+/// the radius, by the midpoint rule.
 double corner_by_rule(double s, double t) {
     constexpr int n = 200;
     double sum = 0;
@@ -100,9 +100,9 @@ double corner_by_rule(double s, double t) {
 }
 
 constexpr float border_radius = 0.1f; ///< Of the disc that photons are counted in.
-constexpr int border_steps = 24;      ///< From the edge to where it is out of reach.
+constexpr int border_steps = 24;      ///< From the edge to the distance of the radius.
 
-/// A place on the square, and what estimates read there.
+/// A point on the square, and the estimates there.
 struct Place {
     const char* name;
     float x, y;
@@ -110,7 +110,7 @@ struct Place {
     Mean plain{}, corrected{};
 };
 
-/// What the photons of several maps say of an even light.
+/// The estimates by several maps under an even light.
 struct Borders {
     std::vector<Mean> with, without; ///< The correction, step by step from an edge.
     std::vector<Place> places{{"in the middle", 0.5f, 0.5f, "1"},
@@ -148,7 +148,8 @@ Borders measure_borders(int maps, std::uint64_t seed) {
     return found;
 }
 
-/// The estimates from an edge inwards, beside the part of the kernel that lies inside.
+/// The estimates from an edge inwards, beside the fraction of the kernel that lies
+/// inside.
 void plot_edge(const Borders& found, const examples::Options& options) {
     examples::Plot plot{
         .name = "final-gathering-edge",
@@ -165,7 +166,7 @@ void plot_edge(const Borders& found, const examples::Options& options) {
     save_plot(options.out, plot);
 }
 
-/// How far the product of two edges' parts is from the part in a corner, at worst.
+/// The largest error of the product of two edges' fractions as that of a corner.
 double worst_product() {
     double worst = 0;
     for (double s = 0; s < 1; s += 0.1)
@@ -177,7 +178,7 @@ double worst_product() {
     return worst;
 }
 
-/// What photons say of an even light near an edge and in a corner.
+/// The estimates under an even light near an edge and in a corner.
 void borders(const examples::Options& options) {
     const Borders found = measure_borders(options.pick(32, 128, 512), options.seed);
     plot_edge(found, options);
@@ -205,7 +206,7 @@ struct Deviation {
 /// \param how     How many photons an estimate takes.
 /// \param chosen  Whether the photon of a record becomes a point.
 /// \param wanted  Whether the second record's photon counts at the first one's point.
-/// \param share   The part of all photons that counts.
+/// \param share   The fraction of all photons that counts.
 template <typename Chosen, typename Wanted>
 Deviation deviation(const PhotonMap& map, const IrradiancePointSettings& how,
                     const Chosen& chosen, const Wanted& wanted, double share) {
@@ -310,7 +311,7 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-/// Ways that take turns seed by seed, so that a busy machine is unkind to all of them.
+/// Ways that alternate seed by seed, so that a busy machine affects all of them.
 template <typename Room>
 std::vector<Runs> compare(const Room& room,
                           const std::vector<PhotonMappingSettings>& ways, int samples,
@@ -384,7 +385,7 @@ struct Trade {
     std::vector<Setting> tried{};
 };
 
-/// Adds what one way has made of some photons and rays.
+/// Adds the result of one way with some photons and rays.
 /// \return Its bias and variance.
 BiasVariance add_way(Trade& trade, std::size_t way, long long photons, int samples,
                      const Runs& runs, const examples::Oracle& oracle) {
@@ -490,7 +491,7 @@ void table_of_ratios(const Room& room, const examples::Oracle& oracle,
     examples::show_table(options, table);
 }
 
-/// Points at every second photon, every fourth, and so on.
+/// Lookup points at every second photon, every fourth, and so on.
 template <typename Room>
 void table_of_every(const Room& room, const examples::Oracle& oracle,
                     const examples::Options& options, const Sizes& sizes) {
@@ -534,7 +535,7 @@ void ratio(const examples::Options& options, const Sizes& sizes) {
 /// Makes the plots and tables of chapter 28.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;

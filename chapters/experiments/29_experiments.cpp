@@ -1,6 +1,6 @@
 // smoke: --quality draft --width 24 --height 24 --seeds 2 --truth 16
 /// \file chapters/experiments/29_experiments.cpp
-/// \brief Chapter 29: what interpolating irradiance costs and what it buys.
+/// \brief Chapter 29: the cost and the gain of interpolating irradiance.
 
 #include <algorithm>
 #include <array>
@@ -36,7 +36,7 @@ using Box = decltype(cornell_box());
 using Mapper = PhotonMapper<decltype(Box::world), StratifiedStream, Gathering>;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     int seeds = 0; ///< Runs behind each bias and variance.
     int truth = 0; ///< Rays per pixel of the references.
@@ -46,7 +46,7 @@ struct Sizes {
 // --- A corner where irradiance is known ----------------------------------------------
 
 /// The irradiance on a floor at a distance from an endless wall of height 1 whose
-/// radiosity is 1; nothing else shines.
+/// radiosity is 1; nothing else emits light.
 double beside_wall(double x) {
     return 0.5 * (1 - x / std::hypot(x, 1.0));
 }
@@ -70,7 +70,7 @@ constexpr double corner_step = 0.1;               ///< Side of a square of the f
 constexpr int corner_places = 40;                 ///< Where it is asked.
 constexpr std::array reaches{0.1, 0.3, 1.0, 4.0}; ///< Of the records.
 
-/// How far from the wall a place is: from 0.01 to 1.5 of its height.
+/// The distance of a point from the wall: from 0.01 to 1.5 of its height.
 double corner_place(int i) {
     return 0.01 * std::pow(150.0, double(i) / (corner_places - 1));
 }
@@ -100,10 +100,10 @@ IrradianceCacheT<double> exact_cache(int run, std::uint64_t seed) {
     return cache;
 }
 
-/// The errors of interpolation with one reach at all places, as means over the runs.
+/// The errors of interpolation with one reach at all points, as means over the runs.
 struct AtCorner {
     std::array<double, corner_places> squares{};  ///< Of the relative error.
-    std::array<double, corner_places> gathered{}; ///< How often nothing is near enough.
+    std::array<double, corner_places> gathered{}; ///< Lookups without a near point.
 };
 
 /// Adds the errors of one cache, which is one of `runs`.
@@ -115,7 +115,7 @@ void add_run(AtCorner& corner, const IrradianceCacheT<double>& cache, double rea
         const auto found = interpolate(cache, Vec3T<double>{corner_place(i), 0, 0},
                                        Vec3T<double>{0, 0, 1}, reach);
         if (!found) {
-            corner.gathered[slot] += 1.0 / runs; // exactly
+            corner.gathered[slot] += 1.0 / runs; // exact
             continue;
         }
         const double e = found->x / exact - 1;
@@ -169,7 +169,7 @@ void table_of_corner(const Corner& corner, const examples::Options& options) {
     examples::show_table(options, table);
 }
 
-/// Exact records, no noise: what is wrong then is the interpolation alone.
+/// Exact records without noise: the error is that of the interpolation alone.
 void corner(const examples::Options& options) {
     const int runs = options.pick(32, 400, 2000);
     Corner found{};
@@ -192,7 +192,7 @@ PhotonMappingSettings fast(int side, std::uint64_t seed, int threads) {
     return settings;
 }
 
-/// Indirect light alone, by a renderer of the whole.
+/// Indirect light alone, from a renderer of all light.
 template <typename Renderer>
 Image indirect_light(const Box& room, const Renderer& renderer,
                      const RenderSettings& picture) {
@@ -214,7 +214,7 @@ double mean_error(const ImageT<T>& image, const ImageT<U>& truth) {
     return sum / all - 1;
 }
 
-/// A reference from eight independent pictures, which tell its noise.
+/// A reference from eight independent pictures, whose scatter gives its noise.
 examples::Oracle oracle_of(const std::function<Image(int, std::uint64_t)>& shot,
                            int rays, int side) {
     constexpr int pieces = 8;
@@ -279,7 +279,7 @@ struct Knob {
     bool cached = true;    ///< Or gathered at every vertex.
 };
 
-/// Each knob of the cache turned, while the others stay where they are.
+/// Each setting of the cache varied, with the others fixed.
 std::vector<Knob> all_knobs() {
     std::vector<Knob> all{Knob{.name = "tile 3, 25 rays, 6 nearest, reach 1"}};
     for (const int tile : {2, 3, 4, 6})
@@ -326,7 +326,7 @@ Turned turn(const Bench& bench, const Knob& knob) {
     return found;
 }
 
-/// Which references there are, and how good they are.
+/// The references, and their errors.
 void table_of_oracles(const Bench& bench) {
     examples::show_table(
         bench.options,
@@ -338,7 +338,7 @@ void table_of_oracles(const Bench& bench) {
                    text(bench.traced.noise, "%.2g")}}});
 }
 
-/// Indirect light alone, one knob after the other.
+/// Indirect light alone, one setting after the other.
 void knobs(const examples::Options& options, const Sizes& sizes) {
     const Box room = cornell_box();
     const auto settings = fast(sizes.side, options.seed, options.threads);
@@ -594,10 +594,10 @@ World<Stage> penumbra_stage(const Lamp& lamp) {
 
 constexpr std::array shadow_rays{1, 2, 4, 9};
 
-/// The light that the closed form finds at one place, as a part of the whole lamp's;
-/// one value for each number of shadow rays.
+/// The light that the closed form finds at one point, as a fraction of the whole
+/// lamp's; one value for each number of shadow rays.
 struct InPenumbra {
-    double x = 0; ///< Of the place; the penumbra is -1 to 1.
+    double x = 0; ///< Position; the penumbra is -1 to 1.
     std::array<double, shadow_rays.size()> bias{}, noise{}, sampled{};
 };
 
@@ -700,7 +700,7 @@ void penumbra(const examples::Options& options) {
 /// Makes the plots and tables of chapter 29, and the picture by the preset `fast`.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 24 --photons 1000 --seeds 2
 /// \file chapters/experiments/30_experiments.cpp
-/// \brief Chapter 30: the experiments behind its tables and plots: how many photons each
-/// mirror and each glass should get.
+/// \brief Chapter 30: the experiments behind its tables and plots: how many photons
+/// each mirror and each glass should get.
 
 #include <algorithm>
 #include <array>
@@ -29,7 +29,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     long long photons = 0; ///< Of a caustics map.
     int seeds = 0;         ///< Maps behind each error.
@@ -72,7 +72,7 @@ Room<Stage> two_balls(float albedo) {
     return {World(std::move(stage)), camera};
 }
 
-/// The part of the floor that is looked at.
+/// The part of the floor in view.
 struct Grid {
     int width = 96, height = 72;
     [[nodiscard]] Vec3 at(int x, int y) const {
@@ -98,7 +98,7 @@ Image floor_light(const PhotonMap& map, const Grid& grid, float radius,
     return image;
 }
 
-/// The direct light on the floor, on paper; the balls throw shadows.
+/// The direct light on the floor in closed form; the balls cast shadows.
 Image direct_light(const Grid& grid) {
     Image image = make_image(grid.width, grid.height);
     for (int y = 0; y < grid.height; ++y)
@@ -134,14 +134,14 @@ PhotonMap caustics_of(const World<Stage>& stage, long long photons, std::uint64_
                                .photons);
 }
 
-/// Errors of a way to share out: bias and variance, absolute, relative to all light and
-/// relative to the mean light of the caustic on that half of the floor.
+/// Errors of a way to divide photons: bias and variance, absolute, relative to all
+/// light and relative to the mean light of the caustic on that half of the floor.
 struct Errors {
     BiasVariance absolute, relative, own;
     double flip = 0;
 };
 
-/// A room and all that is known of it.
+/// A room and its references.
 struct Known {
     std::string name;
     Room<Stage> room;
@@ -169,7 +169,7 @@ Known known_room(const std::string& name, float albedo, const Grid& grid, float 
     double mean = 0;
     for (const Rgb& c : known.truth.pixels)
         mean += double(c.x) / double(known.truth.pixels.size());
-    known.gain = 1 / mean; // the epsilon of relative errors is made for that
+    known.gain = 1 / mean; // the epsilon of relative errors assumes that
     known.pilots = pilot_caustics(known.room.world,
                                   PhotonPassSettings{.photons = sizes.photons,
                                                      .seed = options.seed,
@@ -263,7 +263,7 @@ void two_rooms(const std::vector<Known>& rooms, const Grid& grid, float radius,
     save_table(options.out, found);
 }
 
-/// Variance in the dark against the share of the light glass, beside the law.
+/// Variance in the dark against the fraction of the light glass, beside theory.
 void by_share(const std::vector<Known>& rooms, const Grid& grid, float radius,
               const Sizes& sizes, const examples::Options& options) {
     examples::Plot plot{
@@ -294,7 +294,8 @@ void by_share(const std::vector<Known>& rooms, const Grid& grid, float radius,
     save_plot(options.out, plot);
 }
 
-/// The pictures of the lit room: few photons, shared out as lights see them and by area.
+/// The pictures of the lit room: few photons, divided as lights see the objects, and by
+/// area.
 void pictures(const examples::Options& options) {
     for (const auto& [how, budget] : {std::pair{"seen", CausticBudget::as_seen},
                                       std::pair{"area", CausticBudget::area}}) {
@@ -322,7 +323,7 @@ void pictures(const examples::Options& options) {
     }
 }
 
-/// Rays through balls of two indices, as Snell has it: where they land.
+/// Rays through balls of two indices by Snell's law, and where they land.
 void draw_rays(const examples::Options& options) {
     examples::Drawing figure{.name = "budget-rays",
                              .description = "The same light through two balls: index "
@@ -355,7 +356,7 @@ void draw_rays(const examples::Options& options) {
 
 // --- The report's four balls ---------------------------------------------------------
 
-/// The four balls of figure 11, and what is known of their light.
+/// The four balls of figure 11, and the settings of their light.
 struct FourBalls {
     decltype(four_glass_room()) room = four_glass_room();
     float radius = 0.15f;          ///< Of the estimate.
@@ -396,7 +397,7 @@ std::vector<double> aimed_as_seen(const FourBalls& balls,
     return seen;
 }
 
-/// What the pilot finds of each ball, and its share by each budget.
+/// The pilot's results for each ball, and its fraction by each budget.
 void four_balls_shares(const FourBalls& balls, const examples::Options& options) {
     examples::Table table{.name = "budget-four-balls",
                           .columns = {"ball", "index", "flux, W", "area, m²", "as seen",
@@ -407,7 +408,7 @@ void four_balls_shares(const FourBalls& balls, const examples::Options& options)
     const auto seen = aimed_as_seen(balls, targets);
     const auto percent = [](double x) { return examples::text(100 * x, "%.0f %%"); };
     for (std::size_t k = 0; k < targets.size(); ++k) {
-        // Glass comes before mixtures, or not: the ball is known by its place.
+        // Glass may come before or after mixtures: the ball is known by its position.
         const float z = balls.room.world.visit_shape(targets[k], [](const auto& shape) {
             return bounding_sphere(shape).center.z;
         });
@@ -490,7 +491,7 @@ void four_balls_errors(const FourBalls& balls, const examples::Options& options,
     save_table(options.out, table);
 }
 
-/// What each ball of figure 11 gets, and what it does to the picture.
+/// The photons of each ball of figure 11, and their effect on the picture.
 void four_balls(const examples::Options& options, const Sizes& sizes) {
     const FourBalls balls = known_balls(options, sizes);
     four_balls_shares(balls, options);
@@ -502,7 +503,7 @@ void four_balls(const examples::Options& options, const Sizes& sizes) {
 /// Makes the figures of chapter 30.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;

@@ -30,13 +30,13 @@ using namespace ljus;
 
 namespace {
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     long long passes = 0; ///< How many.
     int seeds = 0;        ///< Runs behind each bias and variance.
 };
 
-/// The most memory that this program has taken so far; NaN where nobody tells.
+/// The peak memory of this program; NaN if the system does not report it.
 double peak_megabytes() {
 #if __has_include(<sys/resource.h>)
     struct ::rusage usage = {};
@@ -60,7 +60,7 @@ Vec3 place(const Strip& strip, int i) {
     return {float(strip.at(i, places)), 0, 0.5f * std::sin(2.4f * float(i))};
 }
 
-/// A picture one row high: what an estimate reads at the places, relative to the light
+/// A picture one row high: the estimates at the points, relative to the light
 /// in the middle.
 Image read_strip(const PhotonMap& map, const Strip& strip, double radius) {
     Image row = make_image(places, 1);
@@ -99,7 +99,7 @@ PhotonMap window_map(const World<Stage>& stage, long long photons, std::uint64_t
                                .photons);
 }
 
-/// One way to shrink at one strip, and what each seed made of it after some passes.
+/// One way to shrink at one strip, and the pictures of each seed after some passes.
 struct Series {
     Strip strip;
     double alpha = 0;
@@ -108,7 +108,7 @@ struct Series {
     std::vector<double> estimates = {}; ///< Mean square of the estimated errors.
 };
 
-/// Numbers of passes that are looked at: 1, 2, 3, 6, 10, 18, 32, ...
+/// Numbers of passes that are measured: 1, 2, 3, 6, 10, 18, 32, ...
 std::vector<long long> milestones(long long passes) {
     std::vector<long long> list;
     for (int i = 0;; ++i) {
@@ -158,7 +158,7 @@ std::vector<BiasVariance> split_of(const Series& series) {
     return split;
 }
 
-/// "-0.667 +- 0.010": how a mean square falls with the passes, where it has settled.
+/// "-0.667 +- 0.010": the slope of a mean square over the passes, after the first ones.
 /// \param square  Of a BiasVariance: what is fitted.
 template <typename Square>
 std::string fitted_slope(const std::vector<BiasVariance>& split,
@@ -339,7 +339,7 @@ void one_map(const examples::Options& options, const Sizes& sizes) {
     save_table(options.out, table);
 }
 
-/// Three passes at a place near the edge of the light: photons of their own, and discs
+/// Three passes at a point near the edge of the light: photons of their own, and discs
 /// that shrink.
 void draw_discs(const examples::Options& options) {
     const World stage(examples::window_scene<Stage>());
@@ -411,14 +411,14 @@ RenderSettings frame_of(const examples::Options& options, int samples,
             .threads = options.threads};
 }
 
-/// The box as it is, by many paths.
+/// The reference of the box, by many paths.
 struct Reference {
     Image image = {};          ///< The mean of two halves.
     ImageT<double> exact = {}; ///< The same in double.
     double noise = 0;          ///< Its variance, as the relMSE that it makes.
 };
 
-/// Two halves: what their errors do not share is their own noise.
+/// Two halves: their difference gives their own noise.
 Reference reference_of(const Box& box, const examples::Options& options) {
     const PathTracer tracer(box.world);
     const int rays = options.pick(256, 4096, 65536);
@@ -447,12 +447,12 @@ Reference reference_of(const Box& box, const examples::Options& options) {
 /// The box after some passes.
 struct Milestone {
     long long passes = 0;
-    std::vector<Image> runs = {}; ///< One per seed that came so far.
+    std::vector<Image> runs = {}; ///< One per seed that reached it.
     double seconds = 0;           ///< Of the first seed.
-    double megabytes = 0;         ///< The most that it took up to here.
+    double megabytes = 0;         ///< Peak memory so far.
     double estimate = 0;          ///< Of its error.
-    double radius = 0;            ///< As a share of the first radius.
-    double faster = 0;            ///< relMSE with the exponent that edges like better.
+    double radius = 0;            ///< As a fraction of the first radius.
+    double faster = 0;            ///< relMSE with the exponent that suits edges.
 };
 
 /// Runs passes up to the last milestone within a limit, and calls at(milestone, state)
@@ -470,7 +470,7 @@ void run_to(std::vector<Milestone>& milestones, long long limit, ProgressiveStat
     }
 }
 
-/// The first seed goes to the end; the others as far as bias and variance are asked.
+/// The first seed runs to the end; the others as far as bias and variance are needed.
 void run_seeds(std::vector<Milestone>& milestones, const Box& box,
                const examples::Options& options, int seeds, long long split_at) {
     for (int seed = 1; seed <= seeds; ++seed) {
@@ -495,7 +495,7 @@ void run_seeds(std::vector<Milestone>& milestones, const Box& box,
     }
 }
 
-/// The same passes with the exponent that edges like better.
+/// The same passes with the exponent that suits edges.
 void run_faster(std::vector<Milestone>& milestones, const Box& box,
                 const examples::Options& options, const Reference& truth) {
     const auto pass = [&](long long i, double scale) {
@@ -607,7 +607,7 @@ void beside_one_map(const Box& box, long long passes, const Reference& truth,
     save_table(options.out, table);
 }
 
-/// The box after ever more passes, and beside one map of as many photons.
+/// The box after more and more passes, and beside one map of as many photons.
 void pictures(const examples::Options& options, const Sizes& sizes) {
     const Box box = cornell_box();
     const Reference truth = reference_of(box, options);
@@ -629,7 +629,7 @@ void pictures(const examples::Options& options, const Sizes& sizes) {
 /// Makes the tables and plots of chapter 31.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;

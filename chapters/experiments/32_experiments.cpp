@@ -1,8 +1,8 @@
 // smoke: --quality draft --width 16 --height 16 --most 10 --repeats 1 --truth 64
 /// \file chapters/experiments/32_experiments.cpp
-/// \brief Chapter 32: the experiments behind its tables and plots: where the times of
-/// table 1 come from, what a loop and a thread cost, and the same bytes for any number of
-/// threads.
+/// \brief Chapter 32: the experiments behind its tables and plots: the model behind the
+/// times of table 1, the cost of a loop and a thread, and the same bytes for any number
+/// of threads.
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ namespace {
 
 using examples::text;
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     int most = 0;    ///< The largest number of rays of table 1 that is tried.
     int repeats = 0; ///< Pairs of one thread and several.
@@ -43,7 +43,7 @@ struct Times {
 const Times report_times{
     {1, 10, 100, 200, 1000}, {3, 17, 188, 362, 1391}, {22, 28, 106, 208, 640}};
 
-/// Depth 4 and no roulette, as the report has it.
+/// Depth 4 and no roulette, as in the report.
 PhotonMappingSettings report_settings(int threads) {
     PhotonMappingSettings settings{.max_depth = 4, .roulette_depth = 5};
     settings.caustics.photons = 100000;
@@ -61,12 +61,12 @@ double median(std::vector<double> values) {
 
 /// Times of the form fixed + each * rays.
 struct Line {
-    double fixed = 0; ///< Seconds, whatever the number of rays.
+    double fixed = 0; ///< Seconds, independent of the number of rays.
     double each = 0;  ///< Seconds for one ray in every pixel.
 };
 
-/// The straight line whose *relative* misses have the least squares: else the row with
-/// most rays decides alone, and a fixed cost of seconds is lost in its minutes.
+/// Fits a line by least squares of the *relative* residuals: otherwise the row with
+/// most rays would decide alone, and hide a fixed cost of seconds in its minutes.
 /// \param rays     At least two different numbers.
 /// \param seconds  As many, above 0.
 // [fit]
@@ -108,7 +108,8 @@ FirstPass first_pass(const R& room, const PhotonMappingSettings& settings) {
 }
 
 /// The second pass, with the report's numbers of rays: medians of pairs of pictures.
-/// \param shot  Renders the picture with some rays per pixel and some threads: its Timing.
+/// \param shot  Renders the picture with some rays per pixel and some threads: its
+///              Timing.
 template <typename Shot>
 Times time_pairs(Shot shot, const Sizes& sizes, int threads) {
     Times times;
@@ -185,7 +186,7 @@ FirstPass lines(const R& room, const examples::Options& options, const Sizes& si
                          {options.width, options.height, rays, options.seed, by});
         });
     };
-    (void)shot(1, threads); // the threads are made once
+    (void)shot(1, threads); // starts the threads
     loop =
         save_lines(time_pairs(shot, sizes, threads), alone, shared, options, threads);
     return alone;
@@ -193,7 +194,7 @@ FirstPass lines(const R& room, const examples::Options& options, const Sizes& si
 
 // --- What a picture costs, pixel by pixel --------------------------------------------
 
-/// A renderer whose radiance is what the path costs: rays, and photon searches.
+/// A renderer whose radiance is the cost of the path: rays, and photon searches.
 template <typename Renderer>
 struct CostOf {
     using Stream = typename Renderer::Stream;
@@ -217,7 +218,7 @@ struct Schedule {
     double end = 0;              ///< Of all.
 };
 
-/// Jobs that are handed out one by one, in order, to whichever thread is free.
+/// Jobs that are handed out one by one, in order, to the next free thread.
 Schedule dynamic_schedule(const std::vector<double>& jobs, int threads) {
     Schedule schedule;
     std::vector<double> free(static_cast<std::size_t>(threads), 0.0);
@@ -283,7 +284,7 @@ void draw_schedules(const Image& costs, const examples::Options& options) {
     constexpr std::array<const char*, 4> names{
         examples::colors::blue, examples::colors::orange, examples::colors::green,
         examples::colors::violet};
-    // As many jobs as can be seen: bands of rows.
+    // Bands of rows, few enough to be visible.
     const int rows = std::max(1, costs.height / 40);
     std::vector<double> jobs;
     for (int y = 0; y < costs.height; ++y) {
@@ -291,7 +292,7 @@ void draw_schedules(const Image& costs, const examples::Options& options) {
         for (int x = 0; x < costs.width; ++x)
             jobs.back() += double(pixel(costs, x, y).x);
     }
-    const double unit = sum_of(jobs) / threads; // what each would have at best
+    const double unit = sum_of(jobs) / threads; // the ideal work of each
     examples::Drawing drawing{.name = "parallel-schedules",
                               .description = "Four threads: each renders an equal "
                                              "number of rows, or the next rows go to "
@@ -322,7 +323,7 @@ void draw_schedules(const Image& costs, const examples::Options& options) {
     save_drawing(options.path(""), drawing);
 }
 
-/// The picture of costs, and how well the work can be shared out.
+/// The picture of costs, and how evenly the work can be divided.
 void schedules(const Image& costs, const examples::Options& options) {
     const double all = sum_of(strips_of(costs, costs.width));
     float most = 0;
@@ -394,7 +395,7 @@ void amdahl(const FirstPass& first, const Line& loop,
 // --- The same bytes ------------------------------------------------------------------
 
 /// A sum whose parts are made by each thread, as OpenMP's `reduction` would: with
-/// another number of threads it is rounded elsewhere.
+/// another number of threads it is rounded differently.
 // [sum by thread]
 float sum_by_thread(const std::vector<float>& values, std::size_t threads) {
     std::vector<float> part(threads, 0.0f);
@@ -406,7 +407,7 @@ float sum_by_thread(const std::vector<float>& values, std::size_t threads) {
 }
 // [sum by thread]
 
-/// The same in blocks of a size that has nothing to do with the number of threads.
+/// The same in blocks whose size does not depend on the number of threads.
 // [sum by block]
 float sum_by_block(const std::vector<float>& values, int threads) {
     constexpr std::size_t size = 512;
@@ -513,7 +514,7 @@ void oversubscribed(const R& room, const examples::Options& options, int repeats
     save_table(options.path(""), table);
 }
 
-/// Two threads that count, each in a number of its own, near to each other or far.
+/// Two threads that count in a number each, near each other in memory or far apart.
 // [false sharing]
 double nanoseconds_of_counting(std::size_t bytes_apart, int threads, long long times) {
     std::vector<long long> memory(4096, 0);
@@ -545,7 +546,7 @@ void false_sharing(const examples::Options& options, int repeats) {
     save_table(options.path(""), table);
 }
 
-/// A loop that does nothing: what it costs to wake the threads, and a block.
+/// An empty loop: the cost of waking the threads, and of a block.
 void empty_loops(const examples::Options& options, int threads) {
     examples::Table table{.name = "parallel-empty",
                           .columns = {"threads", "loop of 2 blocks, microseconds",
@@ -569,7 +570,7 @@ void empty_loops(const examples::Options& options, int threads) {
 
 // --- On many machines, on paper ------------------------------------------------------
 
-/// What would limit many machines, from the times above and a network of a gigabyte
+/// The limits of many machines, from the times above and a network of a gigabyte
 /// per second.
 void machines(const FirstPass& first, const Line& loop, std::size_t photons,
               const examples::Options& options) {
@@ -627,7 +628,7 @@ int main(int argc, char** argv) {
 
         const PhotonMappingSettings settings = report_settings(options.threads);
         const PhotonMapper mapper(room.world, settings);
-        // A fixed size: what it says of schedules depends on it.
+        // A fixed size: the results for schedules depend on it.
         const Image costs = render(CostOf<decltype(mapper)>{mapper}, room.camera,
                                    {.width = 400,
                                     .height = 400,

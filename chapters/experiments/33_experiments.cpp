@@ -1,6 +1,6 @@
 // smoke: --quality draft --width 24 --height 24 --most 10 --seeds 2 --truth 64
 /// \file chapters/experiments/33_experiments.cpp
-/// \brief Chapter 33: the experiments behind its tables and plots: what a ray buys.
+/// \brief Chapter 33: the experiments behind its tables and plots: the gain of a ray.
 
 #include <algorithm>
 #include <array>
@@ -25,14 +25,14 @@ namespace {
 using examples::text;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     int most = 0;  ///< The largest number of rays.
     int seeds = 0; ///< Runs behind each error.
     int truth = 0; ///< Rays per pixel of the reference.
 };
 
-/// The report's settings: depth 4, or as far as roulette lets a path go.
+/// The report's settings: depth 4, or a depth limited only by roulette.
 PhotonMappingSettings settings_with(bool fixed_depth, std::uint64_t seed, int threads) {
     PhotonMappingSettings settings;
     if (fixed_depth) settings.max_depth = 4, settings.roulette_depth = 5;
@@ -47,7 +47,7 @@ using Room3 = decltype(all_materials_room());
 
 // --- Why one over the root -----------------------------------------------------------
 
-/// The luminance that each of many rays through one pixel brings: one of the floor,
+/// The luminance of each of many rays through one pixel: one of the floor,
 /// where the lamp is large and no glass is near.
 std::vector<double> values_of_pixel(const Room3& room,
                                     const examples::Options& options) {
@@ -102,7 +102,7 @@ void add_histogram(std::vector<examples::Row>& rows, const std::vector<double>& 
     }
 }
 
-/// The means of n rays through one pixel, again and again: how they are spread.
+/// The means of n rays through one pixel, repeated: their distribution.
 void one_pixel(const Room3& room, const examples::Options& options) {
     const auto values = values_of_pixel(room, options);
     examples::Plot plot{
@@ -120,7 +120,7 @@ void one_pixel(const Room3& room, const examples::Options& options) {
             squares += (m - 1) * (m - 1) / double(means.size());
         table.rows.push_back({std::to_string(n), text(std::sqrt(squares), "%.3f"),
                               text(std::sqrt(squares * double(n)), "%.3f")});
-        // One ray brings light or shadow, and little in between.
+        // One ray finds light or shadow, and little in between.
         if (n > 1) add_histogram(plot.rows, means);
     }
     save_plot(options.path(""), plot);
@@ -129,12 +129,12 @@ void one_pixel(const Room3& room, const examples::Options& options) {
 
 // --- Errors --------------------------------------------------------------------------
 
-/// What a number of rays brought, over several seeds.
+/// The results of a number of rays, over several seeds.
 struct Rung {
     int rays = 0;          ///< Per pixel.
     double seconds = 0;    ///< Processor time of both passes, the mean.
     BiasVariance pixels{}; ///< The two parts of relMSE.
-    BiasVariance blocks{}; ///< The same of the means of 10 x 10 pixels.
+    BiasVariance blocks{}; ///< The same for means of 10 x 10 pixels.
     double rays_alone = 0; ///< The variance with one map for all seeds.
     double trimmed = 0;    ///< relMSE without the worst hundredth.
     double flip = 0;       ///< Of the first seed.
@@ -206,7 +206,7 @@ double error_at(const std::vector<double>& seconds, const std::vector<double>& e
     return nothing;
 }
 
-/// What the rungs of one method have, each as a list.
+/// The results of one method as lists, one per quantity.
 struct Lists {
     std::vector<double> rays{}, seconds{}, noise{}, errors{};
 };
@@ -253,7 +253,7 @@ void show_errors(const std::vector<Method>& methods,
     save_table(options.path(""), split);
 }
 
-/// How fast the noise of rays falls, and what is left when it is gone.
+/// How fast the noise of rays falls, and the error that remains.
 void show_slopes(const std::vector<Method>& methods,
                  const std::vector<std::vector<Rung>>& runs,
                  const examples::Options& options) {
@@ -273,7 +273,7 @@ void show_slopes(const std::vector<Method>& methods,
     save_table(options.path(""), table);
 }
 
-/// How many times the error grows if only half of the time is given.
+/// The growth of the error if only half of the time is given.
 void show_half_time(const std::vector<Method>& methods,
                     const std::vector<std::vector<Rung>>& runs,
                     const examples::Options& options) {
@@ -370,7 +370,7 @@ void table_of_truth(const examples::Oracle& oracle, const examples::Options& opt
     save_table(options.path(""), table);
 }
 
-/// What a ray buys: three ways, against a reference.
+/// The gain of a ray: three ways, against a reference.
 void errors_of_rays(Contest& contest, const std::vector<int>& rays,
                     const examples::Oracle& oracle, const Sizes& sizes,
                     double first_pass) {

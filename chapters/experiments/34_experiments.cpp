@@ -27,7 +27,7 @@ namespace {
 using examples::Ending;
 using examples::text;
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Sizes {
     int seeds = 0; ///< Runs behind each error.
     int truth = 0; ///< Rays per pixel of the reference.
@@ -49,14 +49,14 @@ double mean_of(const ImageT<double>& image) {
     return sum / 3 / double(image.pixels.size());
 }
 
-/// "-3.1 %": how far a mean is from another one.
+/// "-3.1 %": the relative difference of two means.
 std::string percent(double mean, double truth) {
     return text(100 * (mean - truth) / truth, "%+.2f %%");
 }
 
 // --- The furnace ---------------------------------------------------------------------
 
-/// The light that a fixed depth loses in a room whose answer is known.
+/// The light that a fixed depth loses in a room with a known solution.
 void furnace_by_depth(int rays, const examples::Options& options) {
     examples::Plot plot{.name = "recursion_depth-furnace",
                         .columns = {"depth", "albedo 0.5 predicted", "measured",
@@ -113,7 +113,7 @@ Mean light_of(const Paths& paths, const Camera& camera, int rays, int threads) {
     return {mean, std::sqrt(squares / 3 / 4)};
 }
 
-/// What each way to end a path loses or keeps in a room whose answer is known.
+/// The light that each way to end a path loses in a room with a known solution.
 void furnace_by_ending(int rays, const examples::Options& options) {
     examples::Table table{.name = "recursion_depth-furnace-table",
                           .columns = {"albedo", "depth 4", "threshold 0.1",
@@ -140,7 +140,7 @@ void furnace_by_ending(int rays, const examples::Options& options) {
     save_table(options.path(""), table);
 }
 
-/// What is lost in a room whose answer is known.
+/// The light that is lost in a room with a known solution.
 void furnace(const examples::Options& options) {
     const int rays = options.pick(16, 64, 256);
     furnace_by_depth(rays, options);
@@ -202,13 +202,13 @@ void endings(const Room4& room, const examples::Oracle& oracle,
 
 // --- Which pixels deserve rays -------------------------------------------------------
 
-/// A way to share out rays, by the number of them.
+/// A way to distribute rays, by their number.
 struct Sharing {
     std::string name;                                    ///< As in plots.
     std::function<AdaptiveSettings(int samples)> rule{}; ///< None: the same everywhere.
 };
 
-/// What a way brought: the mean over the seeds.
+/// The results of a way: means over the seeds.
 struct Shared {
     double rays = 0;           ///< Per pixel, in the mean.
     double seconds = 0;        ///< Processor time.
@@ -255,7 +255,8 @@ Shared share(const Renderer& renderer, const Camera& camera, const Sharing& way,
     return found;
 }
 
-/// The mean of many pictures by the renderer itself: what is judged is the sharing.
+/// The mean of many pictures by the renderer itself: only the distribution of rays is
+/// judged.
 template <typename Renderer>
 ImageT<double> own_truth(const Renderer& renderer, const Camera& camera, int size,
                          int rays, const examples::Options& options) {
@@ -273,7 +274,7 @@ ImageT<double> own_truth(const Renderer& renderer, const Camera& camera, int siz
     return truth;
 }
 
-/// A renderer by which ways to share out rays are tried.
+/// A renderer with which ways to distribute rays are tried.
 template <typename Renderer>
 struct Trial {
     std::string name; ///< In names of files.
@@ -359,7 +360,7 @@ void map_of_rays(const Trial<Renderer>& trial) {
              options.path("recursion_depth-" + trial.name + "-rays.png"));
 }
 
-/// Rays until each square believes that its error is small enough.
+/// Rays until each block estimates that its error is small enough.
 template <typename Renderer>
 void stop_at_error(const Trial<Renderer>& trial) {
     examples::Table table{.name = "recursion_depth-stop-" + trial.name,
@@ -386,7 +387,7 @@ void stop_at_error(const Trial<Renderer>& trial) {
     save_table(trial.options.path(""), table);
 }
 
-/// Two rays, and more where they disagree; beside as many rays everywhere.
+/// Two rays, and more where they disagree, beside the same number everywhere.
 template <typename Renderer>
 void more_where_two_disagree(const Trial<Renderer>& trial) {
     examples::Table table{.name = "recursion_depth-pairs-" + trial.name,

@@ -1,11 +1,11 @@
 // smoke: --quality draft --seeds 3 --only radius
 /// \file chapters/experiments/35_experiments.cpp
-/// \brief Chapter 35: the experiments behind its tables and plots: every knob of the
-/// photon mapper, turned. Error against time and memory, what half of the time costs, and
-/// the settings that no other beats.
+/// \brief Chapter 35: the experiments behind its tables and plots: every setting of the
+/// photon mapper, varied. Error against time and memory, the cost of halving the time,
+/// and the settings that no other beats.
 ///
-/// Each setting that is done is a line of trades-notebook.json; what is there is not
-/// done again, so that a run can be stopped and gone on with. ./scripts/trades builds
+/// Each finished setting is a line of trades-notebook.json and is not
+/// measured again, so that a run can be stopped and continued. ./scripts/trades builds
 /// and runs it.
 
 #include <cstdio>
@@ -31,8 +31,8 @@ using examples::text;
 
 // --- The rooms -----------------------------------------------------------------------
 
-/// A ball of glass in a closed grey room, below a small lamp: most of what is bright is
-/// one caustic.
+/// A ball of glass in a closed grey room, below a small lamp: most of the bright region
+/// is one caustic.
 template <std::floating_point T>
 Room<CornellSceneT<T>> make_caustic() {
     CornellSceneT<T> scene;
@@ -70,9 +70,9 @@ const std::vector<std::string> knobs{
 /// The settings of one knob, as they are put together: each is the middle, changed.
 struct Around {
     Setting middle;
-    float unit; ///< Half of the room's width, which radii are told in.
+    float unit; ///< Half of the room's width, the unit of radii.
     int size;   ///< Of the pictures.
-    bool full;  ///< Farther than in a draft.
+    bool full;  ///< A wider range than in a draft.
     std::vector<Setting> all{};
 
     /// The middle's settings of photons and rays.
@@ -93,7 +93,7 @@ struct Around {
             add(text(double(n), "%.6g"), double(n),
                 [&](Setting& one, PhotonMappingSettings& how) { change(one, how, n); });
     }
-    /// Adds one for each word, whose place in the list `change` gets.
+    /// Adds one for each word; `change` gets its index in the list.
     template <typename Change>
     void words(const std::vector<std::string>& values, Change change) {
         for (std::size_t i = 0; i < values.size(); ++i)
@@ -226,7 +226,7 @@ void add_general_knob(Around& to, const std::string& knob) {
 
 /// The settings of one knob, around a middle.
 /// \param knob  Which.
-/// \param unit  Half of the room's width, which radii are told in.
+/// \param unit  Half of the room's width, the unit of radii.
 /// \param size  Of the pictures.
 /// \param full  Farther than in a draft.
 std::vector<Setting> settings_of(const std::string& knob, float unit, int size,
@@ -244,7 +244,7 @@ std::vector<Setting> settings_of(const std::string& knob, float unit, int size,
     return around.all;
 }
 
-/// What the user may set besides the common options.
+/// The options of this program, besides the common ones.
 struct Request {
     std::string only = "all"; ///< A knob.
     int size = 40;            ///< Side of the pictures.
@@ -255,7 +255,7 @@ struct Request {
 };
 
 /// A sweep of all rooms. It goes over them twice: first it only counts what is not in
-/// the notebook yet, so that the bar can tell when all of it will be done.
+/// the notebook yet, so that the bar can show the time that is left.
 struct Sweep {
     const examples::Options& options;
     const Request& request;
@@ -331,8 +331,8 @@ double promises(Sweep& sweep, const std::string& name, const Room& room,
     return least;
 }
 
-/// Tries the promises of a room, and tells how good its reference is: its standard
-/// error beside the root of the smallest error that was measured by it.
+/// Tries the promises of a room, and reports the accuracy of its reference: its
+/// standard error beside the root of the smallest error that was measured by it.
 template <typename Room>
 void try_promises(Sweep& sweep, const std::string& name, const Room& room,
                   const examples::Oracle& oracle) {

@@ -118,7 +118,7 @@ void add_row(const Run& run, const Asked& asked, examples::Table& table, Sheet* 
     if (sheet != nullptr) sheet->add(single.rendered.image);
 }
 
-/// Sizes and places: the same picture must come of it.
+/// Other sizes and positions: the picture must be the same.
 void same_rooms(const Run& run) {
     examples::Table table{.name = "extremes-same",
                           .columns = {"the room", "error, float", "error, double",

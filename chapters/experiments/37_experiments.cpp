@@ -1,9 +1,9 @@
 // smoke: --width 16 --rays 1
 // headers: broken
 /// \file chapters/experiments/37_experiments.cpp
-/// \brief Chapter 37: the gallery, what each mistake looks like. The program is compiled
-/// against headers in which the rows of tests/break_it can be switched on, one at a time:
-/// the right picture, the wrong one, and their difference with its sign.
+/// \brief Chapter 37: the gallery, what each mistake looks like. The program is
+/// compiled against headers in which the rows of tests/break_it can be switched on, one
+/// at a time: the right picture, the wrong one, and their difference with its sign.
 
 #include <algorithm>
 #include <array>
@@ -115,8 +115,8 @@ Image side_by_side(const Image& right, const Image& wrong, double range) {
     return all;
 }
 
-/// What the ends of the map's colours stand for: a round number that few differences
-/// exceed, in shares of white.
+/// The range of the map's colours: a round number that few differences
+/// exceed, as a fraction of white.
 double range_of(const Image& right, const Image& wrong) {
     std::vector<double> sizes;
     for (std::size_t i = 0; i < right.pixels.size(); ++i) {
@@ -274,7 +274,7 @@ void table_of_mutants(const examples::Options& options) {
                         "<div class=\"ljus-caption\">" + notes + "</div>\n");
 }
 
-/// Makes the gallery, or the part of it that is asked for.
+/// Makes the gallery, or the requested part of it.
 void gallery(const examples::Options& options, const Eye& eye,
              const std::string& only) {
     std::map<Image (*)(const Eye&), Image> right; // shared by several mistakes

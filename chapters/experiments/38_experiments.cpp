@@ -158,7 +158,7 @@ void draw_disc(const std::string& folder, const PhotonMap& map) {
     save_drawing(folder, figure);
 }
 
-/// Discs of one k at four places: small in the caustic, half outside at the wall.
+/// Discs of one k at four points: small in the caustic, half outside at the wall.
 void draw_places(const std::string& folder, const PhotonMap& map) {
     Drawing figure{.name = "flatland-places",
                    .description = "Discs that hold 40 photons at four places of the "
@@ -224,7 +224,7 @@ Mean mean_radiance(const Scene& scene, const Ray& ray, int paths) {
     return mean;
 }
 
-/// The share of a lamp's photons that a segment catches.
+/// The fraction of a lamp's photons that hit a segment.
 Mean caught(const Segment& wall, const Object& lamp, int photons,
             std::uint64_t seed = 3) {
     const Scene scene{{{wall, Lambertian{0}}, lamp}};
@@ -431,7 +431,7 @@ std::array<Best, 2> plot_trade(const std::string& folder,
     return ends;
 }
 
-/// Table: what more photons bring, by theory in both worlds, and as it was measured.
+/// Table: the error with more photons, by theory in both worlds, and as measured.
 void tabulate_slope(const std::string& folder, const std::vector<int>& counts,
                     const std::array<Best, 2>& ends) {
     const double ratio = double(counts.back()) / counts.front();
@@ -481,7 +481,7 @@ void plot_mistakes(const std::string& folder, int photons) {
 /// Makes the chapter's figures.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0; 2 with one sentence for anything that is wrong.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long reference = 0;

@@ -394,7 +394,7 @@ Image penumbra(const Eye& eye) {
     const World world(std::move(stage));
     return render(DistributedTracer(world), floor_camera(), eye.settings(0.5)).image;
 }
-/// Two lamps of two colours, of which a path asks one.
+/// Two lamps of two colours; a path samples one of them.
 Image two_lamps(const Eye& eye) {
     Stage stage = floor_stage();
     const auto black = matt(stage, Rgb{0});
@@ -432,7 +432,7 @@ Image glass_room(const Eye& eye, Add&& add_ball) {
     }
     stage.add(PointLight{.position{-2, 3.5f, 4}, .intensity = Rgb{50}});
     stage.add(PointLight{.position{3, 3, 2}, .intensity = Rgb{14}});
-    // What the ball mirrors: walls that shine, and light nothing.
+    // The ball mirrors glowing walls that light nothing else.
     const auto black = matt(stage, Rgb{0});
     stage.add(Quad{.corner{-4, 4, -2}, .edge_u{8, 0, 0}, .edge_v{0, 0, 8}}, black,
               Rgb{0.9f, 0.95f, 1.0f});
@@ -538,7 +538,7 @@ Image cards(const Eye& eye) {
 }
 
 /// Where the seven shadow rays of each of many points go to. The lamp is the square.
-/// \param eye  Its seed chooses the places.
+/// \param eye  Its seed chooses the positions.
 Image lamp_places(const Eye& eye) {
     const int rays = 3 + std::min(4, eye.size); // no constant: it is to break
     const auto pattern = ljus::make_pattern(ljus::Sampling::jittered, rays);
@@ -627,7 +627,7 @@ Image direct_photons(const Eye& eye) {
 Image few_photons(const Eye& eye) {
     return lamp_by_photons(eye, {.radius = 1, .nearest = 8, .kernel = Kernel::box}, 5);
 }
-/// A point light, of whose photons half never meet anything.
+/// A point light, half of whose photons hit nothing.
 Image point_by_photons(const Eye& eye) {
     Stage stage = floor_stage();
     stage.add(PointLight{.position{-0.5f, 1.6f, 0.3f}, .intensity = Rgb{4}});
@@ -799,7 +799,7 @@ Image two_lamps_skipped(const Eye& eye) {
                        .skip{.rule = SkipRule::any, .radius = 0.04f}},
                       0.125);
 }
-/// Caustics of two balls, the budget of photons shared out by what they need.
+/// Caustics of two balls, whose photons are divided by need.
 Image shared_budget(const Eye& eye) {
     const auto world = glass_stage(true);
     PhotonMappingSettings how{.caustics{.photons = photons_for(eye, 8)},

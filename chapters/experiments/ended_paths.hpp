@@ -13,9 +13,9 @@ namespace examples {
 
 /// When a path ends.
 enum class Ending : std::uint8_t {
-    depth,     ///< After so many surfaces: what comes later is lost.
+    depth,     ///< After a number of surfaces: later light is lost.
     threshold, ///< When it carries less than some value: that light is lost.
-    roulette   ///< By chance, and who survives carries more: nothing is lost.
+    roulette   ///< By chance, and survivors carry more: no light is lost.
 };
 
 /// A path tracer without multiple importance sampling, whose paths end in one of three
@@ -42,7 +42,7 @@ template <ljus::AnyWorld W>
     return {world, ending, depth, float(threshold)};
 }
 
-/// Whether a path goes on from a surface.
+/// Whether a path continues from a surface.
 /// \param paths   The rule.
 /// \param path    Its throughput is divided by the chance, if it survives by chance.
 /// \param stream  One number is drawn for roulette.
@@ -82,7 +82,7 @@ ljus::Rgb radiance(const EndedPaths<W>& paths, const ljus::Ray& ray, auto& conte
     const W& world = paths.world.get();
     ljus::Rgb sum{0};
     auto path = ljus::camera_path(world, ray, context.stream);
-    // A path of mirrors that lose nothing must end as well.
+    // A path between mirrors without loss must end as well.
     while (path.depth < 10000) {
         const auto vertex = next_vertex(world, path, context.stream);
         if (!vertex) break;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file chapters/experiments/extreme_room.hpp
-/// \brief The report's room with one thing about it taken to an extreme.
+/// \brief The report's room with one property taken to an extreme.
 
 #include <numbers>
 #include <string>
@@ -41,7 +41,7 @@ using ExtremeSceneT =
 
 namespace detail {
 
-/// A shape in another place and size, rounded once.
+/// A shape moved and scaled, rounded once.
 template <std::floating_point T>
 struct Placed {
     const Extreme& how; ///< Where to.

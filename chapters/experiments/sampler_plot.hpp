@@ -27,8 +27,8 @@ struct SamplerCheck {
     double integral = 0; ///< Of the pdf over the hemisphere; 1, or it is none.
 };
 
-/// Draws the first thousand directions, seen from above, and the share of each belt of
-/// the hemisphere beside what the pdf says.
+/// Draws the first thousand directions, seen from above, and the fraction in each belt
+/// of the hemisphere beside what the pdf says.
 /// \param folder  Where to; it exists.
 /// \param name    Of the files.
 /// \param sample  Called with a point of the unit square; returns a unit vector, z > 0.

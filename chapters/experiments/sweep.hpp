@@ -2,7 +2,7 @@
 
 /// \file chapters/experiments/sweep.hpp
 /// \brief Settings that are measured against a reference, one after the other: a run
-/// that was stopped goes on where it was.
+/// that was stopped continues where it was.
 
 #include <algorithm>
 #include <cmath>
@@ -26,16 +26,16 @@
 
 namespace examples {
 
-/// One setting of everything.
+/// One combination of all settings.
 struct Setting {
     std::string knob{};  ///< What is turned.
     std::string value{}; ///< How far, in words.
-    double x = 0;        ///< How far, for slopes; 0: nothing to be counted.
+    double x = 0;        ///< Abscissa, for slopes; 0: none.
     Recipe recipe{};     ///< All of it.
     ljus::Sampling sampling = ljus::Sampling::multi_jittered; ///< Within a pixel.
     bool paths = false;     ///< The path tracer instead.
     bool in_double = false; ///< The whole scene in double.
-    bool of_maps = false;   ///< Measure the photons' part of the noise as well.
+    bool of_maps = false;   ///< Also measure the noise due to photons.
 };
 
 /// What a setting brought. All errors are parts of relMSE, with the reference's own
@@ -46,14 +46,14 @@ struct Measured {
     std::string value{};   ///< How far.
     double x = 0;          ///< The same as a number.
     double seconds = 0;    ///< Processor time of a picture, the median.
-    double photons = 0;    ///< The part of the photon maps.
+    double photons = 0;    ///< Those of the photon maps.
     double megabytes = 0;  ///< Of the photon maps.
     double rays = 0;       ///< Traced for a pixel.
     double rmse = 0;       ///< Mean over the seeds.
     double bias = 0;       ///< Its square.
     double bias_error = 0; ///< Standard error of that.
     double noise = 0;      ///< Of one picture.
-    double maps = 0;       ///< The part of it that photons make; 0 if not asked for.
+    double maps = 0;       ///< The variance due to photons; 0: not measured.
     double block = 0;      ///< Of the means of 10 x 10 pixels.
     double trimmed = 0;    ///< Without the worst hundredth.
     double flip = 0;       ///< Of the first seed.
@@ -226,7 +226,7 @@ struct Measuring {
 };
 
 /// About how long a setting will take, for the time that is left of a sweep: a pixel's
-/// rays and a map's photons have a price each, whatever the room.
+/// rays and a map's photons have a price each in every room.
 /// \return Processor seconds of the machine that it was fitted on.
 [[nodiscard]] inline double cost_of(const Setting& setting, const Measuring& how) {
     const auto& settings = setting.recipe.settings;
@@ -241,7 +241,7 @@ struct Measuring {
     return one * how.seeds * (setting.of_maps ? 2 : 1);
 }
 
-/// A picture in float, whatever it was made in.
+/// A picture converted to float.
 template <typename T>
 [[nodiscard]] ljus::Image in_float(const ljus::ImageT<T>& picture) {
     ljus::Image image{picture.width, picture.height, {}};

@@ -22,8 +22,8 @@ void add_floor(Scene& scene, float y) {
               scene.add(ljus::Lambertian{.albedo = ljus::Rgb{1}}));
 }
 
-/// A square mirror above a point light above a floor: what it reflects ends at 2 from the
-/// middle.
+/// A square mirror above a point light above a floor: what it reflects ends at 2 from
+/// the middle.
 /// \tparam Scene  A scene with quads, Lambert's surfaces and mirrors.
 template <typename Scene>
 [[nodiscard]] Scene window_scene() {
@@ -50,7 +50,7 @@ struct Strip {
     double first;     ///< Its left end.
     double last;      ///< Its right end.
 
-    /// The middle of part i of so many equal ones.
+    /// The middle of part i of equal parts.
     [[nodiscard]] constexpr double at(int i, int parts) const {
         return first + (last - first) * (i + 0.5) / parts;
     }

@@ -10,10 +10,10 @@
 
 namespace examples {
 
-/// A stop watch that runs from its birth.
+/// A stop watch that starts when it is made.
 class StopWatch {
 public:
-    /// Seconds on the wall since the birth or the last restart().
+    /// Wall-clock seconds since it was made or last restarted.
     [[nodiscard]] double seconds() const {
         return std::chrono::duration<double>(Clock::now() - start_).count();
     }
@@ -26,15 +26,15 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
-/// Seconds that the processors have worked for this program, all threads together: what
-/// the work costs, also on a machine that has other things to do.
+/// Processor seconds of this program, summed over all threads: the cost of the work,
+/// even on a machine that is busy with other programs.
 [[nodiscard]] inline double processor_seconds() {
     return double(std::clock()) / double(CLOCKS_PER_SEC);
 }
 
-/// How long some work took.
+/// The time that some work took.
 struct Timing {
-    double wall = 0; ///< Seconds on the wall.
+    double wall = 0; ///< Wall-clock seconds.
     double work = 0; ///< Seconds of all processors.
 };
 
@@ -49,13 +49,13 @@ template <typename Work>
     return {watch.seconds(), processor_seconds() - before};
 }
 
-/// Nanoseconds of one call, the best of some runs: whatever else a machine does only
-/// adds to them.
-/// \param calls  How many calls one run of `work` makes.
-/// \param work   Called once a run; returns a number that depends on all that it has
-///               computed, so that nothing is optimised away.
-/// \param runs   How many.
-/// \return Nanoseconds on the wall, the loop around the call included.
+/// Nanoseconds per call, the least of several runs, since other work on the machine can
+/// only add time.
+/// \param calls  The number of calls that one run of `work` makes.
+/// \param work   Called once per run; returns a number that depends on everything that
+///               it computes, so that nothing is optimised away.
+/// \param runs   The number of runs.
+/// \return Wall-clock nanoseconds, including the loop around the call.
 template <typename Work>
 [[nodiscard]] double nanoseconds_a_call(double calls, Work&& work, int runs = 21) {
     double best = std::numeric_limits<double>::infinity();

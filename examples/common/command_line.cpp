@@ -33,7 +33,7 @@ std::string version_text() {
            std::to_string(LJUS_VERSION_PATCH);
 }
 
-// Makes the folder if it is missing, and writes and removes a file in it.
+// Creates the folder if it is missing, and tests it by writing and removing a file.
 void require_folder(const std::string& folder) {
     const auto fail = [&](const std::string& why) {
         throw std::runtime_error("cannot write into the folder '" +
@@ -44,7 +44,7 @@ void require_folder(const std::string& folder) {
     std::filesystem::create_directories(folder, error);
     if (error) fail(error.message());
     if (!std::filesystem::is_directory(folder, error)) fail("it is no folder");
-    // Whether that works depends on more than the permissions: it is tried.
+    // Permissions alone do not decide whether this works, so try it.
     ljus::require_writable((std::filesystem::path(folder) / "probe").string());
 }
 
@@ -56,8 +56,8 @@ std::string list_of(const std::vector<std::string>& words) {
     return text;
 }
 
-// One line without its full stop. It may repeat a word that a user typed, which is as
-// long as it likes and of any bytes.
+// One line without its full stop. It may repeat what a user typed, which can have any
+// length and any bytes.
 std::string without_end(std::string text, std::size_t limit) {
     const std::size_t end = text.find_last_not_of(" \n.");
     text.erase(end == std::string::npos ? 0 : end + 1);
@@ -66,7 +66,7 @@ std::string without_end(std::string text, std::size_t limit) {
     return ljus::shown(std::move(text), limit);
 }
 
-// A name that only a picture has, and no folder.
+// Whether the name is that of a picture, not of a folder.
 bool names_a_file(std::string out) {
     for (char& c : out) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
     const std::string kind = std::filesystem::path(out).extension().string();
@@ -76,8 +76,8 @@ bool names_a_file(std::string out) {
     return std::find(std::begin(kinds), std::end(kinds), kind) != std::end(kinds);
 }
 
-// A library that makes threads ends the program when there are none to be had: so they
-// are asked for first.
+// OpenMP ends the program if it cannot start its threads, so try to start them here
+// first.
 void require_threads(int wanted) {
     const int count = wanted == 0 ? ljus::detail::max_threads() : wanted;
     std::vector<std::thread> threads;
@@ -98,14 +98,15 @@ void require_threads(int wanted) {
                                  " threads: " + why + "; --threads 1 needs none");
 }
 
-// Digits, and a sign: the parser's own conversion takes 010 for 8.
+// Digits with an optional sign: the parser's own conversion would read 010 as 8.
 bool is_whole(const std::string& text) {
     const std::size_t first = text.find_first_not_of('-');
     return first <= 1 && text.find_first_not_of("0123456789", first) == text.npos &&
            (text[first] != '0' || first + 1 == text.size());
 }
 
-// All digits, and below 2^64: the parser's own conversion takes -1 for the largest seed.
+// Only digits, below 2^64: the parser's own conversion would read -1 as the largest
+// seed.
 std::string take_seed(const std::string& text, std::uint64_t& seed) {
     const char* const end = text.data() + text.size();
     std::uint64_t given = 0;
@@ -119,7 +120,7 @@ std::string take_seed(const std::string& text, std::uint64_t& seed) {
 } // namespace
 
 std::string detail::word_in(const std::string& spelled) {
-    // "(ljus::Sampling)9" is no enumerator; of other compilers "...<...>(void)".
+    // "(ljus::Sampling)9" is not an enumerator; other compilers write "...<...>(void)".
     const std::size_t end = spelled.find_last_of(spelled.back() == ']' ? ']' : '>');
     const std::size_t begin = spelled.rfind(':', end) + 1;
     std::string word = spelled.substr(begin, end - begin);
@@ -159,7 +160,8 @@ struct CommandLine::Parser {
     // What each option is now, as JSON.
     std::vector<std::pair<CLI::Option*, std::function<std::string()>>> settings;
 
-    // An option: `read` tells its value as JSON, `take` sets it or says what is right.
+    // An option: `read` returns its value as JSON, `take` sets it or says what is
+    // allowed.
     void add_setting(const std::string& name, const std::string& kind,
                      const std::string& help, std::function<std::string()> read,
                      std::function<std::string(const std::string&)> take) {
@@ -194,7 +196,8 @@ CommandLine::CommandLine(std::vector<std::string> arguments)
     app.get_formatter()->column_width(32);
     app.get_formatter()->label("Positionals", "Arguments");
 
-    // Given twice, the last one counts: a script's options can be followed by one's own.
+    // If an option is given twice, the last one counts, so that one can append to the
+    // options of a script.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app.add_option("--out", parser_->out,
                    "Folder for the files, made if it is missing [.]")
@@ -385,7 +388,7 @@ Options CommandLine::parse(const Presets& presets) {
     try {
         app.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::ParseError& error) {
-        // --help and --version arrive here as well: those are no errors.
+        // --help and --version also arrive here; they are not errors.
         if (error.get_exit_code() == 0) {
             std::ostringstream text;
             (void)app.exit(error, text);
@@ -406,7 +409,7 @@ Options CommandLine::parse(const Presets& presets) {
     fill(options.pick(presets.draft, presets.report, presets.reference));
     const std::vector<std::string>& types = parser_->file_types;
     const std::filesystem::path out = options.out = parser_->out;
-    std::error_code error; // such a name may be no name at all, and then no folder
+    std::error_code error; // the text may not be a valid name at all
     const bool folder = std::filesystem::is_directory(out, error);
     if (std::find(types.begin(), types.end(), out.extension()) != types.end() &&
         !folder) {
@@ -445,7 +448,7 @@ int run_main(int argc, const char* const* argv,
         handle_signals();
         CommandLine line({argv, argv + argc});
         body(line);
-        // What was said to a full disk or a closed pipe must not be lost in silence.
+        // Report output that was lost to a full disk or a closed pipe.
         if (std::fflush(stdout) != 0) {
             const int error = errno;
             return complain("cannot write to standard output: " +
@@ -460,11 +463,11 @@ int run_main(int argc, const char* const* argv,
     } catch (const std::bad_alloc&) {
         return complain("there is not enough memory");
     } catch (const std::exception& error) {
-        // An error in the wake of Ctrl-C is no news.
+        // Do not report errors that only follow from Ctrl-C.
         if (stop_signal() != 0) return stopped();
         return complain(error.what());
     } catch (...) {
-        return complain("something unknown went wrong");
+        return complain("an exception of an unknown type was thrown");
     }
 }
 

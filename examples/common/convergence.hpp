@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file examples/common/convergence.hpp
-/// \brief Error against time: slopes, when an error is reached, of which kind it is.
+/// \brief Error against time: slopes, the time to a given error, and bias or variance.
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +16,13 @@ namespace examples {
 /// A power law y = c x^slope, fitted to points.
 struct PowerLaw {
     double slope = 0; ///< The exponent.
-    double error = 0; ///< Its standard error, from how far the points lie off the line.
+    double error = 0; ///< Its standard error, from the residuals of the fit.
 };
 
 /// Fits a straight line to the logarithms of x and y, by least squares.
-/// \param x  Above 0, not all alike.
-/// \param y  As many, above 0; others are left out.
-/// \return The slope; NaN for less than 2 points, and its error for less than 3.
+/// \param x  Above 0, not all equal.
+/// \param y  As many values; points with y <= 0 are left out.
+/// \return The slope, NaN for fewer than 2 points; its error is NaN for fewer than 3.
 [[nodiscard]] inline PowerLaw fit_power(const std::vector<double>& x,
                                         const std::vector<double>& y) {
     std::vector<double> u, v;
@@ -48,13 +48,13 @@ struct PowerLaw {
     return {slope, n >= 3 ? std::sqrt(off / (n - 2) / uu) : nan};
 }
 
-/// Where a curve first falls to a value, by straight lines between the points of a plot
-/// with two logarithmic axes.
-/// \param x       Rising, above 0.
-/// \param y       As many, above 0.
+/// The x at which a curve first falls to a value, by linear interpolation on two
+/// logarithmic axes.
+/// \param x       Increasing, above 0.
+/// \param y       As many values, above 0.
 /// \param target  The value.
-/// \return x; the first one if y is not above the target from the start, and NaN if it
-///         never comes down to it. Nothing is extrapolated.
+/// \return x; the first one if y begins at or below the target, and NaN if y never
+///         falls to it. Nothing is extrapolated.
 [[nodiscard]] inline double reach(const std::vector<double>& x,
                                   const std::vector<double>& y, double target) {
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -66,11 +66,11 @@ struct PowerLaw {
     return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// A picture over sqrt(r^2 + epsilon), so that squares of differences are relative, as
-/// in rel_mse().
+/// A picture divided by sqrt(r^2 + epsilon), so that squared differences are relative,
+/// as in rel_mse().
 /// \param image      The picture.
 /// \param reference  The truth r, of the same size.
-/// \return In double.
+/// \return The quotient, in double.
 template <typename T, typename U>
 [[nodiscard]] ljus::ImageT<double> weighed(const ljus::ImageT<T>& image,
                                            const ljus::ImageT<U>& reference) {
@@ -83,13 +83,12 @@ template <typename T, typename U>
     return result;
 }
 
-/// The two parts of the relMSE of a run, from several seeds: what stays, and noise.
+/// Splits the relMSE of a run into squared bias and variance, by several seeds.
 ///
-/// Their sum is the mean of rel_mse() over the runs, but for the noise of the
-/// reference, which is taken off.
+/// Their sum is the mean of rel_mse() over the runs, minus the noise of the reference.
 /// \param runs       At least 2, of independent seeds.
 /// \param reference  The truth.
-/// \param its_noise  The reference's own variance, as the part of relMSE it makes.
+/// \param its_noise  The reference's own variance, as its contribution to relMSE.
 /// \param block      Side of the blocks whose means are compared; 1: pixels.
 [[nodiscard]] inline ljus::BiasVariance
 relative_split(const std::vector<ljus::Image>& runs,
@@ -106,12 +105,12 @@ relative_split(const std::vector<ljus::Image>& runs,
 
 /// The standard error of a squared bias, as ljus::bias_variance() estimates it.
 ///
-/// That estimate is the mean of the products of any two different runs: each run is
-/// left out in turn, and the scatter of what remains tells the error (a jackknife).
-/// Where there is no bias it comes out too large: twice for three runs, 1.4 times for
-/// many.
-/// \param apart  What each run is too large by, of independent seeds.
-/// \return Infinity for less than 3 runs.
+/// That estimate is the mean of the products of all pairs of runs. Its error is found
+/// by a jackknife: each run is left out in turn, and the scatter of the results is
+/// measured. Without bias the error comes out too large: by a factor of 2 for three
+/// runs, of 1.4 for many.
+/// \param apart  The difference of each run from the reference, of independent seeds.
+/// \return Infinity for fewer than 3 runs.
 [[nodiscard]] inline double bias_error(const std::vector<ljus::ImageT<double>>& apart) {
     const auto n = double(apart.size());
     if (apart.size() < 3) return std::numeric_limits<double>::infinity();
@@ -130,9 +129,9 @@ relative_split(const std::vector<ljus::Image>& runs,
            (3 * double(apart[0].pixels.size()));
 }
 
-/// The standard error of the bias that relative_split() finds.
+/// The standard error of the squared bias that relative_split() finds.
 /// \param runs       Of independent seeds.
-/// \param reference  The truth; its own noise is not in it.
+/// \param reference  The truth; its own noise is not counted.
 [[nodiscard]] inline double relative_bias_error(const std::vector<ljus::Image>& runs,
                                                 const ljus::ImageT<double>& reference) {
     const auto truth = weighed(reference, reference);

@@ -3,8 +3,8 @@
 /// \file examples/common/drawing.hpp
 /// \brief Diagrams of the book, drawn from what the library computes.
 ///
-/// The SVG takes its colour from where it stands (currentColor), so that a page which
-/// includes it by \\htmlinclude stays readable in dark mode.
+/// The SVG takes the colour of the surrounding page (currentColor), so that a page that
+/// includes it by \\htmlinclude is readable in dark mode as well.
 
 #include <cctype>
 #include <cmath>
@@ -23,7 +23,7 @@ struct Point {
     double y = 0; ///< Up.
 };
 
-/// A point of space in a drawing of the plane of x and y.
+/// Projects a point of space onto the x-y plane.
 /// \param v  A vector of the library.
 /// \return Its x and y.
 template <typename V>
@@ -47,13 +47,13 @@ inline constexpr const char* violet = "#a06cd5"; ///< Of the fourth.
 inline constexpr const char* red = "#d64550";    ///< Of the fifth.
 } // namespace colors
 
-/// A diagram: a window of the plane, and what is drawn in it, in the order of drawing.
+/// A diagram: a window of the plane, and the shapes in it, in the order of drawing.
 struct Drawing {
     std::string name;        ///< Of the file, e.g. "fig-9".
     std::string description; ///< What it shows, for those who cannot see it.
     Point low;               ///< The window's lower left corner.
     Point high;              ///< Its upper right corner.
-    double scale = 100;      ///< Pixels a unit.
+    double scale = 100;      ///< Pixels per unit.
     std::string body = {};   ///< SVG elements so far.
 };
 
@@ -111,7 +111,7 @@ inline void draw_arrow(Drawing& drawing, const Point& from, const Point& to,
                     pen.color + "\"/>\n";
 }
 
-/// Draws a part of a circle.
+/// Draws an arc.
 /// \param drawing  Where to.
 /// \param center   The circle's centre.
 /// \param radius   Its radius.
@@ -130,7 +130,7 @@ inline void draw_arc(Drawing& drawing, const Point& center, double radius, doubl
     draw_line(drawing, points, pen);
 }
 
-/// The corners of a polygon that looks like a circle: for draw_line() and draw_area().
+/// A polygon that approximates a circle, for draw_line() and draw_area().
 /// \param center  The circle's centre.
 /// \param radius  Its radius.
 /// \return Points, the first one again at the end.
@@ -159,7 +159,8 @@ inline void draw_dot(Drawing& drawing, const Point& at, double radius,
                     color + "\"/>\n";
 }
 
-/// Writes a name; letters and digits after an underscore stand lower, as in "n_1 = 1".
+/// Writes a name; letters and digits after an underscore are subscripts, as in "n_1 =
+/// 1".
 /// \param drawing  Where to.
 /// \param at       The middle of the text.
 /// \param name     The text.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file examples/common/error_map.hpp
-/// \brief Numbers of pixels as colours, with a legend that says which.
+/// \brief Maps of numbers as colours, with a legend.
 
 #include <algorithm>
 #include <array>
@@ -20,18 +20,17 @@ namespace examples {
 
 /// Colours for numbers from 0 to 1.
 enum class Ramp {
-    heat, ///< Black, violet, orange, pale yellow: for what is 0 at best.
-    signs ///< Blue, white, orange: 0.5 stands for no error.
+    heat, ///< Black, violet, orange, pale yellow: for errors, which are 0 at best.
+    signs ///< Blue, white, orange: for signed errors; 0.5 stands for no error.
 };
 
 /// The colour of a number.
 /// \param ramp  Which colours.
-/// \param t     In [0, 1]; what is outside takes the end's colour.
+/// \param t     Clamped to [0, 1].
 /// \return Linear sRGB, for save_png().
 [[nodiscard]] inline ljus::Rgb ramp_color(Ramp ramp, double t) {
     using Bytes = std::array<double, 3>;
-    // In steps of equal difference to the eye, roughly; each lighter than the one
-    // before.
+    // Roughly perceptually uniform steps, each lighter than the one before.
     static constexpr std::array<Bytes, 6> heat{{{0, 0, 0},
                                                 {62, 22, 92},
                                                 {140, 38, 107},
@@ -57,8 +56,8 @@ enum class Ramp {
     return color;
 }
 
-/// Writes digits into a picture: 3 x 5 dots a character, and one between two.
-/// \param image  Where to; what does not fit is left out.
+/// Writes digits into a picture: 3 x 5 dots per character, one dot apart.
+/// \param image  The picture; characters that do not fit are cut off.
 /// \param x      Column of the left edge.
 /// \param y      Row of the upper edge.
 /// \param text   Digits, '.', '-', '+' and '%'; others leave a gap.
@@ -88,13 +87,12 @@ inline void write_digits(ljus::Image& image, int x, int y, std::string_view text
     }
 }
 
-/// A map of numbers as a picture, with a bar of its colours below and the numbers that
-/// they stand for.
-/// \param map   Grey: its first channel counts. NaN is drawn in green.
+/// A map of numbers as a picture, with a colour bar and its range below.
+/// \param map   The first channel is drawn; NaN is drawn in green.
 /// \param ramp  The colours.
 /// \param low   The number of the ramp's first colour.
 /// \param high  That of its last colour, above `low`.
-/// \return As wide as the map, but at least 120 pixels, and higher by the legend.
+/// \return As wide as the map, but at least 120 pixels, with the legend below.
 [[nodiscard]] inline ljus::Image error_picture(const ljus::ImageT<double>& map,
                                                Ramp ramp, double low, double high) {
     const int width = std::max(map.width, 120);

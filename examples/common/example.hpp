@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file examples/common/example.hpp
-/// \brief What the chapters' examples need beside the library: a command line, a progress
-/// bar, a stop watch, and tables.
+/// \brief The common header of the chapters' examples: a command line, a progress bar,
+/// a stop watch, and tables.
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"

@@ -14,10 +14,10 @@ namespace examples {
 
 /// The FNV-1a hash of the bytes of some values.
 ///
-/// Lists that differ have the same one once in 10^19 pairs, unless somebody wants them
-/// to.
-/// \param values  Without padding between their members.
-/// \param hash    Of what came before, to go on with.
+/// Two different lists have the same hash with probability 5e-20, unless they were made
+/// to collide.
+/// \param values  Of a type without padding between its members.
+/// \param hash    The hash so far, to continue from.
 /// \return 64 bits.
 template <typename V>
 [[nodiscard]] std::uint64_t hash_of(const std::vector<V>& values,

@@ -17,24 +17,24 @@
 
 namespace examples {
 
-/// A picture that is believed, and how far.
+/// A reference picture, and how accurate it is.
 struct Oracle {
     ljus::ImageT<double> truth{}; ///< The mean of all pieces.
-    double noise = 0;             ///< Its own variance, as the part of relMSE it makes.
+    double noise = 0;             ///< Its own variance, as its contribution to relMSE.
     double block_noise = 0;       ///< The same of its blocks of 10 x 10 pixels.
     int rays = 0;                 ///< Rays per pixel in all pieces.
 };
 
-/// The truth of a room: path tracing without a limit of depth, in eight pieces whose
-/// variance tells its error.
+/// The reference picture of a room: path tracing without a limit on depth, in eight
+/// pieces whose variance gives its error.
 ///
-/// The pieces are kept as oracle-NAME-....pfm beside the figures, and found there by
-/// the next program. Their names hold the fingerprint of a small picture of the room,
-/// so that a room or a path tracer that has changed is rendered anew.
-/// \param name     Of the room, for the files.
+/// The pieces are kept as oracle-NAME-....pfm beside the figures, where the next
+/// program finds them. Their names hold the fingerprint of a small picture of the room,
+/// so that they are rendered again if the room or the path tracer has changed.
+/// \param name     The name of the room, for the files.
 /// \param room     With a `world` and a `camera`.
 /// \param size     Width and height in pixels.
-/// \param rays     Rays per pixel, shared out among the pieces.
+/// \param rays     Rays per pixel, divided among the pieces.
 /// \param options  Folder and threads; the seed is the oracle's own.
 /// \return The truth.
 template <typename Room>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file examples/common/picture_cost.hpp
-/// \brief What a picture cost and what was made for it: for the terminal and for the
+/// \brief The cost of a picture and of its photon maps: for the terminal and for the
 /// file beside the picture.
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace examples {
 
-/// What a picture cost, as it stands in the file beside it.
+/// The cost of a picture as JSON, for the file beside it.
 [[nodiscard]] inline nlohmann::ordered_json cost_json(const ljus::Counts& counts,
                                                       double seconds) {
     return {{"seconds", seconds},
@@ -31,7 +31,7 @@ namespace examples {
             {"cut_paths", counts.cut_paths}};
 }
 
-/// The same for the terminal, in lines.
+/// Prints the cost on the terminal.
 inline void print_cost(const ljus::Counts& counts, double seconds) {
     const auto over = [](auto a, auto b) { return double(a) / double(b); };
     std::printf("  %-16s %8.2f s  %" PRIu64
@@ -63,10 +63,10 @@ inline void print_cost(const ljus::Counts& counts, double seconds) {
                     "", "", counts.cut_paths);
 }
 
-/// What a photon map keeps, in a line for the terminal.
-/// \param name     Of the map.
+/// Prints the numbers of photons in a map, in one line.
+/// \param name     The name of the map.
 /// \param map      The map.
-/// \param emitted  How many photons were.
+/// \param emitted  The number of photons emitted.
 template <std::floating_point T>
 void print_map(const char* name, const ljus::PhotonMapT<T>& map, long long emitted) {
     std::printf("  %-16s %10s  %lld photons emitted; kept:", name, "", emitted);
@@ -78,7 +78,7 @@ void print_map(const char* name, const ljus::PhotonMapT<T>& map, long long emitt
     std::printf("\n");
 }
 
-/// What was chosen for the caustics, in a line for the terminal.
+/// Prints the settings chosen for the caustics, in one line.
 /// \param settings  With the radius, and the shares of the objects if there are any.
 inline void print_caustics(const ljus::PhotonMappingSettings& settings) {
     const std::vector<double>& shares = settings.caustics.shares;

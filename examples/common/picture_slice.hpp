@@ -1,13 +1,14 @@
 #pragma once
 
 /// \file picture_slice.hpp
-/// \brief Some rows of a picture as a file, and such files put together: how a picture
-/// is rendered by machines that know nothing of each other.
+/// \brief Slices: some rows of a picture in a file, and the merging of such files, so
+/// that machines without a connection can render one picture.
 ///
-/// A file of a slice is 16 letters that say what it is; version, number and count of
-/// the slices, bytes of a channel and a checksum; then the size of the whole, exposure,
-/// cost, settings as JSON text, and the rows from the top, every number with all its
-/// bits, lowest byte first. It is written whole or not at all (save_file()).
+/// The file of a slice begins with 16 letters that identify the format, its version,
+/// the slice's number, the count of slices, the bytes per channel and a checksum; then
+/// follow the size of the whole picture, exposure, cost, settings as JSON text, and the
+/// rows from the top. Numbers keep all their bits, lowest byte first. The file is
+/// written whole or not at all (save_file()).
 
 #include <array>
 #include <cmath>
@@ -28,13 +29,13 @@
 
 namespace examples {
 
-/// Which of how many slices: 3/16 is the third, 16/16 the last.
+/// The number of a slice: 3/16 is the third of 16, 16/16 the last.
 struct SliceNumber {
     int number = 0; ///< From 1 on; 0 if the picture is not sliced.
-    int count = 0;  ///< How many there are.
+    int count = 0;  ///< The number of slices.
 };
 
-/// The most slices of a picture.
+/// The largest number of slices of a picture.
 inline constexpr int max_slices = 65536;
 
 /// "3/16".
@@ -45,7 +46,7 @@ inline constexpr int max_slices = 65536;
 /// The number of "3/16".
 /// \param text  What the user gave.
 /// \return The number.
-/// \throws std::invalid_argument  if it is no slice.
+/// \throws std::invalid_argument  if the text is not K/N.
 [[nodiscard]] inline SliceNumber slice_of(const std::string& text) {
     const auto numbers = two_numbers(text, '/');
     if (!numbers || numbers->first < 1 || numbers->first > numbers->second ||
@@ -57,7 +58,7 @@ inline constexpr int max_slices = 65536;
     return {numbers->first, numbers->second};
 }
 
-/// The rows of a slice: with more slices than rows some have none.
+/// The rows of a slice; if there are more slices than rows, some have none.
 /// \param slice   Which one.
 /// \param height  Of the whole picture.
 // [rows]
@@ -69,9 +70,9 @@ inline constexpr int max_slices = 65536;
 }
 // [rows]
 
-/// A part of a picture, and all that tells whose part it is.
+/// Rows of a picture, and everything that identifies the picture.
 struct PictureSlice {
-    SliceNumber slice{};    ///< Which part.
+    SliceNumber slice{};    ///< Which slice.
     int width = 0;          ///< Of the whole picture.
     int height = 0;         ///< Of the whole picture.
     bool wide = false;      ///< Rendered in double.
@@ -82,7 +83,7 @@ struct PictureSlice {
     std::vector<ljus::RgbT<double>> pixels{}; ///< Its rows, from the top.
 };
 
-/// A hash of a scene: of its file, and of all files that it names.
+/// A hash of a scene: of its file and of all files that it refers to.
 /// \param path  The scene file.
 /// \return 16 digits.
 [[nodiscard]] inline std::string scene_hash(const std::string& path) {
@@ -107,7 +108,7 @@ namespace detail {
 
 inline constexpr ljus::FileFormat slice_format{"ljus picturepart", 1};
 
-// Calls `each` with every number between the header and the settings' text.
+// Calls `each` with each number between the header and the text of the settings.
 template <typename Slice, typename Each>
 void each_slice_number(Slice& part, Each each) {
     each(part.exposure);
@@ -122,7 +123,7 @@ void each_slice_number(Slice& part, Each each) {
 } // namespace detail
 
 /// Saves a slice: whole, or not at all.
-/// \param path  The file; an older one is replaced at the very end.
+/// \param path  The file; an existing one is replaced when the new one is complete.
 /// \param part  The slice.
 inline void save_slice(const std::string& path, const PictureSlice& part) {
     using ljus::put_number;
@@ -146,9 +147,9 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
 
 /// Loads a slice.
 /// \param path  The file.
-/// \return The slice, bit by bit as it was saved.
-/// \throws std::runtime_error  with path and reason: what is cut short, damaged, of
-///         another version or no slice is refused.
+/// \return The slice, bit for bit as it was saved.
+/// \throws std::runtime_error  with path and reason, if the file is cut short, damaged,
+///         of another version, or not a slice.
 [[nodiscard]] inline PictureSlice load_slice(const std::string& path) {
     ljus::FileReader file =
         ljus::open_file(path, std::size_t(1) << 34, detail::slice_format);
@@ -160,7 +161,7 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
     file.position = ljus::file_front_bytes;
     if (file.left() < numbers) file.refuse("it ends in the middle of its header");
 
-    // What has the right checksum and yet no sense was made to mislead.
+    // A file with a valid checksum can still hold impossible numbers.
     const auto width = file.take<std::uint32_t>();
     const auto height = file.take<std::uint32_t>();
     detail::each_slice_number(
@@ -193,8 +194,8 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
 
 namespace detail {
 
-// Why a slice is not of the picture of another one: the first setting that differs, or
-// nothing.
+// Why two slices are not of the same picture: the first setting that differs; empty if
+// none does.
 inline std::string difference(const PictureSlice& a, const PictureSlice& b) {
     if (a.settings == b.settings)
         return a.width == b.width && a.height == b.height && a.wide == b.wide &&
@@ -214,7 +215,7 @@ inline std::string difference(const PictureSlice& a, const PictureSlice& b) {
 
 } // namespace detail
 
-/// A whole picture of slices.
+/// A picture merged from slices.
 struct MergedPicture {
     ljus::ImageT<double> image{}; ///< All rows.
     bool wide = false;            ///< Rendered in double.
@@ -222,11 +223,11 @@ struct MergedPicture {
     std::string settings{};       ///< JSON, with the cost of all slices.
 };
 
-/// Puts slices together.
+/// Merges slices into one picture.
 /// \param paths  Their files, in any order.
-/// \return The picture, every number as one process would have made it.
-/// \throws std::runtime_error  with one sentence if a slice is missing, there twice, of
-///         another picture, or cannot be read.
+/// \return The picture, bit for bit as one process would have rendered it.
+/// \throws std::runtime_error  with one sentence if a slice is missing, given twice, of
+///         another picture, or unreadable.
 // [merge]
 [[nodiscard]] inline MergedPicture merge_slices(const std::vector<std::string>& paths) {
     if (paths.empty()) throw std::runtime_error("there is no slice to merge");

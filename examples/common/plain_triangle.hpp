@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file examples/common/plain_triangle.hpp
-/// \brief The formula of Möller and Trumbore as it stands on paper.
+/// \brief The formula of Möller and Trumbore as it is printed.
 
 #include <optional>
 
@@ -9,12 +9,12 @@
 
 namespace examples {
 
-/// Where a ray meets a triangle: the plain twin of ljus::intersect(), in float.
+/// Intersects a ray with a triangle: the plain twin of ljus::intersect(), in float.
 /// \param ray       Hits count in [t_min, t_max].
-/// \param triangle  One with an area.
-/// \return The hit, if there is one. Near edges float decides wrongly at times.
+/// \param triangle  A triangle of non-zero area.
+/// \return The hit, if there is one. Near edges, rounding in float can decide wrongly.
 // [plain]
-[[nodiscard]] inline std::optional<ljus::FlatHitT<float>>
+[[nodiscard]] inline std::optional<ljus::ShapeHitT<float>>
 intersect_plainly(const ljus::Ray& ray, const ljus::Triangle& triangle) {
     using ljus::Vec3;
     const Vec3 e1 = triangle.v2 - triangle.v1, e2 = triangle.v3 - triangle.v1;
@@ -26,7 +26,7 @@ intersect_plainly(const ljus::Ray& ray, const ljus::Triangle& triangle) {
     const float v = glm::dot(q, ray.direction) / determinant;
     if (!(u >= 0 && v >= 0 && u + v <= 1)) return std::nullopt; // NaN is a miss
     if (!(ray.t_min <= t && t <= ray.t_max)) return std::nullopt;
-    return ljus::FlatHitT<float>{.t = t, .u = u, .v = v};
+    return ljus::ShapeHitT<float>{.t = t, .u = u, .v = v};
 }
 // [plain]
 

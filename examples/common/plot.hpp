@@ -1,11 +1,11 @@
 #pragma once
 
 /// \file plot.hpp
-/// \brief Plots and tables of the book, written as data and as instructions.
+/// \brief Plots and tables of the book, written as data and as gnuplot files.
 ///
-/// A program that makes figures writes NAME.csv, which anybody can read, and beside it
-/// NAME.gp for gnuplot or NAME.html for a chapter. `scripts/plot FOLDER` turns each .gp
-/// into an .svg that follows the page into dark mode.
+/// A program that makes figures writes the data to NAME.csv, and beside it NAME.gp for
+/// gnuplot or NAME.html for a chapter. `scripts/plot FOLDER` draws each .gp as an .svg
+/// that is readable in dark mode as well.
 
 #include <algorithm>
 #include <cmath>
@@ -20,32 +20,32 @@
 
 namespace examples {
 
-/// One line of a plot or table: a number a column; NaN leaves the cell empty, and a row
-/// without numbers interrupts the curves of a plot.
+/// A row of numbers, one per column; NaN leaves a cell empty, and an empty row
+/// interrupts the curves of a plot.
 using Row = std::vector<double>;
 
-/// A plot: the first column is x, each further one a curve named by its heading (without
-/// a comma). The first curve is drawn thick, so that one on top of it does not hide it.
+/// A plot: the first column is x, each other one a curve named by its heading (without
+/// a comma). The first curve is thick, so that it shows beneath another one.
 struct Plot {
-    std::string name;                 ///< Of the files, e.g. "sphere-wrong".
+    std::string name;                 ///< Name of the files, e.g. "sphere-wrong".
     std::vector<std::string> columns; ///< Headings; that of x labels its axis.
     std::string y_label;              ///< What the curves show, with its unit.
     std::vector<Row> rows{};          ///< The data.
     bool log_x = false;               ///< Logarithmic x axis.
     bool log_y = false;               ///< Logarithmic y axis.
     std::string more = {}; ///< Further lines for gnuplot, e.g. "set key left".
-    std::vector<std::string> notes{}; ///< Lines at the top of the data: how measured.
+    std::vector<std::string> notes{}; ///< Head of the data: how it was measured.
 };
 
 /// A table: text or numbers, shown as they are given.
 struct Table {
-    std::string name;                             ///< Of the files.
+    std::string name;                             ///< Name of the files.
     std::vector<std::string> columns;             ///< Headings.
     std::vector<std::vector<std::string>> rows{}; ///< Cells.
     std::vector<std::string> notes{};             ///< As those of a plot.
 };
 
-/// A number as short as it may be: "%.4g", or nothing for NaN.
+/// A number as text: "%.4g", or an empty text for NaN.
 /// \param value   The number.
 /// \param format  For printf.
 /// \return The text.
@@ -71,14 +71,14 @@ inline void print_rows(const Table& table, int width = 12) {
     for (const auto& row : table.rows) print_row(row, width);
 }
 
-/// How many letters a text has: bytes of UTF-8 that begin one.
+/// The number of characters of a UTF-8 text.
 [[nodiscard]] inline std::size_t letters_of(const std::string& text) {
     return std::size_t(std::count_if(text.begin(), text.end(),
                                      [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-/// Prints a table on the terminal: each column as wide as its cells, and headings over
-/// several lines where they are longer.
+/// Prints a table on the terminal: each column is as wide as its cells, and longer
+/// headings take several lines.
 /// \param table  The table.
 inline void print_table(const Table& table) {
     const std::size_t count = table.columns.size();
@@ -114,16 +114,16 @@ inline void print_table(const Table& table) {
     for (const auto& row : table.rows) print([&](std::size_t c) { return row[c]; });
 }
 
-/// Saves a text as a whole, or not at all.
+/// Saves a text, whole or not at all.
 /// \param path      The file.
-/// \param contents  What it shall hold.
+/// \param contents  Its text.
 inline void save_text(const std::string& path, const std::string& contents) {
     ljus::save_file(path, ljus::Bytes(contents.begin(), contents.end()));
 }
 
 /// One line of a CSV file.
-/// \param cells  What it shall hold; cells with a comma or a quote are quoted.
-/// \return The line with its end.
+/// \param cells  The cells; those with a comma or a quote are quoted.
+/// \return The line with its line end.
 [[nodiscard]] inline std::string csv_line(const std::vector<std::string>& cells) {
     std::string line;
     for (const std::string& cell : cells) {

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file progressive_picture.hpp
-/// \brief A picture made pass by pass: it shows itself while it runs, and can be
-/// stopped, killed and resumed.
+/// \brief A picture made pass by pass: it has a preview, and can be stopped, killed and
+/// resumed.
 
 #include <cstdio>
 #include <filesystem>
@@ -17,37 +17,38 @@
 
 namespace examples {
 
-/// What the user asks of such a picture.
+/// The options of a picture in passes.
 struct PassOptions {
     long long passes = 0;        ///< How many; 0: not asked for.
     double alpha = 2.0 / 3;      ///< How fast the radius shrinks; 1: not at all.
-    std::string checkpoint = {}; ///< Saved while it runs, if it has a name.
-    std::string preview = {};    ///< The same for a PNG file.
-    double every = 2;            ///< Seconds between them; 0: after each pass.
-    bool resume = false;         ///< Whether to go on from the checkpoint.
+    std::string checkpoint = {}; ///< File to save the state to; empty: none.
+    std::string preview = {};    ///< PNG file to save a preview to; empty: none.
+    double every = 2;            ///< Seconds between saves; 0: after each pass.
+    bool resume = false;         ///< Whether to continue from the checkpoint.
     double exposure = 0;         ///< Of the preview, in stops.
 };
 
 /// Adds the options of passes to a command line.
 /// \param line  The command line.
-/// \param how   Takes what the user gives; must live until the line is parsed.
+/// \param how   Receives the user's values; must live until the line is parsed.
 inline void add_pass_options(CommandLine& line, PassOptions& how) {
     line.add("--passes", how.passes, "How many, each with photons of its own", 1,
              1'000'000'000);
     line.add("--alpha", how.alpha, "How slowly their radius shrinks; 1: not at all",
              1e-3, 1);
-    line.add("--checkpoint FILE", how.checkpoint, "A file from which they can go on");
-    line.add("--resume", how.resume, "Go on from the checkpoint");
-    line.add("--preview FILE", how.preview, "A PNG file of the passes so far");
+    line.add("--checkpoint FILE", how.checkpoint, "File to resume the passes from");
+    line.add("--resume", how.resume, "Continue from the checkpoint");
+    line.add("--preview FILE", how.preview, "PNG file of the passes so far");
     line.add("--every", how.every, "Seconds between such files; 0: after each pass", 0,
              1e6);
 }
 
-/// Makes sure that the files of the passes can be written, before any work is done.
-/// \param how      What the user asked for.
-/// \param picture  The file of the picture, which is none of them.
-/// \throws std::invalid_argument  for names that do not go together, and for a checkpoint
-///                                that would be lost.
+/// Checks that the files of the passes can be written, before any work is done.
+/// \param how      The options.
+/// \param picture  The file of the picture, which must be another file.
+/// \throws std::invalid_argument  for names that conflict, and for a checkpoint that
+///         would be
+///                                overwritten.
 inline void require_pass_files(const PassOptions& how, const std::string& picture) {
     if (how.resume && how.checkpoint.empty())
         throw std::invalid_argument("--resume needs --checkpoint FILE.");
@@ -64,7 +65,7 @@ inline void require_pass_files(const PassOptions& how, const std::string& pictur
                 throw std::invalid_argument("--checkpoint is " + how.checkpoint +
                                             "; it must be a file of its own.");
     if (!how.resume && !how.checkpoint.empty() &&
-        std::filesystem::exists(how.checkpoint)) // it may hold hours of passes
+        std::filesystem::exists(how.checkpoint)) // it may hold hours of work
         throw std::invalid_argument("--checkpoint is " + how.checkpoint +
                                     ", which is there already; it must be a new file, "
                                     "unless --resume goes on from it.");
@@ -77,7 +78,7 @@ inline void require_pass_files(const PassOptions& how, const std::string& pictur
 /// \param quiet  Draw no progress bar.
 /// \param pass   Called as pass(i, scale); see \ref progressive.
 /// \return The state after the last pass.
-/// \throws Interrupted  after Ctrl-C; what is done by then is in the checkpoint.
+/// \throws Interrupted  after Ctrl-C; the passes done so far are in the checkpoint.
 template <typename RenderPass>
 [[nodiscard]] ljus::ProgressiveState run_passes(const PassOptions& how, bool quiet,
                                                 RenderPass&& pass) {
@@ -120,7 +121,7 @@ template <typename RenderPass>
     return state;
 }
 
-/// What is known of the picture, for the terminal.
+/// Prints the passes, the standard errors and the radius on the terminal.
 /// \param state  Of at least one pass.
 inline void print_passes(const ljus::ProgressiveState& state) {
     const auto error = ljus::estimate_error(state);

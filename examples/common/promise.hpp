@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file examples/common/promise.hpp
-/// \brief A picture within some seconds, or with some error: which settings, and how
-/// many pictures to take the mean of.
+/// \brief A picture within a given time, or with a given error: chooses the settings,
+/// and the number of pictures to average.
 
 #include <algorithm>
 #include <cmath>
@@ -20,16 +20,16 @@ namespace examples {
 
 /// One way to make a picture; seeds and threads are the caller's.
 struct Recipe {
-    std::string name{};                     ///< As it is told to the user.
-    ljus::PhotonMappingSettings settings{}; ///< Photons and all else of one picture.
-    int rays = 1;                           ///< In each pixel.
-    double bias = 0; ///< Its square, in relMSE, as large as in the rooms of chapter 35.
+    std::string name{};                     ///< Its name for the user.
+    ljus::PhotonMappingSettings settings{}; ///< The settings of one picture.
+    int rays = 1;                           ///< Rays per pixel.
+    double bias = 0; ///< Squared bias in relMSE, as in the rooms of chapter 35.
 };
 
-/// The ways that a promise is kept by, the quickest first: the presets, with photons in
-/// proportion to the pixels and few rays, since the mean of several pictures is shown.
-/// Each pixel has the same number: more rays where the first ones disagree are quicker,
-/// but biased, and no mean of pictures takes that away.
+/// The recipes that a promise chooses from, the quickest first: the presets, with
+/// photons in proportion to the pixels, and few rays, since several pictures are
+/// averaged. Each pixel gets the same number of rays: adaptive sampling is quicker, but
+/// its bias would remain in the mean.
 /// \param width   Of the picture, in pixels.
 /// \param height  Of the picture, in pixels.
 /// \return draft, fast and exact.
@@ -45,43 +45,44 @@ struct Recipe {
     return all;
 }
 
-/// What a pilot has found of one recipe. Errors are parts of relMSE.
+/// What a pilot has found out about one recipe. Errors are in relMSE.
 struct Forecast {
-    double seconds = 0; ///< Of one picture.
-    double noise = 0;   ///< Of one picture: the mean of n pictures has noise / n.
-    double bias = 0;    ///< Its square: what the mean of any number of pictures keeps.
-    double unsure = 0;  ///< Standard error of that.
+    double seconds = 0; ///< Time of one picture.
+    double noise = 0;   ///< Variance of one picture; the mean of n has noise / n.
+    double bias = 0;    ///< Squared bias, which averaging does not reduce.
+    double unsure = 0;  ///< Standard error of the squared bias.
 };
 
-/// What the user has been promised: seconds, or else an error.
+/// What the user has been promised: a time or an error.
 struct Promise {
-    double seconds = 0; ///< For the whole picture; 0: as long as it takes.
+    double seconds = 0; ///< Time for the whole picture; 0: as long as it takes.
     double error = 0;   ///< relMSE; 0: as small as the seconds allow.
 };
 
-/// A squared bias from two sources: what a pilot has measured, and the book's rooms.
+/// Combines two estimates of a squared bias: the pilot's measurement, and the value of
+/// the book's rooms.
 ///
-/// A short pilot measures little but its own noise, and then the book's number is the
-/// better guess; the two are weighed by their standard errors, where that of the book's
-/// number is the number itself.
-/// \param measured  By the pilot; it may be below 0.
+/// A short pilot measures mostly its own noise, and then the book's value is the better
+/// guess. The two are weighted by their inverse variances; the standard error of the
+/// book's value is taken to be the value itself.
+/// \param measured  The pilot's value; it may be negative.
 /// \param error     Its standard error; infinity: there was no pilot.
-/// \param expected  By the book.
-/// \return Bias and what it is unsure by; the rest is 0.
+/// \param expected  The book's value.
+/// \return A forecast with the bias and its standard error; the rest is 0.
 // [weigh]
 [[nodiscard]] inline Forecast weigh(double measured, double error, double expected) {
     if (std::isinf(error)) return {.bias = expected, .unsure = expected};
     if (error == 0) return {.bias = std::max(measured, 0.0)};
     const double book = expected * expected, pilot = error * error;
-    const double weight = book / (book + pilot); // of the pilot
+    const double weight = book / (book + pilot); // weight of the pilot
     return {.bias = weight * std::max(measured, 0.0) + (1 - weight) * expected,
             .unsure = std::sqrt(weight) * error};
 }
 // [weigh]
 
-/// How much noise an error leaves room for, beside a bias that is not well known: what
-/// is left of it by a bias that is larger by its standard error, but at least half of
-/// what is left by the bias itself.
+/// The variance that may be added to an uncertain squared bias without exceeding an
+/// error: the error minus the bias and its standard error, but at least half of the
+/// error minus the bias.
 /// \param found  The forecast.
 /// \param error  relMSE.
 /// \return At most 0 if the bias alone is larger than the error.
@@ -90,44 +91,44 @@ struct Promise {
     return std::max(left - found.unsure, left / 2);
 }
 
-/// By how many pictures an error is reached.
+/// The number of pictures that reach an error.
 ///
-/// n pictures have the noise v / n, and know it badly if they are few: 2/n of it is
-/// added, so that v (1 + 2/n) / n must fall to what the bias leaves.
-/// \param noise  v, of one picture.
-/// \param spare  Of room_for_noise(), above 0.
+/// The mean of n pictures has variance v / n, which few pictures estimate badly. As a
+/// margin, v (1 + 2/n) / n must fall to what the bias leaves.
+/// \param noise  v, the variance of one picture.
+/// \param spare  The result of room_for_noise(), above 0.
 /// \return A whole number, at least 2.
 [[nodiscard]] inline double pictures_for(double noise, double spare) {
     const double a = noise / spare;
     return std::max(2.0, std::ceil((a + std::sqrt(a * a + 8 * a)) / 2));
 }
 
-/// What is to be done for a promise.
+/// How to keep a promise.
 struct Choice {
-    std::size_t recipe = 0; ///< Its number.
-    long long pictures = 1; ///< How many to take the mean of.
-    double seconds = 0;     ///< Of all of them, as far as is known.
-    double error = 0;       ///< relMSE of their mean, as far as is known.
+    std::size_t recipe = 0; ///< Index of the recipe.
+    long long pictures = 1; ///< Number of pictures to average.
+    double seconds = 0;     ///< Expected time of all of them.
+    double error = 0;       ///< Expected relMSE of their mean.
     bool possible = true;   ///< Whether the promise can be kept.
 };
 
 /// The recipe that keeps a promise best.
 ///
-/// *Seconds*: of all recipes that come within a tenth of them by a whole number of
-/// pictures, at least 2 so that their scatter tells the error, the one with the least
-/// error. *Error*: of all recipes whose bias, made larger by its standard error, is at
-/// most half of it, the one that takes the least time.
-/// \param found     One for each recipe.
+/// *Seconds*: the recipe with the least error among those that meet the time within a
+/// tenth by a whole number of pictures, at least 2 so that their scatter gives the
+/// error. *Error*: the recipe that takes the least time among those whose bias plus its
+/// standard error is at most half of the error.
+/// \param found     One forecast for each recipe.
 /// \param promise   Seconds, or an error.
-/// \param left      Seconds that are left of those promised, the pilot's taken off.
-/// \return If no recipe can: the quickest, or the one with the least bias.
+/// \param left      The promised seconds minus those of the pilot.
+/// \return If no recipe can keep it: the quickest, or the one with the least bias.
 // [choose]
 [[nodiscard]] inline Choice choose(const std::vector<Forecast>& found,
                                    const Promise& promise, double left = 0) {
     Choice best{.possible = false};
     for (std::size_t i = 0; i < found.size(); ++i) {
         const auto& [seconds, noise, bias, unsure] = found[i];
-        double n = 2, worth = 0, of_best = 0; // less is better
+        double n = 2, worth = 0, of_best = 0; // a smaller worth is better
         bool possible = true;
         if (promise.error > 0) {
             possible = bias + unsure <= promise.error / 2;
@@ -143,14 +144,14 @@ struct Choice {
         }
         const bool better = possible == best.possible ? worth < of_best : possible;
         if (i > 0 && !better) continue;
-        n = std::min(n, 1e12); // "for ever" is a whole number, too
+        n = std::min(n, 1e12); // infinity has no whole number
         best = {i, static_cast<long long>(n), n * seconds, bias + noise / n, possible};
     }
     return best;
 }
 // [choose]
 
-/// A number as people tell it: "0.012".
+/// A number with two significant digits: "0.012".
 [[nodiscard]] inline std::string two_digits(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2g", value);
@@ -163,7 +164,7 @@ struct Choice {
     return found.unsure > 0 ? text + " ± " + two_digits(found.unsure) : text;
 }
 
-/// What was chosen and why, in two sentences.
+/// Says in two sentences what was chosen and why.
 /// \param found    As for choose().
 /// \param names    Of the recipes.
 /// \param promise  Seconds, or an error.
@@ -204,11 +205,13 @@ struct Choice {
     return text + "The others: " + others + ".";
 }
 
-/// How bright each pixel of the mean of some pictures is, for relative errors.
+/// The brightness of each pixel of the mean of some pictures, as the divisor of
+/// relative errors.
 ///
-/// A pixel's own mean would do if it were exact. Where it is noise, dividing its noise
-/// by its square hides the noise: so the more its standard error is of it, from none to
-/// a half, the more the mean of it and its neighbours stands for it.
+/// An exact mean could be used as it is. Dividing the noise of a noisy pixel by the
+/// square of its own value would hide that noise. Therefore, as the relative standard
+/// error of a pixel rises from 0 to a half, its value is blended into the mean of its
+/// neighbourhood.
 /// \param state  The pictures, by ljus::add_pass() with alpha 1, at least 2.
 [[nodiscard]] inline ljus::ImageT<double> levels(const ljus::ProgressiveState& state) {
     const auto mean = ljus::mean_image<double>(state);
@@ -236,9 +239,9 @@ struct Choice {
     return result;
 }
 
-/// The noise of the mean of some pictures, by their scatter, as part of relMSE.
+/// The variance of the mean of some pictures, from their scatter, in relMSE.
 /// \param state  The pictures, of different seeds, by ljus::add_pass() with alpha 1.
-/// \return Infinity for less than two.
+/// \return Infinity for fewer than two.
 [[nodiscard]] inline double relative_noise(const ljus::ProgressiveState& state) {
     if (state.passes < 2) return std::numeric_limits<double>::infinity();
     const auto level = levels(state);

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file examples/common/promised_picture.hpp
-/// \brief The picture that a promise of seconds or of error is kept by: small pictures
-/// tell what each recipe would bring, one is chosen, and pictures are made by it.
+/// \brief Keeps a promise of a time or an error: small pictures forecast what each
+/// recipe would achieve, one recipe is chosen, and its pictures are averaged.
 
 #include <algorithm>
 #include <cmath>
@@ -23,29 +23,29 @@
 
 namespace examples {
 
-/// What recipes may ask of a photon mapper.
+/// The abilities that recipes need from a photon mapper.
 inline constexpr auto recipe_abilities =
     ljus::abilities<ljus::StratifiedStream, ljus::Gathering, ljus::Skipping,
                     ljus::Budgeting>;
 
-/// A picture by a recipe, and how long it took.
+/// A picture made by a recipe, and its cost.
 template <std::floating_point T>
 struct Shot {
     ljus::RenderedT<T> rendered{};          ///< The picture.
     ljus::PhotonMappingSettings settings{}; ///< With the radii that were chosen.
-    std::string remarks{};                  ///< Of the first pass, each a line.
-    double bytes = 0;                       ///< Of the photon maps.
+    std::string remarks{};                  ///< Remarks on the photon pass, one a line.
+    double bytes = 0;                       ///< Memory of the photon maps.
     double photons = 0;                     ///< Seconds of the photon maps.
-    double rest = 0;                        ///< Seconds of all else.
+    double rest = 0;                        ///< Seconds of everything else.
 };
 
 /// Makes one picture.
 /// \param world    The closed scene.
 /// \param camera   Any camera.
 /// \param recipe   Photons and rays.
-/// \param picture  Size, seed, threads, progress; its samples are not looked at.
+/// \param picture  Size, seed, threads, progress; its samples are ignored.
 /// \param now      A clock, in seconds.
-/// \param map_seed Of the photons, if it is not that of the picture.
+/// \param map_seed The seed of the photons, if it differs from the picture's.
 /// \return The picture; not complete if the progress callback stopped it.
 template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
 [[nodiscard]] Shot<typename C::Scalar>
@@ -85,18 +85,18 @@ shoot(const W& world, const C& camera, const Recipe& recipe,
 
 namespace detail {
 
-/// What a pilot tries: a recipe, and the small pictures by it.
+/// A recipe that a pilot tries, and its small pictures.
 struct Trial {
     Recipe recipe{};
-    std::vector<double> seconds{}; ///< As long as the large picture would take.
+    std::vector<double> seconds{}; ///< Expected times of the large picture.
     std::vector<ljus::ImageT<double>> pictures{}; ///< Of different seeds.
     ljus::ProgressiveState state{.alpha = 1};     ///< Their sums.
 };
 
-/// How far the pictures of a trial are from those of the judge, seed by seed: both have
-/// the same camera rays, so that what they share falls out.
+/// The differences of a trial's pictures from the judge's, seed by seed: both use the
+/// same camera rays, so that their common noise cancels.
 /// \param trial  The trial.
-/// \param judge  Of as many pictures.
+/// \param judge  The judge, with as many pictures.
 [[nodiscard]] inline std::vector<ljus::ImageT<double>> apart(const Trial& trial,
                                                              const Trial& judge) {
     const auto truth = levels(judge.state);
@@ -110,23 +110,23 @@ struct Trial {
     return all;
 }
 
-/// A pilot: the recipes that it tries, and what it has found of them.
+/// A pilot: the recipes that it tries, and their pictures so far.
 struct PilotRun {
     ljus::RenderSettings small{}; ///< The small picture.
     double all = 0;               ///< Pixels of the large picture.
     double pixels = 0;            ///< Pixels of the small one.
     std::vector<Recipe> large{};  ///< The recipes for the large picture.
-    std::vector<Trial> trials{};  ///< Those for the small one; and at last the judge,
-                                  ///< if it is none of them.
+    std::vector<Trial> trials{};  ///< Those for the small one; the judge is the last,
+                                  ///< unless it is one of the others.
 
-    /// How many times as many photons the large picture has.
+    /// The number of photons of the large picture, relative to the small one.
     [[nodiscard]] double photons(std::size_t i) const {
         return double(large[i].settings.caustics.photons) /
                double(trials[i].recipe.settings.caustics.photons);
     }
 };
 
-/// What a pilot begins with.
+/// Prepares a pilot.
 /// \param world    The closed scene.
 /// \param picture  The large picture.
 template <ljus::AnyWorld W>
@@ -144,14 +144,14 @@ template <ljus::AnyWorld W>
         run.trials.push_back({.recipe = run.trials.back().recipe}); // the judge
         run.trials.back().recipe.settings.caustics.photons *= 8;
     } else {
-        run.large.back().bias = 0; // exact needs no map, and is the judge itself
+        run.large.back().bias = 0; // exact needs no map, and serves as the judge
     }
     return run;
 }
 
-/// Makes one more small picture by a recipe.
+/// Makes one more small picture of a trial.
 /// \param run     The pilot.
-/// \param i       Which of its trials.
+/// \param i       Index of the trial.
 /// \param world   The closed scene.
 /// \param camera  Any camera.
 /// \param seed    Of the large picture.
@@ -173,9 +173,9 @@ void try_again(PilotRun& run, std::size_t i, const W& world, const C& camera,
                                 shot.rest * run.all / run.pixels);
 }
 
-/// What the trials so far say of the large picture.
+/// What the trials so far forecast for the large picture.
 /// \param run     The pilot; each trial has at least one picture.
-/// \param judged  Whether the judge was tried as well: then biases are measured.
+/// \param judged  Whether the judge was tried as well, so that biases can be measured.
 /// \return A forecast for each recipe that was tried.
 [[nodiscard]] inline std::vector<Forecast> forecasts(const PilotRun& run, bool judged) {
     const auto none = ljus::make_image<double>(run.small.width, run.small.height);
@@ -200,27 +200,28 @@ void try_again(PilotRun& run, std::size_t i, const W& world, const C& camera,
 
 } // namespace detail
 
-/// What each recipe would bring, by small pictures: at most 64 x 64 pixels, and photons
-/// in proportion.
+/// Forecasts the result of each recipe by small pictures: of at most 64 x 64 pixels,
+/// with photons in proportion.
 ///
 /// The bias is measured against a *judge*: "exact" with eight times the photons, and so
-/// about a third of the radius. What is left of the blur at that radius is not seen.
-/// The estimate is unbiased itself, since it multiplies differences of different seeds
-/// only; it shrinks with the root of the photons, and is weighed with what the book
-/// knows.
+/// about a third of the radius. The blur that remains at that radius is not measured.
+/// The estimate itself is unbiased, since it multiplies only differences of different
+/// seeds; it is scaled to the photons of the large picture by their square root, and
+/// combined with the book's value.
 /// \param world    The closed scene.
 /// \param camera   Any camera.
 /// \param picture  The one that is promised.
-/// \param promise  It goes on for an eighth of the time that the promise will take, and
-///                 for 10 s at most if that is not promised. After it no recipe is
-///                 tried if seconds are promised, and the judge not after half of it.
+/// \param promise  The pilot takes an eighth of the promised time; if an error is
+///                 promised, an eighth of the expected time, but at most 10 s. After
+///                 that time no further recipe is tried if seconds are promised, and
+///                 after half of it not the judge.
 /// \param now      A clock, in seconds.
 /// \return A forecast for each recipe that was tried, for the picture itself.
 template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
 [[nodiscard]] std::vector<Forecast> pilot(const W& world, const C& camera,
                                           const ljus::RenderSettings& picture,
                                           const Promise& promise, Clock&& now) {
-    constexpr std::size_t least = 3, most = 64; // pictures by each
+    constexpr std::size_t least = 3, most = 64; // pictures of each
     detail::PilotRun run = detail::make_pilot(world, picture);
     const auto try_again = [&](std::size_t i) {
         detail::try_again(run, i, world, camera, picture.seed, now);
@@ -251,21 +252,21 @@ template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
     return found;
 }
 
-/// A picture as it was promised.
+/// A picture that keeps a promise.
 template <std::floating_point T>
 struct Kept {
-    ljus::RenderedT<T> rendered{}; ///< The mean of all pictures, and what all cost.
-    Recipe recipe{};               ///< By which each was made.
-    std::vector<Forecast> found{}; ///< What the pilot said.
-    Choice choice{};               ///< What was chosen then,
+    ljus::RenderedT<T> rendered{}; ///< The mean of all pictures, and their total cost.
+    Recipe recipe{};               ///< The recipe of each.
+    std::vector<Forecast> found{}; ///< The pilot's forecasts.
+    Choice choice{};               ///< What was chosen,
     std::string why{};             ///< and why, in sentences.
-    long long pictures = 0;        ///< How many there are.
-    double seconds = 0;            ///< Since the clock began, the pilot's included.
-    double noise = 0;              ///< Of the mean, by the scatter of the pictures.
+    long long pictures = 0;        ///< The number of pictures.
+    double seconds = 0;            ///< Time since the clock began, with the pilot.
+    double noise = 0;              ///< Variance of the mean, from the scatter.
 
-    /// What the pilot said of the recipe that was chosen.
+    /// The pilot's forecast for the chosen recipe.
     [[nodiscard]] const Forecast& forecast() const { return found[choice.recipe]; }
-    /// relMSE as far as is known.
+    /// The estimated relMSE.
     [[nodiscard]] double error() const { return noise + forecast().bias; }
 };
 
@@ -276,7 +277,7 @@ struct Kept {
 /// \param promise  Seconds, or an error.
 /// \param now      A clock, in seconds; it began at 0 when the promise was given.
 /// \param quiet    Draw no progress bar.
-/// \param tell     Called with a Kept of which the choice is known, and all before it.
+/// \param tell     Called once with a Kept whose members down to `why` are known.
 /// \return The picture.
 /// \throws Interrupted  after Ctrl-C.
 /// \throws std::invalid_argument  for an error that is below the bias of all recipes.

@@ -32,37 +32,37 @@ inline const std::vector<std::string> photon_groups{
 inline const std::string path_group = "Path tracing";
 inline const std::string pass_group = "Passes: photon maps that converge";
 
-/// What the user asks for, and what is chosen where they ask for nothing.
+/// All settings, as the user gave them or as chosen for the user.
 struct RenderRequest {
     std::string scene{};                  ///< The scene file.
-    bool path_tracing = false;            ///< And no photon mapping.
-    bool in_double = false;               ///< Scene, photons and light.
-    std::optional<ljus::Preset> preset{}; ///< Below what is given by name.
-    ljus::RenderSettings picture{};       ///< Of the whole picture.
-    int more_rays = 0;                    ///< Per pixel, where the first ones disagree.
+    bool path_tracing = false;            ///< Path tracing, not photon mapping.
+    bool in_double = false;               ///< Whether to compute in double.
+    std::optional<ljus::Preset> preset{}; ///< Options given by name override it.
+    ljus::RenderSettings picture{};       ///< Settings of the whole picture.
+    int more_rays = 0;                    ///< More rays for pixels that need them.
     double disagreement = 0.4; ///< Relative standard error above which they do.
-    double exposure = 0;       ///< Of PNG files, in stops.
+    double exposure = 0;       ///< Exposure of PNG files, in stops.
     ljus::PhotonMappingSettings photon{.caustics_estimate = {.radius = 0.1f}};
     ljus::PathTracingSettings path{};
     /// How a path tracer's rays to lamps and its paths are weighted; none: paths alone.
     std::optional<ljus::MisHeuristic> path_lights = ljus::MisHeuristic::balance;
-    double photon_memory = 4;      ///< For each photon pass, in GB.
-    PassOptions passes{};          ///< Photon maps that converge.
+    double photon_memory = 4;      ///< Limit for each photon pass, in GB.
+    PassOptions passes{};          ///< Progressive photon maps.
     Promise promise{};             ///< Seconds or an error.
-    nlohmann::ordered_json kept{}; ///< How that was kept.
+    nlohmann::ordered_json kept{}; ///< How the promise was kept.
     std::string slice{};           ///< "3/16", or nothing.
     SliceNumber part{};            ///< The same as a number.
     std::string pixel{};           ///< "120,80", or nothing.
-    std::string photons{};         ///< Which to draw as dots; or nothing.
+    std::string photons{};         ///< Kind of photons to draw as dots, or nothing.
     bool plan = false;             ///< Print what would run.
     bool hooks = false;            ///< Print what the scene's types provide.
     bool quiet = false;            ///< No progress bar and no text.
 };
 
-/// Every setting: its name, the member that holds it, a line of help, and its range. An
-/// enum is set by the names of its enumerators.
+/// Adds every setting: its name, the member that holds it, a line of help, and its
+/// range. The words for an enum are the names of its enumerators.
 /// \param line  The command line.
-/// \param r     Takes what the user gives; must live as long as the line.
+/// \param r     Receives the user's values; must live as long as the line.
 inline void add_settings(CommandLine& line, RenderRequest& r) {
     using namespace ljus;
     constexpr int million = 1'000'000;
@@ -81,29 +81,29 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
              "More rays in pixels whose first rays disagree", 0, million);
     line.add("--disagreement", r.disagreement,
              "Relative standard error above which they do", 1e-6, 1e6);
-    line.add("--sampling", r.picture.sampling, "Where in a pixel its rays go");
-    line.add("--precision", r.in_double, "Of scene, photons and light",
+    line.add("--sampling", r.picture.sampling, "Pattern of the rays in a pixel");
+    line.add("--precision", r.in_double, "Precision of scene, photons and light",
              {{"float", false}, {"double", true}});
     line.add("--exposure", r.exposure, "Of PNG files, in stops", -100, 100);
 
     line.group(common_groups[1]);
     line.add("--renderer", r.path_tracing,
-             "Photon mapping, or path tracing as its judge",
+             "Photon mapping, or path tracing as a reference",
              {{"photon", false}, {"path", true}});
     line.add("--preset", r.preset,
              "Settings that go together: a first look; no visible errors in\n"
              "the least time; or little bias, and noise unless there are many\n"
              "rays. What is given by name replaces the preset's own");
-    line.add("--depth", photon.max_depth, "Surfaces on a path, mirrors counted", 1,
-             1000);
+    line.add("--depth", photon.max_depth,
+             "Largest number of surfaces on a path, mirrors included", 1, 1000);
     line.add("--roulette", photon.roulette_depth,
              "Surface from which roulette may end a path", 1, million);
 
     line.group("Promise: all other settings are chosen");
     line.add("--seconds", r.promise.seconds,
-             "The picture with the least error after so many seconds", 0.01, 1e9);
-    line.add("--error", r.promise.error, "The first picture with so small a relMSE",
-             1e-9, 1e9);
+             "Seconds to spend: the picture with the least error", 0.01, 1e9);
+    line.add("--error", r.promise.error, "relMSE to reach, in the least time", 1e-9,
+             1e9);
 
     line.group(photon_groups[0]);
     line.add("--direct", photon.direct,
@@ -115,7 +115,8 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
              "Light of other surfaces: by rays; by the general map where one\n"
              "ray ends, or where the camera looks; by irradiance that was\n"
              "precomputed where one ray ends, or many rays at few points");
-    line.add("--split-glass", photon.split_glass, "Follow both ways at glass");
+    line.add("--split-glass", photon.split_glass,
+             "Follow both reflection and refraction at glass");
 
     line.group(photon_groups[1]);
     line.add("--caustic-photons", photon.caustics.photons,
@@ -128,7 +129,7 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
              "or of what the eye sees");
     line.add("--photon-numbers", photon.caustics.numbers, "Chance, or evenly spread");
     line.add("--photon-bounces", photon.caustics.max_bounces,
-             "Surfaces that a photon may meet", 1, million);
+             "Largest number of surfaces on a photon's path", 1, million);
     line.add("--photon-memory", r.photon_memory, "GB that a photon pass may take", 1e-6,
              1e6);
 
@@ -139,9 +140,10 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
                  "Radius of a " + map + " estimate; 0: from the photons", 1e-15, 1e6,
                  true);
         line.add("--" + map + "-nearest", estimate.nearest,
-                 "Photons in it; 0: all within the radius", 2, max_nearest, true);
+                 "Nearest photons used; 0: all within the radius", 2, max_nearest,
+                 true);
         line.add("--" + map + "-kernel", estimate.kernel,
-                 "Weight of a photon by its distance");
+                 "Kernel: the weight of a photon by its distance");
     };
     add_estimate("caustic", photon.caustics_estimate);
     add_estimate("general", photon.general_estimate);
@@ -160,9 +162,9 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--gather-tile", photon.gather.tile,
              "Pixels on a side that share a point of the cache", 1, 1000);
     line.add("--gather-nearest", photon.gather.nearest,
-             "Points of the cache that a pixel takes", 2, max_cache_nearest);
+             "Points of the cache that a pixel interpolates", 2, max_cache_nearest);
     line.add("--gather-reach", photon.gather.reach,
-             "How far it counts, over the mean distance of what it sees", 1e-3, 1e3);
+             "Its reach, relative to the mean distance that it sees", 1e-3, 1e3);
     line.add("--gather-depth", photon.gather.max_depth, "Surfaces on a gather ray", 2,
              million);
 
@@ -175,7 +177,7 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--skip-radius", photon.skip.radius, "How near; 0: from the photons", 0,
              1e6);
     line.add("--skip-tolerance", photon.skip.tolerance,
-             "Hidden part of a light that does not matter (enough)", 1e-6, 0.999);
+             "Hidden fraction of a light that is ignored (enough)", 1e-6, 0.999);
     line.add("--skip-risk", photon.skip.risk, "Risk that more is hidden (enough)", 1e-9,
              0.999);
 
@@ -188,9 +190,9 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
               {"rays", MisHeuristic::shadow_rays},
               {"paths", std::nullopt}});
     line.add("--roulette-threshold", r.path.roulette_threshold,
-             "Roulette may end a path that carries less; 0: none", 0, 1e6);
-    line.add("--roulette-max", r.path.roulette_max, "Largest probability to survive it",
-             1e-6, 1);
+             "Throughput below which roulette may end a path; 0: never", 0, 1e6);
+    line.add("--roulette-max", r.path.roulette_max,
+             "Largest probability of surviving roulette", 1e-6, 1);
 
     line.group(pass_group);
     add_pass_options(line, r.passes);
@@ -204,7 +206,7 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
              {"direct", "indirect", "shadow", "caustic", "all"});
 }
 
-/// Refuses options that do not go together, and reads the number of a slice.
+/// Refuses options that cannot be combined, and reads the number of a slice.
 /// \param line  The command line, parsed.
 /// \param r     What the user asks for.
 /// \param file  The file's name, if --out names one.
@@ -217,25 +219,26 @@ inline void check_options(const CommandLine& line, RenderRequest& r,
             if (line.given(option)) throw std::invalid_argument(option + why);
     };
     const bool in_time = r.promise.seconds > 0;
-    if (in_time) refuse({"--error"}, " does not go with --seconds: give one of them");
+    if (in_time)
+        refuse({"--error"}, " cannot be combined with --seconds: give one of them");
     if (in_time || r.promise.error > 0) {
         std::vector<std::string> others = line.all_given();
         for (const char* fits :
              {"--seconds", "--error", "--width", "--height", "--seed", "--precision",
               "--exposure", "--threads", "--out", "--quiet"})
             std::erase(others, fits);
-        refuse(others, std::string(" does not go with ") +
+        refuse(others, std::string(" cannot be combined with ") +
                            (in_time ? "--seconds" : "--error") +
                            ", which chooses the settings");
     }
     const bool slice_file = std::filesystem::path(file).extension() == ".slice";
     if (!r.slice.empty()) {
         refuse({"--explain", "--show-photons", "--passes"},
-               " does not go with --slice");
+               " cannot be combined with --slice");
         r.part = slice_of(r.slice);
         if (!file.empty() && !slice_file)
             throw std::invalid_argument("--out is " + file +
-                                        "; a slice is no picture: it "
+                                        "; a slice is not a picture: it "
                                         "must be NAME.slice, or a folder for it");
     } else if (slice_file) {
         throw std::invalid_argument("--out is " + file +
@@ -245,13 +248,14 @@ inline void check_options(const CommandLine& line, RenderRequest& r,
         return refuse({"--alpha", "--checkpoint", "--resume", "--preview", "--every"},
                       " is for pictures that are made in passes: give --passes N, too");
     refuse({"--more-rays", "--explain", "--show-photons"},
-           " does not go with --passes");
+           " cannot be combined with --passes");
     if (r.path_tracing)
         throw std::invalid_argument("--passes is for --renderer photon; give a path "
                                     "tracer more --rays");
 }
 
-/// Settles what was not given by name: by the scene, by the preset, and for passes.
+/// Chooses the settings that the user did not give: from the scene, from the preset,
+/// and for passes.
 /// \param line    The command line, parsed.
 /// \param r       What the user asks for.
 /// \param width   Of the scene's picture, in pixels.
@@ -266,10 +270,10 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
         options = line.fill({width, height, rays.first});
         r.more_rays = options.samples > 1 ? rays.more : 0;
         r.photon = preset_settings(*r.preset, options.width, options.height);
-        r.photon.irradiance = {}; // its shadow rays are not the preset's, but as ever
+        r.photon.irradiance = {}; // keep the default shadow rays, not the preset's
         line.give_again();
     }
-    if (r.passes.passes > 0) { // each has one ray in a pixel
+    if (r.passes.passes > 0) { // each pass has one ray per pixel
         options = line.fill({width, height, 1});
         r.more_rays = 0;
     }
@@ -296,7 +300,7 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
     r.quiet = options.quiet;
 }
 
-/// All settings of a picture as they are in the end, for the file beside it.
+/// The final settings of a picture, for the file beside it.
 /// \param line  The command line, parsed.
 /// \param r     What the user asked for, and what was chosen.
 [[nodiscard]] inline nlohmann::ordered_json to_json(const CommandLine& line,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file flatland/density_estimate.hpp
-/// \brief The irradiance that the photons around a point of a wall stand for.
+/// \brief The irradiance at a point of a wall, estimated from photons.
 
 #include <algorithm>
 
@@ -16,8 +16,8 @@ using ljus::Kernel;
 // wall.
 
 /// The weight of a photon, relative to 1/(2r).
-/// \param kernel  The shape; those of ljus::Kernel, but the mean over the *interval* is
-///                1, so that the factor in front is another one.
+/// \param kernel  The kernel, as in ljus::Kernel, but with a mean of 1 over the
+///                *interval*, which changes the constant factor.
 /// \param x       Squared distance over squared radius, in [0, 1].
 /// \return At least 0.
 /// \report{Section 3.2.6}
@@ -40,14 +40,14 @@ using ljus::Kernel;
 }
 // [kernel]
 
-/// How photons are gathered.
+/// Settings of an estimate.
 struct DensityEstimateSettings {
     double radius = 0.1;                  ///< In metres.
     std::size_t nearest = 0;              ///< k within the radius; 0: all within it.
     Kernel kernel = Kernel::epanechnikov; ///< The weight by distance.
 };
 
-/// Refuses a way to gather that gives no estimate.
+/// Refuses settings that give no estimate.
 /// \param gather  The settings.
 /// \throws std::invalid_argument  with name and value.
 inline void check(const DensityEstimateSettings& gather) {
@@ -57,10 +57,10 @@ inline void check(const DensityEstimateSettings& gather) {
             "0 for all within the radius, or at least 2 (one photon sets the radius)");
 }
 
-/// An estimate, and the interval that it was taken from.
+/// An estimate, and its interval.
 struct Estimate {
     double irradiance = 0;    ///< W/m.
-    double radius = 0;        ///< Of the disc, in metres.
+    double radius = 0;        ///< Radius of the disc, in metres.
     std::size_t gathered = 0; ///< Photons within it that were summed.
 };
 
@@ -76,14 +76,14 @@ struct Estimate {
 }
 // [counts]
 
-/// The irradiance that the photons around a point stand for:
+/// The irradiance at a point, estimated from the photons around it:
 ///
 /// \f[ E(x) = \frac{1}{2r} \sum_i w_i\, \Delta\Phi_i \f]
 ///
 /// With the k nearest, the k-th sets the radius and is left out of the sum. Fewer than
 /// k within the radius are summed over the whole disc.
 /// \param map     The photons.
-/// \param point   Of a surface; the normal is on the side that is asked for.
+/// \param point   A point of a surface; the normal points to the side of the estimate.
 /// \param gather  Radius, k, kernel; see check().
 /// \return The estimate; 0 W/m if the k nearest all lie at the point itself.
 /// \cost A walk over all photons.

@@ -1,13 +1,13 @@
 #pragma once
 
 /// \file flatland/light.hpp
-/// \brief Lamps of the plane: their flux, a shadow ray to them, a photon from them.
+/// \brief Lamps of the plane: their flux, shadow rays to them, photons from them.
 
 #include "flatland/path.hpp"
 
 namespace flatland {
 
-// Sections 3.2.2 and 3.2.3: light falls off as 1/r, for a lamp's angle does.
+// Sections 3.2.2 and 3.2.3: light falls off as 1/r, as the angle of a lamp does.
 
 /// The flux of an object, in W: the radiance, times the integral of the cosine, 2,
 /// times the length. (In space pi times the area.)
@@ -24,7 +24,7 @@ namespace flatland {
     return sum;
 }
 
-/// The radiance of a circle that sends out a flux.
+/// The radiance of a circle that emits a flux.
 /// \param circle  The lamp.
 /// \param flux    In W.
 /// \return W/(m rad).
@@ -54,13 +54,13 @@ namespace flatland {
 /// A point of a lamp, and the probability of that lamp.
 struct LampPoint {
     SurfacePoint point{};   ///< Uniform over the lamp's length.
-    double probability = 0; ///< Of the lamp: its part of all flux; 0 without lamps.
-    const Object* lamp = nullptr; ///< In the scene that was asked.
+    double probability = 0; ///< Of the lamp: its fraction of all flux; 0: no lamps.
+    const Object* lamp = nullptr; ///< The lamp in the scene.
 };
 
 /// Chooses a lamp in proportion to its flux, and a point of it.
 /// \param scene  The scene.
-/// \param u      Chooses the lamp, and the place on it.
+/// \param u      Chooses the lamp, and the point on it.
 /// \return The point; a null lamp if nothing emits.
 [[nodiscard]] inline LampPoint sample_lamp(const Scene& scene, const Vec2& u) {
     const double all = flux(scene);
@@ -69,7 +69,7 @@ struct LampPoint {
     for (const Object& object : scene.objects) {
         const double own = flux(object);
         if (!(own > 0)) continue;
-        chosen.lamp = &object; // the last one stays, whatever rounding leaves over
+        chosen.lamp = &object; // the last lamp takes what rounding leaves
         chosen.probability = own / all;
         left -= own;
         if (left < 0) break;
@@ -83,7 +83,7 @@ struct LampPoint {
 /// The density of a point of a lamp for an observer, if it is uniform over the length.
 /// \param from    The observer.
 /// \param point   The point.
-/// \param length  Of the lamp.
+/// \param length  Length of the lamp.
 /// \return distance / (|cos| length), per radian. (In space: distance^2.)
 /// \report{Section 3.2.3}
 // [pdf from length]
@@ -96,7 +96,7 @@ struct LampPoint {
 }
 // [pdf from length]
 
-/// The light that a random point of a lamp sends by a vertex to where it is seen from.
+/// The light of a random point of a lamp that a vertex reflects along its `wo`.
 /// \param scene   The scene.
 /// \param vertex  A point of a surface.
 /// \param u       Chooses the point of the lamp.
@@ -119,10 +119,10 @@ struct LampPoint {
 }
 // [direct_light]
 
-/// A photon as it leaves its lamp: the lamp by its flux, the place uniform over the
-/// length, the direction by the cosine; so all photons carry the same.
+/// Emits a photon: the lamp is chosen by its flux, the point uniformly over the
+/// length, the direction by the cosine; so all photons carry the same flux.
 /// \param scene   The scene; something in it emits.
-/// \param flux    What the photon carries, in W: that of the scene over the number of
+/// \param flux    Flux of the photon, in W: that of the scene over the number of
 ///                photons.
 /// \param stream  Three numbers are drawn.
 /// \return A path without a vertex.

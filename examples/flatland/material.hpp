@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file flatland/material.hpp
-/// \brief What surfaces of the plane do with light: Lambert, a mirror, glass.
+/// \brief Materials of the plane: Lambert, a mirror, glass.
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ using Vec2 = ljus::Vec2T<double>; ///< A point or a direction of the plane.
 
 /// A diffuse surface: the same radiance in all directions.
 struct Lambertian {
-    double albedo = 0.5; ///< What it reflects of the flux that arrives, in [0, 1].
+    double albedo = 0.5; ///< Reflected fraction of the flux, in [0, 1].
 };
 
 /// A mirror.
@@ -37,21 +37,21 @@ struct Mirror {
     double reflectance = 1; ///< In [0, 1].
 };
 
-/// The boundary of clear glass: inside is where the normal does not point.
+/// The boundary of clear glass; the normal points outwards.
 struct Glass {
     double index = 1.5; ///< Index of refraction.
 };
 
-/// What a surface may be made of.
+/// Any material of a surface.
 using Material = std::variant<Lambertian, Mirror, Glass>;
 
 /// One scattered direction.
 struct BsdfSample {
-    Vec2 wi{0, 1};         ///< Where the light comes from; unit vector.
-    double weight = 0;     ///< f |cos|/pdf: what the path is multiplied by.
+    Vec2 wi{0, 1};         ///< Direction towards the light; unit vector.
+    double weight = 0;     ///< f |cos|/pdf, the factor of the throughput.
     double pdf = 0;        ///< Per radian; 0: a delta.
     bool specular = false; ///< Whether `wi` is a delta's direction.
-    double eta_scale = 1;  ///< What of the weight is n_i/n_t, and no loss of light.
+    double eta_scale = 1;  ///< Factor n_i/n_t in the weight, which is not a loss.
 };
 
 /// A direction with the density cos(theta)/2: its foot on the surface is uniform in
@@ -73,9 +73,9 @@ struct BsdfSample {
 }
 
 /// The BRDF: radiance that leaves per irradiance. Deltas are left out.
-/// \param material  Of the surface.
-/// \param wo        To where the light goes.
-/// \param wi        To where it comes from.
+/// \param material  The material.
+/// \param wo        Outgoing direction.
+/// \param wi        Direction towards the light.
 /// \return albedo/2 per radian on one side of a Lambertian surface: the integral of the
 ///         cosine over the half circle is 2 (in space it is pi).
 /// \report{Section 3.2.1}
@@ -89,7 +89,7 @@ struct BsdfSample {
 
 /// Samples a Lambertian surface by the cosine, on the side of `wo`.
 /// \param surface  The surface.
-/// \param wo       To where the light goes.
+/// \param wo       Outgoing direction.
 /// \param u        In [0, 1).
 /// \return The sample; nothing if `wo` lies on the surface.
 [[nodiscard]] inline std::optional<BsdfSample>
@@ -101,9 +101,9 @@ sample(const Lambertian& surface, const Vec2& wo, double u, Transport) noexcept 
                       .pdf = pdf_cosine_half_circle(up)};
 }
 
-/// The direction of a mirror.
+/// Samples the mirror direction.
 /// \param mirror  The mirror.
-/// \param wo      To where the light goes.
+/// \param wo      Outgoing direction.
 /// \return Always a sample.
 /// \report{Section 3.2.4, Eq. (4)}
 [[nodiscard]] inline std::optional<BsdfSample>
@@ -111,10 +111,10 @@ sample(const Mirror& mirror, const Vec2& wo, double, Transport) noexcept {
     return BsdfSample{.wi{-wo.x, wo.y}, .weight = mirror.reflectance, .specular = true};
 }
 
-/// Reflection or refraction, each as often as it carries light. Snell's law and
+/// Samples reflection or refraction in proportion to the light of each. Snell's law and
 /// Fresnel's equations are those of space: its rays stay in the plane of incidence.
 /// \param glass      The glass.
-/// \param wo         To where the light goes; y < 0 is inside.
+/// \param wo         Outgoing direction; y < 0 is inside.
 /// \param u          In [0, 1); chooses the branch.
 /// \param transport  Radiance that comes from index n_t scales by n_i/n_t: Snell's law
 ///                   keeps n cos(theta) d theta (in space the square of it). Flux does
@@ -139,12 +139,12 @@ sample(const Glass& glass, const Vec2& wo, double u, Transport transport) noexce
 }
 // [sample glass]
 
-/// Samples whatever a surface is made of.
+/// Samples any material.
 /// \param material   The material.
-/// \param wo         To where the light goes: unit vector in the surface's frame.
+/// \param wo         Outgoing direction: unit vector in the surface's frame.
 /// \param u          In [0, 1).
 /// \param transport  Radiance or flux.
-/// \return The sample; nothing if no light goes on.
+/// \return The sample; nothing if the path ends.
 [[nodiscard]] inline std::optional<BsdfSample>
 sample(const Material& material, const Vec2& wo, double u, Transport transport) {
     return std::visit([&](const auto& m) { return sample(m, wo, u, transport); },

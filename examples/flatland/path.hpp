@@ -12,16 +12,16 @@ using ljus::RandomStream, ljus::next_1d, ljus::next_2d;
 
 // Section 3.2: next_vertex() and continue_path(), as in space.
 
-/// Where a path arrived: ljus::VertexT with a dimension less. A frame of the plane is
+/// A vertex of a path: ljus::VertexT with a dimension less. A frame of the plane is
 /// given by its normal alone.
 /// \report{Section 3.2}
 // [vertex]
 struct Vertex {
     SurfacePoint point{}; ///< Position and geometric normal.
-    Vec2 wo{0, 1};        ///< To the vertex before: unit vector in the frame.
-    std::size_t id = 0;   ///< Which object.
-    Object object{};      ///< What it is made of, and whether it emits.
-    double distance = 0;  ///< From the vertex before.
+    Vec2 wo{0, 1};        ///< To the previous vertex: unit vector in the frame.
+    std::size_t id = 0;   ///< Index of the object.
+    Object object{};      ///< Its material and emission.
+    double distance = 0;  ///< From the previous vertex.
 
     /// Whether the surface emits towards `wo`: emission is one-sided.
     [[nodiscard]] bool emits() const noexcept {
@@ -30,11 +30,11 @@ struct Vertex {
 };
 // [vertex]
 
-/// A path on its way, from the eye or from a lamp.
+/// The state of a path, from the eye or from a lamp.
 /// \report{Section 3.2.4}
 struct PathState {
-    Ray ray{};                 ///< Where it goes.
-    double throughput = 1;     ///< The factor of the radiance that it finds; of a
+    Ray ray{};                 ///< Its next ray.
+    double throughput = 1;     ///< Factor of the radiance that it finds; for a
                                ///< photon its flux, in W.
     bool specular = false;     ///< Whether its last scattering was by a delta.
     bool met_diffuse = false;  ///< Whether it was ever scattered by anything else.
@@ -54,7 +54,7 @@ struct PathState {
 
 /// Sends a path to its next vertex.
 /// \param scene   The scene.
-/// \param path    Gets its depth.
+/// \param path    The path; its depth is updated.
 /// \param stream  Moved to the start of the bounce.
 /// \return The vertex; nothing if the path leaves the scene.
 // [next_vertex]
@@ -76,9 +76,9 @@ next_vertex(const Scene& scene, PathState& path, RandomStream& stream) {
 /// Continues a path in a direction that the material samples, unless Russian roulette
 /// ends it: a path survives with the probability of its reflection, and keeps its
 /// throughput.
-/// \param path       Gets its new ray and throughput.
-/// \param vertex     Where it is.
-/// \param transport  What the path carries: radiance, or flux.
+/// \param path       The path; its ray and throughput are updated.
+/// \param vertex     Its vertex.
+/// \param transport  The transported quantity: radiance or flux.
 /// \param stream     Two numbers are drawn.
 /// \return False if the path ends here: its light is absorbed.
 /// \report{Section 3.2.2}

@@ -9,11 +9,11 @@ namespace flatland {
 
 // Eq. (1) with a dimension less.
 
-/// The radiance that one random path finds. At a diffuse surface a lamp is asked by a
-/// shadow ray; a lamp that the path meets by itself counts only where none could go.
+/// The radiance that one random path finds. At a diffuse surface a shadow ray samples a
+/// lamp; a lamp that the path hits counts only if no shadow ray could have found it.
 /// \param scene      The scene.
 /// \param ray        From the eye.
-/// \param stream     The numbers of this path.
+/// \param stream     The random numbers of this path.
 /// \param max_depth  Surfaces on the path; 1 is emission and direct light.
 /// \return Radiance, W/(m rad); its mean is that of the scene, up to the depth.
 /// \report{Eq. (1)}

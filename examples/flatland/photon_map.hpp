@@ -18,24 +18,24 @@ using ljus::Pass, ljus::PhotonKind, ljus::require_at_least, ljus::require_positi
 /// \report{Section 2.3}
 struct Photon {
     Vec2 position{0};                     ///< In metres.
-    Vec2 direction{0};                    ///< Unit vector, the way it travels.
+    Vec2 direction{0};                    ///< Unit vector along its flight.
     Vec2 normal{0, 1};                    ///< Of the surface.
     double flux = 0;                      ///< In W.
-    PhotonKind kind = PhotonKind::direct; ///< What has happened to it.
+    PhotonKind kind = PhotonKind::direct; ///< What it met before.
 };
 
-/// The photons of a scene. Flatland has few: a list that is searched from end to end.
-/// For more there is the k-d tree of chapter 23.
+/// The photons of a scene. Flatland has few, so they are a list that is searched
+/// linearly. For more there is the k-d tree of chapter 23.
 using PhotonMap = std::vector<Photon>;
 
-/// How photons are sent.
+/// Settings of a photon pass.
 struct PhotonPassSettings {
     int photons = 10000;    ///< Photons that leave the lamps.
     std::uint64_t seed = 1; ///< Of their random numbers.
     int max_bounces = 1000; ///< Surfaces on a photon's path.
 };
 
-/// What kind of photon a path would leave where it is now.
+/// The kind of photon that a path would store at its vertex.
 /// \param path  The path of a photon.
 [[nodiscard]] inline PhotonKind kind_of(const PathState& path) noexcept {
     if (path.met_diffuse) return PhotonKind::indirect;
@@ -44,10 +44,10 @@ struct PhotonPassSettings {
 
 /// Follows one photon until it is absorbed or leaves the scene.
 /// \param scene        The scene.
-/// \param path         The photon as it left its lamp.
-/// \param stream       Its numbers.
-/// \param max_bounces  The most surfaces on its path.
-/// \param visit        Called with the path and the vertex wherever it arrives.
+/// \param path         The emitted photon.
+/// \param stream       Its random numbers.
+/// \param max_bounces  The largest number of surfaces on its path.
+/// \param visit        Called with the path and the vertex at each surface.
 // [trace_photon]
 template <typename Visit>
 void trace_photon(const Scene& scene, PathState path, RandomStream& stream,
@@ -61,17 +61,17 @@ void trace_photon(const Scene& scene, PathState path, RandomStream& stream,
 }
 // [trace_photon]
 
-/// Stores a photon where its path is, if the surface is diffuse.
+/// Stores a photon at the vertex of its path, if the surface is diffuse.
 /// \param path    The path of the photon.
-/// \param vertex  Where it is.
-/// \param out     Takes it.
+/// \param vertex  Its vertex.
+/// \param out     Receives the photon.
 inline void store_photon(const PathState& path, const Vertex& vertex, PhotonMap& out) {
     if (!std::holds_alternative<Lambertian>(vertex.object.material)) return;
     out.push_back({vertex.point.position, path.ray.direction, vertex.point.normal,
                    path.throughput, kind_of(path)});
 }
 
-/// The numbers of one photon: the same for any number of photons.
+/// The random numbers of one photon, the same for any number of photons.
 /// \param pass   Its seed.
 /// \param index  Which photon.
 [[nodiscard]] constexpr RandomStream photon_stream(const PhotonPassSettings& pass,
@@ -80,9 +80,10 @@ inline void store_photon(const PathState& path, const Vertex& vertex, PhotonMap&
                          static_cast<std::uint64_t>(index));
 }
 
-/// Sends photons through a scene and stores them at every diffuse surface they meet.
+/// Sends photons through a scene and stores them at every diffuse surface that they
+/// hit.
 /// \param scene  The scene.
-/// \param pass   How many.
+/// \param pass   Number, seed and largest path.
 /// \return The photons, in the order of their paths.
 /// \throws std::invalid_argument  if nothing emits, or check() refuses the scene.
 /// \report{Section 3.2.2}

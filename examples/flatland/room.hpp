@@ -7,9 +7,9 @@
 
 namespace flatland {
 
-// What chapter 38 draws, after the room of the report's figure 1 (section 4.1).
+// The room of chapter 38, after that of the report's figure 1 (section 4.1).
 
-/// What the reader may move.
+/// The settings that a reader may change.
 struct RoomSettings {
     Vec2 lamp{-0.45, 0.95};  ///< The middle of the lamp.
     double index = 1.5;      ///< Of the disc of glass.
@@ -24,11 +24,11 @@ inline constexpr Segment room_floor{.from{-1, 0}, .to{1, 0}};
 inline constexpr Circle room_disc{.center{0.1, 0.45}, .radius = 0.25};
 /// The mirror, in the upper right corner.
 inline constexpr Segment room_mirror{.from{0.95, 0.6}, .to{0.6, 1.0}};
-/// How high the room is.
+/// The height of the room.
 inline constexpr double room_height = 1.1;
 
 /// Makes the room. The floor is its first object.
-/// \param settings  What may be moved.
+/// \param settings  The settings.
 /// \return The scene.
 // [room]
 [[nodiscard]] inline Scene make_room(const RoomSettings& settings = {}) {

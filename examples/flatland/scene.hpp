@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file flatland/scene.hpp
-/// \brief A scene of the plane: segments and circles, and what a ray of light meets.
+/// \brief A scene of the plane: segments and circles, and the first hit of a ray.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ using ljus::require, ljus::require_unit;
 
 // Section 3.1 with a dimension less: walls are segments, balls are circles.
 
-/// The part of a line on which hits count.
+/// A ray: the part of a line on which hits count.
 /// \report{Definition 3.1}
 struct Ray {
     Vec2 origin{0};        ///< Where it starts.
@@ -30,7 +30,7 @@ struct Ray {
     double t_max = std::numeric_limits<double>::infinity(); ///< Farthest hit.
 };
 
-/// A wall. Its normal points to the left of the way from one end to the other.
+/// A wall. Its normal points to the left when going from `from` to `to`.
 struct Segment {
     Vec2 from{0};  ///< One end.
     Vec2 to{1, 0}; ///< The other end.
@@ -43,7 +43,7 @@ struct Circle {
     double radius = 1; ///< Above 0.
 };
 
-/// What a scene may consist of.
+/// Any shape of a scene.
 using Shape = std::variant<Segment, Circle>;
 
 /// A point of a surface.
@@ -52,22 +52,22 @@ struct SurfacePoint {
     Vec2 normal{0, 1}; ///< Unit vector.
 };
 
-/// A shape, what it is made of, and what it emits.
+/// A shape, its material and its emission.
 struct Object {
     Shape shape{};       ///< Where it is.
-    Material material{}; ///< What it does with light that arrives.
+    Material material{}; ///< How it scatters light.
     double emission = 0; ///< Radiance, W/(m rad), on the side of the normal.
 };
 
-/// Everything there is.
+/// A scene.
 struct Scene {
     std::vector<Object> objects{}; ///< In any order.
 };
 
-/// Where a ray met an object.
+/// The hit of a ray on an object.
 struct Hit {
     double t = 0;       ///< Distance.
-    std::size_t id = 0; ///< The object's place in Scene::objects.
+    std::size_t id = 0; ///< The object's index in Scene::objects.
 };
 
 /// The distance at which a ray meets a segment: the point A + s (B - A) for which
@@ -94,7 +94,8 @@ struct Hit {
 }
 // [intersect segment]
 
-/// The distance at which a ray meets a circle: that of a ball in chapter 6 as it is.
+/// The distance at which a ray meets a circle: the formula of a ball in chapter 6,
+/// unchanged.
 /// \param ray     The ray.
 /// \param circle  The circle.
 /// \return The smaller t within the ray's range; nothing for a miss.
@@ -126,22 +127,22 @@ struct Hit {
     return (point - circle.center) / circle.radius;
 }
 
-/// How long a segment is; the sibling of an area.
+/// The length of a segment, in place of an area.
 [[nodiscard]] inline double length(const Segment& segment) noexcept {
     return glm::distance(segment.from, segment.to);
 }
 
-/// How long a circle is.
+/// The length of a circle.
 [[nodiscard]] inline double length(const Circle& circle) noexcept {
     return 2 * std::numbers::pi * circle.radius;
 }
 
-/// How long a shape is.
+/// The length of a shape.
 [[nodiscard]] inline double length(const Shape& shape) {
     return std::visit([](const auto& s) { return length(s); }, shape);
 }
 
-/// What a ray meets first.
+/// The first hit of a ray.
 /// \param scene  The scene.
 /// \param ray    The ray.
 /// \return The hit; nothing if the ray leaves the scene.
@@ -162,8 +163,8 @@ struct Hit {
 
 /// Whether anything lies between two points.
 /// \param scene  The scene.
-/// \param from   One.
-/// \param to     The other.
+/// \param from   One point.
+/// \param to     The other point.
 [[nodiscard]] inline bool occluded(const Scene& scene, const Vec2& from,
                                    const Vec2& to) {
     Ray ray{.origin = from, .direction = glm::normalize(to - from)};
@@ -171,8 +172,8 @@ struct Hit {
     return closest_hit(scene, ray).has_value();
 }
 
-/// Refuses a scene with an object that cannot be. Sizes are those of rooms: t_min of a
-/// ray is a distance that must be small beside them, and large beside rounding.
+/// Refuses a scene with an invalid object. Sizes must be those of rooms: the t_min of a
+/// ray is a fixed distance that must be small beside them, and large beside rounding.
 /// \param scene  The scene.
 /// \throws std::invalid_argument  with name and value.
 inline void check(const Scene& scene) {

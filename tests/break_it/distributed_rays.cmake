@@ -29,8 +29,8 @@ ljus_break_it(NAME distributed-rays-depth HEADER render/distributed.hpp
 # Nothing moves.
 ljus_break_it(NAME distributed-rays-frozen HEADER geometry/moving.hpp
     TEST distributed_rays
-    FROM "translated(moving.shape, time * moving.way)"
-    TO   "translated(moving.shape, T(0) * time * moving.way)"
+    FROM "translated(moving.shape, time * moving.displacement)"
+    TO   "translated(moving.shape, T(0) * time * moving.displacement)"
     CASES "distributed rays: a moving strip*")
 
 # The tree knows what moves where it starts, and loses it on its way.

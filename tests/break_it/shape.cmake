@@ -11,7 +11,7 @@ ljus_break_it(NAME shape-grain HEADER geometry/sphere.hpp TEST shape
 
 # Of a moving shape only the middle of its way is bounded.
 ljus_break_it(NAME shape-moving-bound HEADER geometry/moving.hpp TEST moving
-    FROM "sphere.radius += glm::length(moving.way) / T(2);"
+    FROM "sphere.radius += glm::length(moving.displacement) / T(2);"
     TO   ""
     CASES "moving: *")
 
@@ -23,6 +23,6 @@ ljus_break_it(NAME shape-moving-check HEADER geometry/moving.hpp TEST moving
 
 # Photons lie where they have landed, wherever the shape is later.
 ljus_break_it(NAME moving-photons HEADER path/next_vertex.hpp TEST moving
-    FROM "resting.point.position -= vertex.time * shape.way;"
+    FROM "resting.point.position -= vertex.time * shape.displacement;"
     TO   ";"
     CASES "moving: photons see*")

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The assignments, as students and lecturers meet them: a folder is copied out, compiles as
-# it is, and each of its tests fails; the solution passes all of them; and with --wrong, each
-# wrong solution of tests/assignments/wrong fails the test that its row names.
+# Checks the assignments: a copied folder compiles as it is, and each of its tests fails; the
+# solution passes all of them; and with --wrong, each wrong solution of
+# tests/assignments/wrong fails the test that its row names.
 # Usage: assignments.sh [--wrong] [NUMBER...]
 . "$(dirname "$0")/common.sh"
 assignments=$LJUS_ROOT/examples/assignments
@@ -15,7 +15,7 @@ if [ "${1:-}" = --wrong ]; then
 fi
 problem() { echo "$*"; problems=$((problems + 1)); }
 
-# The tests have a main of doctest; it is compiled once, by leaving it out of them.
+# doctest's main() is compiled once, and left out of the tests.
 echo '#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>' >"$scratch/doctest_main.cpp"
 # shellcheck disable=SC2086
@@ -31,7 +31,7 @@ compile() {
 cases() { sed -n 's/^TEST_CASE("\(.*\)").*/\1/p' "$1/tests.cpp"; }
 strict="-Wall -Wextra -Wpedantic -Wshadow -Werror"
 
-# A failed assertion, and nothing else: not a crash, not a filter that finds no test.
+# Whether an assertion failed; a crash or a filter that matches no test does not count.
 fails() {
     local status=0
     timeout 120 "$1/tests" "--test-case=$2" >"$1/output" 2>&1 || status=$?
@@ -75,7 +75,7 @@ for number in ${*:-1 2 3 4 5 6}; do
     echo "assignment $number: $(cases "$folder" | wc -l) tests"
     [ $wrong = yes ] || continue
 
-    # The wrong ones; what they have in common is compiled once.
+    # The wrong solutions; their common code is compiled once.
     cat >"$folder/common.hpp" <<'END'
 #include <doctest/doctest.h>
 #include "course/check.hpp"

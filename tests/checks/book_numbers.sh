@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The numbers of the book: those in its prose are pulled from tables that are there, the
-# typed ones are marked, and the tool that does so finds what is wrong.
+# Checks the numbers of the book: those in its prose come from existing tables, numbers typed
+# by hand are found, and the tool that does this reports errors.
 . "$(dirname "$0")/common.sh"
 command -v perl >/dev/null 2>&1 || skip "perl is not installed"
 numbers=$LJUS_ROOT/chapters/tools/numbers
@@ -56,7 +56,7 @@ refused "is not a number" '\number{table, #1, noise; %.2f}'
 refused "there is no measured/none.csv" '\table{measured/none}'
 refused "does not say how it was measured" '\conditions{plain}'
 
-# typed COUNT TEXT: so many numbers look measured.
+# typed COUNT TEXT: COUNT numbers of the text look measured.
 typed() {
     echo "$2" >typed.md
     perl "$numbers" --typed typed.md 2>err.txt || true

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What makes and checks the book's pages: numbers of chapters in titles and references, the
-# index of the report, and a page with every flaw, each of which is found.
+# Checks the tools that make and check the book's pages: numbers of chapters in titles and
+# references, the index of the report, and a page with every flaw, all of which are found.
 . "$(dirname "$0")/common.sh"
 command -v perl >/dev/null 2>&1 || skip "perl is not installed"
 command -v python3 >/dev/null 2>&1 || skip "python3 is not installed"
@@ -12,7 +12,7 @@ cd "$folder"
 wrong=0
 wrong() { echo "WRONG: $*"; wrong=1; }
 
-# A page, as Doxygen's filter hands it on.
+# A page, as the filter passes it to Doxygen.
 cat >page.md <<'END'
 # Sphere {#ch_sphere}
 See \ref ch_bvh, chapter \ref ch_bvh "99" and \ref ch_sphere_trade "the trade".
@@ -28,7 +28,7 @@ perl "$tools/page" "$LJUS_ROOT/chapters/contents.md" >contents.md || wrong "no c
 [ "$(grep -c '^\\page part_' contents.md)" -eq 7 ] || wrong "the book has not seven parts"
 grep -q '^| Figure 11 .*ch_caustics.*fig-11' contents.md || wrong "figure 11 is in no index"
 
-# What Doxygen leaves to be done.
+# Changes to Doxygen's pages.
 cat >html/ch_sphere.html <<'END'
 <html><head><title>Sphere</title><script src="https://polyfill.io/x.js"></script></head><body>
 <div><div class="header"><div class="headertitle"><div class="title">6 · Sphere</div></div></div>
@@ -78,7 +78,7 @@ flaw 'has no place there' '<a href="#there">there</a>'
 flaw 'no alt text' '<img src="index.html" alt=""/>'
 flaw 'comes from the network' '<script src="https://example.org/x.js"></script>'
 
-# Wordings.
+# Wrong wordings are found.
 mkdir -p chapters
 cp "$LJUS_ROOT/chapters/words.txt" chapters
 echo 'It casts 16 rays a pixel.' >chapters/01-page.md
@@ -97,7 +97,7 @@ for rays in 4 16 64 256; do
     grep -qF -- "$row |" "$LJUS_ROOT/README.md" || wrong "README.md should have the row $row |"
 done
 
-# So is its plot; and a number that changes changes it.
+# So is its plot, which changes if a number changes.
 perl "$tools/pareto" --check || wrong "the plot of the README is an old one"
 mkdir -p old/tools old/measured old/pictures
 cp "$tools/pareto" "$tools/contents.pm" old/tools

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests the break-it mechanism itself: only an assertion that fails counts as noticed.
+# Tests the break-it mechanism itself: only a failed assertion counts as noticed.
 . "$(dirname "$0")/common.sh"
 folder=$scratch/break_it_mechanism
 ctest=$(dirname "$LJUS_CMAKE")/ctest
@@ -65,12 +65,12 @@ for words in 'noticed, in answer.hpp:' '    - return 42' '    + return 43' \
     fi
 done
 
-# Unless they are asked for, the broken headers are neither built nor run.
+# By default the broken headers are neither built nor run.
 if "$ctest" --test-dir "$folder" --show-only | grep 'break_it\.'; then
     echo "WRONG: ctest knows the broken headers without -C BreakIt"
     wrong=1
 fi
-# A name that is no row's must not pass for nothing that is broken.
+# An unknown row must not count as "nothing is broken".
 if (LJUS_BREAK_IT=no-such-row "$folder/break_it/answer/break_it_program_answer") 2>/dev/null; then
     echo "WRONG: a row that is not there is not refused"
     wrong=1

@@ -1,10 +1,9 @@
-# Shared by the checks of this folder, which CTest runs with LJUS_... in the environment;
-# to be sourced.
+# Sourced by the checks of this folder, which CTest runs with LJUS_... in the environment.
 set -euo pipefail
 : "${LJUS_ROOT:?run this check by ctest, which tells it where everything is}"
 include=$LJUS_ROOT/include
-# A folder of its own for each check that runs: CTest runs several at once, and one of them
-# runs another.
+# A folder of its own for each running check: CTest runs several at once, and one check runs
+# another.
 mkdir -p "$LJUS_SCRATCH"
 scratch=$(mktemp -d -p "$LJUS_SCRATCH")
 trap 'rm -rf "$scratch"' EXIT
@@ -25,10 +24,11 @@ other_compiler() {
     fi
 }
 
-# The files that a header of ours includes, directly.
+# The headers of the library that a header includes directly.
 ours_in() { sed -n 's/^ *#[ ]*include *"\([^"]*\)".*/\1/p' "$1"; }
 
-# reached FOLDER NAME: the header and all that it reaches by our includes.
+# reached FOLDER NAME: the header and all headers of the library that it includes, directly
+# or not.
 reached() {
     local folder=$1 todo=$2 seen=" " name
     while :; do

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The program examples/compare.cpp: what it says of pictures whose errors are known, what
-# it writes, and that a wrong use ends with one sentence and exit code 2.
+# Checks the program examples/compare.cpp: what it prints for pictures with known errors, what
+# it writes, and that wrong usage ends with one sentence and exit code 2.
 # Usage: compare_program.sh PROGRAM SCRATCH
 set -euo pipefail
 compare=$1
@@ -11,8 +11,8 @@ cd "$scratch"
 wrong=0
 wrong() { echo "WRONG: $*"; wrong=1; }
 
-# grey NAME WIDTH HEIGHT BITS: a PFM file of one grey, whose float has these bits, in hex
-# and from the lowest byte.
+# grey NAME WIDTH HEIGHT BITS: a PFM file of one grey; BITS are the bytes of its float in hex,
+# lowest byte first.
 grey() {
     local i=0
     { printf 'Pf\n%d %d\n-1.0\n' "$2" "$3"
@@ -79,9 +79,9 @@ says 'difference +0.00 %'
 
 refused "REFERENCE is required" one.pfm
 refused "cannot read 'none.pfm'" none.pfm one.pfm
-refused "'small.pfm' has 20 x 20 pixels and 'one.pfm' 30 x 20: they must be alike" \
+refused "'small.pfm' has 20 x 20 pixels and 'one.pfm' 30 x 20: they must have the same size" \
     small.pfm one.pfm
-refused "'small.pfm' has 20 x 20 pixels and 'half.pfm' 30 x 20: they must be alike" \
+refused "'small.pfm' has 20 x 20 pixels and 'half.pfm' 30 x 20: they must have the same size" \
     half.pfm one.pfm --pieces one.pfm small.pfm
 refused "the pixel in column 0, row 0 of 'nan.pfm' is not finite" nan.pfm one.pfm
 refused "the pixel in column 0, row 0 of 'nan.pfm' is not finite" one.pfm nan.pfm

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# What each header costs to include, alone: user time of -fsyntax-only.
+# Measures the cost of including each header alone: user time of -fsyntax-only.
 # The budget is 0.25 s for maths, images, geometry, optics and materials, and 0.6 s for the
-# trees and for all that knows a scene. Machines are noisy: only twice the budget is an error,
-# and only if the fastest of eight runs needs that.
-# A machine that needs longer than 0.21 s for <string> and <vector> may take as much longer
-# for all. Optional headers are measured once: others wrote what is dear in them.
+# trees and all headers that include a scene. Machines are noisy: only twice the budget is an
+# error, and only if the fastest of eight runs exceeds it.
+# If a machine needs more than 0.21 s for <string> and <vector>, the budgets are scaled by
+# that factor. Optional headers are measured once: most of their cost is that of other
+# libraries.
 . "$(dirname "$0")/common.sh"
 TIMEFORMAT=%U
 status=0

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# One way in which others use the library, from an empty folder to a program that runs.
+# Checks one way to use the library, from an empty folder to a running program.
 # Usage: consumer.sh plain|find_package|add_subdirectory|pkg_config|fetch|missing|course_project
 . "$(dirname "$0")/common.sh"
 way=$1
@@ -10,7 +10,7 @@ source=$LJUS_ROOT/tests/consumer
 everything=
 [ -f "$include/ljus/ljus.hpp" ] && everything=-DUSES_EVERYTHING
 
-# Only a package that the compiler does not find by itself needs a hint.
+# Hints for the packages that the compiler does not find by itself.
 hints() {
     set -- $LJUS_PACKAGE_FLAGS
     while [ $# -ge 2 ]; do
@@ -38,7 +38,7 @@ install_ljus() {
         -DLJUS_TESTS=OFF -DLJUS_EXAMPLES=OFF -DLJUS_FETCH=OFF $(hints) "$@" >"$folder/ljus.log" 2>&1 ||
         { cat "$folder/ljus.log"; exit 1; }
     "$LJUS_CMAKE" --build "$folder/ljus" --target install >>"$folder/ljus.log"
-    # Moved, because a package may be unpacked anywhere.
+    # Move it, because a package may be unpacked anywhere.
     mv "$folder/first" "$folder/prefix"
     for file in include/ljus/version.hpp share/cmake/ljus/ljus-config.cmake \
         share/pkgconfig/ljus.pc; do
@@ -70,7 +70,7 @@ case $way in
         if run_cmake -S "$source" -B "$folder/build" -DCMAKE_PREFIX_PATH="$folder/prefix" \
             -DCMAKE_DISABLE_FIND_PACKAGE_glm=ON -DCMAKE_IGNORE_PATH="/usr/include" \
             >"$folder/configure.log" 2>&1; then
-            echo "note: GLM was found in spite of all; its sentence is not tested"
+            echo "note: GLM was found all the same; the sentence about it is not tested"
         else
             tr -s " \n" "  " <"$folder/configure.log" | grep -F "Ljus needs GLM" >/dev/null
         fi
@@ -89,7 +89,7 @@ case $way in
         "$folder/consumer"
         ;;
     fetch)
-        # GLM and stb come from local repositories that stand for the upstream ones.
+        # GLM and stb come from local repositories in place of the upstream ones.
         command -v git >/dev/null || skip "git is not installed"
         repository() {
             git init -q "$folder/$1"
@@ -130,18 +130,18 @@ case $way in
         echo "fetched by commit into the build folder; a wrong commit is refused"
         ;;
     missing)
-        # Nothing installed and nothing fetched: one sentence to act on.
+        # Nothing is installed and nothing may be fetched: one sentence says what to do.
         if run_cmake -S "$LJUS_ROOT" -B "$folder/build" -DLJUS_FETCH=OFF \
             -DCMAKE_DISABLE_FIND_PACKAGE_glm=ON -DCMAKE_IGNORE_PATH="/usr/include" \
             >"$folder/configure.log" 2>&1; then
-            skip "GLM is found in spite of all"
+            skip "GLM is found all the same"
         fi
         tr -s ' \n' '  ' <"$folder/configure.log" | grep -oF \
             "Ljus: glm is not installed; install it (sudo apt-get install libglm-dev)" ||
             { cat "$folder/configure.log"; exit 1; }
         ;;
     course_project)
-        # examples/course_project, copied to where nothing else is, by each of its ways.
+        # examples/course_project, copied to an empty folder, in each of its ways.
         install_ljus -DLJUS_INSTALL_CORE=OFF
         source=$folder/project
         one_way() {

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# A header and the files it names, copied into an empty folder, compile there: alone, first,
-# twice, without OpenMP, with the warnings of a careful user, and by another compiler than
-# the build's, if there is one. (project.link has all of them by the build's own.) Nobody
-# copies a header out of a folder `detail`: those come with the ones that name them, and
-# compile_cost.sh asks each of them alone.
+# Checks that a header and the files that it includes compile when copied into an empty
+# folder: alone, first, twice, without OpenMP, with the warnings of a careful user, and by
+# another compiler than the build's, if there is one. (project.link compiles all of them with
+# the build's own.) Headers in a folder `detail` are copied only with those that include
+# them; compile_cost.sh compiles each of them alone.
 # Usage: copy.sh [N]: every Nth header; without it, all.
 . "$(dirname "$0")/common.sh"
 compiler=$(other_compiler)

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# "Model only what a scene requires", measured: what a program of one ball, a matt box, a
-# box with glass, and everything at once make the compiler read, the processor do, and the
-# memory hold. Without an argument it is a check:
+# Measures "model only what a scene requires": the lines compiled, the instructions and the
+# memory of programs with one ball, a matt box, a box with glass, and everything at once.
+# Without an argument it checks that
 #   - the ball's program has not grown by 5 % over chapters/measured/footprint.csv: lines
 #     of our headers; and, with the compiler of that file, bytes of code and instructions;
-#   - scenes that need no photon have none, and nobody looks for one;
-#   - a matt box has the same picture, byte by byte, whatever else is included and listed.
-# Usage: footprint.sh [--write]     writes that file anew, in some minutes
+#   - scenes that need no photons have none, and no searches for them;
+#   - a matt box has the same picture, byte for byte, whatever else is included and listed.
+# Usage: footprint.sh [--write]     rewrites that file, in some minutes
 . "$(dirname "$0")/common.sh"
 programs=$LJUS_ROOT/tests/checks/footprint
 table=$LJUS_ROOT/chapters/measured/footprint.csv
@@ -18,7 +18,7 @@ fi
 wrong=0
 wrong() { echo "WRONG: $*"; wrong=1; }
 
-# One thread, and no OpenMP: instructions of a second thread are not always as many.
+# One thread, and no OpenMP: the instruction count of several threads varies.
 compile() { # NAME SOURCE FLAGS...
     local name=$1 source=$2
     shift 2
@@ -42,7 +42,7 @@ cell() { # PROGRAM COLUMN, of the committed table
         !at { for (i = 1; i <= NF; ++i) if ($i == name) at = i; next }
         $1 == row { print $at }' "$table"
 }
-# grown NAME NOW: more than 5 % above the table's?
+# grown NAME NOW: reports a number that is more than 5 % above the table's.
 grown() {
     local was
     was=$(cell "one ball" "$1")

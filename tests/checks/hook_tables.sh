@@ -1,21 +1,22 @@
 #!/usr/bin/env bash
-# The tables of hooks are complete: whatever a requires-expression below include/ljus calls
-# is asked of a shape, a material or a light by its concept, is a row of a table, or is listed here.
-# So no function of a shape can switch something on or off and stand in no table.
+# Checks that the tables of hooks are complete: each function that a requires-expression below
+# include/ljus calls is required by the concept of a shape, material or light, is a row of a
+# table, or is listed here. So no function of a shape can change behaviour without being
+# documented in a table.
 # Usage: hook_tables.sh [FOLDER with ljus/ in it]
 . "$(dirname "$0")/common.sh"
 include=${1:-$include}
 
-# What the concepts ask of every shape and every material.
+# Functions that the concepts require of every shape and every material.
 by_concept="as_hit bounding_sphere check intersect surface_point
     evaluate lobes pdf sample"
-# What is asked of something else.
+# Functions required of other types.
 of_a_material_of_radiosity=diffuse_albedo
 of_a_renderer=radiance
 of_a_kernel=kernel_weight
 of_a_camera=camera_ray
 of_a_stream="next_1d next_2d next_3d start_bounce"
-# What the concepts ask of every light, of near ones and of far ones.
+# Functions that the concepts require of every light, of near ones and of far ones.
 of_a_light="emission_point pdf_emission power sample_arrival sample_emission
     sample_light"
 
@@ -25,8 +26,8 @@ rows() {
         "$1/ljus/$3" | sort -u
 }
 
-# called FOLDER: "name header" for each function that a requires-expression, or a result
-# type that must exist, calls by its plain name.
+# called FOLDER: "name header" for each function that a requires-expression or a trailing
+# return type calls by its unqualified name.
 called() {
     find "$1/ljus" -name '*.hpp' -print0 | sort -z | xargs -0 awk '
         function calls(text,    name) {
@@ -80,7 +81,7 @@ called() {
         END { look() }' | sort -u
 }
 
-# defaults FOLDER: the functions of shape.hpp for any shape, which a shape may replace.
+# defaults FOLDER: the functions of shape.hpp for any shape, which a shape may override.
 defaults() {
     awk '/^template <Shape /{ near = 4 }
          near-- > 0 && match($0, /[a-z_]+\((const|$)/) {
@@ -88,7 +89,7 @@ defaults() {
          }' "$1/ljus/geometry/shape.hpp" | sort -u
 }
 
-# holds FOLDER: says what is missing, and whether all is there.
+# holds FOLDER: prints what is missing, and succeeds if nothing is.
 holds() {
     local folder=$1 shapes materials lights known name header bad=0
     shapes=$(rows "$folder" shape geometry/shape.hpp)
@@ -108,14 +109,14 @@ holds() {
         echo "ljus/geometry/shape.hpp: $name() has a default, and is no row of the table."
         bad=1
     done
-    # A row that nobody calls promises what it does not keep.
+    # A row that no code calls has no effect.
     for name in $shapes; do
         grep -rqE "(^|[^a-z_])$name(<[A-Za-z]+>)?\(" "$folder/ljus" \
             --include='*.hpp' --exclude=shape.hpp && continue
         echo "ljus/geometry/shape.hpp: nobody asks for $name()."
         bad=1
     done
-    # A constant that is set for one type of shape is a hook without a name.
+    # A constant that is specialised for one type of shape is a hidden hook.
     if grep -rnE 'constexpr bool [a-z_]+<(Sphere|Triangle|Quad|Mesh|Metaballs)(T<|>)' \
         "$folder/ljus"; then
         echo "A property of a shape follows from its functions, see the concept FlatShape."

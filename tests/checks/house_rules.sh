@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# The house rules that a script can check, on every header below include/ljus.
+# Checks those rules of CONTRIBUTING.md that a script can check, in every header below
+# include/ljus.
 # Usage: house_rules.sh [FOLDER with ljus/ in it]
 . "$(dirname "$0")/common.sh"
 include=${1:-$include}
 problems=0
 problem() { echo "$*"; problems=$((problems + 1)); }
 
-# Includes point one way only: a header may name what stands below its own floor, and its
-# own room. Rooms on one floor do not know each other.
+# Includes point one way only: a header may include its own room and the rooms on lower
+# floors. Rooms on the same floor do not include each other.
 floor() {
     case $1 in
         ljus/version.hpp | ljus/function_ref.hpp | ljus/hook.hpp | ljus/ref.hpp) echo 0 ;;
@@ -26,10 +27,10 @@ floor() {
     esac
 }
 
-# The room of a header: its folder; machinery in detail/ belongs to the room around it.
+# The room of a header is its folder; detail/ belongs to the room around it.
 room() { local folder=${1%/*}; echo "${folder%/detail}"; }
 
-# The headers without comments, line by line as they were.
+# The headers without comments, with the same line numbers.
 cd "$include"
 code=$scratch/code
 rm -rf "$code"
@@ -39,7 +40,7 @@ for name in $names; do
     sed 's://.*$::' "$name" >"$code/$name"
 done
 
-# nothing PATTERN SENTENCE [EXCEPT]: no line of any header but EXCEPT may match.
+# nothing PATTERN SENTENCE [EXCEPT]: no line of any header except EXCEPT may match.
 nothing() {
     local line
     while read -r line; do
@@ -52,7 +53,7 @@ optional=" $(grep -rlE '#include <(nlohmann/json\.hpp|stb/stb_image\.h)>|#includ
 
 for name in $names; do
     case $name in *.hpp) ;; *) problem "$name: only .hpp files live here." ;; esac
-    [ "$(floor "$name")" != none ] || problem "$name: this folder is no floor of the house."
+    [ "$(floor "$name")" != none ] || problem "$name: this folder is not a room of the library."
     grep -qF "/// \\file $name" "$name" || problem "$name: it must say '/// \\file $name'."
 done
 while read -r name; do
@@ -65,14 +66,14 @@ while read -r name; do problem "$name: it has a tab or a CR."; done < \
     <(grep -l "$(printf '[\t\r]')" $names)
 
 nothing '#[ ]*include <(iostream|random|ranges|functional|chrono|filesystem)>' \
-    "this header is too dear to include: see design rule 11."
+    "this header takes too long to compile."
 nothing '#[ ]*include <glm/(glm|ext|fwd|gtx/.*|gtc/.*)(\.hpp)?>' \
     "GLM is included by part, its core only."
 nothing '(^|[^_a-zA-Z0-9])virtual([^_a-zA-Z0-9]|$)' "there is no 'virtual' here."
 nothing 'shared_ptr' "there is no 'shared_ptr' here."
 nothing '(struct|class)[^;{]*[^:]:[^:;{]*(public|protected|private)' \
     "there is no inheritance here."
-nothing 'using namespace' "a header opens no namespace for its user."
+nothing 'using namespace' "a header must not open a namespace for its user."
 nothing 'std::(cout|cerr|rand|time)([^_a-zA-Z0-9]|$)' \
     "the library neither prints nor asks the clock."
 nothing '(^|[^_a-zA-Z0-9.:])(printf|fprintf|puts|rand|time) *\(' \
@@ -87,7 +88,7 @@ grep -rHoE '^ *#[ ]*include *"[^"]*"' ljus | sed 's/: *#[ ]*include *"/ /; s/"$/
     >"$scratch/edges"
 while read -r name used; do
     if [ ! -f "$used" ]; then
-        problem "$name: it includes \"$used\", which is not there below include/."
+        problem "$name: it includes \"$used\", which does not exist below include/."
         continue
     fi
     here=$(floor "$name")
@@ -103,8 +104,8 @@ while read -r name used; do
     esac
 done <"$scratch/edges"
 
-# A header that includes others must reach version.hpp, which refuses C++17; one that
-# stands alone, like schlick.hpp, is to be copied alone.
+# A header that includes others must include version.hpp, directly or not, which refuses
+# C++17; a header without includes, like schlick.hpp, can be copied alone.
 for name in $(awk '{ named[$1] = 1; from[NR] = $1; to[NR] = $2 }
     END { reaches["ljus/version.hpp"] = 1
           do { grown = 0
@@ -112,7 +113,7 @@ for name in $(awk '{ named[$1] = 1; from[NR] = $1; to[NR] = $2 }
                    if (reaches[to[i]] && !reaches[from[i]]) grown = reaches[from[i]] = 1
           } while (grown)
           for (name in named) if (!reaches[name]) print name }' "$scratch/edges"); do
-    problem "$name: it does not reach ljus/version.hpp, which refuses C++17."
+    problem "$name: it does not include ljus/version.hpp, not even indirectly, which refuses C++17."
 done
 
 [ $problems -eq 0 ] || { echo "$problems problems"; exit 1; }

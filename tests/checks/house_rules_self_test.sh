@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Tests house_rules.sh: each of these small sins must be found, and a good house passes.
+# Tests house_rules.sh: it must find each of these faults, and pass a tree without them.
 . "$(dirname "$0")/common.sh"
 folder=$scratch/house
 wrong=0
 
-# header NAME [LINE...]: writes a good header with these lines in it.
+# header NAME [LINE...]: writes a correct header with these lines added.
 header() {
     local name=$1
     shift
@@ -26,7 +26,7 @@ good_house() {
 }
 rules() { bash "$(dirname "$0")/house_rules.sh" "$folder" 2>&1; }
 
-# finds SENTENCE: the rules fail, and say this.
+# finds SENTENCE: the rules must fail with this sentence.
 finds() {
     local output
     if output=$(rules); then
@@ -41,32 +41,32 @@ finds() {
 sin() { header ljus/math/a.hpp "$1"; finds "$2"; }
 
 good_house
-rules || { echo "WRONG: a good house does not pass."; wrong=1; }
-sin '#include <iostream>' "too dear"
+rules || { echo "WRONG: a correct tree does not pass."; wrong=1; }
+sin '#include <iostream>' "too long to compile"
 sin '#include <glm/glm.hpp>' "by part"
 sin '    virtual void f();' "no 'virtual'"
 sin 'std::shared_ptr<int> p;' "no 'shared_ptr'"
 sin 'struct B : public A {};' "no inheritance"
-sin 'using namespace std;' "opens no namespace"
+sin 'using namespace std;' "must not open a namespace"
 sin '#define MAX 3' "macros are named"
 sin 'static int f();' "no 'static'"
 sin '#pragma omp parallel for' "only ljus/parallel.hpp"
 sin 'inline void f() { printf("x"); }' "neither prints"
 sin '#include "ljus/geometry/b.hpp"' "one way only"
-sin '#include "ljus/math/gone.hpp"' "which is not there"
+sin '#include "ljus/math/gone.hpp"' "which does not exist"
 sin "$(printf '%089d' 0)" "longer than 88"
 header ljus/image/c.hpp '#include "ljus/parallel.hpp"'
 finds "one way only"
 header ljus/render/c.hpp '#include "ljus/scene/load.hpp"'
 finds "an optional header"
 header ljus/attic/c.hpp
-finds "no floor"
+finds "not a room"
 printf '#pragma once\n/// \\file ljus/math/a.hpp\n/// \\brief A.\n#include "ljus/math/c.hpp"\n' \
     >"$folder/ljus/math/a.hpp"
 printf '#pragma once\n/// \\file ljus/math/c.hpp\n/// \\brief C.\n' >"$folder/ljus/math/c.hpp"
-finds "does not reach ljus/version.hpp"
+finds "does not include ljus/version.hpp"
 printf '\n#pragma once\n' >"$folder/ljus/math/a.hpp"
 finds "first line"
 rm -rf "$folder"
-[ $wrong -eq 0 ] && echo "every sin was found"
+[ $wrong -eq 0 ] && echo "every fault was found"
 exit $wrong

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# scripts/install-packages on a bare machine, for one who is not root: a line to type, one
-# sentence where it cannot go on, and no error where CMake will fetch what is missing.
+# Checks scripts/install-packages on a bare machine without root: it prints a command to type,
+# one sentence if it cannot continue, and no error if CMake can fetch what is missing.
 . "$(dirname "$0")/common.sh"
 bin=$scratch/bin
 mkdir "$bin"
@@ -37,7 +37,7 @@ grep -q '^ *sudo apt-get install .*doctest-dev' "$scratch/out" ||
     { echo "WRONG: it looks, and does not say what is missing"; wrong=1; }
 looks 0 0 --no-install figures
 grep -q 'not installed: .*gnuplot-nox' "$scratch/out" || { echo "WRONG: no plots, in silence"; wrong=1; }
-# Who is root but has no network is told so, and goes on with what is there.
+# As root without a network it says so, and continues with what is installed.
 printf '#!%s\necho 0\n' "$(command -v bash)" >"$bin/id"
 printf '#!%s\nexit 100\n' "$(command -v bash)" >"$bin/apt-get"
 chmod +x "$bin/apt-get"

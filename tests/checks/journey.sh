@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Followed as they run, a camera ray and a photon take no more calls, and no more files,
-# than the house allows: the numbers stand in scripts/journey.
+# Checks that a camera ray and a photon take no more calls and files than scripts/journey
+# allows.
 . "$(dirname "$0")/common.sh"
 [ -n "${LJUS_PYTHON:-}" ] || skip "Python is not installed"
 command -v addr2line >/dev/null || skip "addr2line (binutils) is not installed"

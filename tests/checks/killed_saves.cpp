@@ -1,6 +1,6 @@
 /// \file tests/checks/killed_saves.cpp
-/// \brief Kills at random while files are saved: the older file or the new one is
-/// there, whole, and what a kill leaves beside it does not hinder the next save.
+/// \brief Kills a program at random while it saves files: either the old or the new
+/// file is there, complete, and remains of the killed save do not disturb the next one.
 ///
 ///     killed_saves FOLDER [KILLS]     kills of each kind of file; 20 if none are given
 
@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
         const std::size_t beside = files_in(folder) - 1;
         kind.save(path, true);
         if (load_file(path, 10'000'000) != second)
-            fail(kind.name, kills, "the next save is not the file");
+            fail(kind.name, kills, "the next save did not replace the file");
         std::printf("%s: %d kills, the new file was there after %d, %zu files beside "
                     "it\n",
                     kind.name, kills, replaced, beside);

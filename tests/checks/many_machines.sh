@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The program examples/32_many_machines.cpp: 1 to 4 ranks make the bytes of one process,
-# and a rank that dies leaves no picture. Exit code 77 where mpirun cannot start a rank.
+# Checks the program examples/32_many_machines.cpp: 1 to 4 ranks make the same bytes as one
+# process, and a killed rank leaves no picture. Exit code 77 if mpirun cannot start a rank.
 # Usage: many_machines.sh MPIRUN PROGRAM SCRATCH RENDER SCENE.json
 set -euo pipefail
 mpirun=$1
@@ -14,7 +14,7 @@ cd "$scratch"
 wrong=0
 wrong() { echo "WRONG: $*"; wrong=1; }
 
-# All ranks on this machine, whoever asks, and more of them than it has processors.
+# Runs all ranks on this machine, also as root, and more of them than it has processors.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_base_warn_component_unused=0
 export OMPI_MCA_btl=self,vader,tcp OMPI_MCA_btl_vader_single_copy_mechanism=none
@@ -37,17 +37,17 @@ cmp few/$picture few1/$picture || wrong "more ranks than rows make another pictu
 "$program" "$scene" "${few[@]}" --seed 2 --quiet --out seed
 ! cmp -s alone/$picture seed/$picture || wrong "--seed changes nothing"
 
-# The program that knows nothing of ranks makes the same picture.
+# The program `render`, without ranks, makes the same picture.
 "$render" "$scene" "${few[@]}" --quiet --out render.pfm
 cmp render.pfm alone/$picture || wrong "ranks make another picture than render"
 
-# A wrong use: one sentence a rank, no picture, no rank that waits for ever.
+# Wrong usage: one sentence per rank, no picture, and no rank that waits for ever.
 code=0
 ranks 2 "$program" none.json --out never >out.txt 2>err.txt || code=$?
 [ $code -ne 0 ] && [ $code -ne 124 ] || wrong "a missing scene: exit code $code"
 grep -q "cannot read 'none.json'" err.txt || wrong "no sentence: $(cat err.txt)"
 
-# A rank that is killed ends the others, and leaves no picture and no half of one.
+# A killed rank ends the others, and leaves neither a picture nor part of one.
 timeout 120 "$mpirun" -n 3 "$program" "$scene" --width 200 --height 200 --rays 100000 \
     --threads 1 --out never >out.txt 2>err.txt &
 job=$!

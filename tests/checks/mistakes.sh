@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# The mistakes of beginners, one file of tests/mistakes each: g++ and clang++ say it in at
-# most 20 lines that name a line of the reader's file, and their first error is in that
-# file or is a sentence of ours. A line "// says: PATTERN" at the head of the file is what
-# must be said; "// long: REASON", that clang++ needs more lines. The page "When it does not compile" shows these files.
+# Checks the messages about beginners' mistakes, each a file of tests/mistakes: g++ and
+# clang++ take at most 20 lines, which name a line of the user's file, and the first error is
+# in that file or is a sentence of the library. At the head of the file, "// says: PATTERN"
+# gives what must be said, and "// long: REASON" allows clang++ more lines. The page "When it
+# does not compile" shows these files.
 . "$(dirname "$0")/common.sh"
 status=0
 problem() { echo "$*"; sed 's/^/    /' "$scratch/said"; status=1; }

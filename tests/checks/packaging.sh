@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The recipes of cmake/packaging/, as far as can be seen without their tools: they can be read,
-# name files and options that exist, and all say the same version.
+# Checks the recipes of cmake/packaging/ as far as possible without their tools: they can be
+# parsed, name existing files and options, and all give the same version.
 . "$(dirname "$0")/common.sh"
 status=0
 problem() { echo "$*"; status=1; }
@@ -18,7 +18,7 @@ same CHANGELOG.md "$(sed -n 's/^## \([0-9.]*\).*/\1/p' "$LJUS_ROOT/CHANGELOG.md"
 same "README.md, how to cite it," \
     "$(tr '\n' ' ' <"$LJUS_ROOT/README.md" | sed -n 's/.*compiles, version \([0-9.]*\)\*.*/\1/p').${LJUS_VERSION##*.}"
 
-# --- vcpkg: the port, with commands that only write down what they are told.
+# --- vcpkg: the port, with commands that only record their arguments.
 cat >"$scratch/port.cmake" <<END
 function(vcpkg_cmake_configure)
     file(WRITE "$scratch/told" "\${ARGN}")

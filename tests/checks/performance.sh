@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
-# The instructions of benchmarks/guard.cpp, counted by callgrind, beside those of
-# benchmarks/guard.csv: what needs more than 5 % more fails, and so does a fast twin whose
-# ratio to its plain one is more than 5 % less. Counts do not depend on what else runs on
-# the machine, but on the compiler: with another one than the file names it is skipped.
+# Compares the instructions of benchmarks/guard.cpp, counted by callgrind, with those of
+# benchmarks/guard.csv. It fails if a case needs over 5 % more, or if the advantage of a fast
+# twin over its plain one falls by over 5 %. Counts do not depend on the load of the machine,
+# but on the compiler: with another compiler than the file names, the check is skipped.
 #
 #     ctest --test-dir build/dev -C performance -R performance
-#     LJUS_GUARD_WRITE=1 ctest ...      writes the file anew
+#     LJUS_GUARD_WRITE=1 ctest ...      rewrites the file
 . "$(dirname "$0")/common.sh"
 table=$LJUS_ROOT/benchmarks/guard.csv
 flags="-O2"
 
 command -v valgrind >/dev/null || skip "valgrind is not installed."
-# Without its first word, the name by which the compiler was called.
+# Without the first word, which is the command.
 conditions="# $("$LJUS_CXX" --version | sed -n '1s/^[^ ]* //p'), $flags, $(valgrind --version), $(uname -m)"
 if [ -z "${LJUS_GUARD_WRITE:-}" ] && [ "$(head -n 1 "$table")" != "$conditions" ]; then
     echo "the table: $(head -n 1 "$table")"
@@ -24,8 +24,8 @@ fi
     "$LJUS_ROOT/benchmarks/guard.cpp" -o "$scratch/guard"
 LC_ALL=C valgrind --quiet --tool=callgrind --callgrind-out-file="$scratch/counted" \
     --toggle-collect='guard_*' "$scratch/guard" >"$scratch/printed"
-# "2,813,004 (1.61%)  file:function": of each case with all that it calls, and of each
-# function by itself.
+# "2,813,004 (1.61%)  file:function": inclusive counts for the cases, exclusive ones for
+# functions.
 count() { callgrind_annotate --threshold=100 "$@" "$scratch/counted" | tr -d ','; }
 count --inclusive=yes | awk '$1 ~ /^[0-9]+$/ && match($0, /:guard_[a-z0-9_]+/) {
     name = substr($0, RSTART + 7, RLENGTH - 7)
@@ -49,7 +49,7 @@ awk -F, 'FNR == 1 { next }
     !($1 in before) { print "WRONG: " $1 " is not in the table"; wrong = 1; next }
     { seen[$1] = 1
       ratio = $1 ~ / / ? before[$1] / $2 : $2 / before[$1]
-      note = ratio > 1.05 ? "WRONG" : ratio < 0.95 ? "better: write the table anew" : ""
+      note = ratio > 1.05 ? "WRONG" : ratio < 0.95 ? "better: rewrite the table" : ""
       if (ratio > 1.05) wrong = 1
       printf "%-28s %14s %14s  %+6.1f %%  %s\n", $1, before[$1], $2, 100 * (ratio - 1), note }
     END { for (name in before) if (!(name in seen)) {

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# The program examples/31_progressive.cpp, killed at random and resumed many times: its sums
-# and its picture have the same bytes as those of a run that was left in peace; and what it
-# refuses.
+# Checks the program examples/31_progressive.cpp, killed at random and resumed often: its sums
+# and its picture have the same bytes as those of an undisturbed run; and what it refuses.
 # Usage: progressive_program.sh PROGRAM SCRATCH [KILLS]
 set -euo pipefail
 program=$1
@@ -12,7 +11,7 @@ mkdir -p "$scratch"
 cd "$scratch"
 wrong=0
 wrong() { echo "WRONG: $*"; wrong=1; }
-# same FOLDER: it holds what the folder `whole` holds, bit by bit.
+# same FOLDER: it has the same files as the folder `whole`, bit for bit.
 same() { cmp "whole/progressive.check" "$1/progressive.check" &&
     cmp "whole/progressive-last.png" "$1/progressive-last.png"; }
 
@@ -21,7 +20,7 @@ begin=$(date +%s%N)
 "$program" "${few[@]}" --threads 1 --out whole
 alone=$((($(date +%s%N) - begin) / 1000000))
 
-# Another number of threads, and other checkpoints on the way, change nothing.
+# The number of threads and of checkpoints changes nothing.
 "$program" --width 32 --height 32 --passes 150 --every 1000 --quiet --threads 2 --out two
 same two || wrong "threads or checkpoints change the picture"
 [ -s two/progressive-10.png ] || wrong "no picture of ten passes"
@@ -43,7 +42,7 @@ done
 "$program" "${few[@]}" --out a ${resume[@]+"${resume[@]}"}
 same a || wrong "killed and resumed, the picture is another"
 
-# Ctrl-C leaves a checkpoint, of more passes than none, says so, and makes not the last picture.
+# Ctrl-C leaves a checkpoint of at least one pass, says so, and writes no final picture.
 "$program" --width 32 --height 32 --quiet --passes 1000000 --every 1000 --out b 2>err.txt &
 pid=$!
 sleep 1

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The program examples/render.cpp: what it writes, and that a wrong use ends with one
-# sentence, exit code 2, nothing half-written and no older file lost.
+# Checks the program examples/render.cpp: what it writes, and that wrong usage ends with one
+# sentence and exit code 2, leaves no partial file, and keeps an existing one.
 # Usage: render_program.sh PROGRAM SCENE.json SCRATCH
 set -euo pipefail
 render=$1
@@ -40,7 +40,7 @@ done
 cmp -s rays.pfm none.pfm && wrong "--indirect none changes nothing"
 cmp -s map.pfm photons.pfm && wrong "--indirect photons changes nothing"
 
-# What else there is to choose changes the picture, and is known by its name.
+# The other options change the picture, and are accepted by name.
 "$render" "$scene" "${few[@]}" --quiet --out plain.pfm
 for choice in --split-glass "--sampling random" "--sampling jittered" "--sampling sobol" \
     "--precision double" "--shadow-rays 2" "--caustic-radius 0.3" "--caustic-radius 0" \
@@ -70,7 +70,7 @@ for choice in "--irradiance-radius 0.2" "--irradiance-shadow-rays 1" "--gather-d
     ! cmp -s cached.pfm choice.pfm || wrong "$choice changes nothing"
 done
 
-# What is chosen is said, and stands in the JSON beside the picture.
+# Chosen settings are printed, and written to the JSON beside the picture.
 json_has() { grep -q -- "$1" choice.pfm.json || wrong "no $1 in $(cat choice.pfm.json)"; }
 for rule in report any enough; do # where the photons are right, the picture is the same
     "$render" "$scene" "${few[@]}" --skip $rule --quiet --out choice.pfm
@@ -98,7 +98,8 @@ done
 "$render" "$scene" "${few[@]}" --renderer path --path-lights power --quiet --out choice.pfm
 json_has '"path-lights": "power"'
 
-# Passes: by any threads, cut in two and resumed, the same bytes; and a preview.
+# Passes: the same bytes for any number of threads, and when stopped and resumed; and a
+# preview.
 passes=("$scene" "${few[@]}" --caustic-radius 0 --caustic-budget brightness --alpha 0.5 --quiet)
 "$render" "${passes[@]}" --passes 6 --threads 1 --out whole.pfm
 "$render" "${passes[@]}" --passes 2 --threads 2 --out part.pfm --checkpoint part.check
@@ -116,8 +117,8 @@ json_has '"more-rays": 0,'
 "$render" "$scene" --width 20 --height 16 --passes 2 --quiet --out choice.pfm
 json_has '"rays": 1,'
 
-# A promise: the settings are chosen, what was chosen is said, and it is kept. The clock is
-# the wall's, and the machine may be busy: the seconds are those that the program counts.
+# A promise: settings are chosen and printed, and the promise is kept. The clock is wall-clock
+# time and the machine may be busy, so the seconds are those that the program reports.
 "$render" "$scene" --width 24 --height 20 --seconds 2 --out choice.pfm >out.txt
 grep -q '^  The mean of [0-9]* pictures by ' out.txt || wrong "no reason in $(cat out.txt)"
 grep -q 'relMSE .*, by estimate: noise ' out.txt || wrong "no estimate in $(cat out.txt)"
@@ -138,7 +139,7 @@ sed -e 's/"clay": .*/"clay": {"type": "picture", "file": "picture.png", "map": "
 "$render" ball.json "${few[@]}" --quiet --out ball.pfm
 cmp -s plain.pfm ball.pfm && wrong "a picture and a mixture change nothing"
 
-# Every setting of --help stands in the file beside a picture, under its own name.
+# Every setting of --help is in the file beside a picture, under its own name.
 "$render" --help >help.txt
 "$render" "$scene" "${few[@]}" --preset fast --passes 1 --quiet --out choice.pfm
 cp choice.pfm.json all.json
@@ -199,10 +200,10 @@ refused "there is no option or argument '--nope'" "$scene" --nope
 refused "there is no option or argument '--quality'" "$scene" --quality draft
 refused "--seconds" "$scene" --seconds 0
 refused "--error" "$scene" --error nan
-refused "--error does not go with --seconds: give one of them" "$scene" --seconds 1 --error 0.1
+refused "--error cannot be combined with --seconds: give one of them" "$scene" --seconds 1 --error 0.1
 for option in "--preset fast" "--rays 4" --plan "--explain 1,1" "--renderer path"; do
     # shellcheck disable=SC2086
-    refused "does not go with --seconds, which chooses the settings" "$scene" --seconds 1 \
+    refused "cannot be combined with --seconds, which chooses the settings" "$scene" --seconds 1 \
         $option
 done
 refused "no time takes it away" "$scene" --width 8 --height 8 --error 1e-9
@@ -223,9 +224,9 @@ for option in "--alpha 0.5" "--checkpoint a.check" --resume "--preview a.png" "-
     refused "give --passes N" "$scene" $option
 done
 refused "--passes is for --renderer photon" "$scene" --passes 2 --renderer path
-refused "--more-rays does not go with --passes" "$scene" --passes 2 --more-rays 3
-refused "--explain does not go with --passes" "$scene" --passes 2 --explain 1,1
-refused "--show-photons does not go with --passes" "$scene" --passes 2 --show-photons all
+refused "--more-rays cannot be combined with --passes" "$scene" --passes 2 --more-rays 3
+refused "--explain cannot be combined with --passes" "$scene" --passes 2 --explain 1,1
+refused "--show-photons cannot be combined with --passes" "$scene" --passes 2 --show-photons all
 refused "--resume needs --checkpoint" "$scene" --passes 2 --resume
 refused "its name must end with .png" "$scene" --passes 2 --preview a.jpg
 refused "it must be a file of its own" "$scene" --passes 2 --out a.pfm --checkpoint a.pfm
@@ -247,7 +248,7 @@ refused "dark.json: objects has no light" dark.json
 sed 's/picture.png/none.png/' ball.json >none.json
 refused "none.json: materials.clay.file cannot be used: cannot read 'none.png'" none.json
 
-# A limit on the size of files: one sentence, and the older file is as it was.
+# A limit on the size of files: one sentence, and the existing file is unchanged.
 cp t1.pfm older.pfm
 (
     ulimit -f 1
@@ -258,8 +259,8 @@ cp t1.pfm older.pfm
 ) || wrong "the file-size limit: $(cat limit.txt)"
 cmp older.pfm t1.pfm || wrong "the older file is lost"
 
-# Ctrl-C: exit code 130 within three seconds, even with a million rays per pixel; and what
-# is saved is said.
+# Ctrl-C: exit code 130 within three seconds, even with a million rays per pixel; the message
+# says what is saved.
 set -m
 "$render" "$scene" --rays 1000000 --caustic-photons 500 --out never.png >out.txt 2>err.txt &
 pid=$!
@@ -275,7 +276,7 @@ grep -q 'stopped: no picture is saved; .* --passes N --checkpoint FILE' err.txt 
     wrong "Ctrl-C does not say what is saved: $(cat err.txt)"
 [ ! -e never.png ] || wrong "Ctrl-C left a picture"
 
-# The same in passes: what is done by then is in the checkpoint.
+# The same in passes: the passes done so far are in the checkpoint.
 "$render" "$scene" --passes 1000000 --caustic-photons 500 --out never.png \
     --checkpoint never.check >out.txt 2>err.txt &
 pid=$!

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What is no shape, no material, no light, or not listed gives a short message at the caller's line.
+# Checks that types that are not a shape, a material or a light, or are not listed, give a
+# short message at the caller's line.
 . "$(dirname "$0")/common.sh"
 status=0
 longest=24

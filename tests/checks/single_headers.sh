@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Single headers, each in an empty folder and compiled by the plain line at its head: alone,
-# two in one program, and all of them; by the build's compiler and by another, if there is
-# one. A picture from the one header has the bytes of the one from include/.
+# Checks single headers, each in an empty folder and compiled by the command at its head:
+# alone, two in one program, and all of them, by the build's compiler and by another if there
+# is one. A picture by the single header is byte for byte the one by include/.
 # Usage: single_headers.sh [N]: every Nth header alone; without it, all.
 . "$(dirname "$0")/common.sh"
 [ -n "${LJUS_PYTHON:-}" ] || skip "Python is not installed"
@@ -14,7 +14,7 @@ other=$(other_compiler)
 status=0
 problem() { echo "$*"; status=1; }
 
-# Those whose packages are there.
+# Those whose packages are installed.
 names=()
 while read -r header; do
     name=${header##*/}
@@ -23,8 +23,8 @@ while read -r header; do
     names+=("$name")
 done <"$LJUS_HEADERS"
 
-# in_empty_folder COMPILER FLAGS NAMES...: main.cpp, which stands on the standard input, is
-# compiled beside copies of these headers.
+# in_empty_folder COMPILER FLAGS NAMES...: compiles a main.cpp read from standard input beside
+# copies of these headers.
 in_empty_folder() {
     local compiler=$1 flags=$2
     shift 2

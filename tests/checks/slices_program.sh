@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# render --slice and ljus-merge: 1 to 16 slices make the bytes of one process; a hole, a
-# slice there twice, damaged, or of another picture is told, and there is no picture; a
-# slice that is killed leaves nothing that looks whole.
+# Checks render --slice and ljus-merge: 1 to 16 slices make the same bytes as one process; if
+# a slice is missing, given twice, damaged, or of another picture, a sentence says so and no
+# picture is written; a killed slice leaves nothing that looks complete.
 # Usage: slices_program.sh RENDER MERGE SCENE.json SCRATCH
 set -euo pipefail
 render=$1
@@ -33,7 +33,7 @@ done
 "$merge" part16/*.slice --out merged.png >out.txt # named one by one; and another kind
 cmp whole.png merged.png || wrong "16 slices make another PNG file"
 grep -q 'merged.png' out.txt || wrong "it does not say where the picture is"
-# What it says of the picture is the same but for its cost.
+# The file of settings is the same except for the cost.
 alike() { grep -v '"seconds"\|"slices"\|"scene_hash"\|"exposure"' "$1" | tr -d ' ,\n' |
     sed 's/"version":\[[0-9]*\]//'; }
 [ "$(alike whole.png.json)" = "$(alike merged.png.json)" ] || wrong "another file of settings: $(diff whole.png.json merged.png.json)"
@@ -96,13 +96,14 @@ few+=(--quiet)
 for text in 0/4 5/4 3 3/ /4 3/4x -1/4 1/0 1/65537 3.0/4; do
     refused "--slice is '$text'; it must be K/N" "$render" scene.json "${few[@]}" --slice "$text" --out never
 done
-refused "a slice is no picture" "$render" scene.json "${few[@]}" --slice 1/2 --out never.pfm
+refused "a slice is not a picture" "$render" scene.json "${few[@]}" --slice 1/2 --out never.pfm
 refused "is for --slice" "$render" scene.json "${few[@]}" --out never.slice
-refused "does not go with --slice" "$render" scene.json "${few[@]}" --slice 1/2 --passes 3 --out never
+refused "cannot be combined with --slice" "$render" scene.json "${few[@]}" --slice 1/2 --passes 3 --out never
 refused "give --more-rays 0" "$render" scene.json "${few[@]}" --slice 1/2 --more-rays 3 --out never
 [ ! -e never ] && [ ! -e never.slice ] || wrong "what was refused left something"
 
-# Killed at any time, a slice leaves nothing; rendered again, it alone, all is well.
+# A slice killed at any time leaves nothing; rendering only that slice again completes the
+# picture.
 rm "$(at 3 4)"
 for wait in 0.02 0.1 0.3; do
     "$render" scene.json "${few[@]}" --rays 100000 --slice 3/4 --out part4 &

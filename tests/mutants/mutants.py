@@ -1,16 +1,16 @@
-"""Finds what could be wrong in a header: one small change a mutant.
+"""Makes the mutants of a header: each is one small change.
 
-find(text) reads the bodies of a header's functions, and gives regions: pieces of text, an
-expression or a statement each, with the mutants that change something in them. switched()
-writes the header with all of them in it,
+find(text) reads the bodies of a header's functions and returns regions: pieces of text, each
+an expression or a statement, with the mutants that change it. switched() writes a header that
+contains all of them,
 
     (on(17) ? (a + b) : (a - b))
 
-so that one program holds them all, and an environment variable says which one is on.
+so that one program holds them all, and an environment variable chooses one.
 
-A header is read lightly: no types, no names. Where a guess is wrong, the compiler says so,
-and mutate.py leaves that mutant out. What holds the guesses up is clang-format: an operator
-of two operands has spaces around it, and a template's brackets have none.
+The header is parsed only roughly, without types or names. Where a guess is wrong, the mutant
+does not compile, and mutate.py leaves it out. The guesses rely on clang-format: a binary
+operator has spaces around it, and a template's brackets have none.
 """
 
 import re
@@ -42,7 +42,9 @@ BEGINS_NO_EXPRESSION = set(
 OPENS = {"(": ")", "[": "]", "{": "}"}
 COMMUTES = set(
     "dot min max distance hypot is_same_v equal same_as multiply fmax fmin swap has "
-    "box_union".split()
+    "box_union distance2 half_vector larger_cosine same_side schlick_r0 squared_contrast "
+    "fujii_term oren_nayar_ratio rough_as_printed rough_fon rough_fujii rough_full "
+    "rough_weight".split()
 )
 DROPPED_CALLS = {
     "abs": 1, "sqrt": 1, "normalize": 1, "floor": 1, "ceil": 1, "round": 1,

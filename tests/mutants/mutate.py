@@ -1,32 +1,32 @@
 #!/usr/bin/env python3
-"""Do the tests notice it when one small thing in a header is wrong?
+"""Do the tests notice each small change to a header?
 
     mutate.py [options] [WHAT]...     ./scripts/test --mutate calls it
 
-WHAT is a test (sphere), a floor (geometry), or a header (geometry/sphere.hpp); without one,
-all headers are tried. mutants.py makes the mutants, and all of those that a test is to notice
-are in one program: it is compiled once, and the environment variable LJUS_MUTANT says which
-one is on. Each test case is first run by itself to see which mutants it comes by; a mutant is
-then tried with these cases only, the quick ones first, until an assertion fails.
+WHAT is a test (sphere), a room (geometry), or a header (geometry/sphere.hpp); without one,
+all headers are tried. mutants.py makes the mutants. One program holds all mutants that a test
+must notice: it is compiled once, and the environment variable LJUS_MUTANT chooses among them.
+Each test case is first run alone to see which mutants it executes; a mutant is then tried
+with these cases only, the quick ones first, until an assertion fails.
 
 A header's own tests are tests/NAME_test.cpp, those that say '// concept: NAME' in their first
 lines, and those that tests/mutants/tests names. tests/mutants/equivalent lists mutants that
-change nothing that a test could see, with the reason; they are not counted.
+no test can notice, with the reason; they are not counted.
 
-  --sample N      only N mutants of each header's, chosen at random
-  --seed S        ... by this seed (1)
-  --all N         at most N mutants in all, chosen at random
-  --again         only those that survived the last run here; with --sample N as well
-                  N of each header's that never ran here
-  --long          with the tests that say '// long:' as well; without it these are run for
-                  headers only that have no other test
-  --jobs N        so many at a time (the number of processors)
-  --build FOLDER  where to work (build/mutants)
-  --commands FILE a compile_commands.json that says how tests are compiled
-  --report FILE   write the survivors there as well
-  --csv FILE      a table by floors there, of this run and all that ran here before
-  --compiled      those that only the compiler runs as well, in a program each
-  --list          only count the mutants; with --csv the table of what is known
+  --sample N      only N mutants of each header, chosen at random
+  --seed S        the seed of the random choice (1)
+  --all N         at most N mutants in total, chosen at random
+  --again         only those that survived the last run in this folder; with --sample N
+                  also N of each header that never ran
+  --long          also with the tests that say '// long:', which otherwise run only for
+                  headers without another test
+  --jobs N        number of parallel jobs (the number of processors)
+  --build FOLDER  folder to work in (build/mutants)
+  --commands FILE a compile_commands.json with the flags of the tests
+  --report FILE   also write the survivors to this file
+  --csv FILE      write a table by rooms, of this run and all earlier ones in this folder
+  --compiled      also mutants that only the compiler evaluates, each in its own program
+  --list          only count the mutants; with --csv write the table of known results
 """
 
 import argparse

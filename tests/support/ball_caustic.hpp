@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/ball_caustic.hpp
-/// \brief Geometric optics on paper: where a ball sends the light of a point light.
+/// \brief Geometric optics in closed form: the light of a point light through a ball.
 
 #include <cmath>
 #include <cstdlib>
@@ -14,11 +14,11 @@ namespace ljus_test {
 ///
 /// A ray leaves the light at an angle alpha and meets the ball under theta_i, with
 /// sin theta_i = (D/R) sin alpha, at the angle phi = theta_i - alpha from the top of
-/// the ball. Each way through the ball goes on by pi - 2 theta_t around its centre.
+/// the ball. Each chord through the ball turns by pi - 2 theta_t around its centre.
 /// After k inner reflections the ray leaves at
 ///     phi_e = theta_i - alpha + (k + 1)(pi - 2 theta_t)
-/// in the direction phi_e + theta_i, with the share (1 - F)^2 F^k; k = -1 is the
-/// reflection at the first boundary, with the share F.
+/// in the direction phi_e + theta_i, with the fraction (1 - F)^2 F^k; k = -1 is the
+/// reflection at the first boundary, with the fraction F.
 struct BallCaustic {
     double light = 2;      ///< D, from the centre of the ball up to the light.
     double floor = 1;      ///< From the centre down to the floor.
@@ -37,11 +37,11 @@ struct BallCaustic {
         return (s * s + p * p) / 2;
     }
 
-    /// Where one ray goes.
+    /// The path of one ray.
     struct Arrival {
         bool lands = false; ///< False if it goes up.
         double rho = 0;     ///< Signed distance from the axis on the floor.
-        double share = 0;   ///< Of the light that goes this way.
+        double share = 0;   ///< Fraction of the light on this path.
     };
 
     /// The ray that leaves at alpha, after k inner reflections.
@@ -64,7 +64,7 @@ struct BallCaustic {
 
     /// Sums over all light that lands.
     /// \param add    Called as add(rho, flux) with |rho|.
-    /// \param first  -1: with what is reflected outside; 0: without.
+    /// \param first  -1: include reflection outside; 0: do not.
     /// \param steps  Rays between the axis and the edge of the ball.
     template <typename Add>
     void shower(Add add, int first = -1, int steps = 40000) const {

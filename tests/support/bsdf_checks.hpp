@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/bsdf_checks.hpp
-/// \brief What must hold for every material, whatever it is.
+/// \brief Properties that every material must have.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ namespace ljus_test {
 // library; see OnlySpecular.
 using ljus::evaluate, ljus::lobes, ljus::pdf;
 
-/// The share of light from everywhere that the parts with an f send to `wo`, by the
+/// The fraction of uniform light that the lobes with an f send to `wo`, by the
 /// midpoint rule in sin^2(theta) and phi: exact for a constant f.
 template <ljus::Material M>
 ljus::RgbT<double> albedo_by_quadrature(const M& m,
@@ -48,8 +48,8 @@ ljus::RgbT<double> albedo_by_quadrature(const M& m,
     return sum * (std::numbers::pi / n / n); // d(omega) cos = d(sin^2) d(phi)/2
 }
 
-/// The share that the deltas send to `wo`: the mean of their weights over a grid of
-/// u.z, which alone decides. Within a few 1/steps.
+/// The fraction that the delta lobes send to `wo`: the mean of their weights over a
+/// grid of u.z, which alone decides. Within a few 1/steps.
 template <ljus::Material M>
 ljus::RgbT<double> specular_albedo(const M& m,
                                    const ljus::Vec3T<typename M::Scalar>& wo,
@@ -81,9 +81,9 @@ void check_reciprocity(const M& m, double roundoffs = 4) {
     }
 }
 
-/// For one wo: sample() and pdf() tell the same story under `which` (chi-square, false
+/// For one wo: sample() and pdf() agree under `which` (chi-square, false
 /// alarm 3 in 10 million for each call), weight = f |cos|/pdf, directions are unit
-/// vectors, and no lobe appears that was not asked for.
+/// vectors, and no lobe appears that was not requested.
 template <ljus::Material M>
 void check_sampling(const M& m, const ljus::Vec3T<typename M::Scalar>& wo,
                     ljus::Lobes which = ljus::Lobes::all, std::uint64_t seed = 1) {
@@ -181,7 +181,7 @@ void check_extremes(const M& m, double most_weight) {
     CHECK(
         ljus::is_black(evaluate(m, ljus::Vec3T<T>{1, 0, 0}, ljus::Vec3T<T>{0, 0, 1})));
     CHECK(pdf(m, ljus::Vec3T<T>{0, 0, 1}, ljus::Vec3T<T>{1, 0, 0}) == 0);
-    // With nothing to choose from there is nothing.
+    // Without a lobe to choose from there is no sample.
     const ljus::Vec3T<T> up{0, 0, 1};
     CHECK_FALSE(sample(m, up, u, ljus::Transport::flux, ljus::Lobes::none));
     CHECK(pdf(m, up, up, ljus::Lobes::none) == 0);
@@ -189,7 +189,7 @@ void check_extremes(const M& m, double most_weight) {
 }
 
 /// Around the normal, and on the two sides of a surface that is the same from both, f
-/// and the density are the same; and no facet is brighter than what it is made of.
+/// and the density are the same; and the albedo does not exceed that of the facets.
 template <ljus::Material M>
 void check_symmetry(const M& m) {
     using T = typename M::Scalar;

@@ -13,7 +13,7 @@
 
 namespace ljus_test {
 
-/// SplitMix64: a counter and a good mixer, nothing of the library's own streams.
+/// SplitMix64: a counter and a good mixer, independent of the library's own streams.
 struct Draws {
     std::uint64_t state = 1; ///< The seed.
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/integrate.hpp
-/// \brief Integrals of smooth functions, to compare with.
+/// \brief Integrals of smooth functions, as references.
 
 namespace ljus_test {
 

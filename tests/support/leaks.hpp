@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/leaks.hpp
-/// \brief Closed meshes, and rays from within them at what two triangles share: a ray
+/// \brief Closed meshes, and rays from within them at their vertices and edges: a ray
 /// that meets nothing has leaked.
 
 #include <algorithm>
@@ -112,7 +112,7 @@ inline ClosedMesh cut_cube(int cuts, double half, ljus::Vec3T<double> center) {
     return mesh;
 }
 
-/// What a ray is aimed at.
+/// The target of a ray.
 enum class Aim {
     edge,   ///< Somewhere along an edge; the direction has unit length.
     vertex, ///< A vertex; the direction has unit length.
@@ -120,7 +120,7 @@ enum class Aim {
     tie     ///< A vertex or an edge; the direction is the way there, often exactly.
 };
 
-/// A ray from within the mesh at what its triangles share. For Aim::axis the direction
+/// A ray from within the mesh at a vertex or edge. For Aim::axis the direction
 /// has two zeros, of either sign, and the ray starts close to its target.
 inline ljus::Ray ray_at_seam(const ClosedMesh& mesh, Aim aim, Numbers& n) {
     using V = ljus::Vec3T<double>;
@@ -155,7 +155,7 @@ inline ljus::Ray ray_at_seam(const ClosedMesh& mesh, Aim aim, Numbers& n) {
 }
 
 /// How many of `count` rays from within meet nothing.
-/// \param meets  bool(const Ray&): whether the ray meets the mesh, through whatever
+/// \param meets  bool(const Ray&): whether the ray hits the mesh, by any
 ///               loop or tree.
 template <typename Meets>
 long count_leaks(const ClosedMesh& mesh, Aim aim, long count, Meets meets,

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file support/light_tracer.hpp
-/// \brief An oracle that shares no step with the renderers: particles walk from the
-/// lights, and each matt surface they meet is joined to the pinhole.
+/// \brief An oracle that shares no code with the renderers: particles start from the
+/// lights, and each matt surface that they hit is connected to the pinhole.
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ std::vector<bool> matt_pixels(const W& scene, const ljus::CameraT<T>& camera, in
     return all;
 }
 
-/// Numbers that are not the library's.
+/// Random numbers independent of the library's.
 struct Uniform {
     std::mt19937_64 engine;
 
@@ -70,15 +70,15 @@ struct Uniform {
     }
 };
 
-/// Light under way.
+/// A particle on its path.
 template <std::floating_point T>
 struct Particle {
     ljus::RayT<T> ray{};
     glm::dvec3 flux{0};
-    ljus::RgbT<T> medium{T(0)}; ///< Absorption of what it is in.
+    ljus::RgbT<T> medium{T(0)}; ///< Absorption of the medium that it is in.
 };
 
-/// A particle with a share of a point light's flux.
+/// A particle with a fraction of a point light's flux.
 template <std::floating_point T>
 Particle<T> leave(const ljus::PointLightT<T>& light, double share, Uniform& uniform) {
     return {{.origin = light.position,
@@ -86,7 +86,7 @@ Particle<T> leave(const ljus::PointLightT<T>& light, double share, Uniform& unif
                  uniform.direction_around(ljus::Vec3T<T>{T(0), T(0), T(1)}, false)},
             4 * std::numbers::pi * share * glm::dvec3(light.intensity)};
 }
-/// Of a lamp's.
+/// The same for a lamp.
 template <typename S, std::floating_point T = ljus::ScalarOf<S>>
 Particle<T> leave(const ljus::AreaLightT<S>& light, double share, Uniform& uniform) {
     const ljus::Vec3T<T> u = uniform.cube<T>();
@@ -97,13 +97,13 @@ Particle<T> leave(const ljus::AreaLightT<S>& light, double share, Uniform& unifo
                 glm::dvec3(light.lamp.radiance)};
 }
 
-/// Where the pinhole shows a point, and how large one pixel is at the point.
+/// The pixel in which a point appears, and the size of a pixel at the point.
 struct FilmPlace {
     int x = 0, y = 0;
     double area = 0; ///< Across the way to the pinhole.
 };
 
-/// The place of what lies at `way` before the pinhole; nothing beside the picture.
+/// The pixel of a point at `way` from the pinhole; nothing outside of the picture.
 ///
 /// A pixel covers an area on the film at distance 1, of which a solid angle d omega
 /// covers d omega / cos^3.
@@ -129,7 +129,7 @@ std::optional<FilmPlace> place_on_film(const ljus::CameraT<T>& camera, int width
 ///
 /// A pixel is the mean of L over its area. A surface element dA at distance d covers
 /// d omega = cos_x dA / d^2, and L dA = sum of f dPhi.
-/// \param particles  How many leave the lights.
+/// \param particles  Number of particles.
 template <ljus::AnyWorld W, std::floating_point T>
 ljus::ImageT<double> trace_light(const W& scene, const ljus::CameraT<T>& camera,
                                  int width, int height, long long particles,
@@ -188,7 +188,7 @@ ljus::ImageT<double> trace_light(const W& scene, const ljus::CameraT<T>& camera,
                     return scatter(at, material, from, particle);
                 });
             if (!goes_on) break;
-            if (bounce >= 3) { // every fourth dies
+            if (bounce >= 3) { // a quarter ends here
                 if (uniform.next() < 0.25) break;
                 particle.flux /= 0.75;
             }

@@ -57,7 +57,7 @@ inline Mean flux_by_photons(const ClosedMeshRoom& room, int photons,
 }
 
 /// The same flux, by camera paths that start on the floor: mean radiance times pi times
-/// area; what meets the lamp's back or the black floor brings nothing.
+/// area; paths that hit the lamp's back or the black floor add nothing.
 inline Mean flux_by_paths(const ClosedMeshRoom& room, int paths, std::uint64_t seed) {
     using namespace ljus;
     const PathTracer tracer(room, {.max_depth = 100});

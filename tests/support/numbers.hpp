@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file support/numbers.hpp
-/// \brief Numbers for tests: the same everywhere, and not the library's own.
+/// \brief Random numbers for tests: the same everywhere, and independent of the
+/// library's.
 
 #include <cmath>
 #include <cstdint>
@@ -10,7 +11,7 @@
 
 namespace ljus_test {
 
-/// Knuth's linear congruential generator: its upper bits serve a test well enough.
+/// Knuth's linear congruential generator: its upper bits are good enough for tests.
 struct Numbers {
     std::uint64_t state = 1;
     double next() {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/point_sets.hpp
-/// \brief The points that the tests of both trees share, and the search that asks all.
+/// \brief The points that the tests of both trees share, and a brute-force search.
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ struct PointSet {
     Points<T> points;
 };
 
-/// The sets that photons really make, and the ones that break trees.
+/// Sets as photons make them, and sets that can break trees.
 template <typename T>
 std::vector<PointSet<T>> point_sets(std::size_t n, double size, double offset) {
     Draws numbers{n * 7 + 1};
@@ -85,7 +85,7 @@ double distance2(const Vec3T<T>& a, const Vec3T<T>& b) {
 #endif
 }
 
-/// All points of a closed ball, nearest first, by asking each.
+/// All points of a closed ball, nearest first, by brute force.
 template <typename Tree, typename T, typename Wanted>
 std::vector<Neighbor> brute_force(const Tree& tree, const Vec3T<T>& center, T radius,
                                   Wanted wanted) {
@@ -100,7 +100,7 @@ std::vector<Neighbor> brute_force(const Tree& tree, const Vec3T<T>& center, T ra
     return found;
 }
 
-/// Every search of a tree over a set of points, at many places, against all points in
+/// Every search of a tree over a set of points, at many centres, against all points in
 /// turn.
 template <typename Tree, typename T>
 void compare_with_brute_force(const PointSet<T>& set, Draws& numbers) {

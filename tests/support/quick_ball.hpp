@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/quick_ball.hpp
-/// \brief A shape of a reader that counts how often it is asked whether it is met.
+/// \brief A user's shape that counts the calls of its any-hit test.
 
 #include <optional>
 
@@ -9,7 +9,7 @@
 
 namespace reader {
 
-/// A ball that is quick to say whether it is met, and counts how often it is asked.
+/// A ball with an any-hit test of its own, which counts its calls.
 struct Quick {
     ljus::Sphere ball{};
     int* asked = nullptr;
@@ -23,7 +23,7 @@ bool meets(const ljus::Ray& ray, const Quick& s) {
     return ljus::intersect(ray, s.ball).has_value();
 }
 inline ljus::SurfacePoint surface_point(const Quick& s, const ljus::Ray& ray,
-                                        const ljus::FlatHitT<float>& hit) {
+                                        const ljus::ShapeHitT<float>& hit) {
     return ljus::surface_point(s.ball, ray, hit);
 }
 inline ljus::Sphere bounding_sphere(const Quick& s) {

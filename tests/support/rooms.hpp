@@ -25,7 +25,7 @@ using RoomT =
                                 ljus::MirrorT<T>, ljus::GlassT<T>, ljus::MixtureT<T>>,
                 ljus::Lights<ljus::PointLightT<T>>>;
 using Room = RoomT<float>;
-/// A closed one.
+/// The world of such a scene.
 template <typename T>
 using ClosedRoomT = ljus::World<RoomT<T>>;
 using ClosedRoom = ClosedRoomT<float>;
@@ -48,9 +48,9 @@ void add_walls(RoomT<T>& room, T albedo = T(0.5)) {
         room.add(ljus::QuadT<T>{.corner = corner, .edge_u = u, .edge_v = v}, material);
 }
 
-/// What the ball in the room is made of.
+/// The material of the ball in the room.
 enum class Ball { lambertian, oren_nayar, mirror, glass, mixture };
-/// What kind of light the room has.
+/// The kind of light in the room.
 enum class Lamp { quad, sphere, point };
 
 /// A ball near the middle of the room, above the floor.
@@ -87,7 +87,7 @@ void add_ball(RoomT<T>& room, Ball ball) {
              material);
 }
 
-/// One light, or two of different size, colour and place; none is in view of
+/// One light, or two of different size, colour and position; none is in view of
 /// room_camera().
 template <typename T>
 void add_lamps(RoomT<T>& room, Lamp lamp, int count) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/seed.hpp
-/// \brief Other numbers for a statistical test, if one asks for them.
+/// \brief Other seeds for statistical tests, on request.
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/statistics.hpp
-/// \brief What chance allows: means with standard errors, and Pearson's chi-square.
+/// \brief Statistical tests: means with standard errors, and Pearson's chi-square.
 
 #include <cmath>
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace ljus_test {
 
-/// The mean of numbers that come one by one, and how well it is known (Welford).
+/// The running mean of numbers, and its standard error (Welford).
 struct Mean {
-    double count = 0;   ///< How many.
-    double mean = 0;    ///< Of them.
+    double count = 0;   ///< The number of values.
+    double mean = 0;    ///< Their mean.
     double squares = 0; ///< Sum of the squared distances from the mean.
 
-    /// Takes one more.
+    /// Adds a value.
     void add(double x) {
         count += 1;
         const double from_old = x - mean;
@@ -52,13 +52,13 @@ inline double apart(const Mean& a, const Mean& b) {
     return a.mean == b.mean ? 0 : (a.mean - b.mean) / error;
 }
 
-/// The distance of a mean from what it should be, in standard errors.
+/// The distance of a mean from its expected value, in standard errors.
 inline double apart(const Mean& a, double truth, double rounding = 1e-6) {
     return a.sigmas(truth, rounding);
 }
 
-/// How many standard errors the farthest of so many means may be off: one run in
-/// 1000 of a test that is right goes beyond (Bonferroni, with the normal distribution).
+/// The allowed deviation of the farthest of several means, in standard errors: one run
+/// in 1000 of a correct test exceeds it (Bonferroni, with the normal distribution).
 inline double limit_of(int checks) {
     double low = 0, high = 10;
     for (int step = 0; step < 60; ++step) {
@@ -68,7 +68,7 @@ inline double limit_of(int checks) {
     return high;
 }
 
-/// What a normal variable exceeds once in a million.
+/// The value that a normal variable exceeds once in a million.
 inline constexpr double once_in_a_million = 4.7534;
 
 /// The value that a chi-square variable with `freedom` degrees exceeds as rarely as a
@@ -94,12 +94,12 @@ double chi_square(const Counts& counts) {
     return result;
 }
 
-/// Pearson's sum over cells of which each expects a count of its own.
+/// Pearson's sum over cells with different expected counts.
 struct ChiSquare {
-    double sum = 0; ///< Infinite if something fell where nothing can.
-    int cells = 0;  ///< Of which it is the sum.
+    double sum = 0; ///< Infinite if a cell that must be empty is not.
+    int cells = 0;  ///< Number of cells.
 
-    /// What the sum exceeds as rarely as chi_square_limit() says.
+    /// The limit of the sum; see chi_square_limit().
     [[nodiscard]] double limit(double z = once_in_a_million) const {
         return chi_square_limit(cells - 1, z);
     }
@@ -135,7 +135,7 @@ inline ChiSquare chi_square(std::span<const double> counts,
 inline bool chi_square_agrees(std::span<const double> counts,
                               std::span<const double> expected, double z) {
     const ChiSquare found = chi_square(counts, expected);
-    if (found.cells < 2) return found.sum < 1e-9; // no choice, no chance
+    if (found.cells < 2) return found.sum < 1e-9; // a single cell is not random
     return found.sum <= found.limit(z);
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
 /// \file support/student.hpp
-/// \brief What chance allows where the scatter is known from a few numbers only.
+/// \brief Statistical tests with a scatter that is estimated from few numbers.
 ///
-/// A mean of 16 numbers is beyond 5 of its own standard errors once in 6000, and not
+/// A mean of 16 numbers is off by 5 of its own standard errors once in 6000, and not
 /// once in 1.7 million: the error is itself known to 18 % only.
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace ljus_test {
 
-/// How often Student's t lies farther from 0 than this, on either side.
+/// The probability that Student's t is farther from 0 than this, on either side.
 /// \param freedom  Degrees of freedom, above 0; more than 1000 count as 1000.
 inline double student_tail(double t, double freedom) {
     // With t = sqrt(freedom) tan x the density is in proportion to cos^(freedom - 1).
@@ -28,7 +28,7 @@ inline double student_tail(double t, double freedom) {
     return std::min(1.0, 2 * part * std::exp(-log_whole));
 }
 
-/// How often a mean of what is right would be as far from it.
+/// The probability that a correct mean is this far from the expected value.
 inline double chance_of(const Mean& mean, double right) {
     if (mean.mean == right) return 1;
     return student_tail((mean.mean - right) / mean.error(), mean.count - 1);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/tree_cases.hpp
-/// \brief What both k-d trees must do: cases that are written once, for either.
+/// \brief Test cases for both k-d trees.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ namespace ljus_test {
 
 using ljus::Vec3;
 
-/// Every search is what asking all points gives.
+/// Every search gives the same as brute force.
 template <template <typename> typename Tree>
 void every_search() {
     Draws numbers{5};
@@ -39,7 +39,7 @@ void in_double() {
         for (const double size : {1e-18, 1.0, 1e18})
             for (const auto& set : point_sets<double>(n, size, 0))
                 compare_with_brute_force<Tree<double>>(set, numbers);
-        // A million away, a float has four bits left behind the point.
+        // At a million, a float has four bits left after the binary point.
         for (const auto& set : point_sets<float>(n, 1, 1e6))
             compare_with_brute_force<Tree<float>>(set, numbers);
         for (const auto& set : point_sets<double>(n, 1, 1e6))
@@ -55,7 +55,7 @@ void ten_thousand() {
         compare_with_brute_force<Tree<float>>(set, numbers);
 }
 
-/// The ball is closed, exactly, and it is no cube.
+/// The ball is exactly closed, and it is not a cube.
 template <template <typename> typename Tree>
 void closed_ball() {
     // Whole numbers: squares and their sums are exact, and 3, 4, 5 make a right angle.
@@ -145,7 +145,7 @@ void largest_numbers() {
     CHECK(room[0].distance2 == doctest::Approx(12 * double(max) * double(max)));
 }
 
-/// point_ids() tells where each point came from.
+/// point_ids() gives the original index of each point.
 template <template <typename> typename Tree>
 void order_of_points() {
     for (const auto& set : point_sets<float>(1000, 1, 0)) {

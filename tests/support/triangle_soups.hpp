@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/triangle_soups.hpp
-/// \brief Loose triangles, rays of any kind, and what the trees over them must find.
+/// \brief Loose triangles, rays of any kind, and the expected hits.
 
 #include <cstdint>
 #include <limits>
@@ -25,7 +25,7 @@ inline std::vector<Box> boxes_of(const Triangles& triangles) {
     return boxes;
 }
 
-/// What is found: the nearest, and of several the first.
+/// The expected hit: the nearest; of equal ones, the first.
 struct Found {
     std::uint32_t number = ~0u;
     float t = std::numeric_limits<float>::infinity(), u = 0, v = 0;

@@ -56,7 +56,7 @@ inline std::optional<Surface> nearest(const Room& room, Ray ray) {
         const auto test = [&](const auto& shape) {
             const auto hit = intersect(ray, shape);
             if (!hit) return;
-            const ljus::FlatHitT<float> at = ljus::as_hit(*hit);
+            const ljus::ShapeHitT<float> at = ljus::as_hit(*hit);
             ray.t_max = at.t;
             found = Surface{&object, surface_point(shape, ray, at), at.t};
         };

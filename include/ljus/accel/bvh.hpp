@@ -25,7 +25,7 @@ struct NoTrace {
 // [nearest]
 template <std::floating_point T>
 struct NearestHitT {
-    FlatHitT<T> at{};                                                 ///< The hit.
+    ShapeHitT<T> at{};                                                ///< The hit.
     std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Index.
     bool found = false;     ///< Whether there is a hit.
     std::uint32_t slot = 0; ///< The primitive's position in a tree: see nearest_hit().
@@ -33,7 +33,7 @@ struct NearestHitT {
     /// Accepts a nearer hit and sets the ray's t_max one ulp beyond it, so that a
     /// primitive at the same t is still tested.
     /// \return Whether the hit was nearer.
-    bool offer(const FlatHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
+    bool offer(const ShapeHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
         if (found && !(hit.t < at.t || (hit.t == at.t && of < number))) return false;
         at.t = hit.t; // by component: a wide copy would stall
         at.u = hit.u;
@@ -54,7 +54,7 @@ using NearestHit = NearestHitT<float>; ///< NearestHitT in float.
 /// \param tree  A BvhT, a Bvh8 or a TriangleBvh.
 /// \param ray   Hits lie within [t_min, t_max].
 /// \param ask   Called as ask(slot, ray) for primitives that the ray may hit, with a
-///              ray that ends at the nearest hit so far; returns an optional FlatHitT.
+///              ray that ends at the nearest hit so far; returns an optional ShapeHitT.
 /// \return The same hit as a loop over all primitives.
 // [nearest_hit]
 template <typename Tree, std::floating_point T, typename Ask>

@@ -18,7 +18,7 @@ namespace ljus {
 struct BvhSettings {
     std::uint32_t leaf_size = 4; ///< Most primitives per leaf; at least 1.
     std::uint32_t at_a_time = 1; ///< Primitives per test, side by side.
-    float node_cost = 1;         ///< Of a traversal step, in tests.
+    float node_cost = 1;         ///< Cost of a traversal step, in tests.
     int threads = 0;             ///< 0: all processors.
 };
 

@@ -115,8 +115,8 @@ using Mesh = MeshT<float>; ///< MeshT in float.
 /// \cost O(log n) triangles on average.
 // [intersect]
 template <typename Compute = void, std::floating_point T>
-[[nodiscard]] std::optional<FlatHitT<T>> intersect(const RayT<T>& ray,
-                                                   const MeshT<T>& mesh) {
+[[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
+                                                    const MeshT<T>& mesh) {
     const auto prepared = prepare<Compute>(ray);
     NearestHitT<T> nearest =
         nearest_hit(mesh.tree(), ray, [&](std::uint32_t slot, const RayT<T>& rest) {
@@ -144,7 +144,7 @@ template <typename Compute = void, std::floating_point T>
 /// triangle.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const MeshT<T>& mesh, const RayT<T>&,
-                                             const FlatHitT<T>& hit) noexcept {
+                                             const ShapeHitT<T>& hit) noexcept {
     return point_at(mesh.triangle(hit.part), hit.u, hit.v);
 }
 
@@ -153,7 +153,7 @@ template <std::floating_point T>
 /// \return Unit vector within 90 degrees of `geometric`; `geometric` itself if the mesh
 ///         has no normals, or where they point to the triangle's inside.
 template <std::floating_point T>
-[[nodiscard]] Vec3T<T> shading_normal(const MeshT<T>& mesh, const FlatHitT<T>& hit,
+[[nodiscard]] Vec3T<T> shading_normal(const MeshT<T>& mesh, const ShapeHitT<T>& hit,
                                       const Vec3T<T>& geometric) noexcept {
     const auto& normals = mesh.data().normals;
     if (normals.empty()) return geometric;
@@ -167,7 +167,8 @@ template <std::floating_point T>
 /// The texture coordinates of a hit, interpolated between the vertices; `hit.u` and
 /// `hit.v` if the mesh has none.
 template <std::floating_point T>
-[[nodiscard]] Vec2T<T> texture_coordinates(const MeshT<T>& mesh, const FlatHitT<T>& hit,
+[[nodiscard]] Vec2T<T> texture_coordinates(const MeshT<T>& mesh,
+                                           const ShapeHitT<T>& hit,
                                            const SurfacePointT<T>& /*point*/) noexcept {
     const auto& uv = mesh.data().uv;
     if (uv.empty()) return {hit.u, hit.v};

@@ -20,7 +20,7 @@ namespace ljus {
 /// Vertices, and triangles as indices of vertices.
 template <std::floating_point T>
 struct MeshDataT {
-    std::vector<Vec3T<T>> positions{}; ///< Of vertices, in scene units.
+    std::vector<Vec3T<T>> positions{}; ///< Positions of vertices.
     std::vector<Vec3T<T>> normals{};   ///< Unit, one per vertex; empty: flat triangles.
     std::vector<std::array<std::uint32_t, 3>> triangles{}; ///< Counter-clockwise.
     std::vector<Vec2T<T>> uv{}; ///< Texture coordinates, one per vertex; or empty.

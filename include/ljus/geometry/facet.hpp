@@ -91,7 +91,7 @@ namespace detail {
 /// the signed area between an edge and the centre of Nusselt's disc.
 /// \param point   Any point not on the facet's border.
 /// \param normal  Unit normal at the point.
-/// \param facet   What lies below the point's horizon is clipped.
+/// \param facet   A facet; its part below the point's horizon is clipped.
 /// \return In [0, 1]; 0 if the facet faces away.
 /// \report{Section 2.2}
 /// \cite baum1989

@@ -91,7 +91,7 @@ namespace detail {
 /// If the gradient vanishes, the normal faces the ray.
 /// \param value     f, in double.
 /// \param gradient  Its gradient, in double.
-/// \param t         What intersect() returned.
+/// \param t         Result of intersect().
 /// \param rounding  Error bound of the values of f, including the solver's tolerance.
 /// \return Position, error bound, outward normal.
 template <std::floating_point T, typename Value, typename Gradient>
@@ -128,7 +128,7 @@ template <std::floating_point T, typename Value, typename Gradient>
 template <std::floating_point T, LipschitzField Field>
 [[nodiscard]] SurfacePointT<T> surface_point(const IsosurfaceT<T, Field>& surface,
                                              const RayT<T>& ray,
-                                             const FlatHitT<T>& hit) {
+                                             const ShapeHitT<T>& hit) {
     return detail::refined([&](const auto& x) { return surface.field.value(x); },
                            [&](const auto& x) { return surface.field.gradient(x); },
                            ray, hit.t, 4 * SphereTracing{}.tolerance);

@@ -109,7 +109,7 @@ template <typename Solver = QuarticPieces, std::floating_point T>
 ///         ray.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T>
-surface_point(const MetaballsT<T>& balls, const RayT<T>& ray, const FlatHitT<T>& hit) {
+surface_point(const MetaballsT<T>& balls, const RayT<T>& ray, const ShapeHitT<T>& hit) {
     WideT<T> size = balls.level;
     for (const BlobT<T>& blob : balls.blobs) size += std::abs(WideT<T>(blob.weight));
     return detail::refined([&](const auto& x) { return field(balls, x); },

@@ -25,8 +25,8 @@ concept Movable = Shape<S> && requires(const S& shape, const Vec3T<ScalarOf<S>>&
 // [moving]
 template <Movable S>
 struct Moving {
-    S shape{};                 ///< The shape at time 0.
-    Vec3T<ScalarOf<S>> way{0}; ///< Displacement until time 1, in scene units.
+    S shape{};                          ///< The shape at time 0.
+    Vec3T<ScalarOf<S>> displacement{0}; ///< From time 0 to 1, in scene units.
 };
 // [moving]
 
@@ -46,7 +46,7 @@ inline constexpr bool is_moving<Moving<S>> = true;
 // [at_time]
 template <typename S, std::floating_point T>
 [[nodiscard]] S at_time(const Moving<S>& moving, T time) noexcept {
-    return translated(moving.shape, time * moving.way);
+    return translated(moving.shape, time * moving.displacement);
 }
 // [at_time]
 
@@ -71,7 +71,7 @@ template <typename Compute = void, std::floating_point T, typename S>
 template <typename S, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const Moving<S>& moving,
                                              const RayT<T>& ray,
-                                             const FlatHitT<T>& hit) noexcept {
+                                             const ShapeHitT<T>& hit) noexcept {
     return surface_point(at_time(moving, ray.time), ray, hit);
 }
 
@@ -95,8 +95,8 @@ template <typename S>
 [[nodiscard]] auto bounding_sphere(const Moving<S>& moving) noexcept {
     auto sphere = bounding_sphere(moving.shape);
     using T = decltype(sphere.radius);
-    sphere.center += moving.way / T(2);
-    sphere.radius += glm::length(moving.way) / T(2);
+    sphere.center += moving.displacement / T(2);
+    sphere.radius += glm::length(moving.displacement) / T(2);
     return sphere;
 }
 
@@ -106,9 +106,9 @@ template <typename S>
 [[nodiscard]] auto bounds(const Moving<S>& moving) noexcept {
     using T = ScalarOf<S>;
     const BoxT<T> first = bounds(moving.shape), last = bounds(at_time(moving, T(1)));
-    const Vec3T<T> rounding =
-        detail::rounding_bound<T>(4) *
-        (glm::max(glm::abs(first.low), glm::abs(first.high)) + glm::abs(moving.way));
+    const Vec3T<T> rounding = detail::rounding_bound<T>(4) *
+                              (glm::max(glm::abs(first.low), glm::abs(first.high)) +
+                               glm::abs(moving.displacement));
     const BoxT<T> both = box_union(first, last);
     return BoxT<T>{both.low - rounding, both.high + rounding};
 }
@@ -116,7 +116,7 @@ template <typename S>
 /// The texture coordinates of the shape; they move with it.
 template <typename S, std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const Moving<S>& moving,
-                                           const FlatHitT<T>& hit,
+                                           const ShapeHitT<T>& hit,
                                            const SurfacePointT<T>& point) noexcept {
     return texture_coordinates(moving.shape, hit, point);
 }
@@ -126,7 +126,7 @@ template <typename S, std::floating_point T>
 template <typename S>
 void check(const Moving<S>& moving) {
     check(moving.shape);
-    require_finite("moving.way", moving.way);
+    require_finite("moving.displacement", moving.displacement);
 }
 /// \}
 

@@ -54,8 +54,8 @@ template <std::floating_point T>
 /// \return t, and the coordinates u, v along the edges; nothing for a miss.
 /// \report{Section 3.1.5}
 template <typename Compute = void, std::floating_point T>
-[[nodiscard]] std::optional<FlatHitT<T>> intersect(const RayT<T>& ray,
-                                                   const QuadT<T>& quad) noexcept {
+[[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
+                                                    const QuadT<T>& quad) noexcept {
     using C = ComputeT<Compute, WideT<T>>;
     auto hit = moller_trumbore<Spanned::parallelogram, C>(
         ray, Vec3T<C>{quad.corner}, Vec3T<C>{quad.edge_u}, Vec3T<C>{quad.edge_v});
@@ -118,7 +118,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const QuadT<T>& quad,
                                              const RayT<T>& /*ray*/,
-                                             const FlatHitT<T>& hit) noexcept {
+                                             const ShapeHitT<T>& hit) noexcept {
     return point_at(quad, hit.u, hit.v);
 }
 

@@ -45,7 +45,7 @@ template <std::floating_point T>
 /// The hit of a ray on a shape. On a flat shape, u and v are coordinates along its
 /// edges; other shapes may leave them 0.
 template <std::floating_point T>
-struct FlatHitT {
+struct ShapeHitT {
     T t = T(0);             ///< Distance, in units of the direction's length.
     T u = T(0);             ///< Coordinate along the first edge.
     T v = T(0);             ///< Coordinate along the second edge.

@@ -18,7 +18,7 @@
 namespace ljus {
 
 /// \defgroup shape Shapes
-/// \brief What a scene asks of a shape.
+/// \brief The functions that a scene requires of a shape.
 ///
 /// A shape needs the functions of the concept Shape: intersect(), surface_point(),
 /// bounding_sphere() and check(). The table lists its optional functions, the purpose
@@ -32,13 +32,13 @@ namespace ljus {
 
 /// Turns the result of a shape's intersect() into a hit. A bare t leaves u and v 0.
 template <std::floating_point T>
-[[nodiscard]] constexpr FlatHitT<T> as_hit(T t) noexcept {
+[[nodiscard]] constexpr ShapeHitT<T> as_hit(T t) noexcept {
     return {.t = t};
 }
 
 /// Returns the hit of a flat shape unchanged.
 template <std::floating_point T>
-[[nodiscard]] constexpr FlatHitT<T> as_hit(const FlatHitT<T>& hit) noexcept {
+[[nodiscard]] constexpr ShapeHitT<T> as_hit(const ShapeHitT<T>& hit) noexcept {
     return hit;
 }
 
@@ -56,7 +56,7 @@ concept HasBoundingSphere = !detail::is_stand_in<S> && requires(const S& shape) 
 /// The functions that every shape needs.
 template <typename S>
 concept Shape = HasBoundingSphere<S> &&
-    requires(const S& shape, RayT<ScalarOf<S>> ray, FlatHitT<ScalarOf<S>> hit) {
+    requires(const S& shape, RayT<ScalarOf<S>> ray, ShapeHitT<ScalarOf<S>> hit) {
     as_hit(*intersect(ray, shape));
     { surface_point(shape, ray, hit) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;
     { bounding_sphere(shape) } -> std::same_as<SphereT<ScalarOf<S>>>;
@@ -147,7 +147,7 @@ template <Shape Lamp>
 /// The texture coordinates of a hit: its u and v, dimensionless. See the group
 /// \ref texture_coordinates.
 template <Shape S, std::floating_point T>
-[[nodiscard]] Vec2T<T> texture_coordinates(const S& /*shape*/, const FlatHitT<T>& hit,
+[[nodiscard]] Vec2T<T> texture_coordinates(const S& /*shape*/, const ShapeHitT<T>& hit,
                                            const SurfacePointT<T>& /*point*/) noexcept {
     return {hit.u, hit.v};
 }
@@ -176,7 +176,7 @@ template <Shape S>
 [[nodiscard]] constexpr auto shape_hooks() noexcept {
     using T = ScalarOf<S>;
     using V = Vec3T<T>;
-    using H = FlatHitT<T>;
+    using H = ShapeHitT<T>;
     using P = SurfacePointT<T>;
     using O = Own<S>;
     // clang-format off

@@ -182,7 +182,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const SphereT<T>& sphere,
                                              const RayT<T>& ray,
-                                             const FlatHitT<T>& hit) noexcept {
+                                             const ShapeHitT<T>& hit) noexcept {
     Vec3T<WideT<T>> way{(ray.origin - sphere.center) + hit.t * ray.direction};
     if (way == Vec3T<WideT<T>>{0}) way = -Vec3T<WideT<T>>{ray.direction};
     const Vec3T<T> n{glm::normalize(way)};
@@ -337,7 +337,7 @@ template <std::floating_point T>
 /// \cost Two arc tangents.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const SphereT<T>& /*sphere*/,
-                                           const FlatHitT<T>& /*hit*/,
+                                           const ShapeHitT<T>& /*hit*/,
                                            const SurfacePointT<T>& point) noexcept {
     return globe_coordinates(point.normal);
 }

@@ -218,7 +218,7 @@ enum class Spanned : std::uint8_t {
 ///          that crosses the plane hits.}
 // [moller_trumbore]
 template <Spanned shape, typename Compute = void, std::floating_point T>
-[[nodiscard]] std::optional<FlatHitT<T>>
+[[nodiscard]] std::optional<ShapeHitT<T>>
 moller_trumbore(const RayT<T>& ray, const Vec3T<ComputeT<Compute, T>>& v1,
                 const Vec3T<ComputeT<Compute, T>>& e1,
                 const Vec3T<ComputeT<Compute, T>>& e2) noexcept {
@@ -251,8 +251,8 @@ moller_trumbore(const RayT<T>& ray, const Vec3T<ComputeT<Compute, T>>& v1,
     if (closed && !within(C(0)) &&
         !within(detail::border_of_rounding(d, to, e1, e2, inverse, near)))
         return std::nullopt;
-    return FlatHitT<T>{static_cast<T>(t), static_cast<T>(glm::max(u, C(0))),
-                       static_cast<T>(glm::max(v, C(0))), 0};
+    return ShapeHitT<T>{static_cast<T>(t), static_cast<T>(glm::max(u, C(0))),
+                        static_cast<T>(glm::max(v, C(0))), 0};
 }
 // [moller_trumbore]
 

@@ -69,7 +69,7 @@ template <std::floating_point T>
 ///         nothing for a miss.
 /// \report{Section 3.1.5}
 template <typename Compute = void, std::floating_point T>
-[[nodiscard]] std::optional<FlatHitT<T>>
+[[nodiscard]] std::optional<ShapeHitT<T>>
 intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
     using C = ComputeT<Compute, WideT<T>>;
     const Vec3T<C> v1{triangle.v1};
@@ -142,7 +142,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const TriangleT<T>& triangle,
                                              const RayT<T>& /*ray*/,
-                                             const FlatHitT<T>& hit) noexcept {
+                                             const ShapeHitT<T>& hit) noexcept {
     return point_at(triangle, hit.u, hit.v);
 }
 

@@ -66,14 +66,14 @@ template <std::same_as<Watertight> Test, std::floating_point T>
 /// \param ray       Its direction may have any length but zero; hits lie in
 ///                  [t_min, t_max].
 /// \param triangle  Any three vertices; a triangle without an area is never hit.
-/// \param shear     What prepare() returned for this ray.
+/// \param shear     Result of prepare() for this ray.
 /// \return t, and the barycentric u, v; nothing for a miss or a non-finite input.
 /// \cost 6 products for most misses; a hit needs 6 more for its edges, one division,
 ///       and 7 products for t, u and v.
 /// \report{Section 3.1.5}
 // [intersect]
 template <std::same_as<Watertight> Test, std::floating_point T>
-[[nodiscard]] std::optional<FlatHitT<T>>
+[[nodiscard]] std::optional<ShapeHitT<T>>
 intersect(const RayT<T>& ray, const TriangleT<T>& triangle,
           const detail::ShearT<T>& shear) noexcept {
     // Wide enough for an exact product of two Ts.
@@ -109,8 +109,8 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle,
         return std::nullopt;
     // Shear and rounding may give collinear corners an area.
     if (!detail::has_area(triangle)) return std::nullopt;
-    return FlatHitT<T>{static_cast<T>(t), static_cast<T>(u * inverse),
-                       static_cast<T>(v * inverse), 0};
+    return ShapeHitT<T>{static_cast<T>(t), static_cast<T>(u * inverse),
+                        static_cast<T>(v * inverse), 0};
 }
 // [intersect]
 
@@ -118,7 +118,7 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle,
 /// \cond
 // For a single triangle; prepares at each call, which costs two divisions.
 template <std::same_as<Watertight> Test, std::floating_point T>
-[[nodiscard]] std::optional<FlatHitT<T>>
+[[nodiscard]] std::optional<ShapeHitT<T>>
 intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
     return intersect<Test>(ray, triangle, prepare<Test>(ray));
 }
@@ -126,8 +126,8 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
 // Two quads round a common edge differently, so no test can close the gap in their
 // data. Double keeps it as small as possible.
 template <std::same_as<Watertight> Test, std::floating_point T>
-[[nodiscard]] std::optional<FlatHitT<T>> intersect(const RayT<T>& ray,
-                                                   const QuadT<T>& quad) noexcept {
+[[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
+                                                    const QuadT<T>& quad) noexcept {
     return intersect<WideT<T>>(ray, quad);
 }
 /// \endcond

@@ -104,8 +104,8 @@ namespace detail {
 
 /// The mean of flip_map().
 /// *Trap*: FLIP is made for pictures shown alternately at the same spot of a screen, at
-/// a given distance and exposure. Its values do not add up, and no theory
-/// predicts how fast it falls.
+/// a given distance and exposure. The values of several errors cannot be added, and no
+/// theory predicts how fast FLIP falls with more rays.
 /// \return In [0, 1]; symmetric in the two pictures.
 /// \throws std::invalid_argument  as flip_map().
 template <std::floating_point T, std::floating_point U>

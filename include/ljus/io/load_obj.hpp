@@ -125,7 +125,7 @@ template <std::floating_point T = float>
 /// with the picture of map_Kd, if there is one and the scene lists ObjPicture. What
 /// glows, glows by Ke.
 /// \param scene   A scene with meshes and Lambert's surface.
-/// \param loaded  What load_obj() returned.
+/// \param loaded  The result of load_obj().
 template <typename Scene, std::floating_point T>
 void add_obj(Scene& scene, const LoadedObjT<T>& loaded) {
     for (const ObjPartT<T>& part : loaded.parts) {
@@ -148,11 +148,11 @@ void add_obj(Scene& scene, const LoadedObjT<T>& loaded) {
     }
 }
 
-/// Adds all meshes of a file to a scene, all made of one material.
+/// Adds all meshes of a file to a scene, with one material for all.
 /// \param scene     A scene with meshes.
-/// \param loaded    What load_obj() returned.
-/// \param material  What add() returned for it.
-/// \param radiance  What all of them emit, W/(m^2 sr).
+/// \param loaded    The result of load_obj().
+/// \param material  The id that add() returned for it.
+/// \param radiance  Radiance that each mesh emits, W/(m^2 sr).
 template <typename Scene, std::floating_point T>
 void add_obj(Scene& scene, const LoadedObjT<T>& loaded, MaterialId material,
              const RgbT<T>& radiance = RgbT<T>{0}) {

@@ -113,8 +113,9 @@ template <std::floating_point T, typename F>
            (T(1) - chance) * detail::pdf_lost(gloss.loss, std::abs(wi.z));
 }
 
-/// The mirror direction of a visible facet, or a direction of the second lobe.
-/// \return Nothing, too, if the direction would lead into the surface.
+/// Samples the mirror direction about a visible facet, or a direction of the second
+/// lobe.
+/// \return Also nothing if the direction points into the surface.
 /// \cost Up to twice sample() of GlossyT.
 template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

@@ -85,7 +85,7 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
 /// \return The reflected and the refracted sample; nothing if there is only one.
 template <std::floating_point T>
 [[nodiscard]] std::optional<std::array<BsdfSampleT<T>, 2>>
-both_ways(const GlassT<T>& glass, const Vec3T<T>& wo, Transport transport) noexcept {
+split(const GlassT<T>& glass, const Vec3T<T>& wo, Transport transport) noexcept {
     const detail::GlassBoundaryT<T> met = detail::boundary(glass, wo, transport);
     if (!met.refracted) return std::nullopt;
     const T f = met.reflectance;

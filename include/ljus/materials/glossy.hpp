@@ -112,7 +112,7 @@ template <std::floating_point T, typename F>
 
 /// The mirror direction of a facet that is visible from `wo`. The weight is
 /// \f$ F\, G_2 / G_1 \f$, at most F.
-/// \return Nothing, too, if the direction would lead into the surface.
+/// \return Also nothing if the direction points into the surface.
 /// \cost One sine, one cosine, eight square roots.
 /// \cite heitz2018
 template <std::floating_point T, typename F>

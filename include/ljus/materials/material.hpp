@@ -237,8 +237,8 @@ template <Material M>
              requires(O m, V position, Uv uv) { at_point(m, position, uv); }},
         Hook{"uses_uv", "at_point() with uv", "uv is 0",
              requires { M::uses_uv; }},
-        Hook{"both_ways", "a path that splits", "one branch at random",
-             requires(O m, V wo, Transport way) { both_ways(m, wo, way); }},
+        Hook{"split", "a path that splits", "one branch at random",
+             requires(O m, V wo, Transport way) { split(m, wo, way); }},
         Hook{"pass_through", "light that goes straight on", "opaque",
              requires(O m, V position, V wo) { pass_through(m, position, wo); }},
         Hook{"only_specular", "no evaluate(), no pdf()", "write both",
@@ -258,9 +258,9 @@ template <Material M>
 /// \{
 
 /// The density of sample_cosine_lobe().
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
-/// \param wi     Unit vector in the surface's frame, to where it comes from.
-/// \param which  The parts to sample from.
+/// \param wo     Outgoing direction, a unit vector in the surface's frame.
+/// \param wi     Direction towards the light, a unit vector in the same frame.
+/// \param which  The lobes to sample from.
 /// \return |cos(theta)|/pi per steradian on the side of `wo`; 0 elsewhere, and 0
 ///         without Lobes::diffuse.
 /// \report{Section 3.2.4}
@@ -271,10 +271,10 @@ template <std::floating_point T>
     return (wi.z < T(0) ? -wi.z : wi.z) * std::numbers::inv_pi_v<T>;
 }
 
-/// A direction on the side of `wo`, with density cos/pi.
-/// \param wo     Unit vector in the surface's frame, to where the light goes.
+/// Samples a direction on the side of `wo`, with density cos/pi.
+/// \param wo     Outgoing direction, a unit vector in the surface's frame.
 /// \param u      Point of [0,1)^3; z is not used.
-/// \param which  The parts to sample from.
+/// \param which  The lobes to sample from.
 /// \return The sample, its weight that of f = 1/pi: 1. The weight of another f is
 ///         f cos/pdf, which is pi f. Nothing if `wo` lies on the surface or without
 ///         Lobes::diffuse.
@@ -285,7 +285,7 @@ template <std::floating_point T>
 sample_cosine_lobe(const Vec3T<T>& wo, const Vec3T<T>& u, Lobes which) noexcept {
     std::optional<BsdfSampleT<T>> next;
     if (!has(which, Lobes::diffuse) || !(wo.z > T(0) || wo.z < T(0))) return next;
-    next.emplace(); // filled where it stands: a copy of what was just written is slow
+    next.emplace(); // filled in place: copying what was just written is slow
     Vec3T<T>& wi = next->wi;
     wi = sample_cosine_hemisphere(Vec2T<T>{u.x, u.y});
     next->pdf = pdf_cosine_hemisphere(wi);

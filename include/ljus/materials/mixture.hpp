@@ -35,7 +35,7 @@ namespace ljus {
 template <std::floating_point T>
 struct MixtureT {
     using Scalar = T;         ///< The precision of its numbers.
-    RgbT<T> color{T(0.5)};    ///< Of the matt lobe and of the emission, in [0, 1].
+    RgbT<T> color{T(0.5)};    ///< Colour of matt lobe and emission, in [0, 1].
     T reflectivity = T(0);    ///< Fraction reflected by a perfect mirror, in [0, 1].
     T transparency = T(0);    ///< Transmitted fraction of what enters, in [0, 1].
     T index = T(1.5);         ///< Index of refraction inside.

@@ -52,7 +52,8 @@ template <std::floating_point T>
     return std::min(T(1), a + b * cosine * tangent);
 }
 
-/// The ratios for one and for two reflections.
+/// Light reflected after one and after two reflections between facets, relative to that
+/// of a Lambertian surface.
 template <std::floating_point T>
 struct RoughRatiosT {
     T single{}; ///< Factor of albedo/pi.

@@ -94,7 +94,8 @@ emission(const Textured<Base, Texture>& m) noexcept {
     return emission(m.base);
 }
 
-/// f of the base in its own colour; at a point use evaluate(material_at(m, ...)).
+/// The BSDF of the base with the colour that the base itself has. With the texture's
+/// colour at a point: evaluate(material_at(m, ...), wo, wi).
 /// \return f in 1/sr, without the cosine.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const Textured<Base, Texture>& m, const Vec3T<T>& wo,
@@ -110,7 +111,7 @@ template <typename Base, typename Texture, std::floating_point T>
     return pdf(m.base, wo, wi, which);
 }
 
-/// A sample of the base in its own colour.
+/// Samples the base with the colour that the base itself has.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const Textured<Base, Texture>& m, const Vec3T<T>& wo, const Vec3T<T>& u,

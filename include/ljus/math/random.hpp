@@ -56,8 +56,8 @@ struct RandomStream {
         .key = mix_bits(mix_bits(work + odd * (iteration + 1)) ^ mix_bits(path + odd))};
 }
 
-/// Moves a stream to the start of a bounce (0: the camera or the light), whatever was
-/// drawn before.
+/// Moves a stream to the start of a bounce (0: the camera or the light), however many
+/// numbers were drawn before.
 constexpr void start_bounce(RandomStream& stream, std::uint64_t bounce) noexcept {
     stream.counter = bounce << 16;
 }

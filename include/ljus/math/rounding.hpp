@@ -14,7 +14,7 @@ namespace ljus::detail {
 
 /// The relative error of n roundings in a row, n u / (1 - n u).
 /// \tparam T  The precision; u is its unit roundoff.
-/// \param n   How many roundings, at least 0.
+/// \param n   The number of roundings, at least 0.
 /// \return The bound, without a unit.
 template <std::floating_point T>
 [[nodiscard]] constexpr T rounding_bound(int n) noexcept {

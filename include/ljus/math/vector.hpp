@@ -78,7 +78,7 @@ template <std::floating_point T>
 
 /// Longitude and latitude of a direction, north along y: u in [0, 1) once around from
 /// +x towards -z, v from 0 at the south pole to 1 at the north pole.
-/// \param d  Of any length.
+/// \param d  A direction of any length.
 /// \return (u, v) in [0, 1]; (0, 0.5) for the zero vector.
 /// \cost Two arc tangents.
 template <std::floating_point T>

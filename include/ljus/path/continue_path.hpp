@@ -132,8 +132,8 @@ template <std::floating_point T, Material M, StreamLike Stream>
 template <std::floating_point T, Material M>
 [[nodiscard]] std::optional<PathStateT<T>>
 split_path(PathStateT<T>& path, const VertexT<T>& vertex, const M& material) {
-    if constexpr (requires { both_ways(material, vertex.wo, Transport::radiance); }) {
-        const auto both = both_ways(material, vertex.wo, Transport::radiance);
+    if constexpr (requires { split(material, vertex.wo, Transport::radiance); }) {
+        const auto both = split(material, vertex.wo, Transport::radiance);
         if (!both || vertex.smooth) return std::nullopt;
         const auto& [reflected, refracted] = *both;
         PathStateT<T> other = path;

@@ -62,9 +62,9 @@ template <std::floating_point T>
 template <std::floating_point T>
 struct MisT {
     MisHeuristic heuristic = MisHeuristic::shadow_rays; ///< Method.
-    T factor = T(1); ///< Of the sample's pdf: the number of shadow rays, or the
+    T factor = T(1); ///< Factor of the sample's pdf: the number of shadow rays, or the
                      ///< probability of choosing the light.
-    Lobes lobes = Lobes::all; ///< Those that the scattered ray samples.
+    Lobes lobes = Lobes::all; ///< The lobes that the scattered ray samples.
 };
 
 /// The density with which a shadow ray from `from` would choose the point of a lamp

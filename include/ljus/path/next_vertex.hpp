@@ -139,9 +139,9 @@ decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f
 }
 // [visit_material_at]
 
-/// Whether a vertex lies on an object that is nearly_specular(). It is the object that
-/// is asked, not the place: photons are aimed at whole objects.
-/// \param material  What it is made of there.
+/// Whether a vertex lies on an object that is nearly_specular(). This is a property of
+/// the whole object, not of the point, because photons are aimed at whole objects.
+/// \param material  The material at the vertex.
 template <AnyWorld W, std::floating_point T, Material M>
 [[nodiscard]] bool nearly_specular_at(const W& world, const VertexT<T>& vertex,
                                       const M& material) {
@@ -227,7 +227,7 @@ template <AnyWorld W, std::floating_point T>
         VertexT<T> resting = vertex;
         world.visit_shape(vertex.id, [&]<typename G>(const G& shape) {
             if constexpr (is_moving<G>)
-                resting.point.position -= vertex.time * shape.way;
+                resting.point.position -= vertex.time * shape.displacement;
         });
         return resting;
     } else {
@@ -334,7 +334,7 @@ template <std::floating_point T>
 struct PassageT {
     RgbT<T> through{T(1)};     ///< Transmittance over its probability.
     T distance = T(0);         ///< From the vertex to the last thin surface.
-    T stop_probability = T(1); ///< Of reflection, if the path stopped at one.
+    T stop_probability = T(1); ///< Probability of reflection at a stop; else 1.
 };
 
 /// Traces a ray through thin surfaces. At each one the path stops for reflection with

@@ -21,7 +21,7 @@ struct PathLogLine {
     std::string path;       ///< Letters from the camera, E first.
     std::string what;       ///< "vertex", or the estimator of a term.
     glm::dvec3 value{0};    ///< Throughput at a vertex; radiance of a term.
-    glm::dvec3 position{0}; ///< Of the vertex, or of the last vertex before a term.
+    glm::dvec3 position{0}; ///< Position of the last vertex so far.
     double pdf = 0;         ///< Density of the next direction, per steradian; 0: delta.
 };
 

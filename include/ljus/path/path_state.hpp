@@ -26,7 +26,7 @@ struct PathStateT {
     RgbT<T> medium{T(0)};      ///< Absorption at its position, per scene unit.
     bool medium_known = false; ///< False: next_vertex() finds the medium.
     Vec3T<T> previous{T(0)};   ///< The last vertex.
-    T pdf = T(0);              ///< Of its direction, per steradian; 0: delta.
+    T pdf = T(0);              ///< Pdf of its direction, per steradian; 0: delta.
     bool specular = false;     ///< Whether its last scattering was specular.
     bool met_diffuse = false;  ///< Whether any scattering was not specular.
     bool met_specular = false; ///< Whether any scattering was specular.

@@ -71,7 +71,7 @@ namespace detail {
 /// How a point of a light aims at an object.
 template <std::floating_point T>
 struct AimT {
-    ConeT<T> cone{};      ///< Of the object's bounding sphere.
+    ConeT<T> cone{};      ///< Cone of the object's bounding sphere.
     bool at_area = false; ///< Whether it aims at the object's area instead.
     T size = T(0); ///< About the solid angle over 2 pi: the weight of the choice.
 };
@@ -163,7 +163,7 @@ template <AnyWorld W, std::floating_point T>
 /// The random numbers of an aimed photon, in the order in which they are drawn.
 template <std::floating_point T>
 struct AimNumbersT {
-    T probability;        ///< Of its light, which was chosen before.
+    T probability;        ///< Probability of its light, which was chosen before.
     Vec2T<T> u_point;     ///< Point of the light, or of a disc before the target.
     T u_target;           ///< Chooses the target.
     Vec2T<T> u_direction; ///< Chooses the direction.

@@ -33,7 +33,8 @@ namespace ljus {
     require_unit("the floor of the shares", floor);
     double sum = 0;
     for (const double a : scatter) {
-        require(std::isfinite(a) && a >= 0, "a scatter", a, "finite and at least 0");
+        require(std::isfinite(a) && a >= 0, "the scatter of an object", a,
+                "finite and at least 0");
         sum += a;
     }
     std::vector<double> shares;

@@ -25,7 +25,7 @@ namespace ljus {
 /// The irradiance at a point of a surface.
 template <std::floating_point T>
 struct IrradianceAtT {
-    RgbT<T> irradiance{T(0)};          ///< Of all light, including direct; W/m^2.
+    RgbT<T> irradiance{T(0)};          ///< From all light, including direct; W/m^2.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit, on the lit side.
 };
 

@@ -24,8 +24,8 @@ struct VerdictGridT {
     bool dark_known = false;         ///< Whether indirect photons were counted.
 
     /// A cell, with a facing of a surface.
-    struct Place {
-        const std::uint64_t* bits = nullptr; ///< Of its brick; null if none.
+    struct Cell {
+        const std::uint64_t* bits = nullptr; ///< Bits of its brick; null if none.
         std::uint32_t cell = 0;              ///< Index in the brick, 0 to 63.
     };
 
@@ -42,9 +42,8 @@ struct VerdictGridT {
     /// \param point  Point of a surface.
     /// \param side   +1 for the side of its normal, -1 for the other.
     /// \cost Some ten nanoseconds.
-    // [place_of]
-    [[nodiscard]] Place place_of(const SurfacePointT<T>& point,
-                                 int side) const noexcept {
+    // [cell_of]
+    [[nodiscard]] Cell cell_of(const SurfacePointT<T>& point, int side) const noexcept {
         if (empty()) return {};
         const int way = detail::facing(point.normal, side);
         const auto at = known.cells.cell_of(point.position, way);
@@ -55,17 +54,17 @@ struct VerdictGridT {
     }
 
     /// The verdict about a light.
-    [[nodiscard]] Verdict verdict(const Place& at, std::size_t light) const noexcept {
+    [[nodiscard]] Verdict verdict(const Cell& at, std::size_t light) const noexcept {
         if (at.bits == nullptr) return Verdict::unknown;
         const std::uint64_t lit = at.bits[2 * light] >> at.cell & 1;
         const std::uint64_t shadow = at.bits[2 * light + 1] >> at.cell & 1;
         return static_cast<Verdict>(lit + 2 * shadow); // branch-free
     }
-    // [place_of]
+    // [cell_of]
 
     /// Whether an indirect photon lies in the cell or a neighbour; true if they were
     /// not counted.
-    [[nodiscard]] bool indirect_near(const Place& at) const noexcept {
+    [[nodiscard]] bool indirect_near(const Cell& at) const noexcept {
         if (!dark_known) return true;
         return at.bits != nullptr && (at.bits[2 * known.lights] >> at.cell & 1) != 0;
     }
@@ -77,8 +76,8 @@ namespace detail {
 /// The verdicts of a grid at a vertex, as sample_all_lights() takes them.
 template <std::floating_point T>
 struct VerdictsAtT {
-    const VerdictGridT<T>& grid;        ///< The grid.
-    typename VerdictGridT<T>::Place at; ///< The vertex's cell.
+    const VerdictGridT<T>& grid;       ///< The grid.
+    typename VerdictGridT<T>::Cell at; ///< The vertex's cell.
 
     /// The verdict about a light.
     [[nodiscard]] Verdict operator()(std::size_t light) const noexcept {
@@ -88,9 +87,9 @@ struct VerdictsAtT {
 
 /// The cell of a vertex, on the side of `wo`.
 template <std::floating_point T>
-[[nodiscard]] auto place_of(const VerdictGridT<T>& grid,
-                            const VertexT<T>& vertex) noexcept {
-    return grid.place_of(vertex.point, vertex.wo.z < T(0) ? -1 : 1);
+[[nodiscard]] auto cell_of(const VerdictGridT<T>& grid,
+                           const VertexT<T>& vertex) noexcept {
+    return grid.cell_of(vertex.point, vertex.wo.z < T(0) ? -1 : 1);
 }
 
 /// The verdicts of a grid at a vertex. The grid may be empty; it must outlive the
@@ -98,7 +97,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] VerdictsAtT<T> verdicts_at(const VerdictGridT<T>& grid,
                                          const VertexT<T>& vertex) noexcept {
-    return {grid, place_of(grid, vertex)};
+    return {grid, cell_of(grid, vertex)};
 }
 
 /// Whether a vertex needs no indirect ray, because no indirect photon is near.
@@ -107,7 +106,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] bool skips_bounce(const VerdictGridT<T>& grid, const VertexT<T>& vertex,
                                 Counts& counts) noexcept {
-    if (!grid.dark_known || grid.indirect_near(place_of(grid, vertex))) return false;
+    if (!grid.dark_known || grid.indirect_near(cell_of(grid, vertex))) return false;
     ++counts.skipped_bounces;
     return true;
 }

@@ -155,7 +155,7 @@ template <AnyWorld W, std::floating_point T>
 /// The coordinates of a hit on its shape, in the unit square. On a ball they come from
 /// the shape's own normal.
 template <std::floating_point T>
-[[nodiscard]] glm::dvec2 place_on(GridKind kind, const FlatHitT<T>& hit,
+[[nodiscard]] glm::dvec2 place_on(GridKind kind, const ShapeHitT<T>& hit,
                                   const Vec3T<T>& outer_normal) noexcept {
     if (kind != GridKind::ball) return {double(hit.u), double(hit.v)};
     const double turn = std::atan2(double(outer_normal.y), double(outer_normal.x)) *

@@ -60,7 +60,7 @@ inline void check(const AdaptiveSettings& rule, int samples) {
     const long long least = rule.first + (rule.two_stage ? rule.more : 0LL);
     require(samples >= least, "samples", static_cast<long long>(samples),
             rule.two_stage ? "at least first + more"
-                           : "at least as many as first rays");
+                           : "at least first, the first rays of a pixel");
 }
 
 /// The result of adaptive rendering.
@@ -70,7 +70,7 @@ struct AdaptiveT {
     ImageT<T> rays{};     ///< Rays of each pixel, including discarded ones.
     double estimate = 0;  ///< The estimated relMSE, without bias.
     bool reached = false; ///< Whether the estimate is at most the target.
-    Counts counts{};      ///< What it cost.
+    Counts counts{};      ///< Cost of the picture.
     bool complete = true; ///< False if the progress callback stopped it.
 };
 
@@ -129,8 +129,8 @@ adaptive_blocks(const RenderSettings& picture, int size) {
 /// The rays of a pixel are assumed to be independent; because they are stratified, the
 /// true variance of their mean is slightly smaller.
 /// \param block    At least 2 rays per pixel.
-/// \param sums     Of all pixels.
-/// \param width    Of the picture.
+/// \param sums     The sums of all pixels.
+/// \param width    Width of the picture.
 /// \param epsilon  As in AdaptiveSettings.
 /// \return The variance of a ray divided by mean^2 + epsilon, averaged over channels
 ///         and pixels.
@@ -284,7 +284,7 @@ void trace_block(SampleSums<R, T>& samples, const R& renderer, const C& camera,
 /// \param picture   Size, seed, pattern.
 /// \param rule      Rays in a batch; epsilon.
 /// \param blocks    The blocks; their batches, rays and variances are updated.
-/// \param sums      Of all pixels of the picture.
+/// \param sums      The sums of all pixels of the picture.
 /// \return The counts of the rays.
 template <typename R, CameraLike C>
 [[nodiscard]] Counts
@@ -315,7 +315,7 @@ trace_blocks(const R& renderer, const C& camera, const RenderSettings& picture,
 /// Sets the pixels of an adaptive picture to the means of their rays.
 /// \param result     Receives the means and the numbers of rays.
 /// \param blocks     All blocks of the picture.
-/// \param sums       Of all its pixels.
+/// \param sums       The sums of all its pixels.
 /// \param forgotten  Discarded rays per pixel, which the sums do not contain.
 template <std::floating_point T>
 void set_pixels(AdaptiveT<T>& result, const std::vector<AdaptiveBlock>& blocks,

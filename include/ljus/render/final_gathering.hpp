@@ -34,7 +34,7 @@ template <std::floating_point T>
 /// The irradiance on the side of a surface into which a direction points.
 /// \param points   The points with known irradiance.
 /// \param resting  The surface, detail::at_rest().
-/// \param wi       In its frame.
+/// \param wi       A direction in the surface's frame.
 /// \return W/m^2.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> irradiance_towards(const IrradiancePointsT<T>& points,
@@ -73,8 +73,8 @@ template <std::floating_point T>
 struct GatherLookupT {
     const IrradiancePointsT<T>* points;          ///< The points with known irradiance.
     const PhotonMapT<T>* caustics = nullptr;     ///< For glossy surfaces; or none.
-    DensityEstimateSettings caustics_estimate{}; ///< How they are estimated there.
-    bool gloss_as_mirrors = false; ///< As PhotonPassSettings::gloss_as_mirrors of them.
+    DensityEstimateSettings caustics_estimate{}; ///< Estimate of caustics there.
+    bool gloss_as_mirrors = false; ///< As in the PhotonPassSettings of the map.
 
     /// Irradiance points alone, without caustics on glossy surfaces.
     GatherLookupT(const IrradiancePointsT<T>& known) noexcept : points(&known) {}
@@ -186,7 +186,7 @@ struct GatheredT {
 ///     w_i = \frac{f(\omega_o, \omega_i) |\cos\theta_i|}{p(\omega_i)}. \f]
 ///
 /// \param world     The closed scene.
-/// \param lookup    What the rays look up.
+/// \param lookup    The data that the rays look up.
 /// \param vertex    The surface; `wo` chooses its side.
 /// \param material  Its material.
 /// \param settings  The number of rays, and their depth.

@@ -80,11 +80,11 @@ template <std::floating_point T>
 /// The indirect irradiance at a vertex, interpolated between the points of a cache. If
 /// no point is near enough, it is gathered at the vertex itself.
 /// \param world     The closed scene.
-/// \param lookup    What gather rays look up.
+/// \param lookup    The data that gather rays look up.
 /// \param cache     May be empty.
 /// \param vertex    The surface; `wo` chooses its side.
 /// \param material  Its material.
-/// \param settings  How to gather and interpolate.
+/// \param settings  Settings of gathering and interpolation.
 /// \param context   The random stream of the path; counts the query and gather rays.
 /// \return W/m^2.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
@@ -107,7 +107,7 @@ namespace detail {
 template <std::floating_point T>
 struct GatheredRowT {
     std::vector<Vec3T<T>> positions;   ///< The points, in world space.
-    std::vector<GatheredT<T>> records; ///< What was gathered there, in the same order.
+    std::vector<GatheredT<T>> records; ///< Their gathered light, in this order.
     Counts counts{};                   ///< What it cost.
 };
 
@@ -115,9 +115,9 @@ struct GatheredRowT {
 /// the points of an irradiance cache \cite ward1988 . The ray follows mirrors, and is
 /// split at glass.
 /// \param world     The closed scene.
-/// \param lookup    What gather rays look up.
+/// \param lookup    The data that gather rays look up.
 /// \param ray       A primary ray.
-/// \param settings  How to gather.
+/// \param settings  Settings of gathering.
 /// \param stream    The random stream of the ray.
 /// \param row       Receives the points.
 template <AnyWorld W, std::floating_point T>
@@ -182,10 +182,10 @@ void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
 
 /// Gathers irradiance for a picture, by one camera ray through each tile of pixels.
 /// \param world     The closed scene.
-/// \param lookup    What gather rays look up.
+/// \param lookup    The data that gather rays look up.
 /// \param camera    Any camera.
 /// \param picture   Size, seed, threads, progress.
-/// \param settings  How to gather.
+/// \param settings  Settings of gathering.
 /// \return The cache, the same for any number of threads.
 /// \cost settings.rays gather rays per tile, plus a few microseconds.
 template <AnyWorld W, CameraLike C>

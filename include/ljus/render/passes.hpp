@@ -19,7 +19,7 @@ namespace ljus {
 /// \addtogroup survey
 /// \{
 
-/// What a survey counts in a scene.
+/// Numbers that a survey counts in a scene.
 struct SceneNeeds {
     std::size_t objects = 0;  ///< All objects.
     std::size_t diffuse = 0;  ///< Objects with a non-specular lobe.
@@ -66,7 +66,7 @@ struct Passes {
 /// Decides which passes a PhotonMapper runs; survey() gives the reasons.
 /// \report{Section 3.2.2}
 /// \param found     The counts of the scene.
-/// \param settings  What the user asks for.
+/// \param settings  The user's settings.
 /// \return The decisions.
 // [survey]
 [[nodiscard]] inline Passes choose_passes(const SceneNeeds& found,
@@ -114,7 +114,7 @@ namespace detail {
 
 /// How a plan describes the choices for caustics: how photons are distributed, and
 /// where the radius comes from.
-/// \param settings  What the user asks for.
+/// \param settings  The user's settings.
 /// \return The end of a clause; empty if nothing is chosen.
 [[nodiscard]] inline std::string
 caustics_clause(const PhotonMappingSettings& settings) {
@@ -219,7 +219,7 @@ template <AnyWorld W>
 
 /// The warnings of a survey about a scene.
 /// \param world     The closed scene.
-/// \param settings  What the user asks for.
+/// \param settings  The user's settings.
 /// \return Sentences without a full stop.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::vector<std::string>

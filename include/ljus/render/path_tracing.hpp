@@ -88,7 +88,7 @@ template <AnyWorld W, std::floating_point T, typename Pdf>
 /// The emission of a lamp that a path has met, times the MIS weight of the path.
 /// \param tracer  The world and the limits.
 /// \param path    The path.
-/// \param vertex  Where it met the lamp.
+/// \param vertex  The point of the lamp that it hit.
 /// \return Throughput times radiance times the weight.
 /// \report{Eq. (1)}
 // [emitted]

@@ -58,7 +58,7 @@ struct PhotonMapsT {
     FluxAudit caustics_audit{}; ///< Where the flux of the caustics pass went.
     FluxAudit general_audit{};  ///< Where the flux of the general pass went.
     bool complete = true;       ///< False if the progress callback stopped the pass.
-    std::string remarks{};      ///< Of the survey and the passes, one per line.
+    std::string remarks{};      ///< Remarks of survey and passes, one per line.
 };
 
 namespace detail {
@@ -89,7 +89,7 @@ struct StreamAmong<First, X...> {
 };
 
 /// The kinds of photons that the general map keeps.
-/// \param settings  What the user asks for.
+/// \param settings  The user's settings.
 [[nodiscard]] inline PhotonKinds kept_kinds(const PhotonMappingSettings& settings) {
     const bool only_indirect = settings.indirect == IndirectLight::photons ||
                                settings.indirect == IndirectLight::gather ||
@@ -237,8 +237,8 @@ public:
                 "0, for a mapper that takes photons traced elsewhere");
         if (passes_.irradiance)
             throw std::invalid_argument(
-                "Irradiance was gathered without these caustics photons: choose "
-                "another IndirectLight than gather and cache.");
+                "The irradiance was already gathered without these caustics photons; "
+                "choose an IndirectLight other than gather or cache.");
         maps_.caustics = std::move(caustics);
         if (radius_is_chosen_) settings_.caustics_estimate.radius = 0;
         choose_radii();
@@ -291,7 +291,7 @@ private:
                                         const char* ability) {
             if (asked && !listed)
                 throw std::invalid_argument(detail::join(
-                    {what, " takes an ability that is not listed: abilities<",
+                    {what, " needs an ability that is not listed: abilities<",
                      ability}));
         };
         const bool gathers = settings.indirect == IndirectLight::gather ||
@@ -345,7 +345,7 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
 /// \param mapper    The world, the maps, the limits.
 /// \param vertex    The surface.
 /// \param material  Its material.
-/// \param gather    Whether the general map stands for all light but caustics.
+/// \param gather    Whether the general map provides all light except caustics.
 /// \param context   The random stream of the path; counts rays and photons; its batch
 ///                  may delay the query of the caustics map.
 /// \param add       The sum of the path.

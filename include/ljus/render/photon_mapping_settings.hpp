@@ -23,9 +23,9 @@ enum class IndirectLight : std::uint8_t {
     map,     ///< One indirect ray, and the general map where it ends.
     photons, ///< Indirect photons at the surface itself, without indirect rays: little
              ///< noise, but blurred by the radius.
-    gather, ///< One gather ray, and precomputed irradiance where it ends.
-    cache,  ///< Many gather rays at few points, interpolated between them.
-    none    ///< None: direct light and caustics only.
+    gather,  ///< One gather ray, and precomputed irradiance where it ends.
+    cache,   ///< Many gather rays at few points, interpolated between them.
+    none     ///< None: direct light and caustics only.
 };
 
 namespace detail {
@@ -53,7 +53,7 @@ struct GatherSettings {
     int max_depth = 100; ///< Surfaces on a gather ray.
 };
 
-/// How the report's renderer works. Lengths are in scene units.
+/// Settings of the report's renderer. Lengths are in scene units.
 struct PhotonMappingSettings {
     int max_depth = 1000;   ///< Surfaces on a camera path, mirrors and glass counted.
     int roulette_depth = 4; ///< From this surface on, roulette may end a path.
@@ -121,8 +121,8 @@ enum class Preset : std::uint8_t {
 /// The settings of a preset. The number of photons depends on the size of the picture,
 /// because smaller pixels show smaller errors; radii are chosen from the photons.
 /// \param preset  Which one.
-/// \param width   Of the picture, in pixels.
-/// \param height  Of the picture, in pixels.
+/// \param width   Width of the picture, in pixels.
+/// \param height  Height of the picture, in pixels.
 /// \return All settings; seeds and threads are the caller's.
 [[nodiscard]] inline PhotonMappingSettings preset_settings(Preset preset, int width,
                                                            int height) {

@@ -25,7 +25,7 @@ public:
     }
     /// What is rendered.
     [[nodiscard]] const W& world() const noexcept { return world_.get(); }
-    /// Surfaces on a camera path.
+    /// The largest number of surfaces on a camera path.
     [[nodiscard]] int max_depth() const noexcept { return max_depth_; }
 
 private:

@@ -21,7 +21,7 @@ public:
     using Stream = RandomStream;       ///< The random stream that render() passes.
 
     /// \param world     Must outlive the mapper.
-    /// \param caustics  Of the first pass, L S+ D.
+    /// \param caustics  Photons of the first pass, L S+ D.
     /// \param how       The disc of an estimate.
     /// \throws std::invalid_argument  if the disc gives no estimate.
     PlainPhotonMapper(WorldRef<W> world, PhotonMapT<Scalar> caustics,

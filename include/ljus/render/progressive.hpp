@@ -124,8 +124,8 @@ struct ProgressiveState {
 /// for alpha = 2/3. The estimate **does not contain the bias itself**, because all
 /// passes are blurred alike.
 struct ProgressiveError {
-    double pixels = 0; ///< Of a pixel: root mean square over all pixels.
-    double blocks = 0; ///< Of a block's mean, with the correlation of its pixels.
+    double pixels = 0; ///< Error of a pixel: root mean square over all pixels.
+    double blocks = 0; ///< Error of a block's mean, with the correlation of its pixels.
 };
 
 /// Adds a pass to the sums, and shrinks the radius of the next.
@@ -158,7 +158,7 @@ void add_pass(ProgressiveState& state, const ImageT<T>& image) {
 // [add_pass]
 
 /// The picture so far.
-/// \param state  Of at least one pass.
+/// \param state  The sums of at least one pass.
 /// \return The mean of the passes, W/(m^2 sr).
 /// \throws std::invalid_argument  if there is no pass.
 template <std::floating_point T = float>
@@ -216,8 +216,8 @@ void require_first_pass(const ProgressiveState& state, RenderPass&& pass) {
     const auto again = pass(1LL, 1.0);
     if (!again.complete || detail::hash_of(again.image) == state.first_pass) return;
     throw std::invalid_argument(
-        "The passes so far are of another picture: scene, camera, settings, seed and "
-        "program must be as they were.");
+        "The passes so far are of another picture: continue with the same scene, "
+        "camera, settings, seed and program.");
 }
 
 /// Settings with all automatic choices made: radii of 0 are replaced, and a pilot pass

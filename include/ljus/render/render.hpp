@@ -38,7 +38,7 @@ struct RenderSettings {
 template <std::floating_point T>
 struct RenderedT {
     ImageT<T> image{};    ///< The mean radiance of each pixel.
-    Counts counts{};      ///< What it cost.
+    Counts counts{};      ///< Cost of the picture.
     bool complete = true; ///< False if the progress callback stopped it.
 };
 
@@ -70,7 +70,7 @@ struct PictureRays {
           pattern(make_pattern(picture.sampling, picture.samples)) {}
 
     const RenderSettings& picture; ///< Size, rays, seed, filter.
-    Pattern pattern;               ///< Of the rays of a pixel.
+    Pattern pattern;               ///< Pattern of the rays of a pixel.
 };
 
 /// One ray of a picture.
@@ -110,7 +110,7 @@ struct PixelSampleT {
 /// Sends one ray through a pixel, as the pixel loop does.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera.
-/// \param rays      Of the picture.
+/// \param rays      The rays of the picture.
 /// \param at        Which ray.
 /// \param counts    Counts the rays.
 /// \param log       Receives each vertex and each term, without the weight.

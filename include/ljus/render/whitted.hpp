@@ -21,10 +21,11 @@ namespace ljus {
 struct WhittedSettings {
     int max_depth = 5; ///< Reflections and refractions in a row, 0 to 1000; each is a
                        ///< recursive call.
-    bool both_ways = true; ///< Whether glass sends both rays, or one chosen at random.
-    bool lamps = true;     ///< Whether lamps with a size light from their centres.
-    Rgb ambient{0}; ///< W/(m^2 sr) from all directions at every diffuse surface, for
-                    ///< the light that the tree does not find.
+    bool split_glass =
+        true;          ///< Whether glass sends both rays, or one chosen at random.
+    bool lamps = true; ///< Whether lamps with a size light from their centres.
+    Rgb ambient{0};    ///< W/(m^2 sr) from all directions at every diffuse surface, for
+                       ///< the light that the tree does not find.
 };
 
 /// Whitted's ray tracer of a world, which must outlive it.
@@ -116,7 +117,7 @@ void trace_branch(const WhittedTracer<W>& tracer, PathStateT<T> path, Context& c
             cut_if(has(lobes(material), Lobes::specular), context.counts);
             return false;
         }
-        if (tracer.settings().both_ways) other = split_path(path, *vertex, material);
+        if (tracer.settings().split_glass) other = split_path(path, *vertex, material);
         return other || continue_path(path, *vertex, material, Transport::radiance,
                                       Lobes::specular, context.stream);
     };

@@ -29,7 +29,7 @@ struct CameraT {
 };
 using Camera = CameraT<float>; ///< CameraT in float.
 
-/// Where a camera stands and what it looks at.
+/// The position, orientation and field of view of a camera.
 template <std::floating_point T>
 struct ViewT {
     Vec3T<T> position{T(0)};            ///< The pinhole, in scene units.
@@ -40,7 +40,7 @@ struct ViewT {
 using View = ViewT<float>; ///< ViewT in float.
 
 /// The camera of a view.
-/// \param view  Where it stands and what it looks at.
+/// \param view  Its position, orientation and field of view.
 /// \return The camera.
 /// \throws std::invalid_argument  if the position and target are equal, `up` is along
 ///         the view, or the angle is out of range.
@@ -78,8 +78,8 @@ template <std::floating_point T>
 /// The primary ray through a point of the picture.
 /// \param camera  The camera.
 /// \param pixel   From the upper left corner: x in [0, width], y in [0, height].
-/// \param width   Of the picture, in pixels.
-/// \param height  Of the picture, in pixels.
+/// \param width   Width of the picture, in pixels.
+/// \param height  Height of the picture, in pixels.
 /// \return A ray from the pinhole, its direction of unit length.
 /// \report{Section 3.2, Fig. 3}
 // [primary_ray]
@@ -119,8 +119,8 @@ concept CameraLike = requires(const C& camera, const Vec2T<typename C::Scalar>& 
 /// The position of a point in the picture: the inverse of primary_ray().
 /// \param camera  The camera.
 /// \param point   Any point.
-/// \param width   Of the picture, in pixels.
-/// \param height  Of the picture, in pixels.
+/// \param width   Width of the picture, in pixels.
+/// \param height  Height of the picture, in pixels.
 /// \return In pixels from the upper left corner, possibly outside the picture; nothing
 ///         for a point beside or behind the camera, or a result that is not finite.
 /// \report{Section 3.2, Fig. 3}

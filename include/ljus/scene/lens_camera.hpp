@@ -45,8 +45,8 @@ template <std::floating_point T>
 /// plane of focus.
 /// \param camera  The camera.
 /// \param pixel   From the upper left corner: x in [0, width], y in [0, height].
-/// \param width   Of the picture, in pixels.
-/// \param height  Of the picture, in pixels.
+/// \param width   Width of the picture, in pixels.
+/// \param height  Height of the picture, in pixels.
 /// \param u       Point of the unit square; maps uniformly to the area of the lens.
 /// \return A ray from the lens, its direction of unit length.
 /// \cite cook1984
@@ -75,7 +75,7 @@ template <std::floating_point T, StreamLike Stream>
 /// The circle of confusion: the size in the picture of a point that is out of focus.
 /// \param camera  The camera.
 /// \param depth   Distance of the point along the view, above 0.
-/// \param height  Of the picture, in pixels.
+/// \param height  Height of the picture, in pixels.
 /// \return Its diameter, in pixels.
 /// \cite cook1984
 // [circle of confusion]

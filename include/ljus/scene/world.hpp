@@ -113,14 +113,14 @@ template <Shape S>
 /// \param shape  The shape.
 /// \return The hit; nothing for a miss.
 template <typename Compute, std::floating_point T, typename S>
-[[nodiscard]] std::optional<FlatHitT<T>> hit_of(const RayT<T>& ray, const S& shape) {
+[[nodiscard]] std::optional<ShapeHitT<T>> hit_of(const RayT<T>& ray, const S& shape) {
     const auto ask = [&] {
         if constexpr (requires { intersect<Compute>(ray, shape); })
             return intersect<Compute>(ray, shape);
         else
             return intersect(ray, shape);
     };
-    if constexpr (std::is_same_v<decltype(ask()), std::optional<FlatHitT<T>>>) {
+    if constexpr (std::is_same_v<decltype(ask()), std::optional<ShapeHitT<T>>>) {
         return ask(); // avoids a copy with a measurable cost
     } else {
         const auto hit = ask();
@@ -169,7 +169,7 @@ inline constexpr std::type_identity<Compute> compute_in{};
 /// The first object that a ray meets.
 template <std::floating_point T>
 struct SceneHitT {
-    FlatHitT<T> at{};  ///< Distance, and the shape's own coordinates.
+    ShapeHitT<T> at{}; ///< Distance, and the shape's own coordinates.
     ObjectId object{}; ///< Which object.
 };
 
@@ -313,7 +313,7 @@ private:
         const auto add = [&](const auto& list) {
             require(list.size() == objects_[type].size(), "the number of shapes",
                     static_cast<long long>(list.size()),
-                    "that of their objects: shapes are added by add()");
+                    "the number of their objects: add shapes by add()");
             for (const auto& shape : list) {
                 check(shape);
                 const SphereT<Scalar> bound = bounding_sphere(shape);
@@ -565,7 +565,7 @@ template <typename S, typename Compute, std::floating_point T>
 /// \param light  The number of one of its lights.
 /// \param from   The lit point; under a sun, within the sphere around the scene.
 /// \param u      Point of the unit square.
-/// \param time   Of the path, in [0, 1].
+/// \param time   Time of the path, in [0, 1].
 /// \return The sample; nothing if the light does not shine in this direction.
 /// \report{Section 3.2.3}
 template <AnyWorld W, std::floating_point T>

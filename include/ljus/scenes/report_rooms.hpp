@@ -14,7 +14,7 @@ namespace ljus {
 /// \defgroup report_rooms The report's scenes
 /// \brief Figures 1, 11, 12, 13 and 15: the objects in the report's room.
 ///
-/// The original materials and what stands for them here:
+/// The original materials and their counterparts here:
 ///
 /// | the report's program                | here                                     |
 /// |-------------------------------------|------------------------------------------|

@@ -241,8 +241,8 @@ struct BallBlocks {
         std::uint32_t ball;   ///< Index of the ball.
         std::uint32_t number; ///< Index of the node in its level, or of the leaf.
     };
-    std::vector<Place> here{};       ///< Of one level, sorted by ball.
-    std::vector<Place> below{};      ///< Of the next level, sorted by ball.
+    std::vector<Place> here{};       ///< Nodes of one level, sorted by ball.
+    std::vector<Place> below{};      ///< Nodes of the next level, sorted by ball.
     std::vector<BallBlock> blocks{}; ///< The result, sorted by ball.
 };
 

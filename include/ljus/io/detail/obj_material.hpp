@@ -19,7 +19,7 @@ namespace ljus {
 /// \addtogroup obj_reader
 /// \{
 
-/// What a material file says of a material.
+/// A material as described by a material file.
 struct ObjMaterial {
     std::string name{};       ///< Empty for faces without a material.
     glm::dvec3 diffuse{0.5};  ///< Kd, in [0, 1]; 1 if there is a picture and no Kd.
@@ -29,7 +29,7 @@ struct ObjMaterial {
     double dissolve = 1;      ///< d, or 1 - Tr: 0 is clear.
     int illumination = 2;     ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass.
     std::string picture{};    ///< map_Kd, which Kd multiplies: its path; empty: none.
-    std::string picture_at{}; ///< Where that stands: "room.mtl, line 12".
+    std::string picture_at{}; ///< Its position: "room.mtl, line 12".
 
     /// Whether it is glass: by illum, or because d says that it is mostly clear.
     [[nodiscard]] bool is_glass() const noexcept {

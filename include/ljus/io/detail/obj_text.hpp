@@ -119,7 +119,8 @@ inline std::optional<ObjIndices> indices_of(std::string_view word) {
     return result;
 }
 
-// The place in a list of so many that a number names; none if it is not there.
+// The index that a number of an OBJ file means in a list of `count`; nothing if out of
+// range.
 inline std::optional<std::uint32_t> place_of(long long number, std::size_t count) {
     const auto all = static_cast<long long>(count);
     if (number == 0 || number > all || number < -all) return std::nullopt;

@@ -15,10 +15,10 @@ namespace ljus::detail {
 /// A request for an estimate at a point of a diffuse surface.
 template <std::floating_point T>
 struct EstimatePlaceT {
-    Vec3T<T> center{T(0)};    ///< In scene units.
-    Vec3T<T> normal{T(0)};    ///< Of the surface; compared with those of photons.
-    Vec3T<T> from{T(0)};      ///< As in FluxDiscT: the visible side.
-    RgbT<T> brdf{T(0)};       ///< BRDF of the surface, per steradian.
+    Vec3T<T> center{T(0)}; ///< In scene units.
+    Vec3T<T> normal{T(0)}; ///< Normal of the surface; compared with those of photons.
+    Vec3T<T> from{T(0)};   ///< As in FluxDiscT: the visible side.
+    RgbT<T> brdf{T(0)};    ///< BRDF of the surface, per steradian.
     RgbT<T> throughput{T(0)}; ///< Throughput of the path; a factor of the result.
     std::uint32_t item = 0;   ///< Identifies the request to the caller.
 };

@@ -24,7 +24,7 @@ namespace ljus::detail {
 template <std::floating_point T, KernelLike<T> K = Kernel>
 struct FluxDiscT {
     Vec3T<T> center{T(0)};             ///< Its centre.
-    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Of the surface; unit.
+    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit normal of the surface.
     Vec3T<T> from{T(0), T(0), T(1)};   ///< Photons that travel against it count.
     T radius = T(1);                   ///< Between 1e-15 and 1e15.
     T thickness = T(0.5);              ///< Half its height over its radius.

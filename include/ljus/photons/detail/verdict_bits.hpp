@@ -81,7 +81,7 @@ template <std::floating_point T>
 /// A counted photon: its cell, and whether it is a shadow photon.
 struct Witness {
     std::uint32_t where = 0; ///< 64 times its brick, plus its cell.
-    bool shadow = false;     ///< False: it brings light.
+    bool shadow = false;     ///< False: it carries light.
 };
 
 /// Finds the cells of photons, and inserts their bricks.

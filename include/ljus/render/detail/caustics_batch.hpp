@@ -40,7 +40,7 @@ struct CausticsBatch {
 /// \param batch       The batch of the context; a NoBatch delays nothing.
 /// \param vertex      The surface.
 /// \param material    Its material.
-/// \param throughput  Of the path.
+/// \param throughput  Throughput of the path.
 /// \param how         The estimate.
 /// \return Whether the estimate was queued.
 template <typename Batch, std::floating_point T, typename M, typename K>
