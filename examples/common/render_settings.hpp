@@ -15,6 +15,7 @@
 
 #include "command_line.hpp"
 #include "ljus/image/image.hpp"
+#include "ljus/render/first_hit.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping_settings.hpp"
 #include "picture_slice.hpp"
@@ -32,10 +33,23 @@ inline const std::vector<std::string> photon_groups{
 inline const std::string path_group = "Path tracing";
 inline const std::string pass_group = "Passes: photon maps that converge";
 
+/// The values of --renderer. The last three show the first hit of each ray.
+enum class RendererName { photon, path, normals, albedo, depth };
+
+/// What a renderer shows of the first hit; nothing if it computes light.
+[[nodiscard]] constexpr std::optional<ljus::FirstHit>
+first_hit_of(RendererName renderer) noexcept {
+    if (renderer == RendererName::normals) return ljus::FirstHit::normals;
+    if (renderer == RendererName::albedo) return ljus::FirstHit::albedo;
+    if (renderer == RendererName::depth) return ljus::FirstHit::depth;
+    return std::nullopt;
+}
+
 /// What the user asks for, and what is chosen where they ask for nothing.
 struct RenderRequest {
-    std::string scene{};                  ///< The scene file.
-    bool path_tracing = false;            ///< And no photon mapping.
+    std::string scene{}; ///< The scene file.
+    /// What a pixel shows.
+    RendererName renderer = RendererName::photon;
     bool in_double = false;               ///< Scene, photons and light.
     std::optional<ljus::Preset> preset{}; ///< Below what is given by name.
     ljus::RenderSettings picture{};       ///< Of the whole picture.
@@ -87,9 +101,9 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--exposure", r.exposure, "Of PNG files, in stops", -100, 100);
 
     line.group(common_groups[1]);
-    line.add("--renderer", r.path_tracing,
-             "Photon mapping, or path tracing as its judge",
-             {{"photon", false}, {"path", true}});
+    line.add("--renderer", r.renderer,
+             "Photon mapping; path tracing as its reference; or what each ray\n"
+             "hits first: its normal n, as (n + 1)/2, its albedo, its distance");
     line.add("--preset", r.preset,
              "Settings that go together: a first look; no visible errors in\n"
              "the least time; or little bias, and noise unless there are many\n"
@@ -246,9 +260,9 @@ inline void check_options(const CommandLine& line, RenderRequest& r,
                       " is for pictures that are made in passes: give --passes N, too");
     refuse({"--more-rays", "--explain", "--show-photons"},
            " does not go with --passes");
-    if (r.path_tracing)
-        throw std::invalid_argument("--passes is for --renderer photon; give a path "
-                                    "tracer more --rays");
+    if (r.renderer != RendererName::photon)
+        throw std::invalid_argument("--passes is for --renderer photon; give other "
+                                    "renderers more --rays");
 }
 
 /// Settles what was not given by name: by the scene, by the preset, and for passes.
@@ -302,9 +316,9 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
 [[nodiscard]] inline nlohmann::ordered_json to_json(const CommandLine& line,
                                                     const RenderRequest& r) {
     std::vector<std::string> groups = common_groups;
-    if (r.path_tracing)
+    if (r.renderer == RendererName::path)
         groups.push_back(path_group);
-    else
+    else if (r.renderer == RendererName::photon)
         groups.insert(groups.end(), photon_groups.begin(), photon_groups.end());
     if (r.passes.passes > 0) groups.push_back(pass_group);
     nlohmann::ordered_json json{
