@@ -328,6 +328,8 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
             json[name] = nlohmann::ordered_json::parse(value);
     if (!r.photon.caustics.shares.empty())
         json["caustic-shares"] = r.photon.caustics.shares;
+    if (!r.photon.caustics.light_shares.empty())
+        json["caustic-light-shares"] = r.photon.caustics.light_shares;
     if (!r.kept.empty()) json["promise"] = r.kept;
     return json;
 }

@@ -55,6 +55,9 @@ struct PhotonPassSettings {
     /// Fractions of the caustic photons, one per object of specular_objects(), with the
     /// sum 1; empty: by the cones that lights see. See \ref budget.
     std::vector<double> shares = {};
+    /// Probabilities with which photons choose their lights, one per light, with the
+    /// sum 1; empty: by power. See pilot_lights().
+    std::vector<double> light_shares = {};
     double max_memory = 4e9;         ///< Bytes for photons during the pass.
     long long give_up = 1LL << 20;   ///< Ends after as many paths if none was stored.
     int threads = 0;                 ///< 0: all processors.
@@ -145,6 +148,22 @@ template <std::floating_point T>
                   caustics ? "something else before the mirror or glass"
                            : "the limit of bounces",
                   percent(audit.escaped), percent(audit.absorbed + audit.roulette));
+    return text;
+}
+
+/// A sentence about photons that most lights send in vain.
+/// \param audit  That of a caustics pass.
+/// \return Empty unless a tenth or less of the flux arrives where it is sent.
+[[nodiscard, gnu::cold]] inline std::string sent_in_vain(const FluxAudit& audit) {
+    const auto sum = [](const RgbT<double>& flux) { return flux.x + flux.y + flux.z; };
+    if (!(sum(audit.cut) > 0.9 * sum(audit.emitted))) return {};
+    char text[200];
+    std::snprintf(
+        text, sizeof text,
+        "%.4g %% of the light sent to mirrors and glass does not reach them: a "
+        "caustic budget by flux gives lights that are in their sight more "
+        "photons",
+        100 * sum(audit.cut) / sum(audit.emitted));
     return text;
 }
 
