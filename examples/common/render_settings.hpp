@@ -137,7 +137,7 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--general-photons", photon.general.photons,
              "Photons of the general map, if one is needed", 0, billion);
     line.add("--caustic-budget", photon.caustic_budget,
-             "How mirrors and glass share these photons: as lights see them;\n"
+             "How mirrors, glass and lights share them: as lights see them;\n"
              "equally; or for the least error of the flux, of each caustic,\n"
              "or of what the eye sees");
     line.add("--photon-numbers", photon.caustics.numbers, "Chance, or evenly spread");
