@@ -883,8 +883,8 @@ TEST_CASE("caustic_budget: lamps that nobody sees take no photons from the other
     PhotonMappingSettings settings{.indirect = IndirectLight::none,
                                    .caustics = {.photons = 20000}};
     const std::string said = PhotonMapper(room, settings).maps().remarks;
-    CHECK(said.find("% of the light sent to mirrors and glass does not reach them") !=
-          std::string::npos);
+    CHECK(said.find("% of the photons sent to mirrors and glass are stored: a caustic "
+                    "budget by flux") != std::string::npos);
     settings.caustic_budget = CausticBudget::flux;
     CHECK(PhotonMapper(room, settings, abilities<Budgeting>).maps().remarks.empty());
 }

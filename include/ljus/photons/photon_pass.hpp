@@ -3,6 +3,7 @@
 /// \file ljus/photons/photon_pass.hpp
 /// \brief Settings and results of a photon pass, and its limits.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -151,19 +152,20 @@ template <std::floating_point T>
     return text;
 }
 
-/// A sentence about photons that most lights send in vain.
-/// \param audit  That of a caustics pass.
-/// \return Empty unless a tenth or less of the flux arrives where it is sent.
-[[nodiscard, gnu::cold]] inline std::string sent_in_vain(const FluxAudit& audit) {
-    const auto sum = [](const RgbT<double>& flux) { return flux.x + flux.y + flux.z; };
-    if (!(sum(audit.cut) > 0.9 * sum(audit.emitted))) return {};
+/// A sentence about a caustics pass with several lights most of whose photons are lost.
+/// \param stored   Photons that it stored.
+/// \param emitted  Photons that it emitted.
+/// \return Empty if at least a tenth was stored.
+[[nodiscard, gnu::cold]] inline std::string few_stored(std::size_t stored,
+                                                       long long emitted) {
+    const double share = double(stored) / double(std::max(emitted, 1LL));
+    if (share >= 0.1) return {};
     char text[200];
-    std::snprintf(
-        text, sizeof text,
-        "%.4g %% of the light sent to mirrors and glass does not reach them: a "
-        "caustic budget by flux gives lights that are in their sight more "
-        "photons",
-        100 * sum(audit.cut) / sum(audit.emitted));
+    std::snprintf(text, sizeof text,
+                  "%.3g %% of the photons sent to mirrors and glass are stored: a "
+                  "caustic budget by flux sends more of them from those lights that "
+                  "reach mirrors and glass",
+                  100 * share);
     return text;
 }
 

@@ -120,7 +120,7 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
         maps.complete = maps.complete && traced.complete;
         const bool by_power = world.light_count() > 1 && pass.light_shares.empty();
         if (traced.remark.empty() && by_power && type == MapType::caustics)
-            traced.remark = sent_in_vain(traced.audit);
+            traced.remark = few_stored(traced.photons.size(), traced.emitted);
         if (!traced.remark.empty()) maps.remarks.append(traced.remark).append("\n");
         return std::move(traced.photons);
     };
