@@ -57,7 +57,8 @@ TEST_CASE("first hit: depth is the distance along the ray") {
     CHECK(depth({.direction{1, 0, 0}}) == Rgb{0});
 }
 
-TEST_CASE("first hit: a matt surface, a mirror and glass have their albedo exactly") {
+TEST_CASE(
+    "first hit: a Lambertian surface, a mirror and glass have their albedo exactly") {
     const Rgb color{0.2f, 0.5f, 0.9f};
     const World matt(make_scene(placed(ball, Lambertian{.albedo = color})));
     CHECK(distance(seen(matt, FirstHit::albedo, ahead), color) < 1e-6f);

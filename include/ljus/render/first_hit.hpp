@@ -45,7 +45,7 @@ FirstHitRenderer(const W&, FirstHit) -> FirstHitRenderer<W>;
 
 /// One sample of the directional albedo of a vertex: the fraction of the light from
 /// `wo` that its material reflects and transmits in all directions. The weight of
-/// sample() has that mean for every material. That of a matt surface has no noise.
+/// sample() has that mean for every material. For a Lambertian surface it has no noise.
 /// \param vertex  The vertex.
 /// \param stream  Three numbers are drawn.
 /// \return Per channel, at least 0.
@@ -84,7 +84,9 @@ template <AnyWorld W, std::floating_point T, typename Context>
             seen = path.throughput / vertex->stop_probability *
                    sample_albedo(world, *vertex, context.stream);
             break;
-        case FirstHit::depth: seen = RgbT<T>{vertex->distance}; break;
+        case FirstHit::depth:
+            seen = RgbT<T>{vertex->distance};
+            break;
         }
     }
     context.log.begin();
