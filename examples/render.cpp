@@ -3,6 +3,7 @@
 ///
 ///     render scene.json --preset fast --out picture.png
 ///     render scene.json --renderer path --rays 1000 --out picture.pfm
+///     render scene.json --renderer normals     what each ray hits first
 ///     render scene.json --seconds 5            the best picture for that time
 ///     render scene.json --plan                 what would run, and why
 ///     render scene.json --passes 100 --checkpoint a.check --preview a.png
@@ -37,6 +38,7 @@ namespace {
 
 using namespace ljus;
 using Request = examples::RenderRequest;
+using examples::RendererName;
 
 /// The pixel of "120,80".
 std::pair<int, int> pixel_of(const Request& r) {
@@ -92,6 +94,12 @@ RenderedT<typename S::Scalar> path_trace(const Room<S>& room, const Request& r) 
         std::fprintf(stderr, "%s\n", remark.c_str());
     const PathTracer tracer(room.world, r.path);
     return run(tracer, room.camera, r);
+}
+
+template <typename S>
+RenderedT<typename S::Scalar> show_first_hit(const Room<S>& room, const Request& r) {
+    const FirstHitRenderer renderer(room.world, *examples::first_hit_of(r.renderer));
+    return run(renderer, room.camera, r);
 }
 
 /// Fills the irradiance cache of a photon mapper.
@@ -284,7 +292,9 @@ void save_result(const std::string& path, const Request& r, nlohmann::ordered_js
 template <AnyWorld W>
 void print_heading(const W& world, std::string name, const Request& r) {
     if (name.empty()) name = std::filesystem::path(r.scene).stem().string();
-    std::string how = r.path_tracing ? "path tracing" : "photon mapping";
+    std::string how = examples::first_hit_of(r.renderer) ? "the first hit"
+                      : r.renderer == RendererName::path ? "path tracing"
+                                                         : "photon mapping";
     if (!r.photons.empty())
         how = "photons as dots";
     else if (r.promise.seconds == 0 && r.promise.error == 0)
@@ -300,7 +310,7 @@ void print_heading(const W& world, std::string name, const Request& r) {
 /// Prints what would run, or what the types of the scene provide.
 template <AnyWorld W>
 void print_plan(const W& world, const Request& r) {
-    if (r.plan && !r.path_tracing) {
+    if (r.plan && r.renderer == RendererName::photon) {
         const Plan plan = survey(world, r.photon);
         for (const PlanItem* item : plan.items())
             std::fputs(to_text(*item).c_str(), stdout);
@@ -335,11 +345,13 @@ void run_request(examples::CommandLine& line, Request& r,
                            "continued is made by --passes N --checkpoint FILE");
     const examples::StopWatch watch;
     const bool promised = r.promise.seconds > 0 || r.promise.error > 0;
-    const RenderedT<T> rendered = !r.photons.empty()    ? draw_photons(room, r)
-                                  : promised            ? render_promised(room, r)
-                                  : r.path_tracing      ? path_trace(room, r)
-                                  : r.passes.passes > 0 ? render_passes(room, r)
-                                                        : map_photons(room, r);
+    const RenderedT<T> rendered =
+        !r.photons.empty()                   ? draw_photons(room, r)
+        : promised                           ? render_promised(room, r)
+        : examples::first_hit_of(r.renderer) ? show_first_hit(room, r)
+        : r.renderer == RendererName::path   ? path_trace(room, r)
+        : r.passes.passes > 0                ? render_passes(room, r)
+                                             : map_photons(room, r);
     if (!r.pixel.empty()) return;
     const double seconds = watch.seconds();
     line.fill({r.picture.width, r.picture.height, r.picture.samples});

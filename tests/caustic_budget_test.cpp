@@ -835,3 +835,83 @@ TEST_CASE("caustic_budget: the mean irradiance is that of thousands of photons")
     CHECK(detail::mean_irradiance(make_photon_map(two), two, 0.5f) ==
           ljus_test::within((1 * 1 + 3 * 3) / 4.0 / (pi * 0.25), 1e-5));
 }
+
+// Lamps that no mirror or glass sees. A mean over 60 seeds lies beyond 5 standard
+// errors once in 200 000 (t distribution); the ratio of the variances is about 6000,
+// and that of 60 seeds each is below a sixth of it less than once in a million.
+TEST_CASE("caustic_budget: lamps that nobody sees take no photons from the others") {
+    Room open;
+    add_floor(open);
+    open.add(Sphere{.radius = 0.5f}, open.add(Glass{}));
+    open.add(PointLight{.position{0, 2, 0}});
+    const auto black = open.add(Lambertian{.albedo = Rgb{0}});
+    for (int i = 0; i < 50; ++i) { // each 100 times as strong, in a ball without holes
+        const Vec3 place{float(i - 25), 9, 0};
+        open.add(Sphere{.center = place, .radius = 0.2f}, black);
+        open.add(PointLight{.position = place, .intensity = Rgb{100}});
+    }
+    const World room(std::move(open));
+    PhotonPassSettings pass{.photons = 10000};
+    const auto shares = pilot_lights(room, pass);
+    REQUIRE(shares.size() == 51);
+    double sum = 0, hidden = 0;
+    for (const double share : shares) sum += share;
+    for (std::size_t k = 1; k < 51; ++k) hidden = std::max(hidden, shares[k]);
+    CHECK(sum == doctest::Approx(1));
+    CHECK(shares[0] == doctest::Approx(0.9 + 0.1 / 5001));
+    CHECK(hidden == doctest::Approx(0.1 * 100 / 5001)); // its part of the floor
+
+    const auto half = [](const std::vector<Photon>& photons) {
+        double flux = 0; // on half of the floor
+        for (const Photon& photon : photons)
+            if (photon.normal.y > 0 && photon.position.x > 0)
+                flux += double(photon.flux.x);
+        return flux;
+    };
+    Mean by_power, by_share;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        pass.seed = test_seed(100 + seed);
+        pass.light_shares = {};
+        by_power.add(half(trace_photons(room, MapType::caustics, pass).photons));
+        pass.light_shares = shares;
+        by_share.add(half(trace_photons(room, MapType::caustics, pass).photons));
+    }
+    CHECK(std::abs(by_power.mean - ball_flux() / 2) < 5 * by_power.error());
+    CHECK(std::abs(by_share.mean - ball_flux() / 2) < 5 * by_share.error());
+    CHECK(by_power.variance() > 1000 * by_share.variance());
+
+    // Who keeps the choice by power is told.
+    PhotonMappingSettings settings{.indirect = IndirectLight::none,
+                                   .caustics = {.photons = 20000}};
+    const std::string said = PhotonMapper(room, settings).maps().remarks;
+    CHECK(said.find("% of the photons sent to mirrors and glass are stored: a caustic "
+                    "budget by flux") != std::string::npos);
+    settings.caustic_budget = CausticBudget::flux;
+    CHECK(PhotonMapper(room, settings, abilities<Budgeting>).maps().remarks.empty());
+}
+
+TEST_CASE("caustic_budget: who has one lamp, or gives shares, has no pilot of lamps") {
+    const World one(ball_and_mirror());
+    CHECK(pilot_lights(one, {.photons = 2000}).empty());
+    Room open = ball_and_mirror();
+    open.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{9}}); // in the same place
+    const World two(std::move(open));
+    const auto shares = pilot_lights(two, {.photons = 40000});
+    REQUIRE(shares.size() == 2);
+    CHECK(shares[0] == doctest::Approx(0.1).epsilon(0.1)); // by flux, as power has it
+    PhotonMappingSettings settings{.caustic_budget = CausticBudget::as_seen};
+    CHECK(caustic_light_shares(two, settings).empty());
+    settings.caustic_budget = CausticBudget::flux;
+    settings.caustics.photons = 2000;
+    settings.indirect = IndirectLight::none;
+    const PhotonMapper mapper(two, settings, abilities<Budgeting>);
+    CHECK(mapper.settings().caustics.light_shares ==
+          caustic_light_shares(two, settings));
+    CHECK(mapper.settings().caustics.light_shares.size() == 2);
+    settings.caustics.light_shares = {0.25, 0.75};
+    CHECK(caustic_light_shares(two, settings) == std::vector{0.25, 0.75});
+    CHECK(refusal([&] {
+              (void)trace_photons(one, MapType::caustics,
+                                  {.photons = 9, .light_shares = {0.5, 0.5}});
+          }) == "the number of shares is 2; it must be the number of lights.");
+}

@@ -15,6 +15,7 @@
 
 #include "command_line.hpp"
 #include "ljus/image/image.hpp"
+#include "ljus/render/first_hit.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping_settings.hpp"
 #include "picture_slice.hpp"
@@ -32,11 +33,23 @@ inline const std::vector<std::string> photon_groups{
 inline const std::string path_group = "Path tracing";
 inline const std::string pass_group = "Passes: photon maps that converge";
 
+/// The values of --renderer. The last three show the first hit of each ray.
+enum class RendererName { photon, path, normals, albedo, depth };
+
+/// What a renderer shows of the first hit; nothing if it computes light.
+[[nodiscard]] constexpr std::optional<ljus::FirstHit>
+first_hit_of(RendererName renderer) noexcept {
+    if (renderer == RendererName::normals) return ljus::FirstHit::normals;
+    if (renderer == RendererName::albedo) return ljus::FirstHit::albedo;
+    if (renderer == RendererName::depth) return ljus::FirstHit::depth;
+    return std::nullopt;
+}
+
 /// All settings, as the user gave them or as chosen for the user.
 struct RenderRequest {
-    std::string scene{};                  ///< The scene file.
-    bool path_tracing = false;            ///< Path tracing, not photon mapping.
-    bool in_double = false;               ///< Whether to compute in double.
+    std::string scene{};                          ///< The scene file.
+    RendererName renderer = RendererName::photon; ///< What a pixel shows.
+    bool in_double = false;                       ///< Whether to compute in double.
     std::optional<ljus::Preset> preset{}; ///< Options given by name override it.
     ljus::RenderSettings picture{};       ///< Settings of the whole picture.
     int more_rays = 0;                    ///< More rays for pixels that need them.
@@ -87,9 +100,9 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--exposure", r.exposure, "Of PNG files, in stops", -100, 100);
 
     line.group(common_groups[1]);
-    line.add("--renderer", r.path_tracing,
-             "Photon mapping, or path tracing as a reference",
-             {{"photon", false}, {"path", true}});
+    line.add("--renderer", r.renderer,
+             "Photon mapping; path tracing as its reference; or what each ray\n"
+             "hits first: its normal n, as (n + 1)/2, its albedo, its distance");
     line.add("--preset", r.preset,
              "Settings that go together: a first look; no visible errors in\n"
              "the least time; or little bias, and noise unless there are many\n"
@@ -124,7 +137,7 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--general-photons", photon.general.photons,
              "Photons of the general map, if one is needed", 0, billion);
     line.add("--caustic-budget", photon.caustic_budget,
-             "How mirrors and glass share these photons: as lights see them;\n"
+             "How mirrors, glass and lights share them: as lights see them;\n"
              "equally; or for the least error of the flux, of each caustic,\n"
              "or of what the eye sees");
     line.add("--photon-numbers", photon.caustics.numbers, "Chance, or evenly spread");
@@ -249,9 +262,9 @@ inline void check_options(const CommandLine& line, RenderRequest& r,
                       " is for pictures that are made in passes: give --passes N, too");
     refuse({"--more-rays", "--explain", "--show-photons"},
            " cannot be combined with --passes");
-    if (r.path_tracing)
-        throw std::invalid_argument("--passes is for --renderer photon; give a path "
-                                    "tracer more --rays");
+    if (r.renderer != RendererName::photon)
+        throw std::invalid_argument("--passes is for --renderer photon; give other "
+                                    "renderers more --rays");
 }
 
 /// Chooses the settings that the user did not give: from the scene, from the preset,
@@ -306,9 +319,9 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
 [[nodiscard]] inline nlohmann::ordered_json to_json(const CommandLine& line,
                                                     const RenderRequest& r) {
     std::vector<std::string> groups = common_groups;
-    if (r.path_tracing)
+    if (r.renderer == RendererName::path)
         groups.push_back(path_group);
-    else
+    else if (r.renderer == RendererName::photon)
         groups.insert(groups.end(), photon_groups.begin(), photon_groups.end());
     if (r.passes.passes > 0) groups.push_back(pass_group);
     nlohmann::ordered_json json{
@@ -318,6 +331,8 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
             json[name] = nlohmann::ordered_json::parse(value);
     if (!r.photon.caustics.shares.empty())
         json["caustic-shares"] = r.photon.caustics.shares;
+    if (!r.photon.caustics.light_shares.empty())
+        json["caustic-light-shares"] = r.photon.caustics.light_shares;
     if (!r.kept.empty()) json["promise"] = r.kept;
     return json;
 }

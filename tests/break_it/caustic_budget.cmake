@@ -18,6 +18,12 @@ ljus_break_it(NAME caustic_budget-squares HEADER photons/budget.hpp TEST caustic
     TO   "floor * equal + (1 - floor) * a * a / (sum * sum)"
     CASES "caustic_budget: shares follow*")
 
+# A pilot of lamps sends photons by power, as if every lamp had got as many.
+ljus_break_it(NAME caustic_budget-lamps HEADER photons/budget.hpp TEST caustic_budget
+    FROM "pass.equal_lights = true;"
+    TO   ""
+    CASES "caustic_budget: who has one lamp*")
+
 # No floor: who is missed by the pilot starves.
 ljus_break_it(NAME caustic_budget-floor HEADER photons/budget.hpp TEST caustic_budget
     FROM "floor * equal + (1 - floor) * (a / sum)"

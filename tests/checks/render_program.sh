@@ -33,6 +33,11 @@ done
 "$render" "$scene" "${few[@]}" --renderer path --quiet --out new >out.txt
 [ -s new/balls.png ] || wrong "no new/balls.png"
 [ ! -s out.txt ] || wrong "--quiet is not quiet: $(cat out.txt)"
+for renderer in normals albedo depth; do
+    "$render" "$scene" "${few[@]}" --renderer $renderer --quiet --out $renderer.pfm
+    [ -s $renderer.pfm ] || wrong "no $renderer.pfm"
+done
+cmp -s normals.pfm depth.pfm && wrong "--renderer depth shows normals"
 for indirect in rays map photons gather cache none; do
     "$render" "$scene" "${few[@]}" --indirect $indirect --general-photons 500 \
         --caustic-kernel cone --general-nearest 20 --depth 3 --roulette 2 --quiet --out $indirect.pfm

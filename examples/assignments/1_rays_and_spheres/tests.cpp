@@ -34,6 +34,9 @@ double off_line(const Ray& ray, const Ball& ball) {
 } // namespace
 
 TEST_CASE("1.1 (1 point) the ray through the middle goes straight ahead") {
+    INFO("Expected: origin at the eye, direction (0, 0, -1). The pixel is a point "
+         "and needs no half added; x and y are relative to the eye.\n"
+         "Read: Primary rays.");
     const Eye eye{.position{1, 2, 3}};
     const Ray ray = primary_ray(eye, {200, 150}, 400, 300);
     CHECK(ray.origin == eye.position);
@@ -41,6 +44,11 @@ TEST_CASE("1.1 (1 point) the ray through the middle goes straight ahead") {
 }
 
 TEST_CASE("1.2 (2 points) the edges of the picture are where the angle says") {
+    INFO("Expected: tan(vfov / 2) at the upper edge, and the same scale for x and "
+         "y.\n"
+         "Likely: degrees, the whole angle, a scale for each axis, y upside down, "
+         "or no normalize().\n"
+         "Read: Primary rays; chapter 1.");
     const Eye eye{.vfov_degrees = 90};
     const Ray top = primary_ray(eye, {300, 0}, 600, 300);
     CHECK(distance(top.direction, normalize(Vec3{0, 1, -1})) < 1e-5f);
@@ -51,6 +59,9 @@ TEST_CASE("1.2 (2 points) the edges of the picture are where the angle says") {
 }
 
 TEST_CASE("1.3 (2 points) a ray meets a ball where it enters or where it leaves") {
+    INFO("Expected: the smaller root, or the larger one if the smaller one lies "
+         "before t_min: a ray that starts inside of a ball leaves it.\n"
+         "Read: Ray and ball; chapter 6.");
     const Ball ball{.center{0, 0, -5}};
     const auto before = intersect(Ray{}, ball);
     REQUIRE(before);
@@ -63,6 +74,8 @@ TEST_CASE("1.3 (2 points) a ray meets a ball where it enters or where it leaves"
 }
 
 TEST_CASE("1.4 (1 point) only hits between t_min and t_max count") {
+    INFO("Expected: each root is compared with t_min and with t_max.\n"
+         "Read: Ray and ball.");
     const Ball ball{.center{0, 0, -5}};
     const auto leaves = intersect(Ray{.t_min = 4.5f}, ball);
     REQUIRE(leaves);
@@ -72,6 +85,9 @@ TEST_CASE("1.4 (1 point) only hits between t_min and t_max count") {
 }
 
 TEST_CASE("1.5 (2 points) t counts in lengths of the direction") {
+    INFO("Expected: t such that origin + t direction is the point.\n"
+         "Likely: D.D taken for 1, in one of its three places.\n"
+         "Read: Ray and ball.");
     const Ball ball{.center{0, 0, -5}};
     const auto t = intersect(Ray{.direction{0, 0, -2}}, ball);
     REQUIRE(t);
@@ -83,6 +99,9 @@ TEST_CASE("1.5 (2 points) t counts in lengths of the direction") {
 }
 
 TEST_CASE("1.6 (3 points) random rays hit what they should and end on the ball") {
+    INFO("Expected: the same decision as in double, and a point on the ball.\n"
+         "Likely: D.D, a sign, or the centre missing in m.\n"
+         "Read: Ray and ball; chapter 6.");
     auto stream = course::stream(1);
     int hits = 0;
     for (int i = 0; i < 5000; ++i) {
@@ -110,6 +129,9 @@ TEST_CASE("1.6 (3 points) random rays hit what they should and end on the ball")
 }
 
 TEST_CASE("1.7 (3 points) a ball 1000 radii away keeps its outline") {
+    INFO("Expected: at most 20 wrong decisions. b^2 - c subtracts two large "
+         "floats: measure the distance from the nearest point P.\n"
+         "Read: Ray and ball; chapter 6.");
     auto stream = course::stream(2);
     int wrong = 0, hits = 0;
     for (int i = 0; i < 4000; ++i) {
@@ -126,12 +148,18 @@ TEST_CASE("1.7 (3 points) a ball 1000 radii away keeps its outline") {
 }
 
 TEST_CASE("1.8 (1 point) the normal has length 1 and points away from the centre") {
+    INFO("Expected: (point - centre) of length 1.\n"
+         "Likely: not divided by the radius, or the wrong way around.\n"
+         "Read: chapter 6.");
     const Ball ball{.center{1, 2, 3}, .radius = 4};
     CHECK(distance(normal(ball, {1, 6, 3}), Vec3{0, 1, 0}) < 1e-6f);
     CHECK(distance(normal(ball, {-3, 2, 3}), Vec3{-1, 0, 0}) < 1e-6f);
 }
 
 TEST_CASE("1.9 (2 points) the nearest ball is found whatever the order of the list") {
+    INFO("Expected: t = 4 and the index of that ball.\n"
+         "Likely: the last hit is kept, or the index of another ball.\n"
+         "Read: chapter 1.");
     std::vector<Ball> balls{{{0, 0, -9}, 1},
                             {{0, 0, -5}, 1},
                             {{0, 0, 5}, 1},
@@ -149,6 +177,10 @@ TEST_CASE("1.9 (2 points) the nearest ball is found whatever the order of the li
 }
 
 TEST_CASE("1.10 (2 points) a lamp is seen unless a ball is between or the horizon") {
+    INFO("Expected: seen on the side of the normal if nothing lies before the lamp.\n"
+         "Likely: t_max in another unit than the direction (with direction = lamp "
+         "- origin the lamp is at t = 1), or no test of the side.\n"
+         "Read: Shadows.");
     const std::vector<Ball> balls{{{0, 0, 0}, 1}, {{0, 4, 0}, 1}};
     CHECK(sees(balls, {0, 1, 0}, {0, 1, 0}, {0, 2.5f, 0}));    // before the second ball
     CHECK_FALSE(sees(balls, {0, 1, 0}, {0, 1, 0}, {0, 9, 0})); // behind it
@@ -160,6 +192,10 @@ TEST_CASE("1.10 (2 points) a lamp is seen unless a ball is between or the horizo
 }
 
 TEST_CASE("1.11 (3 points) no ball shades itself whatever the unit of length") {
+    INFO("Expected: no ball shades itself. Step along the normal, in proportion to "
+         "the coordinates: a step along the way to the lamp hardly leaves the "
+         "surface if the lamp is low.\n"
+         "Read: Shadows; chapter 5.");
     for (const float scale : {0.001f, 1.0f, 1000.0f}) {
         auto stream = course::stream(3);
         int wrong = 0;
@@ -174,8 +210,18 @@ TEST_CASE("1.11 (3 points) no ball shades itself whatever the unit of length") {
         }
         CAPTURE(scale);
         CHECK(wrong == 0);
-        // From the top of one ball towards a lamp behind another one that nearly touches
-        // it, at a fiftieth of a radius; and to a lamp between the two.
+        int hidden = 0; // of lamps that stand barely above the horizon
+        for (int i = 0; i < 500; ++i) {
+            const Ball ball{.center = scale * Vec3{3, 1, -6}, .radius = scale};
+            const Vec3 n = normalize(random_point(stream, 1));
+            const Vec3 along = normalize(cross(n, random_point(stream, 1)));
+            const Vec3 point = ball.center + ball.radius * n;
+            const Vec3 lamp = point + scale * (5.0f * along + 0.001f * n);
+            hidden += !sees({ball}, point, n, lamp);
+        }
+        CHECK(hidden == 0);
+        // From the top of one ball towards a lamp behind another one that nearly
+        // touches it, at a fiftieth of a radius; and to a lamp between the two.
         const Ball below{.center = scale * Vec3{3, 1, -6}, .radius = scale};
         const Ball above{.center = scale * Vec3{3, 3.02f, -6}, .radius = scale};
         const Vec3 top = scale * Vec3{3, 2, -6}, up{0, 1, 0};

@@ -46,6 +46,21 @@ void check_sampler(const Sample& sample, const Pdf& pdf, double one_minus_cosine
     CHECK(std::abs(side.mean() / (pi * one_minus_cosine) - 1) < 0.1);
 }
 
+/// All points near the border of the unit square, where rounding is at its worst.
+template <typename Sample, typename Pdf>
+void check_border(const Sample& sample, const Pdf& pdf) {
+    const float last = 1 - 0x1p-24f; // the largest float below 1
+    for (int i = 0; i < 1000; ++i)
+        for (const float edge : {0.0f, last})
+            for (const Vec2 u :
+                 {Vec2{edge, float(i) / 1000}, {float(i) / 1000, edge}}) {
+                CAPTURE(u.x);
+                CAPTURE(u.y);
+                REQUIRE(sample(u).z > 0);
+                REQUIRE(pdf(sample(u)) > 0);
+            }
+}
+
 /// A lamp in the sky that covers the floor's own zenith angle 60 degrees, and a dim
 /// rest.
 struct Night {
@@ -69,6 +84,10 @@ struct Night {
 } // namespace
 
 TEST_CASE("3.1 (2 points) the standard error is that of the mean") {
+    INFO("Expected: sqrt(s^2 / n) with s^2 = sum (y - mean)^2 / (n - 1).\n"
+         "Likely: n for n - 1, or the deviation of one sample in place of the "
+         "mean's.\n"
+         "Read: Estimate; chapter 3.");
     const Estimate four = estimate({1, 2, 3, 6});
     CHECK(four.mean == doctest::Approx(3));
     CHECK(four.error == doctest::Approx(std::sqrt(14.0 / 3 / 4)));
@@ -84,6 +103,9 @@ TEST_CASE("3.1 (2 points) the standard error is that of the mean") {
 }
 
 TEST_CASE("3.2 (2 points) points of the disc are even in area") {
+    INFO("Expected: a quarter of the points within half the radius.\n"
+         "Likely: r = u without its root.\n"
+         "Read: Inversion.");
     auto stream = course::stream(2);
     Mean r2, inner, x, right;
     for (int i = 0; i < 40000; ++i) {
@@ -102,9 +124,13 @@ TEST_CASE("3.2 (2 points) points of the disc are even in area") {
 }
 
 TEST_CASE("3.3 (2 points) uniform directions and their density agree") {
+    INFO("Expected: 1/(2 pi) above the horizon, 0 below, and z uniform in (0, 1].\n"
+         "Likely: the angle uniform in place of its cosine.\n"
+         "Read: Inversion; chapter 13.");
     check_sampler(sample_uniform, pdf_uniform, 1, {0, 0, 1});
     CHECK(pdf_uniform({0, 0, 1}) == doctest::Approx(0.5 / pi));
     CHECK(pdf_uniform(normalize(Vec3{0, 1, -1})) == 0);
+    check_border(sample_uniform, pdf_uniform);
     auto stream = course::stream(3);
     Mean z;
     for (int i = 0; i < 20000; ++i) z.add(sample_uniform(next_2d(stream)).z);
@@ -112,9 +138,13 @@ TEST_CASE("3.3 (2 points) uniform directions and their density agree") {
 }
 
 TEST_CASE("3.4 (2 points) cosine-weighted directions and their density agree") {
+    INFO("Expected: cos/pi above the horizon, 0 below, and z > 0 for every u: at "
+         "the rim 1 - x^2 - y^2 may round to 0 or below it.\n"
+         "Read: Inversion; chapter 13.");
     check_sampler(sample_cosine, pdf_cosine, 1, {0, 0, 1});
     CHECK(pdf_cosine({0, 0.6f, 0.8f}) == doctest::Approx(0.8 / pi));
     CHECK(pdf_cosine(normalize(Vec3{0, 1, -1})) == 0);
+    check_border(sample_cosine, pdf_cosine);
     auto stream = course::stream(3);
     Mean z;
     for (int i = 0; i < 20000; ++i) z.add(sample_cosine(next_2d(stream)).z);
@@ -122,6 +152,9 @@ TEST_CASE("3.4 (2 points) cosine-weighted directions and their density agree") {
 }
 
 TEST_CASE("3.5 (3 points) directions within a cone and their density agree") {
+    INFO("Expected: 1/(2 pi (1 - c)) inside, 0 outside, around the axis.\n"
+         "Likely: around +z, or a density that does not ask where the direction is.\n"
+         "Read: Inversion.");
     for (const float cosine : {0.2f, 0.9f, 0.999f}) {
         const Cone cone{normalize(Vec3{1, -2, 0.5f}), cosine};
         CAPTURE(cosine);
@@ -135,6 +168,10 @@ TEST_CASE("3.5 (3 points) directions within a cone and their density agree") {
 }
 
 TEST_CASE("3.6 (3 points) all ways have the mean of the closed form") {
+    INFO("Expected: L cos / density, and 0 for a direction of the cone below the "
+         "floor.\n"
+         "Likely: the cosine forgotten, or negative there.\n"
+         "Read: Irradiance; chapter 2.");
     const Night night;
     const Sky sky = night.sky();
     auto stream = course::stream(4);
@@ -148,9 +185,21 @@ TEST_CASE("3.6 (3 points) all ways have the mean of the closed form") {
     CHECK(cosine.agrees(night.irradiance()));
     CHECK(cone.agrees(night.bright * night.share(), 1e-3));
     REQUIRE(cone.mean() > 0);
+    // A lamp whose middle lies on the horizon, and light from below the floor, too: of
+    // a cone of half angle a, the upper half gives (2 a - sin 2a) / 2.
+    const Cone half{{1, 0, 0}, 0.5f};
+    Mean low;
+    for (int i = 0; i < 40000; ++i)
+        low.add(
+            irradiance_cone([](const Vec3&) { return 1.0; }, half, next_2d(stream)));
+    CHECK(low.agrees(pi / 3 - std::sqrt(3.0) / 4));
 }
 
 TEST_CASE("3.7 (2 points) an even sky costs cosine-weighted directions no noise") {
+    INFO("Expected: L pi from every cosine-weighted direction, since the cosine "
+         "cancels.\n"
+         "Likely: the cosine twice.\n"
+         "Read: Irradiance; chapter 13.");
     const Sky even = [](const Vec3& d) { return d.z > 0 ? 2.0 : 0.0; };
     auto stream = course::stream(6);
     Mean cosine, uniform;
@@ -164,12 +213,19 @@ TEST_CASE("3.7 (2 points) an even sky costs cosine-weighted directions no noise"
 }
 
 TEST_CASE("3.8 (2 points) the weights of two ways add up to 1") {
+    INFO("Expected: a / (a + b).\n"
+         "Read: Two ways.");
     CHECK(balance(3, 1) == doctest::Approx(0.75));
     CHECK(balance(1, 3) + balance(3, 1) == doctest::Approx(1));
     CHECK(balance(2, 0) == doctest::Approx(1));
 }
 
 TEST_CASE("3.9 (4 points) both ways together are right and have less noise") {
+    INFO("Expected: the irradiance of the whole sky.\n"
+         "Likely: a density of the other direction in a weight, weights swapped, a "
+         "mean of the two ways, or pdf_cone() = 0 for a direction that was drawn "
+         "in the cone.\n"
+         "Read: Two ways; chapter 3.");
     const Night night;
     const Sky sky = night.sky();
     auto stream = course::stream(7);
@@ -180,11 +236,38 @@ TEST_CASE("3.9 (4 points) both ways together are right and have less noise") {
     }
     CHECK(both.agrees(night.irradiance(), 1e-3));
     CHECK(both.variance() < cosine.variance() / 20);
+
+    // A lamp as wide as a third of the sky: both ways have densities of like size.
+    const Night wide{.lamp = {{0, 0, 1}, 0.5f}, .bright = 3};
+    Mean evening;
+    for (int i = 0; i < 100000; ++i)
+        evening.add(
+            irradiance_both(wide.sky(), wide.lamp, next_2d(stream), next_2d(stream)));
+    CHECK(evening.agrees(wide.irradiance(), 1e-3));
+
+    // Lamps like stars, each in a patch of sky that is bright to a little beyond it. A
+    // direction of the cone brings L cos / (p_a + p_b), rounded out of it or not; the
+    // cosine-weighted one is far from the patch.
+    for (int i = 0; i < 20000; ++i) {
+        const float phi = 2 * next_1d(stream) - 1, sine = std::sqrt(0.75f);
+        const Vec3 to_star{sine * std::cos(phi), sine * std::sin(phi), 0.5f};
+        const Cone star{normalize(to_star), 0.999999f};
+        const Sky patch = [&](const Vec3& d) {
+            return dot(d, star.axis) > 0.999f ? 1 : 0;
+        };
+        const double p_b = 1 / (2 * pi * (1 - double(star.cosine)));
+        const double light =
+            irradiance_both(patch, star, {0.5f, 0.5f}, next_2d(stream));
+        REQUIRE(light * (0.5 / pi + p_b) == doctest::Approx(0.5).epsilon(0.02));
+    }
 }
 
 TEST_CASE("3.10 (2 points) each cell of the grid gets one point") {
+    INFO("Expected: one point in each cell, x and y by chance and independent.\n"
+         "Likely: one number for both, or for all cells.\n"
+         "Read: Strata; chapter 3.");
     auto stream = course::stream(8);
-    Mean offset;
+    Mean offset, product;
     for (const int n : {1, 3, 8}) {
         for (int run = 0; run < 20; ++run) {
             const std::vector<Vec2> points = stratified(n, stream);
@@ -194,16 +277,22 @@ TEST_CASE("3.10 (2 points) each cell of the grid gets one point") {
                 REQUIRE((p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1));
                 ++cells[static_cast<std::size_t>(int(p.y * float(n)) * n +
                                                  int(p.x * float(n)))];
-                offset.add(double(p.x) * n - std::floor(double(p.x) * n));
+                const double x = double(p.x) * n, y = double(p.y) * n;
+                offset.add(x - std::floor(x));
+                product.add((x - std::floor(x) - 0.5) * (y - std::floor(y) - 0.5));
             }
             for (const int cell : cells) REQUIRE(cell == 1);
         }
     }
     CHECK(offset.agrees(0.5));
+    CHECK(product.agrees(0)); // x tells nothing about y
     CHECK(offset.variance() == doctest::Approx(1.0 / 12).epsilon(0.1));
 }
 
 TEST_CASE("3.11 (1 point) roulette keeps the mean") {
+    INFO("Expected: value / chance where u < chance, otherwise 0.\n"
+         "Likely: not divided, or divided by the other chance.\n"
+         "Read: Roulette; chapter 3.");
     auto stream = course::stream(9);
     Mean value;
     int ended = 0;

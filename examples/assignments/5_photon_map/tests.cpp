@@ -83,6 +83,10 @@ double seen(const std::vector<Photon>& photons, const Ray& ray = down) {
 } // namespace
 
 TEST_CASE("5.1 (2 points) all photons together carry the flux of all lamps") {
+    INFO("Expected: pi L A of each lamp, over its chance and the number of "
+         "photons, in the colour of the lamp.\n"
+         "Likely: the chance, pi, or the colour missing.\n"
+         "Read: Flux; chapter 22.");
     const Room room{.objects{lamp_at(0, Rgb{1, 2, 3}), lamp_at(9, Rgb{3, 3, 3})}};
     auto stream = course::stream(20);
     constexpr int count = 20000;
@@ -100,6 +104,9 @@ TEST_CASE("5.1 (2 points) all photons together carry the flux of all lamps") {
 }
 
 TEST_CASE("5.2 (2 points) a lamp sends its flux along the cosine") {
+    INFO("Expected: cosine-weighted directions around the normal, even over the "
+         "lamp, and no further cosine in the flux.\n"
+         "Read: Place and direction; chapter 22.");
     const Room room{.objects{lamp_at(0, Rgb{1})}};
     auto stream = course::stream(22);
     constexpr int count = 40000;
@@ -122,6 +129,9 @@ TEST_CASE("5.2 (2 points) a lamp sends its flux along the cosine") {
 }
 
 TEST_CASE("5.3 (2 points) a black wall gets the flux of the lamp") {
+    INFO("Expected: each photon stored where it arrives, the first surface "
+         "included, with the flux that arrives there.\n"
+         "Read: On its way; chapter 22.");
     const Globe globe{.albedo = 0};
     std::vector<Photon> stored;
     CHECK(on_the_wall(globe, 5000, stored).agrees(globe.flux(), 1e-3));
@@ -133,15 +143,39 @@ TEST_CASE("5.3 (2 points) a black wall gets the flux of the lamp") {
 }
 
 TEST_CASE("5.4 (3 points) what arrives in all bounces adds up") {
+    INFO("Expected: flux multiplied by albedo/q at each bounce, in each colour.\n"
+         "Likely: not divided by q, not multiplied because it survived (right for "
+         "grey only), or a normal that is not turned to the photon.\n"
+         "Read: On its way.");
     for (const float albedo : {0.3f, 0.8f}) {
         const Globe globe{.albedo = albedo};
         std::vector<Photon> stored;
         CAPTURE(albedo);
         CHECK(on_the_wall(globe, 40000, stored).agrees(globe.arrives(), 1e-3));
     }
+    // A wall that reflects much of the red and little of the green.
+    Room room = Globe{.albedo = 0.8f}.room();
+    room.objects[0].matter.color = Rgb{0.8f, 0.3f, 0};
+    auto stream = course::stream(23);
+    constexpr int count = 20000;
+    Mean green, blue;
+    for (int i = 0; i < count; ++i) {
+        std::vector<Photon> stored;
+        follow(room, emit(room, count, stream), stream, stored);
+        Rgb flux{0};
+        for (const Photon& photon : stored)
+            if (length(photon.position) > 0.9f) flux += photon.flux;
+        green.add(double(flux.y) * count);
+        blue.add(double(flux.z) * count);
+    }
+    CHECK(green.agrees(Globe{.albedo = 0.3f}.arrives(), 1e-3));
+    CHECK(blue.agrees(Globe{}.flux(), 1e-3));
 }
 
 TEST_CASE("5.5 (2 points) survivors of roulette are no weaker than they were") {
+    INFO("Expected: all photons alike between grey walls: q is the largest "
+         "component of the albedo.\n"
+         "Read: On its way.");
     // Grey walls: by roulette with the albedo every stored photon has the same flux.
     const Globe globe{.albedo = 0.6f};
     std::vector<Photon> stored;
@@ -155,6 +189,9 @@ TEST_CASE("5.5 (2 points) survivors of roulette are no weaker than they were") {
 }
 
 TEST_CASE("5.6 (1 point) the mean of the kernel over the disc is 1") {
+    INFO("Expected: 2 (1 - x), with x = d^2/r^2.\n"
+         "Likely: 1 - x, or d/r.\n"
+         "Read: The kernel.");
     double mean = 0;
     for (int i = 0; i < 1000; ++i)
         mean += double(kernel((float(i) + 0.5f) / 1000)) / 1000;
@@ -165,12 +202,20 @@ TEST_CASE("5.6 (1 point) the mean of the kernel over the disc is 1") {
 }
 
 TEST_CASE("5.7 (3 points) even photons make an even floor whatever their direction") {
+    INFO("Expected: albedo/pi E for any direction of the photons.\n"
+         "Likely: a cosine, which flux has already, or a factor pi.\n"
+         "Read: The estimate; chapter 24.");
     const double exact = 0.5 / pi * 3;
     CHECK(seen(rain(0, {0, 0, -1})) == doctest::Approx(exact).epsilon(0.01));
     CHECK(seen(rain(0, {2, 1, -1})) == doctest::Approx(exact).epsilon(0.01));
 }
 
 TEST_CASE("5.8 (3 points) only photons of this side of this surface count") {
+    INFO("Expected: photons of this side, within half the radius of the plane, on "
+         "both sides of it.\n"
+         "Likely: a normal that is not turned to the ray, or |height| without its "
+         "bars.\n"
+         "Read: Which photons; chapter 24.");
     std::vector<Photon> photons = rain(0, {0, 0, -1});
     const auto add = [&](const std::vector<Photon>& more) {
         photons.insert(photons.end(), more.begin(), more.end());
@@ -184,6 +229,9 @@ TEST_CASE("5.8 (3 points) only photons of this side of this surface count") {
 }
 
 TEST_CASE("5.9 (4 points) the map of a closed room shows the light of all bounces") {
+    INFO("Expected: emission, bounces and estimate together. If 5.1 to 5.8 pass, "
+         "look at what travels from one to the other.\n"
+         "Read: The estimate; chapter 24.");
     const Globe globe{.albedo = 0.7f};
     const Room room = globe.room();
     Mean mean;

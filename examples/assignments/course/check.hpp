@@ -4,10 +4,23 @@
 /// \brief What the tests share: a mean with its standard error.
 
 #include <cmath>
+#include <ostream>
 
 #include "ljus/math/random.hpp"
 
 namespace course {
+
+/// Whether a mean is what it should be; a test that fails prints both.
+struct Verdict {
+    bool holds = false;
+    double mean = 0, error = 0, truth = 0;
+    explicit operator bool() const { return holds; }
+    friend std::ostream& operator<<(std::ostream& out, const Verdict& v) {
+        return out << "mean " << v.mean << ", standard error " << v.error
+                   << "; expected " << v.truth
+                   << " (mean / expected: " << v.mean / v.truth << ")";
+    }
+};
 
 /// The mean of many independent numbers.
 struct Mean {
@@ -27,8 +40,10 @@ struct Mean {
     /// Within five standard errors of the truth, and what the oracle itself may be
     /// off: an estimator without bias fails once in 1.7 million seeds. The seeds are
     /// fixed: the same answer always gets the same verdict.
-    bool agrees(double truth, double slack = 0) const {
-        return std::abs(mean() - truth) <= 5 * error() + slack; // NaN does not agree
+    Verdict agrees(double truth, double slack = 0) const {
+        const double off = std::abs(mean() - truth);
+        const bool holds = off <= 5 * error() + slack; // NaN does not agree
+        return {holds, mean(), error(), truth};
     }
 };
 

@@ -272,13 +272,15 @@ aim(const W& world, const LightChoice& choice, std::span<const ObjectId> targets
 // [aim]
 
 /// Refuses fractions that do not add up to 1.
-/// \param shares   One per target, or none at all.
-/// \param targets  Number of targets.
+/// \param shares  One per target or light, or none at all.
+/// \param count   Number of targets or lights.
+/// \param of      What they are, for the message.
 /// \throws std::invalid_argument  with the wrong value.
-inline void check_shares(std::span<const double> shares, std::size_t targets) {
+inline void check_shares(std::span<const double> shares, std::size_t count,
+                         const char* of = "the number of specular objects") {
     if (shares.empty()) return;
-    require(shares.size() == targets, "the number of shares",
-            static_cast<long long>(shares.size()), "the number of specular objects");
+    require(shares.size() == count, "the number of shares",
+            static_cast<long long>(shares.size()), of);
     double sum = 0;
     for (const double share : shares) {
         require(share >= 0 && share <= 1, "a share of the photons", share,

@@ -200,6 +200,45 @@ pilot_caustics(const W& world, const PhotonPassSettings& pass, T radius,
     return pilots;
 }
 
+/// Traces a few photons from every light, the same number from each, to measure what
+/// each contributes to the caustics. A light that no mirror or glass sees, however
+/// strong, then gets few photons: its share is what share_out() would give by the
+/// scatter \f$ a_k^2 \propto \sum_i \varphi_i^2 \f$ of the photons that were stored,
+/// but with a floor of a tenth in proportion to power. The variance is therefore at
+/// most ten times that of the choice by power, whatever the pilot misses.
+/// \param world  The closed scene.
+/// \param pass   The picture's pass; the pilot sends a twentieth of its photons, at
+///               least 200 and at most 20 000 per light.
+/// \return One fraction per light with the sum 1, as PhotonPassSettings::light_shares;
+///         none for a single light, or if no photon was stored.
+// [pilot_lights]
+template <AnyWorld W>
+[[nodiscard]] std::vector<double> pilot_lights(const W& world,
+                                               PhotonPassSettings pass) {
+    const auto lights = static_cast<long long>(world.light_count());
+    if (lights < 2) return {};
+    pass.photons = std::clamp(pass.photons / 20, 200 * lights, 20000 * lights);
+    pass.give_up = pass.photons;
+    pass.equal_lights = true;
+    pass.shares = pass.light_shares = {};
+    pass.iteration = ~pass.iteration - (1u << 31); // beyond the pilots of objects
+    pass.progress = no_progress;
+    std::vector<double> scatter(static_cast<std::size_t>(lights));
+    for (const auto& photon : trace_photons(world, MapType::caustics, pass).photons) {
+        const double flux = luminance(RgbT<double>(photon.flux));
+        scatter[photon.light] += flux * flux;
+    }
+    double sum = 0;
+    for (double& a : scatter) sum += a = std::sqrt(a);
+    if (!(sum > 0)) return {};
+    std::vector<double> shares;
+    for (std::uint32_t k = 0; k < scatter.size(); ++k)
+        shares.push_back(0.1 * probability_of<double>(world.light_choice(), k) +
+                         0.9 * (scatter[k] / sum));
+    return shares;
+}
+// [pilot_lights]
+
 /// Computes PhotonPassSettings::shares.
 /// \return One fraction per object; none for CausticBudget::as_seen.
 [[nodiscard]] inline std::vector<double>

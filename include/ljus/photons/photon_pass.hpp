@@ -3,6 +3,7 @@
 /// \file ljus/photons/photon_pass.hpp
 /// \brief Settings and results of a photon pass, and its limits.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -55,6 +56,9 @@ struct PhotonPassSettings {
     /// Fractions of the caustic photons, one per object of specular_objects(), with the
     /// sum 1; empty: by the cones that lights see. See \ref budget.
     std::vector<double> shares = {};
+    /// Probabilities with which photons choose their lights, one per light, with the
+    /// sum 1; empty: by power. See pilot_lights().
+    std::vector<double> light_shares = {};
     double max_memory = 4e9;         ///< Bytes for photons during the pass.
     long long give_up = 1LL << 20;   ///< Ends after as many paths if none was stored.
     int threads = 0;                 ///< 0: all processors.
@@ -145,6 +149,23 @@ template <std::floating_point T>
                   caustics ? "something else before the mirror or glass"
                            : "the limit of bounces",
                   percent(audit.escaped), percent(audit.absorbed + audit.roulette));
+    return text;
+}
+
+/// A sentence about a caustics pass with several lights most of whose photons are lost.
+/// \param stored   Photons that it stored.
+/// \param emitted  Photons that it emitted.
+/// \return Empty if at least a tenth was stored.
+[[nodiscard, gnu::cold]] inline std::string few_stored(std::size_t stored,
+                                                       long long emitted) {
+    const double share = double(stored) / double(std::max(emitted, 1LL));
+    if (share >= 0.1) return {};
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "%.3g %% of the photons sent to mirrors and glass are stored: a "
+                  "caustic budget by flux sends more of them from those lights that "
+                  "reach mirrors and glass",
+                  100 * share);
     return text;
 }
 

@@ -4,6 +4,7 @@
 /// \brief A photon pass: emission and tracing by several threads, in a fixed order.
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -81,6 +82,9 @@ template <std::floating_point T>
     require(choice.cumulative.back() > 0, "the power of all lights",
             choice.cumulative.back(), "above 0: a sun needs objects to shine on");
     require_memory<T>(pass, 0);
+    check_shares(pass.light_shares, lights, "the number of lights");
+    std::partial_sum(pass.light_shares.begin(), pass.light_shares.end(),
+                     choice.cumulative.begin());
     for (std::size_t i = 0; pass.equal_lights && i < lights; ++i)
         choice.cumulative[i] = static_cast<double>(i + 1);
     return choice;

@@ -13,10 +13,27 @@ namespace ljus {
 
 /// PhotonMappingSettings::caustic_budget: `abilities<Budgeting>`.
 struct Budgeting {
-    /// No state: the shares are PhotonMapper::settings().caustics.shares.
+    /// No state: the shares are `shares` and `light_shares` in
+    /// PhotonMapper::settings().caustics.
     template <std::floating_point T>
     struct State {};
 };
+
+/// The shares of caustic photons by light for a budget, measured by pilot_lights().
+/// \param world     The closed scene.
+/// \param settings  The budget and the photons.
+/// \return As PhotonPassSettings::light_shares; those in the settings if the budget
+///         measures nothing, or if shares are given.
+template <AnyWorld W>
+[[nodiscard]] std::vector<double>
+caustic_light_shares(const W& world, const PhotonMappingSettings& settings) {
+    const CausticBudget budget = settings.caustic_budget;
+    const bool given =
+        !settings.caustics.light_shares.empty() || !settings.caustics.shares.empty();
+    if (given || budget == CausticBudget::as_seen || budget == CausticBudget::equal)
+        return settings.caustics.light_shares;
+    return pilot_lights(world, settings.caustics);
+}
 
 /// The shares of caustic photons for a budget, estimated by a pilot pass.
 /// \param world     The closed scene.

@@ -118,6 +118,9 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
         auto traced = trace_photons(world, type, pass);
         audit = traced.audit;
         maps.complete = maps.complete && traced.complete;
+        const bool by_power = world.light_count() > 1 && pass.light_shares.empty();
+        if (traced.remark.empty() && by_power && type == MapType::caustics)
+            traced.remark = few_stored(traced.photons.size(), traced.emitted);
         if (!traced.remark.empty()) maps.remarks.append(traced.remark).append("\n");
         return std::move(traced.photons);
     };
@@ -182,8 +185,11 @@ public:
         settings_.caustics.gloss_as_mirrors = settings_.general.gloss_as_mirrors =
             passes_.gloss_as_mirrors;
         if constexpr (has<Budgeting>)
-            if (passes_.caustics_map)
+            if (passes_.caustics_map) {
+                settings_.caustics.light_shares =
+                    caustic_light_shares(world.get(), settings_);
                 settings_.caustics.shares = caustic_shares(world.get(), settings_);
+            }
         maps_ = detail::trace_maps(
             world.get(), settings_, passes_, [&](const auto& photons) {
                 if constexpr (has<Skipping>)

@@ -1,0 +1,100 @@
+#pragma once
+
+/// \file ljus/render/first_hit.hpp
+/// \brief Normals, albedos and distances of what primary rays hit, as pictures.
+
+#include "ljus/path/continue_path.hpp"
+
+namespace ljus {
+
+/// \defgroup first_hit Pictures of the first hit
+/// \brief Normals, albedos and depths: for a look at a scene, and for denoisers, which
+/// take them beside the rendering. Chapter: \ref ch_first_picture_first_hit.
+/// \{
+
+/// What a FirstHitRenderer shows of the surface that a primary ray hits.
+enum class FirstHit {
+    normals, ///< The shading normal n on the visible side, as (n + 1)/2; no hit: 1/2.
+    albedo,  ///< The directional albedo, in [0, 1]; no hit: 0.
+    depth    ///< The distance along the ray, in scene units; no hit: 0.
+};
+
+/// Shows the first hit of each primary ray in a world, which must outlive it. Thin
+/// surfaces let rays pass by chance, as in every renderer.
+template <typename W>
+class FirstHitRenderer {
+public:
+    using Stream = RandomStream; ///< The random stream that render() passes.
+
+    /// \param world  Must outlive the renderer.
+    /// \param shown  What a picture shows.
+    FirstHitRenderer(WorldRef<W> world, FirstHit shown)
+        : world_(world), shown_(shown) {}
+    /// What is rendered.
+    [[nodiscard]] const W& world() const noexcept { return world_.get(); }
+    /// What a picture shows.
+    [[nodiscard]] FirstHit shown() const noexcept { return shown_; }
+
+private:
+    WorldRef<W> world_;
+    FirstHit shown_;
+};
+/// Deduces the world.
+template <typename W>
+FirstHitRenderer(const W&, FirstHit) -> FirstHitRenderer<W>;
+
+/// One sample of the directional albedo of a vertex: the fraction of the light from
+/// `wo` that its material reflects and transmits in all directions. The weight of
+/// sample() has that mean for every material. For a Lambertian surface it has no noise.
+/// \param vertex  The vertex.
+/// \param stream  Three numbers are drawn.
+/// \return Per channel, at least 0.
+template <AnyWorld W, std::floating_point T, StreamLike Stream>
+[[nodiscard]] RgbT<T> sample_albedo(const W& world, const VertexT<T>& vertex,
+                                    Stream& stream) {
+    const Vec3T<T> u = next_3d<T>(stream);
+    return visit_material_at(world, vertex, [&](const auto& material) {
+        // Flux, as radiance has a factor (n_i/n_t)^2 at glass.
+        const auto next = sample(material, vertex.wo, u, Transport::flux, Lobes::all);
+        return next ? next->weight : RgbT<T>{T(0)};
+    });
+}
+
+/// What a primary ray hits first, as a colour.
+/// \param renderer  The world, and what to show.
+/// \param ray       A primary ray.
+/// \param context   The random stream; logs one term.
+/// \return As FirstHit says; not a radiance.
+/// \cost One ray, and one sample() for an albedo.
+/// \report{Section 3.2}
+// [first hit]
+template <AnyWorld W, std::floating_point T, typename Context>
+[[nodiscard]] RgbT<T> radiance(const FirstHitRenderer<W>& renderer, const RayT<T>& ray,
+                               Context& context) {
+    const W& world = renderer.world();
+    auto path = camera_path(world, ray, context.stream);
+    const auto vertex = next_vertex(world, path, context.stream);
+    RgbT<T> seen{renderer.shown() == FirstHit::normals ? T(0.5) : T(0)};
+    if (vertex) {
+        switch (renderer.shown()) {
+        case FirstHit::normals:
+            seen += std::copysign(T(0.5), vertex->wo.z) * vertex->frame.normal;
+            break;
+        case FirstHit::albedo:
+            seen = path.throughput / vertex->stop_probability *
+                   sample_albedo(world, *vertex, context.stream);
+            break;
+        case FirstHit::depth:
+            seen = RgbT<T>{vertex->distance};
+            break;
+        }
+    }
+    context.log.begin();
+    context.log.term("first hit", "", seen);
+    return seen;
+}
+// [first hit]
+
+/// \}
+
+} // namespace ljus
