@@ -103,8 +103,6 @@ struct PictureSlice {
     return hex_text(hash);
 }
 
-namespace detail {
-
 inline constexpr ljus::FileFormat slice_format{"ljus picturepart", 1};
 
 // Calls `each` with every number between the header and the settings' text.
@@ -119,20 +117,17 @@ void each_slice_number(Slice& part, Each each) {
         each(*count);
 }
 
-} // namespace detail
-
 /// Saves a slice: whole, or not at all.
 /// \param path  The file; an older one is replaced at the very end.
 /// \param part  The slice.
 inline void save_slice(const std::string& path, const PictureSlice& part) {
     using ljus::put_number;
-    ljus::Bytes bytes = ljus::file_front(
-        detail::slice_format, std::uint32_t(part.slice.number),
-        std::uint32_t(part.slice.count), std::uint32_t(part.wide ? 8 : 4));
+    ljus::Bytes bytes = ljus::file_front(slice_format, std::uint32_t(part.slice.number),
+                                         std::uint32_t(part.slice.count),
+                                         std::uint32_t(part.wide ? 8 : 4));
     put_number(bytes, std::uint32_t(part.width));
     put_number(bytes, std::uint32_t(part.height));
-    detail::each_slice_number(part,
-                              [&](const auto& number) { put_number(bytes, number); });
+    each_slice_number(part, [&](const auto& number) { put_number(bytes, number); });
     put_number(bytes, std::uint64_t(part.settings.size()));
     bytes.insert(bytes.end(), part.settings.begin(), part.settings.end());
     for (const ljus::RgbT<double>& color : part.pixels)
@@ -150,8 +145,7 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
 /// \throws std::runtime_error  with path and reason: what is cut short, damaged, of
 ///         another version or no slice is refused.
 [[nodiscard]] inline PictureSlice load_slice(const std::string& path) {
-    ljus::FileReader file =
-        ljus::open_file(path, std::size_t(1) << 34, detail::slice_format);
+    ljus::FileReader file = ljus::open_file(path, std::size_t(1) << 34, slice_format);
     PictureSlice part;
     part.slice.number = static_cast<int>(file.take<std::uint32_t>());
     part.slice.count = static_cast<int>(file.take<std::uint32_t>());
@@ -163,7 +157,7 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
     // What has the right checksum and yet no sense was made to mislead.
     const auto width = file.take<std::uint32_t>();
     const auto height = file.take<std::uint32_t>();
-    detail::each_slice_number(
+    each_slice_number(
         part, [&]<typename Number>(Number& number) { number = file.take<Number>(); });
     const auto letters = file.take<std::uint64_t>();
     constexpr auto most = static_cast<std::uint32_t>(ljus::max_pixels);
@@ -191,8 +185,6 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
     return part;
 }
 
-namespace detail {
-
 // Why a slice is not of the picture of another one: the first setting that differs, or
 // nothing.
 inline std::string difference(const PictureSlice& a, const PictureSlice& b) {
@@ -211,8 +203,6 @@ inline std::string difference(const PictureSlice& a, const PictureSlice& b) {
         }
     return "its settings are others";
 }
-
-} // namespace detail
 
 /// A whole picture of slices.
 struct MergedPicture {
@@ -243,7 +233,7 @@ struct MergedPicture {
             fail("'" + path + "' is slice " + slice_text(part.slice) + " and '" +
                  paths.front() + "' " + slice_text(first.slice) +
                  ": slices of one picture have one count");
-        if (const std::string why = detail::difference(first, part); !why.empty())
+        if (const std::string why = difference(first, part); !why.empty())
             fail("'" + path + "' is of another picture than '" + paths.front() +
                  "': " + why);
         std::string& there = of[static_cast<std::size_t>(part.slice.number - 1)];
