@@ -34,13 +34,10 @@ struct Rank {
 template <AnyWorld W>
 std::vector<Photon> photons_of(const W& world, const PhotonPassSettings& pass,
                                const Rank& rank) {
-    const auto targets = specular_objects(world);
-    if (targets.empty()) return {};
+    if (specular_objects(world).empty()) return {};
     const long long first = pass.photons * rank.number / rank.count;
     const long long last = pass.photons * (rank.number + 1) / rank.count;
-    detail::PhotonBlockT<float> mine;
-    detail::trace_block(world, MapType::caustics, world.light_choice(), targets, pass,
-                        {first, last}, mine);
+    const auto mine = trace_photons(world, MapType::caustics, pass, first, last);
     const int count = static_cast<int>(mine.photons.size());
     std::vector<int> counts(std::size_t(rank.count)), before(counts.size() + 1, 0);
     MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);

@@ -35,9 +35,9 @@ bool meets(const Ray& ray, const Box& box) {
 }
 
 std::optional<float> entry(const Ray& ray, const Box& box) {
-    const auto ready = detail::box_ray(ray, box);
+    const auto ready = box_ray(ray, box);
     if (!ready) return std::nullopt;
-    return detail::enter(*ready, box, ray.t_min, ray.t_max);
+    return intersect(*ready, box, ray.t_min, ray.t_max);
 }
 
 bool within(const Box& box, const Vec3T<long double>& p) {
@@ -89,7 +89,7 @@ TEST_CASE("box: no point of a shape is outside of its box") {
     }
 }
 
-TEST_CASE("box: what the slabs say exactly, enter() says too, and little more") {
+TEST_CASE("box: what the slabs say exactly, intersect() says too, and little more") {
     Numbers n;
     int hits = 0, more = 0;
     for (int k = 0; k < 200000; ++k) {
@@ -157,14 +157,14 @@ TEST_CASE("box: NaN is a miss, and so is nothing") {
     CHECK_FALSE(entry({.t_min = not_a_number}, box));
     CHECK_FALSE(entry({.t_max = 2.99f}, box));
     CHECK_FALSE(entry({.t_min = 5.01f}, box));
-    const auto ready = detail::box_ray(Ray{}, box);
-    CHECK_FALSE(detail::enter(*ready, Box{}, 0.0f, inf));
+    const auto ready = box_ray(Ray{}, box);
+    CHECK_FALSE(intersect(*ready, Box{}, 0.0f, inf));
     for (const Ray& bad :
          {Ray{.origin{not_a_number, 0, 0}}, Ray{.direction{not_a_number, 0, 1}},
           Ray{.direction = Vec3{0}}, Ray{.direction{0, 0, inf}},
           Ray{.direction{0, 0, 1e-30f}}, Ray{.direction{0, 0, 1e30f}},
           Ray{.origin{1e30f, 0, 0}}})
-        CHECK_FALSE(detail::box_ray(bad, box));
+        CHECK_FALSE(box_ray(bad, box));
 }
 
 TEST_CASE("box: the slack is 16 units of roundoff of the farthest side") {
@@ -174,18 +174,18 @@ TEST_CASE("box: the slack is 16 units of roundoff of the farthest side") {
             Box box{{0, 0, 0}, {4, 4, 4}};
             (side < 0 ? box.low : box.high)[axis] = side;
             const float reach = std::abs(side - ray.origin[axis]);
-            CHECK(detail::box_ray(ray, box)->slack / (16 * 0x1p-24 * reach) ==
+            CHECK(box_ray(ray, box)->slack / (16 * 0x1p-24 * reach) ==
                   doctest::Approx(1).epsilon(1e-5));
         }
 }
 
 TEST_CASE("box: a range of one point within it is met there, and beyond it is not") {
     const Box box{{-1, -1, -5}, {1, 1, -3}};
-    const auto ready = detail::box_ray(Ray{}, box);
+    const auto ready = box_ray(Ray{}, box);
     REQUIRE(ready);
-    CHECK(detail::enter(*ready, box, 4.0f, 4.0f).value() == 4);
-    CHECK_FALSE(detail::enter(*ready, box, 2.0f, 2.0f));
-    CHECK_FALSE(detail::enter(*ready, box, 6.0f, 6.0f));
+    CHECK(intersect(*ready, box, 4.0f, 4.0f).value() == 4);
+    CHECK_FALSE(intersect(*ready, box, 2.0f, 2.0f));
+    CHECK_FALSE(intersect(*ready, box, 6.0f, 6.0f));
 }
 
 TEST_CASE("box: around a quad it is hardly larger than the quad") {

@@ -392,9 +392,9 @@ TEST_CASE("bvh: what is as far as the end of the ray is still asked") {
     const Bvh tree(boxes, {.leaf_size = 1});
     REQUIRE(tree.nodes().size() == 3);
     const Ray ray{.origin{0, 0.1f, 0.2f}, .direction{1, 0, 0}};
-    const auto ready = detail::box_ray(ray, tree.box());
+    const auto ready = box_ray(ray, tree.box());
     REQUIRE(ready);
-    const auto entry = detail::enter(*ready, boxes[0], ray.t_min, ray.t_max);
+    const auto entry = intersect(*ready, boxes[0], ray.t_min, ray.t_max);
     REQUIRE(entry);
     int asked = 0;
     tree.closest(ray, [&](std::uint32_t, Ray& rest) {

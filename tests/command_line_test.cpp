@@ -323,9 +323,9 @@ TEST_CASE("command_line: two numbers with a character between them") {
 TEST_CASE("command_line: what is said of a program that is stopped") {
     const std::string long_text(5000, 'x');
     examples::when_stopped_say(long_text);
-    CHECK(examples::detail::last_words_text() == ": " + long_text.substr(0, 997));
+    CHECK(examples::last_words_text() == ": " + long_text.substr(0, 997));
     examples::when_stopped_say("two passes are saved");
-    CHECK(examples::detail::last_words_text() == std::string(": two passes are saved"));
+    CHECK(examples::last_words_text() == std::string(": two passes are saved"));
 }
 
 TEST_CASE("command_line: the name of a picture is no folder") {

@@ -94,14 +94,14 @@ PhotonMap even_photons(int count, std::uint64_t seed, bool above = true) {
 
 TEST_CASE("final gathering: the part of the kernel beside a line") {
     for (const double s : {-0.9, -0.3, 0.0, 0.2, 0.7, 0.95})
-        CHECK(detail::kernel_part(s) == doctest::Approx(part_by_rule(s)).epsilon(2e-3));
-    CHECK(detail::kernel_part(-1.0) == 0);
-    CHECK(detail::kernel_part(1.0) == 1);
-    CHECK(detail::kernel_part(7.0) == 1);
-    CHECK(detail::kernel_part(-7.0) == 0);
-    CHECK(detail::kernel_part(std::nan("")) == 1); // no correction
+        CHECK(kernel_part(s) == doctest::Approx(part_by_rule(s)).epsilon(2e-3));
+    CHECK(kernel_part(-1.0) == 0);
+    CHECK(kernel_part(1.0) == 1);
+    CHECK(kernel_part(7.0) == 1);
+    CHECK(kernel_part(-7.0) == 0);
+    CHECK(kernel_part(std::nan("")) == 1); // no correction
     for (const double s : {0.1, 0.5, 0.8}) // the two sides of a line are the whole
-        CHECK(detail::kernel_part(s) + detail::kernel_part(-s) == doctest::Approx(1));
+        CHECK(kernel_part(s) + kernel_part(-s) == doctest::Approx(1));
 }
 
 TEST_CASE("final gathering: what lies on the surface near its edges") {
@@ -110,12 +110,12 @@ TEST_CASE("final gathering: what lies on the surface near its edges") {
         const Flat open = square(triangles);
         const World scene(open);
         const auto part = [&](float x, float y, float radius) {
-            return detail::part_on_surface(scene, at(scene, x, y), up, radius);
+            return part_on_surface(scene, at(scene, x, y), up, radius);
         };
         CAPTURE(triangles);
         CHECK(part(0.5f, 0.45f, 0.1f) == 1); // the diagonal is no edge
-        CHECK(part(0.05f, 0.4f, 0.1f) == doctest::Approx(detail::kernel_part(0.5f)));
-        CHECK(part(0.98f, 0.6f, 0.1f) == doctest::Approx(detail::kernel_part(0.2f)));
+        CHECK(part(0.05f, 0.4f, 0.1f) == doctest::Approx(kernel_part(0.5f)));
+        CHECK(part(0.98f, 0.6f, 0.1f) == doctest::Approx(kernel_part(0.2f)));
         // The same from below as from above, ignoring photons farther down or on tilted
         // surfaces.
         Flat more = open;
@@ -128,11 +128,10 @@ TEST_CASE("final gathering: what lies on the surface near its edges") {
         for (const Vec3 side : {up, -up})
             for (const World<Flat>* there : {&scene, &larger}) {
                 const auto of = [&](float x, float y) {
-                    return detail::part_on_surface(*there, at(*there, x, y), side,
-                                                   0.1f);
+                    return part_on_surface(*there, at(*there, x, y), side, 0.1f);
                 };
-                CHECK(of(0.05f, 0.4f) == doctest::Approx(detail::kernel_part(0.5f)));
-                CHECK(of(0.98f, 0.6f) == doctest::Approx(detail::kernel_part(0.2f)));
+                CHECK(of(0.05f, 0.4f) == doctest::Approx(kernel_part(0.5f)));
+                CHECK(of(0.98f, 0.6f) == doctest::Approx(kernel_part(0.2f)));
                 CHECK(of(0.5f, 0.45f) == 1);
             }
         // A step down or up, lower than the disc is wide, is no way on either.
@@ -142,13 +141,12 @@ TEST_CASE("final gathering: what lies on the surface near its edges") {
                        stairs.add(Lambertian{}));
             const World two(std::move(stairs));
             for (const Vec3 side : {up, -up})
-                CHECK(detail::part_on_surface(two, at(two, 0.98f, 0.6f), side, 0.1f) ==
-                      doctest::Approx(detail::kernel_part(0.2f)));
+                CHECK(part_on_surface(two, at(two, 0.98f, 0.6f), side, 0.1f) ==
+                      doctest::Approx(kernel_part(0.2f)));
         }
         if (!triangles) // at a corner of two triangles each edge is seen by one of them
-            CHECK(
-                part(0.05f, 0.02f, 0.1f) ==
-                doctest::Approx(detail::kernel_part(0.5f) * detail::kernel_part(0.2f)));
+            CHECK(part(0.05f, 0.02f, 0.1f) ==
+                  doctest::Approx(kernel_part(0.5f) * kernel_part(0.2f)));
     }
 }
 
@@ -377,8 +375,7 @@ TEST_CASE("final gathering: an estimate of few photons, added up by hand") {
                           .x);
     };
     CHECK(beside(false) == ljus_test::within(2 * 0.75 / (pi * 0.04), 1e-5));
-    CHECK(beside(true) ==
-          ljus_test::within(beside(false) / detail::kernel_part(0.5), 1e-5));
+    CHECK(beside(true) == ljus_test::within(beside(false) / kernel_part(0.5), 1e-5));
 }
 
 TEST_CASE("final gathering: points at photons, with all the light that is there") {

@@ -93,15 +93,12 @@ TEST_CASE("kd_tree8: each range is halved by one of the axes") {
             CAPTURE(set.name);
             CAPTURE(n);
             const KdTree8 tree{std::span<const Vec3>(set.points)};
-            const auto shape = ljus::detail::KdTree8Shape::of(n);
-            for (int depth = 0; depth < shape.halvings; ++depth)
+            REQUIRE(tree.first_point(0, 1) == n);
+            for (int depth = 0; depth < tree.halvings(); ++depth)
                 for (std::uint64_t i = 0; i < 1ull << depth; ++i) {
-                    const auto point = [&](std::uint64_t block) {
-                        return std::min<std::uint64_t>(8 * block, n);
-                    };
-                    const auto first = point(shape.first_block(depth, i));
-                    const auto middle = point(shape.first_block(depth + 1, 2 * i + 1));
-                    const auto last = point(shape.first_block(depth, i + 1));
+                    const auto first = tree.first_point(depth, i);
+                    const auto middle = tree.first_point(depth + 1, 2 * i + 1);
+                    const auto last = tree.first_point(depth, i + 1);
                     REQUIRE(first < middle);
                     REQUIRE(middle < last);
                     Vec3 low{-1e30f}, high{1e30f};

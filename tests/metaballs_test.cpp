@@ -90,7 +90,7 @@ TEST_CASE("metaballs: the field of one blob by hand, of more by their sum") {
 
 TEST_CASE("metaballs: the gradient agrees with differences, and keeps its bound") {
     const Metaballs balls = peanut();
-    const double bound = detail::lipschitz(balls);
+    const double bound = lipschitz(balls);
     CHECK(bound == doctest::Approx(8 / (3 * std::sqrt(3.0)) * (1 + 1 + 1)));
     Numbers n;
     double steepest = 0;
@@ -112,7 +112,7 @@ TEST_CASE("metaballs: the gradient agrees with differences, and keeps its bound"
     CHECK(steepest > 0.4 * bound); // it says something
     const Metaballs one{.blobs{{.radius = 2}}};
     const Point steep = gradient(one, Point{2 / std::sqrt(3.0), 0, 0});
-    CHECK(glm::length(steep) == doctest::Approx(detail::lipschitz(one)).epsilon(1e-7));
+    CHECK(glm::length(steep) == doctest::Approx(lipschitz(one)).epsilon(1e-7));
 }
 
 TEST_CASE("metaballs: one blob is a sphere, for each solver") {

@@ -249,7 +249,7 @@ TEST_CASE("parallel: what ended while another thread was telling is told at the 
 }
 
 TEST_CASE("parallel: 0 threads are all that there are") {
-    if (ljus::detail::max_threads() < 2) return; // one processor, or asked for so
+    if (ljus::max_threads() < 2) return; // one processor, or asked for so
     std::atomic<int> begun{0};
     ljus::parallel_blocks(2, [&](long long) {
         ++begun;
@@ -442,13 +442,13 @@ TEST_CASE("parallel: a number of threads without sense is refused with its value
                     std::invalid_argument);
     CHECK(ljus::max_threads_allowed == 1024);
     CHECK(ljus::parallel_blocks(1, [](long long) {}, {.threads = 1024}));
-    CHECK(ljus::detail::max_threads() >= 1);
+    CHECK(ljus::max_threads() >= 1);
 #ifdef _OPENMP
     const int before = omp_get_max_threads(); // what OMP_NUM_THREADS says
     omp_set_num_threads(5000);
-    CHECK(ljus::detail::max_threads() == 1024);
+    CHECK(ljus::max_threads() == 1024);
     omp_set_num_threads(7);
-    CHECK(ljus::detail::max_threads() == 7);
+    CHECK(ljus::max_threads() == 7);
     omp_set_num_threads(before);
 #endif
 }

@@ -87,25 +87,6 @@ struct Distances {
     }
 };
 
-const char* name(Ball ball) {
-    switch (ball) {
-    case Ball::lambertian:
-        return "Lambertian";
-    case Ball::oren_nayar:
-        return "Oren-Nayar";
-    case Ball::mirror:
-        return "mirror";
-    case Ball::glass:
-        return "glass";
-    case Ball::mixture:
-        return "mixture";
-    }
-    return "";
-}
-const char* name(Lamp lamp) {
-    return lamp == Lamp::quad ? "quad" : lamp == Lamp::sphere ? "sphere" : "point";
-}
-
 } // namespace
 
 // Each ball under each kind of lamp, and three of them under two lamps. The errors come

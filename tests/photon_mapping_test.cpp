@@ -27,22 +27,6 @@ namespace {
 
 constexpr int size = 80; // pixels on a side
 
-const char* name(Ball ball) {
-    switch (ball) {
-    case Ball::lambertian:
-        return "Lambertian";
-    case Ball::oren_nayar:
-        return "Oren-Nayar";
-    case Ball::mirror:
-        return "mirror";
-    case Ball::glass:
-        return "glass";
-    case Ball::mixture:
-        return "mixture";
-    }
-    return "";
-}
-
 /// A point light under a small mirror that throws a disc of light on the floor: from
 /// the floor it is a second point light, 1.5 above it, of 0.8 of the intensity.
 ClosedRoom mirror_over_floor() {

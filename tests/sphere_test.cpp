@@ -107,12 +107,12 @@ TEST_CASE("sphere: the range of the ray decides which root counts") {
 TEST_CASE("sphere: the chord has both ends, in order, also behind the origin") {
     for (const float z : {-9.0f, -6.0f, -5.5f, -5.0f, -4.25f, -4.0f, 0.0f}) {
         const Sphere ball{.center = {0, 0, -5}, .radius = 1};
-        const auto ends = ljus::detail::chord(Ray{.origin = {0, 0, z}}, ball);
+        const auto ends = ljus::chord(Ray{.origin = {0, 0, z}}, ball);
         REQUIRE(ends);
         CHECK(ends->enter == z + 4);
         CHECK(ends->leave == z + 6);
     }
-    const auto touch = ljus::detail::chord(Ray{.origin = {1, 0, 0}}, Sphere{});
+    const auto touch = ljus::chord(Ray{.origin = {1, 0, 0}}, Sphere{});
     REQUIRE(touch);
     CHECK(touch->enter == 0.0f);
     CHECK(touch->leave == 0.0f);
@@ -164,17 +164,17 @@ TEST_CASE("sphere: invalid data are a miss") {
                 origin.origin[axis] = direction.direction[axis] = bad;
                 center.center[axis] = bad;
                 for (const auto& ray : {origin, direction}) {
-                    CHECK_FALSE(ljus::detail::chord(ray, ball));
+                    CHECK_FALSE(ljus::chord(ray, ball));
                     CHECK_FALSE(ljus::intersect(ray, ball));
                     CHECK_FALSE(ljus::intersect<double>(ray, ball));
                 }
-                CHECK_FALSE(ljus::detail::chord(Ray{}, center));
+                CHECK_FALSE(ljus::chord(Ray{}, center));
                 CHECK_FALSE(ljus::intersect(Ray{}, center));
                 CHECK_FALSE(ljus::intersect<double>(Ray{}, center));
             }
     for (const float radius : {0.0f, -0.0f, -1.0f, not_a_number, infinity, -infinity}) {
         const Sphere bad{.center = {0, 0, -5}, .radius = radius};
-        CHECK_FALSE(ljus::detail::chord(Ray{}, bad));
+        CHECK_FALSE(ljus::chord(Ray{}, bad));
         CHECK_FALSE(ljus::intersect(Ray{}, bad));
         CHECK_FALSE(ljus::intersect<double>(Ray{}, bad));
         CHECK_FALSE(ljus::intersect(Ray{.origin = bad.center}, bad));
@@ -196,8 +196,8 @@ TEST_CASE("sphere: a chord with an end beyond the largest number is none") {
     // In float the square of the distance overflows, and with it the nearer end.
     const Sphere sphere{.radius = 1e19f};
     for (const float way : {-1.0f, 1.0f})
-        CHECK_FALSE(ljus::detail::chord<float>(
-            Ray{.origin{0, 0, 1e20f}, .direction{0, 0, way}}, sphere));
+        CHECK_FALSE(ljus::chord<float>(Ray{.origin{0, 0, 1e20f}, .direction{0, 0, way}},
+                                       sphere));
 }
 
 TEST_CASE("sphere: a hit is never infinitely far away") {
@@ -285,7 +285,7 @@ TEST_CASE_TEMPLATE(
                           .direction =
                               Vec3T<T>(unit * direction * (i % 5 && held ? other : 1))};
         const SphereT<T> sphere{.center = Vec3T<T>(center), .radius = T(radius)};
-        const auto chord = ljus::detail::chord(ray, sphere);
+        const auto chord = ljus::chord(ray, sphere);
         if (!chord) continue;
         ++hits;
         wrong += !(std::isfinite(chord->enter) && std::isfinite(chord->leave) &&
@@ -299,7 +299,7 @@ TEST_CASE_TEMPLATE(
         for (const T length : {T(1), far}) {
             const RayT<T> ray{.origin = {-T(8) * far, T(0), T(0)},
                               .direction = {length, T(0), T(0)}};
-            if (const auto c = ljus::detail::chord(ray, SphereT<T>{.radius = radius}))
+            if (const auto c = ljus::chord(ray, SphereT<T>{.radius = radius}))
                 CHECK((std::isfinite(c->enter) && std::isfinite(c->leave)));
         }
 }

@@ -234,7 +234,7 @@ TEST_CASE_TEMPLATE("surface: slivers do not meet again what leaves them", T, flo
                 const Vec3T<T> way(n.direction());
                 const auto far = static_cast<T>(n.power(-1, 3));
                 const auto check = [&](const auto& shape) {
-                    if (!detail::has_area(shape)) return;
+                    if (!has_area(shape)) return;
                     const auto point = sample_area(shape, n.square<T>());
                     // Below that angle no rounded test knows the side of the plane.
                     const double sine = std::abs(glm::dot(V(way), V(point.normal)));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/glossy.hpp"
 #include "ljus/materials/mixture.hpp"
+#include "ljus/materials/oren_nayar.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/materials/textured.hpp"
 #include "ljus/render/budgeting.hpp"
@@ -341,6 +343,22 @@ TEST_CASE("survey: the hooks of the house's own types") {
     CHECK(has(detail::material_hooks<SoapFilm>(), "pass_through"));
     CHECK(has(detail::material_hooks<SoapFilm>(), "at_point"));
     CHECK(has(detail::material_hooks<Textured<Lambertian, UvPicture>>(), "uses_uv"));
+}
+
+TEST_CASE("survey: a sigma that looks like degrees is remarked on") {
+    Scene<Shapes<Sphere>, Materials<Lambertian, OrenNayar, Mixture>, Lights<PointLight>>
+        scene;
+    scene.add(PointLight{.intensity = Rgb{1}});
+    scene.add(OrenNayar{.sigma = std::numbers::pi_v<float> / 2}); // the steepest slope
+    scene.add(Mixture{.sigma = 0.3f});
+    CHECK(survey(World(scene), {}).remarks.empty());
+    scene.add(OrenNayar{.sigma = 30});
+    scene.add(Mixture{.sigma = 1.7f});
+    const auto remarks = survey(World(std::move(scene)), {}).remarks;
+    REQUIRE(remarks.size() == 1);
+    CHECK(remarks[0] ==
+          "2 material(s) have a sigma above 1.6 radians, where the models of rough "
+          "surfaces hardly change: divide degrees by 57.3");
 }
 
 TEST_CASE("survey: where float stops holding, it says so, with the digits left") {

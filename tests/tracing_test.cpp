@@ -357,6 +357,35 @@ TEST_CASE("tracing: aimed photons equal blind ones, whatever their targets") {
     }
 }
 
+TEST_CASE("tracing: the parts of a pass, joined, are the pass") {
+    const ClosedRoom room = make_room<float>(Ball::mixture, Lamp::quad, 2);
+    for (const MapType map : {MapType::general, MapType::caustics}) {
+        const PhotonPassSettings pass{.photons = 1300, .seed = 7, .threads = 1};
+        const auto whole = trace_photons(room, map, pass);
+        std::vector<Photon> joined;
+        long long first = 0, emitted = 0;
+        for (const long long last : {0, 1, 511, 1000, 1300}) {
+            const auto part = trace_photons(room, map, pass, first, last);
+            joined.insert(joined.end(), part.photons.begin(), part.photons.end());
+            emitted += part.emitted;
+            first = last;
+        }
+        CHECK(emitted == 1300);
+        REQUIRE(joined.size() == whole.photons.size());
+        REQUIRE(joined.size() > 500);
+        for (std::size_t i = 0; i < joined.size(); ++i) {
+            REQUIRE(joined[i].position == whole.photons[i].position);
+            REQUIRE(joined[i].flux == whole.photons[i].flux);
+        }
+        CHECK_THROWS_WITH((void)trace_photons(room, map, pass, -1, 3),
+                          "the first path is -1; it must be at least 0.");
+        CHECK_THROWS_WITH((void)trace_photons(room, map, pass, 4, 3),
+                          "the last path is 3; it must be at least 4.");
+        CHECK_THROWS_WITH((void)trace_photons(room, map, pass, 0, 1301),
+                          "the number of photons is 1300; it must be at least 1301.");
+    }
+}
+
 TEST_CASE("tracing: the kinds of photons are those of their paths") {
     // The walk of a photon is done again beside trace_photon(), from the
     // same random numbers, with its path spelt out; the photons must be

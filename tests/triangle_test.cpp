@@ -411,8 +411,8 @@ TEST_CASE_TEMPLATE("triangle: no area in data of any size and precision is never
     // (Of doubles, edges are a rounding off themselves.)
     if constexpr (sizeof(T) == 4) {
         const T last = std::nextafter(T(1), T(2));
-        CHECK(detail::has_area(Triangle{{0, 0, 0}, {1, last, 0}, {last, 1, 0}}));
-        CHECK(detail::has_area(Triangle{{0, 0, 0}, {1, 1, 0}, {1, last, 0}}));
+        CHECK(has_area(Triangle{{0, 0, 0}, {1, last, 0}, {last, 1, 0}}));
+        CHECK(has_area(Triangle{{0, 0, 0}, {1, 1, 0}, {1, last, 0}}));
     }
 }
 

@@ -29,7 +29,7 @@ void draw_chord(const std::string& folder) {
                     .scale = 105};
     const ljus::RayT<double> ray{.origin{0, 0, 0}, .direction{1, 0.3, 0}};
     const ljus::SphereT<double> ball{.center{3.9, 0.45, 0}, .radius = 1.45};
-    const auto hits = ljus::detail::chord(ray, ball).value();
+    const auto hits = ljus::chord(ray, ball).value();
     const Vec nearest = point_at(ray, (hits.enter + hits.leave) / 2);
     const Point p = flat(nearest), c = flat(ball.center);
     const Point first = flat(point_at(ray, hits.enter));
@@ -69,7 +69,7 @@ void draw_cases(const std::string& folder) {
     draw_line(drawing, examples::circle(flat(ball.center), 1));
     for (const double height : {0.35, 1.0, 1.22}) {
         const ljus::RayT<double> ray{.origin{0, height, 0}, .direction{1, 0, 0}};
-        const auto hits = ljus::detail::chord(ray, ball);
+        const auto hits = ljus::chord(ray, ball);
         draw_arrow(drawing, {0, height}, {4.7, height},
                    {.color = hits ? colors::orange : "#80808090", .width = 2});
         if (!hits) continue;
@@ -80,7 +80,7 @@ void draw_cases(const std::string& folder) {
     draw_area(drawing, examples::circle(flat(around.center), 1), colors::blue);
     draw_line(drawing, examples::circle(flat(around.center), 1));
     const ljus::RayT<double> inside{.origin{6.6, -0.2, 0}, .direction{1, 0.25, 0}};
-    const auto hits = ljus::detail::chord(inside, around).value();
+    const auto hits = ljus::chord(inside, around).value();
     draw_line(drawing, {flat(point_at(inside, -1.2)), flat(inside.origin)},
               {.color = "#80808090", .dashed = true});
     draw_arrow(drawing, flat(inside.origin), flat(point_at(inside, 2.3)),

@@ -59,8 +59,8 @@ void draw_slabs(const std::string& folder) {
                   {colors::orange, 4});
         draw_line(drawing, {beside(y_in, -0.09), beside(y_out, -0.09)},
                   {colors::blue, 4});
-        const auto ready = ljus::detail::box_ray(ray, box).value();
-        const auto entry = ljus::detail::enter(ready, box, 0.0f, 100.0f);
+        const auto ready = ljus::box_ray(ray, box).value();
+        const auto entry = ljus::intersect(ready, box, 0.0f, 100.0f);
         if (entry) draw_dot(drawing, at(double(*entry)), 6, colors::red);
     }
     draw_dot(drawing, {0, 0.35}, 4, "currentColor");
@@ -151,14 +151,14 @@ void draw_tree(const std::string& folder) {
         [&](std::uint32_t slot, ljus::Ray& rest) {
             ++asked;
             const Box& box = boxes[tree.primitive_ids()[slot]];
-            const auto ready = ljus::detail::box_ray(rest, box).value();
-            const auto t = ljus::detail::enter(ready, box, rest.t_min, rest.t_max);
+            const auto ready = ljus::box_ray(rest, box).value();
+            const auto t = ljus::intersect(ready, box, rest.t_min, rest.t_max);
             if (t) rest.t_max = *t, nearest = double(*t);
         },
         [&](std::uint32_t) { ++visited; });
     const auto is_on_the_way = [&](const Box& box) {
-        const auto ready = ljus::detail::box_ray(ray, tree.box()).value();
-        return ljus::detail::enter(ready, box, 0.0f, float(nearest)).has_value();
+        const auto ready = ljus::box_ray(ray, tree.box()).value();
+        return ljus::intersect(ready, box, 0.0f, float(nearest)).has_value();
     };
     for (const Box& box : boxes) {
         draw_area(drawing, outline(box), "currentColor");

@@ -78,7 +78,7 @@ void draw_steps(const std::string& folder) {
                     .scale = 110};
     draw_level(drawing, 0, {.color = colors::red, .width = 2.5});
     const ljus::RayT<double> ray{.origin{0, 2.7, 0}, .direction{0.985, -0.17, 0}};
-    const double lambda = ljus::detail::lipschitz(balls);
+    const double lambda = ljus::lipschitz(balls);
     const auto at = [&](double t) {
         const Vec p = point_at(ray, t);
         return Point{p.x, p.y};

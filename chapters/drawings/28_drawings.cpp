@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <ljus/math/random.hpp>
-#include <ljus/photons/detail/kernel_border.hpp>
+#include <ljus/photons/kernel_border.hpp>
 
 #include "common/command_line.hpp"
 #include "common/drawing.hpp"
@@ -56,7 +56,7 @@ void draw_discs_at_edge(const std::string& folder) {
         draw_dimension(drawing, middle, {x + radius, middle.y}, "r");
         draw_label(drawing, {x, -1.5},
                    "s = " + examples::text(s, "%g") +
-                       ", P = " + examples::text(ljus::detail::kernel_part(s), "%.2f"),
+                       ", P = " + examples::text(ljus::kernel_part(s), "%.2f"),
                    colors::orange);
     }
     draw_dimension(drawing, {4.1, 0}, {4.1, 0.4 * radius}, "s r", "currentColor", 20);

@@ -84,15 +84,13 @@ struct Plan {
 /// The boxes of all ranges after some halvings, over the photons.
 void draw_boxes(const examples::Options& options, const std::vector<Vec3>& points) {
     const KdTree8 tree{std::span<const Vec3>(points)};
-    const auto shape = detail::KdTree8Shape::of(points.size());
     for (const int depth : {2, 4, 6, 8, 99}) {
         Plan plan(points, options.width);
         for (const Vec3& p : points) plan.dot(p, Rgb{0.5f});
-        const int halvings = std::min(depth, shape.halvings);
+        const int halvings = std::min(depth, tree.halvings());
         for (std::uint64_t i = 0; i < 1ull << halvings; ++i) {
-            const auto first = 8 * shape.first_block(halvings, i);
-            const auto last = std::min<std::uint64_t>(
-                8 * shape.first_block(halvings, i + 1), points.size());
+            const auto first = tree.first_point(halvings, i);
+            const auto last = tree.first_point(halvings, i + 1);
             Vec3 low = tree.point(first), high = low;
             for (auto j = first; j < last; ++j) {
                 low = glm::min(low, tree.point(j));
@@ -106,7 +104,7 @@ void draw_boxes(const examples::Options& options, const std::vector<Vec3>& point
     }
     if (!options.quiet)
         std::printf("%zu photons on the floor, %d halvings\n", points.size(),
-                    shape.halvings);
+                    tree.halvings());
 }
 
 // --- Times ----------------------------------------------------------------------------

@@ -161,7 +161,7 @@ void plot_edge(const Borders& found, const examples::Options& options) {
         const double s = 1.2 * double(i) / border_steps;
         const auto k = std::size_t(i);
         plot.rows.push_back(
-            {s, detail::kernel_part(s), found.without[k].mean(), found.with[k].mean()});
+            {s, kernel_part(s), found.without[k].mean(), found.with[k].mean()});
     }
     save_plot(options.out, plot);
 }
@@ -171,10 +171,9 @@ double worst_product() {
     double worst = 0;
     for (double s = 0; s < 1; s += 0.1)
         for (double t = 0; t < 1; t += 0.1)
-            worst = std::max(worst,
-                             std::abs(detail::kernel_part(s) * detail::kernel_part(t) /
-                                          corner_by_rule(s, t) -
-                                      1));
+            worst = std::max(
+                worst,
+                std::abs(kernel_part(s) * kernel_part(t) / corner_by_rule(s, t) - 1));
     return worst;
 }
 

@@ -92,12 +92,7 @@ IrradianceCacheT<double> exact_cache(int run, std::uint64_t seed) {
         records.push_back({.irradiance = RgbT<double>{beside_wall(p.x)},
                            .distance = sees_as_far(p.x)});
     }
-    IrradianceCacheT<double> cache;
-    cache.tree = KdTree8T<double>(positions, 1);
-    for (const std::uint32_t i : cache.tree.point_ids())
-        cache.records.push_back(records[i]);
-    detail::measure_spacing(cache, GatherSettings{}, 1);
-    return cache;
+    return make_irradiance_cache(positions, records, GatherSettings{}, 1);
 }
 
 /// The errors of interpolation with one reach at all points, as means over the runs.

@@ -382,7 +382,7 @@ void slivers(const Run& run) {
             const Vec2T<double> u{n.next(), n.next()};
             const TriangleT<double> sliver{Vec3T<double>(0.0), a, third};
             const Triangle single{Vec3{0}, Vec3(a), Vec3(third)};
-            if (!ljus::detail::has_area(sliver)) continue;
+            if (!ljus::has_area(sliver)) continue;
             auto point = sample_area(sliver, u);
             const auto ray = spawn_ray(point, way);
             again[2] += intersect(ray, sliver).has_value();
@@ -391,7 +391,7 @@ void slivers(const Run& run) {
             constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
             point.error = 7 * unit / (1 - 7 * unit) * (glm::abs(a) + glm::abs(third));
             again[1] += intersect(spawn_ray(point, way), sliver).has_value();
-            if (!ljus::detail::has_area(single)) continue;
+            if (!ljus::has_area(single)) continue;
             again[0] +=
                 intersect(spawn_ray(sample_area(single, Vec2(u)), Vec3(way)), single)
                     .has_value();

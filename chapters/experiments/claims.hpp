@@ -42,8 +42,6 @@ struct Claim {
                                : 2.2;
 }
 
-namespace detail {
-
 /// Collects the claims about one room.
 struct Judge {
     const Notebook& notebook;   ///< The sweep.
@@ -95,8 +93,6 @@ struct Judge {
     }
 };
 
-} // namespace detail
-
 /// Judges a sweep of all knobs.
 ///
 /// Bands of slopes are as wide as the law asks for and chance among four seeds allows;
@@ -107,7 +103,7 @@ struct Judge {
     constexpr double far = std::numeric_limits<double>::infinity();
     std::vector<Claim> claims;
     for (const std::string scene : {"cornell", "caustic", "report"}) {
-        const detail::Judge by{notebook, scene, claims};
+        const Judge by{notebook, scene, claims};
         // Where a few paths carry most of the light, four pictures say little about the
         // noise of path tracing, and noise hides the blur of a caustic.
         if (scene == "cornell")

@@ -39,8 +39,6 @@ using ExtremeSceneT =
                                 ljus::MixtureT<T>, ljus::GlossyT<T>, ljus::EonT<T>>,
                 ljus::Lights<ljus::PointLightT<T>>>;
 
-namespace detail {
-
 /// A shape moved and scaled, rounded once.
 template <std::floating_point T>
 struct Placed {
@@ -106,8 +104,6 @@ ljus::MaterialId add_material(S& scene, const Extreme& how,
                           .absorption = ljus::RgbT<T>(mixture.absorption / how.scale)});
 }
 
-} // namespace detail
-
 /// The room of figures 1 and 15, taken to an extreme: its numbers are worked out in
 /// double, and rounded once. All lamps have the flux of the report's.
 /// \tparam T    The precision of the scene.
@@ -117,14 +113,14 @@ template <std::floating_point T>
 [[nodiscard]] ljus::Room<ExtremeSceneT<T>> extreme_room(const Extreme& how = {}) {
     using namespace ljus;
     const auto from = final_room<double>();
-    const detail::Placed<T> place{how};
+    const Placed<T> place{how};
     ExtremeSceneT<T> scene;
 
     std::vector<std::vector<MaterialId>> ids;
     const auto add_materials = [&](const auto& array) {
         ids.emplace_back();
         for (const auto& material : array)
-            ids.back().push_back(detail::add_material<T>(scene, how, material));
+            ids.back().push_back(add_material<T>(scene, how, material));
     };
     std::apply([&](const auto&... arrays) { (add_materials(arrays), ...); },
                from.world.materials());

@@ -14,8 +14,6 @@
 
 namespace examples {
 
-namespace detail {
-
 inline constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// A squared bias and its standard error.
@@ -190,8 +188,6 @@ inline void save_equal(const std::string& folder, const Notebook& notebook,
     save_table(folder, error);
 }
 
-} // namespace detail
-
 /// Saves all plots and tables of a sweep, and trades.csv with all of it.
 /// \param folder    Where to.
 /// \param notebook  The sweep.
@@ -208,11 +204,11 @@ inline void save_trades(const std::string& folder, const Notebook& notebook,
                                 "noise", "maps", "blocks", "trimmed", "flip", "stamp"});
     for (const std::string& scene : scenes) half.columns.push_back(scene);
     for (const std::string& knob : knobs) {
-        detail::save_knob(folder, notebook, scenes, knob);
+        save_knob(folder, notebook, scenes, knob);
         half.rows.push_back({knob});
         for (const std::string& scene : scenes) {
             const auto lines = notebook.of(scene, knob);
-            half.rows.back().push_back(detail::half_text(lines));
+            half.rows.back().push_back(half_text(lines));
             for (const Measured& m : lines) {
                 std::vector<std::string> cells{m.scene, m.knob, m.value};
                 for (const double number :
@@ -227,9 +223,8 @@ inline void save_trades(const std::string& folder, const Notebook& notebook,
     }
     save_text(folder + "/trades.csv", csv);
     save_table(folder, half);
-    for (const std::string& scene : scenes)
-        detail::save_front(folder, notebook, scene, knobs);
-    detail::save_equal(folder, notebook, scenes);
+    for (const std::string& scene : scenes) save_front(folder, notebook, scene, knobs);
+    save_equal(folder, notebook, scenes);
 }
 
 } // namespace examples

@@ -8,7 +8,7 @@
 #include "experiments/two_rooms.hpp"
 #include "ljus/geometry/facet.hpp"
 #include "ljus/photons/density_estimate.hpp"
-#include "ljus/photons/detail/kernel_border.hpp"
+#include "ljus/photons/kernel_border.hpp"
 #include "ljus/photons/tracing.hpp"
 
 namespace {
@@ -43,7 +43,7 @@ Estimates estimate_at(double x, double z, double radius) {
         figure->map, floor, ljus::Lambertian{.albedo = Rgb{1}}, Vec3{0, 0, 1},
         {.radius = float(radius)}, one_kind(ljus::PhotonKind::direct), gathered);
     const double plain = double(sent.x) * std::numbers::pi / lamp_radiance;
-    const double part = double(ljus::detail::part_on_surface(
+    const double part = double(ljus::part_on_surface(
         figure->rooms.world, floor, floor.point.normal, float(radius)));
     return {plain, plain / part};
 }
@@ -89,8 +89,8 @@ extern "C" {
 /// The part of the disc that the library's correction divides by.
 [[gnu::used]] double part_of_disc(double x, double z, double radius) {
     const ljus::Vertex floor = floor_at(inside(x), z);
-    return double(ljus::detail::part_on_surface(figure->rooms.world, floor,
-                                                floor.point.normal, float(radius)));
+    return double(ljus::part_on_surface(figure->rooms.world, floor,
+                                        floor.point.normal, float(radius)));
 }
 
 /// The estimate by the photons, as it is or corrected at edges.

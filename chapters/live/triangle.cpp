@@ -16,7 +16,7 @@ ljus::RayT<double> down_on(double x, double y) {
 
 /// Its area, positive if the corners turn counter-clockwise for one who looks down.
 double signed_area(const ljus::TriangleT<double>& of) {
-    return ljus::detail::cross_of_edges(of).z / 2;
+    return glm::cross(of.v2 - of.v1, of.v3 - of.v1).z / 2;
 }
 
 } // namespace

@@ -79,7 +79,7 @@ bool names_a_file(std::string out) {
 // OpenMP ends the program if it cannot start its threads, so try to start them here
 // first.
 void require_threads(int wanted) {
-    const int count = wanted == 0 ? ljus::detail::max_threads() : wanted;
+    const int count = wanted == 0 ? ljus::max_threads() : wanted;
     std::vector<std::thread> threads;
     std::string why;
     std::mutex wait;
@@ -119,7 +119,7 @@ std::string take_seed(const std::string& text, std::uint64_t& seed) {
 
 } // namespace
 
-std::string detail::word_in(const std::string& spelled) {
+std::string word_in(const std::string& spelled) {
     // "(ljus::Sampling)9" is not an enumerator; other compilers write "...<...>(void)".
     const std::size_t end = spelled.find_last_of(spelled.back() == ']' ? ']' : '>');
     const std::size_t begin = spelled.rfind(':', end) + 1;
@@ -430,7 +430,7 @@ Options CommandLine::parse(const Presets& presets) {
 int run_main(int argc, const char* const* argv,
              const std::function<void(CommandLine&)>& body) {
     const struct LetBe {
-        ~LetBe() { detail::let_be(); }
+        ~LetBe() { let_be(); }
     } at_the_end;
     std::string name = argc > 0 ? argv[0] : "example";
     const auto complain = [&name](const std::string& what) {
@@ -439,8 +439,7 @@ int run_main(int argc, const char* const* argv,
         return 2;
     };
     const auto stopped = [&name] {
-        std::fprintf(stderr, "%s: stopped%s.\n", name.c_str(),
-                     detail::last_words_text());
+        std::fprintf(stderr, "%s: stopped%s.\n", name.c_str(), last_words_text());
         return 128 + stop_signal();
     };
     try {

@@ -77,8 +77,6 @@ struct Options {
 template <typename Value>
 using Words = std::vector<std::pair<std::string, Value>>;
 
-namespace detail {
-
 // The compiler's name for this function, which holds that of the enumerator, or a
 // number if there is none.
 template <auto value>
@@ -94,8 +92,6 @@ template <auto value>
 // number.
 [[nodiscard]] std::string word_in(const std::string& spelled);
 
-} // namespace detail
-
 /// The words of an enum: its enumerators, with - for _, taken from the compiler so that
 /// no list must be kept in step by hand.
 /// \tparam Enum   An enum class with enumerators from 0 on, at most 16.
@@ -104,7 +100,7 @@ template <typename Enum, typename Value = Enum>
 [[nodiscard]] Words<Value> words_of() {
     Words<Value> words;
     [&words]<int... i>(std::integer_sequence<int, i...>) {
-        (words.emplace_back(detail::word_in(detail::spelled<static_cast<Enum>(i)>()),
+        (words.emplace_back(word_in(spelled<static_cast<Enum>(i)>()),
                             static_cast<Enum>(i)),
          ...);
     }

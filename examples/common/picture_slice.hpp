@@ -104,8 +104,6 @@ struct PictureSlice {
     return hex_text(hash);
 }
 
-namespace detail {
-
 inline constexpr ljus::FileFormat slice_format{"ljus picturepart", 1};
 
 // Calls `each` with each number between the header and the text of the settings.
@@ -120,20 +118,17 @@ void each_slice_number(Slice& part, Each each) {
         each(*count);
 }
 
-} // namespace detail
-
 /// Saves a slice: whole, or not at all.
 /// \param path  The file; an existing one is replaced when the new one is complete.
 /// \param part  The slice.
 inline void save_slice(const std::string& path, const PictureSlice& part) {
     using ljus::put_number;
-    ljus::Bytes bytes = ljus::file_front(
-        detail::slice_format, std::uint32_t(part.slice.number),
-        std::uint32_t(part.slice.count), std::uint32_t(part.wide ? 8 : 4));
+    ljus::Bytes bytes = ljus::file_front(slice_format, std::uint32_t(part.slice.number),
+                                         std::uint32_t(part.slice.count),
+                                         std::uint32_t(part.wide ? 8 : 4));
     put_number(bytes, std::uint32_t(part.width));
     put_number(bytes, std::uint32_t(part.height));
-    detail::each_slice_number(part,
-                              [&](const auto& number) { put_number(bytes, number); });
+    each_slice_number(part, [&](const auto& number) { put_number(bytes, number); });
     put_number(bytes, std::uint64_t(part.settings.size()));
     bytes.insert(bytes.end(), part.settings.begin(), part.settings.end());
     for (const ljus::RgbT<double>& color : part.pixels)
@@ -151,8 +146,7 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
 /// \throws std::runtime_error  with path and reason, if the file is cut short, damaged,
 ///         of another version, or not a slice.
 [[nodiscard]] inline PictureSlice load_slice(const std::string& path) {
-    ljus::FileReader file =
-        ljus::open_file(path, std::size_t(1) << 34, detail::slice_format);
+    ljus::FileReader file = ljus::open_file(path, std::size_t(1) << 34, slice_format);
     PictureSlice part;
     part.slice.number = static_cast<int>(file.take<std::uint32_t>());
     part.slice.count = static_cast<int>(file.take<std::uint32_t>());
@@ -164,7 +158,7 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
     // A file with a valid checksum can still hold impossible numbers.
     const auto width = file.take<std::uint32_t>();
     const auto height = file.take<std::uint32_t>();
-    detail::each_slice_number(
+    each_slice_number(
         part, [&]<typename Number>(Number& number) { number = file.take<Number>(); });
     const auto letters = file.take<std::uint64_t>();
     constexpr auto most = static_cast<std::uint32_t>(ljus::max_pixels);
@@ -192,8 +186,6 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
     return part;
 }
 
-namespace detail {
-
 // Why two slices are not of the same picture: the first setting that differs; empty if
 // none does.
 inline std::string difference(const PictureSlice& a, const PictureSlice& b) {
@@ -212,8 +204,6 @@ inline std::string difference(const PictureSlice& a, const PictureSlice& b) {
         }
     return "its settings are others";
 }
-
-} // namespace detail
 
 /// A picture merged from slices.
 struct MergedPicture {
@@ -244,7 +234,7 @@ struct MergedPicture {
             fail("'" + path + "' is slice " + slice_text(part.slice) + " and '" +
                  paths.front() + "' " + slice_text(first.slice) +
                  ": slices of one picture have one count");
-        if (const std::string why = detail::difference(first, part); !why.empty())
+        if (const std::string why = difference(first, part); !why.empty())
             fail("'" + path + "' is of another picture than '" + paths.front() +
                  "': " + why);
         std::string& there = of[static_cast<std::size_t>(part.slice.number - 1)];

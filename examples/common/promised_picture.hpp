@@ -83,8 +83,6 @@ shoot(const W& world, const C& camera, const Recipe& recipe,
     return seed + 0x9e3779b97f4a7c15u * static_cast<std::uint64_t>(i);
 }
 
-namespace detail {
-
 /// A recipe that a pilot tries, and its small pictures.
 struct Trial {
     Recipe recipe{};
@@ -198,8 +196,6 @@ void try_again(PilotRun& run, std::size_t i, const W& world, const C& camera,
     return found;
 }
 
-} // namespace detail
-
 /// Forecasts the result of each recipe by small pictures: of at most 64 x 64 pixels,
 /// with photons in proportion.
 ///
@@ -222,9 +218,9 @@ template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
                                           const ljus::RenderSettings& picture,
                                           const Promise& promise, Clock&& now) {
     constexpr std::size_t least = 3, most = 64; // pictures of each
-    detail::PilotRun run = detail::make_pilot(world, picture);
+    PilotRun run = make_pilot(world, picture);
     const auto try_again = [&](std::size_t i) {
-        detail::try_again(run, i, world, camera, picture.seed, now);
+        examples::try_again(run, i, world, camera, picture.seed, now);
     };
     const double begin = now();
     const auto patience = [&](const std::vector<Forecast>& found) {
@@ -233,21 +229,21 @@ template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
     };
     for (std::size_t i = 0; i < run.trials.size(); ++i) {
         const bool judge = i == run.large.size(); // as long as all others together
-        const double limit = judge ? patience(detail::forecasts(run, false)) / 2
+        const double limit = judge                 ? patience(forecasts(run, false)) / 2
                              : promise.seconds > 0 ? promise.seconds / 8
                                                    : std::numeric_limits<double>::max();
         if (i > 0 && now() - begin > limit) {
             run.trials.resize(i);
-            return detail::forecasts(run, false);
+            return forecasts(run, false);
         }
         for (std::size_t runs = 0; runs < least; ++runs) try_again(i);
     }
-    auto found = detail::forecasts(run, true);
+    auto found = forecasts(run, true);
     for (std::size_t runs = least; runs < most; ++runs) {
         const double took = now() - begin;
         if (took + took / double(runs) > patience(found)) break;
         for (std::size_t i = 0; i < run.trials.size(); ++i) try_again(i);
-        found = detail::forecasts(run, true);
+        found = forecasts(run, true);
     }
     return found;
 }

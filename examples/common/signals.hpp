@@ -19,8 +19,6 @@ namespace examples {
 /// Thrown by a program that has been asked to stop, after it has put things in order.
 struct Interrupted {};
 
-namespace detail {
-
 // Read by all threads, written by the handler: an atomic that needs no lock may be
 // both.
 inline std::atomic<int> asked_to_stop{0};
@@ -58,28 +56,26 @@ inline void let_be() {
 #endif
 }
 
-} // namespace detail
-
 /// What a program says when it is stopped: what is saved, and how to go on.
 /// \param sentence  Without a full stop.
 inline void when_stopped_say(const std::string& sentence) {
-    const std::size_t next = 1 - detail::last_words_now;
-    auto& text = detail::last_words[next];
+    const std::size_t next = 1 - last_words_now;
+    auto& text = last_words[next];
     const std::string all = ": " + sentence;
     text[all.copy(text.data(), text.size() - 1)] = '\0';
-    detail::last_words_now = next;
+    last_words_now = next;
 }
 
 /// Lets Ctrl-C (and SIGTERM) ask for a stop, and a file-size limit be an error when
 /// writing (SIGXFSZ) instead of the end of the program.
 inline void handle_signals() {
-    detail::let_be();
-    detail::asked_to_stop = 0;
+    let_be();
+    asked_to_stop = 0;
 #ifdef SIGALRM
-    std::signal(SIGALRM, detail::stop_now);
+    std::signal(SIGALRM, stop_now);
 #endif
-    std::signal(SIGINT, detail::ask_to_stop);
-    std::signal(SIGTERM, detail::ask_to_stop);
+    std::signal(SIGINT, ask_to_stop);
+    std::signal(SIGTERM, ask_to_stop);
 #ifdef SIGXFSZ
     std::signal(SIGXFSZ, SIG_IGN);
 #endif
@@ -87,7 +83,7 @@ inline void handle_signals() {
 
 /// The signal that asked for a stop, or 0.
 [[nodiscard]] inline int stop_signal() {
-    return detail::asked_to_stop;
+    return asked_to_stop;
 }
 
 /// \throws Interrupted  if the program has been asked to stop.

@@ -55,8 +55,6 @@ struct ParallelSettings {
     Progress progress = no_progress; ///< Called after a block, by one thread at a time.
 };
 
-namespace detail {
-
 /// The number of threads for `threads = 0`: that of the processors or OMP_NUM_THREADS,
 /// at most max_threads_allowed; 1 without OpenMP.
 [[nodiscard]] inline int max_threads() noexcept {
@@ -67,6 +65,8 @@ namespace detail {
     return 1;
 #endif
 }
+
+namespace detail {
 
 /// The number of blocks of `size` items that cover `total` items; the last block may
 /// have fewer.

@@ -27,14 +27,14 @@ ljus_break_it(NAME final-gathering-side HEADER photons/irradiance_points.hpp
     CASES "final gathering: an even light*")
 
 # No correction at edges: half of the light is missing there.
-ljus_break_it(NAME final-gathering-edge HEADER photons/detail/kernel_border.hpp
+ljus_break_it(NAME final-gathering-edge HEADER photons/kernel_border.hpp
     TEST final_gathering
     FROM "product *= kernel_part(distance / radius);"
     TO   "product *= T(1);"
     CASES "final gathering: an even light*")
 
 # The diagonal of a wall of two triangles taken for an edge.
-ljus_break_it(NAME final-gathering-diagonal HEADER photons/detail/kernel_border.hpp
+ljus_break_it(NAME final-gathering-diagonal HEADER photons/kernel_border.hpp
     TEST final_gathering
     FROM "std::abs(glm::dot(there->point.normal, normal)) > T(0.99);"
     TO   "std::abs(glm::dot(there->point.normal, normal)) > T(2);"
@@ -118,7 +118,7 @@ ljus_break_it(NAME final-gathering-chosen HEADER photons/irradiance_points.hpp
     CASES "final gathering: points at photons*")
 
 # A step lower than the disc is wide is a way on.
-ljus_break_it(NAME final-gathering-step HEADER photons/detail/kernel_border.hpp
+ljus_break_it(NAME final-gathering-step HEADER photons/kernel_border.hpp
     TEST final_gathering
     FROM "T(0.01) * radius"
     TO   "T(1) * radius"
@@ -170,8 +170,8 @@ ljus_break_it(NAME final-gathering-gloss-photons HEADER photons/photon_path.hpp
 # What gloss throws onto a ceiling is dark along its edges.
 ljus_break_it(NAME final-gathering-gloss-edge HEADER render/gathering.hpp
     TEST final_gathering
-    FROM "    return detail::part_on_surface(mapper.world(), vertex, detail::seen_normal(vertex),
-                                   T(how.radius));"
+    FROM "    return part_on_surface(mapper.world(), vertex, detail::seen_normal(vertex),
+                           T(how.radius));"
     TO   "    return T(1);"
     CASES "final gathering: a ceiling over*")
 

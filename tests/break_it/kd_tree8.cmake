@@ -93,3 +93,9 @@ ljus_break_it(NAME wide-kd-tree-no-radius HEADER accel/detail/kd_tree8_walk.hpp 
     FROM "if (!(radius >= T(0))) return {};"
     TO   "(void)0;"
     CASES "kd_tree8: a ball without*")
+
+# The last range ends at a whole block, beyond the points.
+ljus_break_it(NAME wide-kd-tree-range HEADER accel/kd_tree8.hpp TEST kd_tree8
+    FROM "std::min(size(),"
+    TO   "std::max(size(),"
+    CASES "kd_tree8: each range*")

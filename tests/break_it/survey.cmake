@@ -1,3 +1,9 @@
+# A roughness in degrees goes unnoticed.
+ljus_break_it(NAME survey-degrees HEADER render/passes.hpp TEST survey
+    FROM "material.sigma > decltype(material.sigma)(1.6)"
+    TO   "material.sigma > decltype(material.sigma)(100)"
+    CASES "survey: a sigma*")
+
 # The digits of the largest thing, and not of the one that has fewest.
 ljus_break_it(NAME survey-digits HEADER render/passes.hpp TEST survey
     FROM "if (!(ratio > most)) continue;"

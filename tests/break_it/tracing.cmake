@@ -116,3 +116,9 @@ ljus_break_it(NAME tracing-gloss-aim HEADER photons/aiming.hpp TEST tracing
     FROM "(gloss && nearly_specular(m))"
     TO   "(gloss && false)"
     CASES "tracing: with gloss*")
+
+# Each machine of several traces the paths of the first one.
+ljus_break_it(NAME tracing-parts HEADER photons/tracing.hpp TEST tracing
+    FROM "{first, last}, block);"
+    TO   "{0, last - first}, block);"
+    CASES "tracing: the parts of a pass*")

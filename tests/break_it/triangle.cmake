@@ -53,7 +53,7 @@ ljus_break_it(NAME triangle-open HEADER geometry/surface_point.hpp TEST watertig
     CASES "watertight: rays that meet*")
 
 ljus_break_it(NAME triangle-no-area HEADER geometry/triangle.hpp TEST triangle
-    FROM "if (hit && !detail::has_area(triangle)) hit.reset();"
+    FROM "if (hit && !has_area(triangle)) hit.reset();"
     TO   ""
     CASES "triangle: rays aimed at where*")
 

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Checks those rules of CONTRIBUTING.md that a script can check, in every header below
-# include/ljus.
-# Usage: house_rules.sh [FOLDER with ljus/ in it]
+# include/ljus, and in the examples and chapters.
+# Usage: house_rules.sh [FOLDER with ljus/ in it [FOLDER with examples/ and chapters/ in it]]
 . "$(dirname "$0")/common.sh"
 include=${1:-$include}
+root=${2:-$LJUS_ROOT}
 problems=0
 problem() { echo "$*"; problems=$((problems + 1)); }
 
@@ -115,6 +116,13 @@ for name in $(awk '{ named[$1] = 1; from[NR] = $1; to[NR] = $2 }
           for (name in named) if (!reaches[name]) print name }' "$scratch/edges"); do
     problem "$name: it does not include ljus/version.hpp, not even indirectly, which refuses C++17."
 done
+
+# What examples and chapters name is public. (CLI11 has functions in a namespace of that name
+# that its own pages document.)
+while IFS=: read -r name line _; do
+    problem "$name:$line: detail is named outside of include/; make what is needed public."
+done < <(cd "$root" && grep -rnE '(^|[^_a-zA-Z0-9:]|ljus::)detail(::|;| \{)|#include.*/detail/' \
+    examples chapters --include='*.cpp' --include='*.hpp' --include='*.md')
 
 [ $problems -eq 0 ] || { echo "$problems problems"; exit 1; }
 echo "the house rules hold"

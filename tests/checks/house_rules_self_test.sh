@@ -23,8 +23,10 @@ good_house() {
     header ljus/geometry/b.hpp '#include "ljus/math/a.hpp"' '#include "ljus/parallel.hpp"'
     header ljus/scene/load.hpp '#include <nlohmann/json.hpp>'
     header ljus/ljus.hpp '#include "ljus/geometry/b.hpp"'
+    mkdir "$folder/examples" "$folder/chapters"
+    echo 'int main() { CLI::detail::trim(); }' >"$folder/examples/a.cpp"
 }
-rules() { bash "$(dirname "$0")/house_rules.sh" "$folder" 2>&1; }
+rules() { bash "$(dirname "$0")/house_rules.sh" "$folder" "$folder" 2>&1; }
 
 # finds SENTENCE: the rules must fail with this sentence.
 finds() {
@@ -61,6 +63,11 @@ header ljus/render/c.hpp '#include "ljus/scene/load.hpp"'
 finds "an optional header"
 header ljus/attic/c.hpp
 finds "not a room"
+for line in 'int main() { return ljus::detail::f(); }' 'using namespace ljus::detail;' \
+    'namespace detail {' '#include "ljus/math/detail/a.hpp"'; do
+    echo "$line" >"$folder/chapters/a.cpp"
+    finds "detail is named outside"
+done
 printf '#pragma once\n/// \\file ljus/math/a.hpp\n/// \\brief A.\n#include "ljus/math/c.hpp"\n' \
     >"$folder/ljus/math/a.hpp"
 printf '#pragma once\n/// \\file ljus/math/c.hpp\n/// \\brief C.\n' >"$folder/ljus/math/c.hpp"

@@ -1,5 +1,5 @@
 // A world that is gone before it is rendered.
-// says: use of deleted function|call to deleted constructor|conversion function from
+// says: A temporary ends too early: give the object a name
 
 // [mistake]
 #include <ljus/ljus.hpp>

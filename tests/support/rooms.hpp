@@ -53,6 +53,27 @@ enum class Ball { lambertian, oren_nayar, mirror, glass, mixture };
 /// The kind of light in the room.
 enum class Lamp { quad, sphere, point };
 
+/// What the ball is made of, for a test's messages.
+inline const char* name(Ball ball) {
+    switch (ball) {
+    case Ball::lambertian:
+        return "Lambertian";
+    case Ball::oren_nayar:
+        return "Oren-Nayar";
+    case Ball::mirror:
+        return "mirror";
+    case Ball::glass:
+        return "glass";
+    case Ball::mixture:
+        return "mixture";
+    }
+    return "";
+}
+/// The shape of the lamps, for a test's messages.
+inline const char* name(Lamp lamp) {
+    return lamp == Lamp::quad ? "quad" : lamp == Lamp::sphere ? "sphere" : "point";
+}
+
 /// A ball near the middle of the room, above the floor.
 template <typename T>
 void add_ball(RoomT<T>& room, Ball ball) {

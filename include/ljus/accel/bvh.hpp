@@ -150,10 +150,10 @@ private:
         const auto& nodes = tree_.nodes;
         if (nodes.empty() || !(is_finite(ray.origin) && is_finite(ray.direction)))
             return false;
-        const auto with_signs = detail::box_ray(ray, nodes[0].box);
+        const auto with_signs = box_ray(ray, nodes[0].box);
         if (!with_signs) return ask_all(test);
         const auto entry = [&](std::uint32_t i) {
-            return detail::enter(*with_signs, nodes[i].box, ray.t_min, ray.t_max);
+            return intersect(*with_signs, nodes[i].box, ray.t_min, ray.t_max);
         };
         struct Later {
             std::uint32_t node;

@@ -97,6 +97,20 @@ public:
     /// The number of points.
     [[nodiscard]] std::size_t size() const noexcept { return point_ids_.size(); }
 
+    /// How often the points were halved, from all of them down to a leaf.
+    [[nodiscard]] int halvings() const noexcept { return parts_.shape.halvings; }
+
+    /// The index of the first point of a range, in the tree's order. After `depth`
+    /// halvings there are 2^depth ranges, each of which has a box of its own; a range
+    /// ends where the next one begins.
+    /// \param depth   0 to halvings().
+    /// \param number  0 to 2^depth; the last one is the end, size().
+    [[nodiscard]] std::size_t first_point(int depth,
+                                          std::uint64_t number) const noexcept {
+        return std::min(size(),
+                        8 * std::size_t(parts_.shape.first_block(depth, number)));
+    }
+
     /// The size of the tree's arrays in bytes.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return parts_.blocks.size() * sizeof(parts_.blocks[0]) +

@@ -41,7 +41,7 @@ public:
         double area = 0;
         for (std::uint32_t i = 0; i < size(); ++i) {
             const TriangleT<T> one = triangle(i);
-            if (detail::has_area(one))
+            if (has_area(one))
                 area += double(glm::length(detail::cross_of_edges(one))) / 2;
             area_up_to_.push_back(area);
         }

@@ -87,7 +87,7 @@ void smooth_normals(MeshDataT<T>& data) {
     std::vector<Wide> sums(data.positions.size(), Wide{0});
     for (std::size_t i = 0; i < data.triangles.size(); ++i) {
         const TriangleT<T> triangle = detail::triangle_of(data, i);
-        if (!detail::has_area(triangle)) continue;
+        if (!has_area(triangle)) continue;
         const Wide normal = glm::normalize(detail::cross_of_edges(triangle));
         const auto& corner = data.triangles[i];
         for (std::size_t k = 0; k < 3; ++k) {

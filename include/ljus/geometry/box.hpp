@@ -38,8 +38,6 @@ template <std::floating_point T>
     return {glm::min(a.low, point), glm::max(a.high, point)};
 }
 
-namespace detail {
-
 /// A ray with the reciprocals that the test of many boxes shares.
 template <std::floating_point T>
 struct BoxRayT {
@@ -48,12 +46,14 @@ struct BoxRayT {
     std::array<bool, 3> is_negative{}; ///< Sign of `inverse`; -0 counts as negative.
     T slack = T(0); ///< Margin added to all sides of each box, in scene units.
 };
+using BoxRay = BoxRayT<float>; ///< BoxRayT in float.
 
 /// Prepares a ray for intersection with many boxes.
 ///
 /// A tree must find every hit that the shape's own test finds. The rounding of both
 /// tests is proportional to the coordinates relative to the ray's origin. Each box
 /// therefore grows by 16 roundoffs of that size; the slabs alone need 3 \cite ize2013.
+/// \param ray  Its direction may have any length but zero; its range is ignored.
 /// \param all  A box around all boxes to be tested.
 /// \return The prepared ray; nothing if the length of its direction or the distance to
 ///         `all` exceeds the range of T. Then test the shapes themselves.
@@ -62,9 +62,9 @@ template <std::floating_point T>
 [[nodiscard]] std::optional<BoxRayT<T>> box_ray(const RayT<T>& ray,
                                                 const BoxT<T>& all) noexcept {
     using Limits = std::numeric_limits<T>;
-    const T reach = max_component(
-        glm::max(sizes(all.low - ray.origin), sizes(all.high - ray.origin)));
-    const T length = max_component(sizes(ray.direction));
+    const T reach = max_component(glm::max(detail::sizes(all.low - ray.origin),
+                                           detail::sizes(all.high - ray.origin)));
+    const T length = max_component(detail::sizes(ray.direction));
     const bool usable = length * length >= Limits::min() &&
                         length * length <= Limits::max() &&
                         reach * reach <= Limits::max(); // no for NaN
@@ -83,12 +83,16 @@ template <std::floating_point T>
 ///
 /// A ray that lies in the plane of a side gives \f$ 0 \cdot \infty \f$, which is NaN;
 /// the comparisons ignore such an axis.
+/// \param ray    Of box_ray().
+/// \param box    One of the boxes.
+/// \param t_min  First t of the ray, in units of the direction's length.
+/// \param t_max  Last t.
 /// \return The first t of [t_min, t_max] inside the box; nothing for a miss, or if the
 ///         range is NaN.
-// [enter]
+// [slabs]
 template <std::floating_point T>
-[[nodiscard]] std::optional<T> enter(const BoxRayT<T>& ray, const BoxT<T>& box, T t_min,
-                                     T t_max) noexcept {
+[[nodiscard]] std::optional<T> intersect(const BoxRayT<T>& ray, const BoxT<T>& box,
+                                         T t_min, T t_max) noexcept {
     for (int axis = 0; axis < 3; ++axis) {
         const bool back = ray.is_negative[static_cast<std::size_t>(axis)];
         const T low = box.low[axis] - ray.origin[axis] - ray.slack;
@@ -101,9 +105,7 @@ template <std::floating_point T>
     if (!(t_min <= t_max)) return std::nullopt;
     return t_min;
 }
-// [enter]
-
-} // namespace detail
+// [slabs]
 
 /// \}
 

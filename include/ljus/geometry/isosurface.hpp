@@ -73,7 +73,7 @@ template <typename Solver = SphereTracing, std::floating_point T, LipschitzField
 [[nodiscard]] std::optional<T> intersect(const RayT<T>& ray,
                                          const IsosurfaceT<T, Field>& surface,
                                          const Solver& solver = {}) {
-    const auto inside = detail::chord<double>(ray, surface.bounds);
+    const auto inside = chord<double>(ray, surface.bounds);
     if (!inside) return std::nullopt;
     const RayT<double> wide{Vec3T<double>(ray.origin), Vec3T<double>(ray.direction)};
     const detail::LipschitzLine<Field> line{

@@ -38,13 +38,15 @@ template <std::floating_point T>
     return glm::cross(Vec3T<WideT<T>>{quad.edge_u}, Vec3T<WideT<T>>{quad.edge_v});
 }
 
-/// Whether a quad has an area; see span_area().
+} // namespace detail
+
+/// Whether a quad has an area that double's rounding does not hide; one without is
+/// never hit, and has no normal.
 template <std::floating_point T>
 [[nodiscard]] bool has_area(const QuadT<T>& quad) noexcept {
-    return span_area(Vec3T<WideT<T>>{quad.edge_u}, Vec3T<WideT<T>>{quad.edge_v});
+    return detail::span_area(Vec3T<WideT<T>>{quad.edge_u},
+                             Vec3T<WideT<T>>{quad.edge_v});
 }
-
-} // namespace detail
 
 /// Intersects a ray with a quad.
 /// \tparam Compute  The precision of the arithmetic; by default double, as for
@@ -59,7 +61,7 @@ template <typename Compute = void, std::floating_point T>
     using C = ComputeT<Compute, WideT<T>>;
     auto hit = moller_trumbore<Spanned::parallelogram, C>(
         ray, Vec3T<C>{quad.corner}, Vec3T<C>{quad.edge_u}, Vec3T<C>{quad.edge_v});
-    if (hit && !detail::has_area(quad)) hit.reset();
+    if (hit && !has_area(quad)) hit.reset();
     return hit;
 }
 

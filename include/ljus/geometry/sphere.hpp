@@ -35,14 +35,13 @@ struct SphereT {
 using Sphere = SphereT<float>; ///< SphereT in float.
 // [sphere]
 
-namespace detail {
-
 /// The segment of a line inside a ball.
 template <std::floating_point T>
 struct ChordT {
     T enter = T(0); ///< The smaller root, in units of the direction's length.
     T leave = T(0); ///< The larger root, at least `enter`.
 };
+using Chord = ChordT<float>; ///< ChordT in float.
 
 /// Both distances at which the infinite line of a ray meets a sphere.
 ///
@@ -92,8 +91,6 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
 }
 // [chord ends]
 
-} // namespace detail
-
 /// The distance at which a ray first hits a sphere, from outside or inside.
 /// \tparam Compute  The precision of the arithmetic; t is rounded to T once. In double,
 ///                  every hit or miss of the tests' float data is decided correctly.
@@ -107,7 +104,7 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<T> intersect(const RayT<T>& ray,
                                          const SphereT<T>& sphere) noexcept {
-    const auto hits = detail::chord<Compute>(ray, sphere);
+    const auto hits = chord<Compute>(ray, sphere);
     if (!hits) return std::nullopt;
     // A ray may be unbounded, but no hit is at infinity.
     const T t_max = glm::min(ray.t_max, std::numeric_limits<T>::max());

@@ -47,15 +47,16 @@ template <std::floating_point T>
                       Vec3T<WideT<T>>{triangle.v3} - v1);
 }
 
-/// Whether a triangle has an area; see span_area().
+} // namespace detail
+
+/// Whether a triangle has an area that double's rounding does not hide; one without is
+/// never hit, and has no normal.
 template <std::floating_point T>
 [[nodiscard]] bool has_area(const TriangleT<T>& triangle) noexcept {
     const Vec3T<WideT<T>> v1{triangle.v1};
-    return span_area(Vec3T<WideT<T>>{triangle.v2} - v1,
-                     Vec3T<WideT<T>>{triangle.v3} - v1);
+    return detail::span_area(Vec3T<WideT<T>>{triangle.v2} - v1,
+                             Vec3T<WideT<T>>{triangle.v3} - v1);
 }
-
-} // namespace detail
 
 /// Intersects a ray with a triangle.
 /// \tparam Compute  The precision of the arithmetic; by default double, in which no ray
@@ -64,7 +65,7 @@ template <std::floating_point T>
 /// \param ray       Its direction may have any length but zero; hits lie in
 ///                  [t_min, t_max].
 /// \param triangle  Any three vertices. A triangle without an area, or whose area is
-///                  lost in double's rounding, is never hit: see detail::span_area().
+///                  lost in double's rounding, is never hit: see has_area().
 /// \return t, and the barycentric u, v of the hit \f$(1-u-v)V_1 + uV_2 + vV_3\f$;
 ///         nothing for a miss.
 /// \report{Section 3.1.5}
@@ -77,7 +78,7 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
         ray, v1, Vec3T<C>{triangle.v2} - v1, Vec3T<C>{triangle.v3} - v1);
     // Rounding may give collinear corners an area. (A single return of a single
     // variable avoids a copy.)
-    if (hit && !detail::has_area(triangle)) hit.reset();
+    if (hit && !has_area(triangle)) hit.reset();
     return hit;
 }
 

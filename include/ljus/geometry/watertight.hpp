@@ -108,7 +108,7 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle,
     if (!(W(ray.t_min) <= t && t <= W(ray.t_max) && t <= max && shear.sz != 0))
         return std::nullopt;
     // Shear and rounding may give collinear corners an area.
-    if (!detail::has_area(triangle)) return std::nullopt;
+    if (!has_area(triangle)) return std::nullopt;
     return ShapeHitT<T>{static_cast<T>(t), static_cast<T>(u * inverse),
                         static_cast<T>(v * inverse), 0};
 }

@@ -11,8 +11,8 @@
 #include "ljus/parallel.hpp"
 #include "ljus/path/all_lights.hpp"
 #include "ljus/photons/density_estimate.hpp"
-#include "ljus/photons/detail/kernel_border.hpp"
 #include "ljus/photons/irradiance_settings.hpp"
+#include "ljus/photons/kernel_border.hpp"
 
 namespace ljus {
 
@@ -91,9 +91,9 @@ estimate_irradiance(const W& world, const PhotonMapT<T>& map, const VertexT<T>& 
             kernel_weight(Kernel::epanechnikov, near.distance2 / radius2);
         sum += weight * RgbT<double>(photon.flux);
     }
-    const T part = settings.edges ? detail::part_on_surface(world, vertex, normal,
-                                                            T(std::sqrt(radius2)))
-                                  : T(1);
+    const T part = settings.edges
+                       ? part_on_surface(world, vertex, normal, T(std::sqrt(radius2)))
+                       : T(1);
     return detail::per_area<T>(sum, radius2) / part;
     // [estimate_irradiance]
 }

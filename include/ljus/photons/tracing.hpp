@@ -90,6 +90,17 @@ template <std::floating_point T>
     return choice;
 }
 
+/// The objects at which the photons of a pass are aimed: none for the general map.
+/// \throws std::invalid_argument  if the shares do not suit them.
+template <AnyWorld W>
+[[nodiscard]] std::vector<ObjectId> targets_of(const W& world, MapType map,
+                                               const PhotonPassSettings& pass) {
+    if (map == MapType::general) return {};
+    auto targets = specular_objects(world, pass.gloss_as_mirrors);
+    check_shares(pass.shares, targets.size());
+    return targets;
+}
+
 /// A type-erased trace_block(), so that run_pass() is compiled only once for all types
 /// of scenes.
 template <std::floating_point T>
@@ -157,11 +168,8 @@ template <AnyWorld W>
 trace_photons(const W& world, MapType map, const PhotonPassSettings& pass) {
     using T = typename W::Scalar;
     const LightChoice choice = detail::start_pass<T>(pass, world.light_choice());
-    const bool caustics = map == MapType::caustics;
-    const auto targets = caustics ? specular_objects(world, pass.gloss_as_mirrors)
-                                  : std::vector<ObjectId>{};
-    if (caustics) check_shares(pass.shares, targets.size());
-    if (caustics && targets.empty()) return {.emitted = pass.photons};
+    const auto targets = detail::targets_of(world, map, pass);
+    if (map == MapType::caustics && targets.empty()) return {.emitted = pass.photons};
 
     const auto trace = [&](const detail::BlockRange& paths,
                            detail::PhotonBlockT<T>& block) {
@@ -172,6 +180,35 @@ trace_photons(const W& world, MapType map, const PhotonPassSettings& pass) {
         (*static_cast<const decltype(trace)*>(tracer))(paths, block);
     };
     return detail::run_pass<T>(map, pass, {&trace, call});
+}
+
+/// Emits and traces some of the paths of a pass, by one thread, so that several
+/// processes can share a pass: what they trace of it, joined in order, is what
+/// trace_photons() traces.
+/// \param world  The closed scene, with at least one light.
+/// \param map    The kind of map.
+/// \param pass   The settings of the whole pass, without `threads`, `progress` and
+///               `give_up`.
+/// \param first  The first path, 0 or more.
+/// \param last   One past the last path, at most `pass.photons`.
+/// \return Their photons in the order of emission, and where their flux went.
+/// \throws std::invalid_argument  as trace_photons(), or if there are no such paths.
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] TracedPhotonsT<typename W::Scalar>
+trace_photons(const W& world, MapType map, const PhotonPassSettings& pass,
+              long long first, long long last) {
+    using T = typename W::Scalar;
+    require_at_least("the first path", first, 0);
+    require_at_least("the last path", last, first);
+    require_at_least("the number of photons", pass.photons, last);
+    const LightChoice choice = detail::start_pass<T>(pass, world.light_choice());
+    const auto targets = detail::targets_of(world, map, pass);
+    detail::PhotonBlockT<T> block;
+    if (map == MapType::general || !targets.empty())
+        detail::trace_block(world, map, choice, targets, pass, {first, last}, block);
+    return {.photons = std::move(block.photons),
+            .audit = block.audit,
+            .emitted = last - first};
 }
 
 /// \}

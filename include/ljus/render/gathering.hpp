@@ -45,8 +45,8 @@ template <typename Mapper, std::floating_point T>
 [[nodiscard]] T part_of_caustics(const Mapper& mapper, const VertexT<T>& vertex) {
     const DensityEstimateSettings& how = mapper.settings().caustics_estimate;
     if (!mapper.passes().gloss_as_mirrors || how.nearest > 0) return T(1);
-    return detail::part_on_surface(mapper.world(), vertex, detail::seen_normal(vertex),
-                                   T(how.radius));
+    return part_on_surface(mapper.world(), vertex, detail::seen_normal(vertex),
+                           T(how.radius));
 }
 
 /// The radiance that a surface reflects where a gather ray ends on it, by the

@@ -180,6 +180,27 @@ void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
 
 } // namespace detail
 
+/// Makes a cache of points where irradiance is known, and finds the spacing of each.
+/// \param positions  The points, in scene units.
+/// \param records    Their irradiance and normals, in the same order.
+/// \param settings   Its `nearest` neighbours of like normals determine the spacing.
+/// \param threads    As in ParallelSettings; the cache does not depend on it.
+/// \throws std::invalid_argument  if a position is not finite.
+/// \cost O(n log n).
+template <std::floating_point T>
+[[nodiscard]] IrradianceCacheT<T>
+make_irradiance_cache(const std::vector<Vec3T<T>>& positions,
+                      const std::vector<GatheredT<T>>& records,
+                      const GatherSettings& settings, int threads = 0) {
+    IrradianceCacheT<T> cache;
+    cache.tree = KdTree8T<T>(positions, threads);
+    cache.records.reserve(records.size());
+    for (const std::uint32_t i : cache.tree.point_ids())
+        cache.records.push_back(records[i]);
+    detail::measure_spacing(cache, settings, threads);
+    return cache;
+}
+
 /// Gathers irradiance for a picture, by one camera ray through each tile of pixels.
 /// \param world     The closed scene.
 /// \param lookup    The data that gather rays look up.
@@ -211,23 +232,21 @@ make_irradiance_cache(const W& world, const GatherLookupT<typename W::Scalar>& l
                                  rows[static_cast<std::size_t>(y)]);
         }
     };
-    IrradianceCacheT<T> cache;
-    cache.complete =
+    const bool complete =
         parallel_blocks(static_cast<long long>(rows.size()), gather_row,
                         {.threads = picture.threads, .progress = picture.progress});
     // [make_irradiance_cache]
     std::vector<Vec3T<T>> positions;
     std::vector<GatheredT<T>> records;
+    Counts counts;
     for (const auto& row : rows) {
         positions.insert(positions.end(), row.positions.begin(), row.positions.end());
         records.insert(records.end(), row.records.begin(), row.records.end());
-        cache.counts += row.counts;
+        counts += row.counts;
     }
-    cache.tree = KdTree8T<T>(positions, picture.threads);
-    cache.records.reserve(records.size());
-    for (const std::uint32_t i : cache.tree.point_ids())
-        cache.records.push_back(records[i]);
-    detail::measure_spacing(cache, settings, picture.threads);
+    auto cache = make_irradiance_cache(positions, records, settings, picture.threads);
+    cache.counts = counts;
+    cache.complete = complete;
     return cache;
 }
 

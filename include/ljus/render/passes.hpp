@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "ljus/path/next_vertex.hpp"
@@ -215,6 +216,22 @@ template <AnyWorld W>
     return count;
 }
 
+/// The number of materials whose facets have slopes beyond a right angle.
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] long long steep_materials(const W& world) {
+    const auto count = [](const auto& array) {
+        return std::count_if(array.begin(), array.end(), [](const auto& material) {
+            if constexpr (requires { material.sigma > 0; })
+                return material.sigma > decltype(material.sigma)(1.6);
+            else
+                return false;
+        });
+    };
+    return std::apply(
+        [&](const auto&... arrays) { return (0LL + ... + count(arrays)); },
+        world.materials());
+}
+
 } // namespace detail
 
 /// The warnings of a survey about a scene.
@@ -230,6 +247,11 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
                           "an object with a radiance, or a point light");
     if (std::string digits = detail::digits_remark(world); !digits.empty())
         remarks.push_back(std::move(digits));
+    if (const long long steep = detail::steep_materials(world); steep > 0)
+        remarks.push_back(detail::join(
+            {to_text(steep), " material(s) have a sigma above 1.6 radians, where the "
+                             "models of rough surfaces hardly change: divide degrees "
+                             "by 57.3"}));
     const std::size_t narrow =
         settings.direct == DirectLight::sampled ? detail::narrow_lobes(world) : 0;
     if (narrow > 0)

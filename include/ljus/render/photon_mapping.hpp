@@ -63,14 +63,21 @@ struct PhotonMapsT {
 
 namespace detail {
 
-/// The state of an ability in one precision; a stream has none.
+/// Whether the header of an ability is included.
+template <typename X>
+concept Included = requires {
+    sizeof(X);
+};
+
+/// The state of an ability in one precision; a stream has none, nor an ability whose
+/// header is missing.
 template <typename X, std::floating_point T>
 struct StateOf {
     using Type = typename X::template State<T>; ///< The state.
 };
 /// For a stream.
-template <StreamLike X, std::floating_point T>
-struct StateOf<X, T> {
+template <typename X, std::floating_point T>
+requires(!Included<X> || StreamLike<X>) struct StateOf<X, T> {
     using Type = Abilities<X>; ///< No state.
 };
 
@@ -83,8 +90,8 @@ struct StreamAmong {
 template <typename First, typename... X>
 struct StreamAmong<First, X...> : StreamAmong<X...> {};
 /// The first is a stream.
-template <StreamLike First, typename... X>
-struct StreamAmong<First, X...> {
+template <typename First, typename... X>
+requires(Included<First>&& StreamLike<First>) struct StreamAmong<First, X...> {
     using Type = First; ///< The one that is listed.
 };
 
@@ -161,6 +168,10 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
 ///            over the rays of a pixel.
 template <typename W, typename... X>
 class PhotonMapper {
+    static_assert((detail::Included<X> && ...),
+                  "Include the header of each ability: ljus/render/gathering.hpp for "
+                  "Gathering, skipping.hpp for Skipping, budgeting.hpp for Budgeting.");
+
 public:
     using Scalar = typename W::Scalar; ///< The precision.
     /// The random stream that render() passes to it.
@@ -169,7 +180,7 @@ public:
     using Batch = detail::CausticsBatch<Scalar>;
     /// Whether an ability is listed.
     template <typename A>
-    static constexpr bool has = (std::is_same_v<A, X> || ...);
+    static constexpr bool has = ((std::is_same_v<A, X> && detail::Included<X>) || ...);
 
     /// Traces the photons that the scene requires.
     /// \param world     Must outlive the mapper.

@@ -206,15 +206,26 @@ render_rows(const R& renderer, const C& camera, const RenderSettings& picture,
 /// \return The picture, the same for any number of threads. A sample that is not finite
 ///         is left out and counted.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1.
-template <typename R, CameraLike C>
-[[nodiscard]] RenderedT<typename C::Scalar> render(const R& renderer, const C& camera,
-                                                   const RenderSettings& picture) {
-    using T = typename C::Scalar;
-    static_assert(Renderer<R, T>, "This is no Renderer, such as PathTracer(world).");
-    if constexpr (Renderer<R, T>)
-        return render_rows(renderer, camera, picture, {0, picture.height});
-    else
-        return {};
+template <typename R, typename C>
+[[nodiscard]] auto render(const R& renderer, const C& camera,
+                          const RenderSettings& picture) {
+    static_assert(
+        CameraLike<C>,
+        "This is no camera: it has a type Scalar and camera_ray(camera, pixel, "
+        "width, height, stream), which returns a Ray.");
+    if constexpr (CameraLike<C>) {
+        using T = typename C::Scalar;
+        static_assert(
+            Renderer<R, T>,
+            "This is no Renderer, such as PathTracer(world): it has a type "
+            "Stream and radiance(renderer, ray, context), which returns an Rgb.");
+        if constexpr (Renderer<R, T>)
+            return render_rows(renderer, camera, picture, {0, picture.height});
+        else
+            return RenderedT<T>{};
+    } else {
+        return RenderedT<float>{};
+    }
 }
 
 /// \}

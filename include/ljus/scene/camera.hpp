@@ -109,8 +109,11 @@ template <std::floating_point T, StreamLike Stream>
 ///     Ray camera_ray(const MyCamera&, const Vec2& pixel, int width, int height,
 ///                    auto& stream);
 template <typename C>
-concept CameraLike = requires(const C& camera, const Vec2T<typename C::Scalar>& pixel,
-                              RandomStream& stream) {
+concept CameraLike = requires {
+    typename C::Scalar;
+}
+&&requires(const C& camera, const Vec2T<typename C::Scalar>& pixel,
+           RandomStream& stream) {
     {
         camera_ray(camera, pixel, 1, 1, stream)
         } -> std::same_as<RayT<typename C::Scalar>>;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// \file ljus/photons/detail/kernel_border.hpp
+/// \file ljus/photons/kernel_border.hpp
 /// \brief The fraction of a kernel's disc that lies on a surface, near its border.
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "ljus/path/next_vertex.hpp"
 
-namespace ljus::detail {
+namespace ljus {
 
 /// \addtogroup irradiance_points
 /// \{
@@ -29,6 +29,8 @@ template <std::floating_point T>
     return T(0.5) + integral / (T(3) * std::numbers::pi_v<T>);
 }
 // [kernel_part]
+
+namespace detail {
 
 /// Finds the surface near a point by a short ray.
 /// \param normal  Unit normal of the expected surface.
@@ -58,14 +60,18 @@ template <AnyWorld W, std::floating_point T>
     return there && std::abs(glm::dot(there->point.normal, normal)) > T(0.99);
 }
 
+} // namespace detail
+
 /// The fraction of a kernel's disc that lies on the surface. Each straight edge of the
 /// shape cuts off a segment, unless another surface continues there, as at the diagonal
 /// of a wall of two triangles. If several edges cut the disc, their fractions are
 /// multiplied, which is exact for a product kernel and close for this one.
+/// \param world   The closed scene.
 /// \param vertex  The centre.
 /// \param normal  Unit normal, on the side of the irradiance.
-/// \param radius  Radius of the disc.
+/// \param radius  Radius of the disc, in scene units.
 /// \return In (0, 1]; 1 for shapes without straight edges.
+/// \cost A ray per edge that cuts the disc.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] T part_on_surface(const W& world, const VertexT<T>& vertex,
                                 const Vec3T<T>& normal, T radius) {
@@ -84,7 +90,7 @@ template <AnyWorld W, std::floating_point T>
             const T distance = glm::dot(x - a, inward);
             if (!(distance < radius)) continue;
             const Vec3T<T> beyond = x - (distance + T(0.02) * radius) * inward;
-            if (!goes_on(world, beyond, normal, T(0.01) * radius))
+            if (!detail::goes_on(world, beyond, normal, T(0.01) * radius))
                 product *= kernel_part(distance / radius);
         }
         return product;
@@ -100,4 +106,4 @@ template <AnyWorld W, std::floating_point T>
 
 /// \}
 
-} // namespace ljus::detail
+} // namespace ljus
