@@ -45,9 +45,8 @@ namespace detail {
 }
 
 /// The intersection of two boxes, larger by a distance on all sides.
-[[nodiscard]] inline BoxT<double> common_box(const BoxT<double>& a,
-                                             const BoxT<double>& b,
-                                             double distance) noexcept {
+[[nodiscard]] inline BoxT<double>
+common_box(const BoxT<double>& a, const BoxT<double>& b, double distance) noexcept {
     return {glm::max(a.low, b.low) - distance, glm::min(a.high, b.high) + distance};
 }
 
@@ -117,16 +116,16 @@ shared_by_spheres(const SphereT<double>& a, const SphereT<double>& b,
     const glm::dvec3 way = b.center - a.center;
     const double apart = glm::length(way), less = std::min(a.radius, b.radius);
     if (apart + std::abs(a.radius - b.radius) <= distance)
-        return SharedPlace{.box = common_box(box_of({.sphere = a}),
-                                             box_of({.sphere = b}), distance),
-                           .over_area = true,
-                           .alike = true};
+        return SharedPlace{
+            .box = common_box(box_of({.sphere = a}), box_of({.sphere = b}), distance),
+            .over_area = true,
+            .alike = true};
     if (std::abs(apart - (a.radius + b.radius)) <= distance)
         return SharedPlace{
             .box = box_of_touch(a.center + a.radius / apart * way, less, distance)};
     if (std::abs(apart - std::abs(a.radius - b.radius)) <= distance)
-        return SharedPlace{.box = common_box(box_of({.sphere = a}),
-                                             box_of({.sphere = b}), distance)};
+        return SharedPlace{
+            .box = common_box(box_of({.sphere = a}), box_of({.sphere = b}), distance)};
     return std::nullopt;
 }
 
@@ -137,15 +136,15 @@ shared_by_spheres(const SphereT<double>& a, const SphereT<double>& b,
 /// \param distance    Surfaces within this distance count as in one place; scene units.
 /// \return The place; nothing if they cross, or only share an edge or a corner.
 // [shared_place]
-[[nodiscard]] inline std::optional<SharedPlace>
-shared_place(const SurfacePiece& one, const SurfacePiece& other,
-             double distance) noexcept {
+[[nodiscard]] inline std::optional<SharedPlace> shared_place(const SurfacePiece& one,
+                                                             const SurfacePiece& other,
+                                                             double distance) noexcept {
     const bool flat = one.facet.count > 0, other_flat = other.facet.count > 0;
     auto shared =
         flat && other_flat ? detail::shared_by_facets(one.facet, other.facet, distance)
         : flat             ? detail::shared_by_ball(one.facet, other.sphere, distance)
         : other_flat       ? detail::shared_by_ball(other.facet, one.sphere, distance)
-               : detail::shared_by_spheres(one.sphere, other.sphere, distance);
+                     : detail::shared_by_spheres(one.sphere, other.sphere, distance);
     if (!shared) return shared;
     shared->alike = shared->alike == (one.inside_out == other.inside_out);
     return shared;

@@ -29,13 +29,13 @@ struct VertexT {
     SurfacePointT<T> point{};      ///< Position, rounding error, geometric normal.
     FrameT<T> frame{};             ///< Shading frame, in which materials work.
     Vec3T<T> wo{T(0), T(0), T(1)}; ///< To the previous vertex; unit, in the frame.
-    Vec2T<T> uv{T(0)};         ///< texture_coordinates(), if the material uses them.
-    ObjectId id{};             ///< Identity of the object.
-    ObjectT<T> object{};       ///< Its material and emission.
-    MaterialId outside = no_material; ///< Of a body that touches that of `object` here.
-    RgbT<T> medium{T(0)};      ///< Absorption before it, per scene unit.
-    T distance = T(0);         ///< From the previous vertex, in scene units.
-    T time = T(0);             ///< Time of the path, in [0, 1].
+    Vec2T<T> uv{T(0)};    ///< texture_coordinates(), if the material uses them.
+    ObjectId id{};        ///< Identity of the object.
+    ObjectT<T> object{};  ///< Its material and emission.
+    T outside = T(1);     ///< Index of refraction outside: of a body that touches here.
+    RgbT<T> medium{T(0)}; ///< Absorption before it, per scene unit.
+    T distance = T(0);    ///< From the previous vertex, in scene units.
+    T time = T(0);        ///< Time of the path, in [0, 1].
     T stop_probability = T(1); ///< Probability of not passing a thin surface.
     bool smooth = false; ///< Whether the shading normal differs from the geometric one.
     bool turned = false; ///< Whether the normals disagree about the side of `wo`.
@@ -82,6 +82,17 @@ inline void set_frame(VertexT<T>& vertex, const RayT<T>& ray, Vec3T<T> normal) {
 }
 // [set_frame]
 
+/// The index of refraction of a body; 1 if its material does not know it.
+template <AnyWorld W>
+[[nodiscard]] typename W::Scalar index_of(const W& world, MaterialId material) {
+    return world.visit_material(material, []<typename M>(const M& m) {
+        if constexpr (Refractive<M>)
+            return refractive_index(m);
+        else
+            return typename W::Scalar(1);
+    });
+}
+
 /// Sets what a vertex shares its place with: the body outside, and an error that lets a
 /// ray start beyond all surfaces there.
 template <AnyWorld W, std::floating_point T>
@@ -89,7 +100,8 @@ template <AnyWorld W, std::floating_point T>
                                const SceneHitT<T>& hit) {
     const PlaceHitT<T> place = place_of(world, ray, hit);
     vertex.point.error += place.depth;
-    if (place.entered == vertex.object.material) vertex.outside = place.left;
+    if (place.entered == vertex.object.material && place.left != no_material)
+        vertex.outside = index_of(world, place.left);
 }
 
 /// Sets a vertex to the result of vertex_at(), in place: next_vertex() would otherwise
@@ -121,18 +133,6 @@ inline void fill_vertex(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
             set_frame(vertex, ray, geometric);
     });
     vertex.wo = to_local(vertex.frame, -ray.direction);
-    if (!world.contacts().objects.empty()) set_contact(vertex, world, ray, hit);
-}
-
-/// The index of refraction of a body; 1 if its material does not know it.
-template <AnyWorld W>
-[[nodiscard]] typename W::Scalar index_of(const W& world, MaterialId material) {
-    return world.visit_material(material, []<typename M>(const M& m) {
-        if constexpr (Refractive<M>)
-            return refractive_index(m);
-        else
-            return typename W::Scalar(1);
-    });
 }
 
 } // namespace detail
@@ -147,6 +147,7 @@ template <AnyWorld W, std::floating_point T>
                                    const SceneHitT<T>& hit) {
     VertexT<T> vertex;
     detail::fill_vertex(vertex, world, ray, hit);
+    if (hit.shared) detail::set_contact(vertex, world, ray, hit);
     return vertex;
 }
 
@@ -160,9 +161,9 @@ decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f
     return world.visit_material(vertex.object.material, [&](const auto& m) {
         const auto& here = material_at(m, vertex.point.position, vertex.uv);
         if constexpr (Refractive<std::remove_cvref_t<decltype(here)>>)
-            if (vertex.outside != no_material)
-                return f(relative_to(here, detail::index_of(world, vertex.outside)));
-        return f(here);
+            return f(relative_to(here, vertex.outside));
+        else
+            return f(here);
     });
 }
 // [visit_material_at]
@@ -495,6 +496,7 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     if (!hit) return vertex;
 
     detail::fill_vertex(vertex.emplace(), world, path.ray, *hit);
+    if (hit->shared) detail::set_contact(*vertex, world, path.ray, *hit);
     vertex->medium = path.medium;
     vertex->distance += passage.distance;
     vertex->stop_probability = passage.stop_probability;

@@ -64,17 +64,18 @@ struct ContactT {
 /// An object that shares a place with others.
 template <std::floating_point T>
 struct TouchingObjectT {
-    ObjectId object{};                            ///< The object.
-    ContactKind kind = ContactKind::opaque;       ///< What it is.
-    std::uint32_t rank = 0;                       ///< The lowest one is met.
+    ObjectId object{};                                       ///< The object.
+    ContactKind kind = ContactKind::opaque;                  ///< What it is.
+    std::uint32_t rank = 0;                                  ///< The lowest one is met.
     std::vector<std::pair<std::uint32_t, BoxT<T>>> others{}; ///< Objects, and where.
 };
 
 /// All contacts of a scene.
 template <std::floating_point T>
 struct ContactsT {
-    std::vector<ContactT<T>> pairs;           ///< By the objects' positions.
-    std::vector<TouchingObjectT<T>> objects;  ///< Those that take part.
+    std::vector<ContactT<T>> pairs;          ///< By the objects' positions.
+    std::vector<TouchingObjectT<T>> objects; ///< Those that take part.
+    BoxT<T> box{};                           ///< A box around all that objects share.
     bool complete = true; ///< False if more objects overlap than can be compared.
     /// The position in `objects` of each object of a scene, or an absent one; empty
     /// without contacts.
@@ -105,12 +106,33 @@ template <std::floating_point T>
            b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
+/// The largest coordinate of a box.
+template <std::floating_point T>
+[[nodiscard]] T reach_of(const BoxT<T>& box) noexcept {
+    return max_component(glm::max(glm::abs(box.low), glm::abs(box.high)));
+}
+
+/// Surfaces with coordinates up to `reach` that are closer than this are in one place.
+template <std::floating_point T>
+[[nodiscard]] constexpr T contact_distance(T reach) noexcept {
+    return T(8) * std::numeric_limits<T>::epsilon() * reach;
+}
+
 /// A box that is larger by the distance within which surfaces are in one place.
 template <std::floating_point T>
-[[nodiscard]] BoxT<T> widened(const BoxT<T>& box) noexcept {
-    const Vec3T<T> reach = glm::max(glm::abs(box.low), glm::abs(box.high));
-    const T distance = T(8) * std::numeric_limits<T>::epsilon() * max_component(reach);
-    return {box.low - distance, box.high + distance};
+[[nodiscard]] BoxT<T> widened(const BoxT<T>& box, T reach) noexcept {
+    return {box.low - contact_distance(reach), box.high + contact_distance(reach)};
+}
+
+/// Whether the point of a ray at t may lie in a box, despite rounding.
+template <std::floating_point T>
+[[nodiscard]] bool may_be_in(const BoxT<T>& box, const RayT<T>& ray, T t) noexcept {
+    const auto within = [&](glm::length_t axis) {
+        const T way = t * ray.direction[axis], place = ray.origin[axis] + way;
+        const T slack = T(8) * std::numeric_limits<T>::epsilon() * std::abs(way);
+        return place + slack >= box.low[axis] && place - slack <= box.high[axis];
+    };
+    return within(0) && within(1) && within(2);
 }
 
 /// Visits the pairs of parts of different looks whose boxes overlap, some more than
@@ -171,16 +193,15 @@ contacts_between(const std::vector<ContactPartT<T>>& parts,
                  FunctionRef<SurfacePiece(const ContactPartT<T>&)> piece) {
     ContactsT<T> found;
     const auto visit = [&](const ContactPartT<T>& a, const ContactPartT<T>& b) {
-        const BoxT<T> both = box_union(a.box, b.box);
-        const double reach =
-            double(max_component(glm::max(glm::abs(both.low), glm::abs(both.high))));
-        const double distance = 8 * double(std::numeric_limits<T>::epsilon()) * reach;
-        const auto shared = shared_place(piece(a), piece(b), distance);
+        const T reach = reach_of(box_union(a.box, b.box));
+        const auto shared =
+            shared_place(piece(a), piece(b), double(contact_distance(reach)));
         if (!shared) return;
         const bool area = shared->over_area;
         found.pairs.push_back(
             {.pair{std::min(a.object, b.object), std::max(a.object, b.object)},
-             .box{Vec3T<T>(shared->box.low), Vec3T<T>(shared->box.high)},
+             .box = widened(
+                 BoxT<T>{Vec3T<T>(shared->box.low), Vec3T<T>(shared->box.high)}, reach),
              .over_area = area,
              .alike = area && shared->alike,
              .opposed = area && !shared->alike});
@@ -287,7 +308,8 @@ void add_parts(const G& shape, const ContactPartT<ScalarOf<G>>& object,
         const bool few = others.size() <= 64; // otherwise the search is faster
         ContactPartT<T> part = object;
         for (; part.part < shape.size(); ++part.part) {
-            part.box = widened(bounds(shape.triangle(part.part)));
+            part.box = bounds(shape.triangle(part.part));
+            part.box = widened(part.box, reach_of(part.box));
             const auto near = [&](const BoxT<T>& box) {
                 return overlap(box, part.box);
             };
@@ -319,6 +341,8 @@ template <typename W, std::floating_point T>
         std::sort(list.begin(), list.end());
         list = {std::accumulate(list.begin(), list.end(), 0.0)};
     }
+    for (const ContactT<T>& contact : contacts.pairs)
+        contacts.box = box_union(contacts.box, contact.box);
     contacts.position.resize(world.objects().size());
     for (std::size_t type = 0; type < world.objects().size(); ++type)
         contacts.position[type].assign(world.objects()[type].size(), 0xffffffffu);
@@ -381,12 +405,12 @@ template <typename W>
                 return detail::contact_kind(m, object.emission);
             }));
             const bool plain = kinds.back() == ContactKind::opaque;
-            whole.push_back(
-                {.box = detail::widened(detail::box_around(list[i])),
-                 .object = number,
-                 .look = plain ? materials_before[object.material.type] +
-                                     object.material.index
-                               : materials_before.back() + number});
+            const BoxT<T> box = detail::box_around(list[i]);
+            whole.push_back({.box = detail::widened(box, detail::reach_of(box)),
+                             .object = number,
+                             .look = plain ? materials_before[object.material.type] +
+                                                 object.material.index
+                                           : materials_before.back() + number});
         }
         ++type;
     };

@@ -160,8 +160,9 @@ inline constexpr std::type_identity<Compute> compute_in{};
 /// The first object that a ray meets.
 template <std::floating_point T>
 struct SceneHitT {
-    FlatHitT<T> at{};  ///< Distance, and the shape's own coordinates.
-    ObjectId object{}; ///< Which object.
+    FlatHitT<T> at{};    ///< Distance, and the shape's own coordinates.
+    ObjectId object{};   ///< Which object.
+    bool shared = false; ///< Whether other objects have surfaces in the same place.
 };
 
 /// A closed scene. It owns shapes, materials and lights, a tree over the shapes \cite
@@ -196,6 +197,7 @@ public:
         if constexpr (any_material([]<typename M>() { return MayAbsorb<M>; }))
             find_media();
         contacts_ = find_contacts(*this);
+        has_contacts_ = !contacts_.pairs.empty();
     }
 
     /// All shapes, an array per type.
@@ -220,6 +222,12 @@ public:
     /// Which objects have surfaces in one place.
     [[nodiscard]] const ContactsT<Scalar>& contacts() const noexcept {
         return contacts_;
+    }
+    /// Whether surfaces of several objects may lie at a point of a ray.
+    /// \cost A comparison in a scene without contacts.
+    [[nodiscard]] bool may_share_place(const RayT<Scalar>& ray,
+                                       Scalar t) const noexcept {
+        return has_contacts_ && detail::may_be_in(contacts_.box, ray, t);
     }
     /// The number of lights, including emissive objects; numbered in order of addition.
     [[nodiscard]] std::size_t light_count() const noexcept { return lights_.size(); }
@@ -445,6 +453,7 @@ private:
     BoxT<Scalar> box_{};
     BoxT<Scalar> media_{}; // of all absorbing bodies; empty if there are none
     bool nested_media_ = false;
+    bool has_contacts_ = false;
     Tree tree_{};
     std::vector<ObjectId> ids_{};
     Kept kept_{};
@@ -488,9 +497,9 @@ using WorldRef = Ref<typename detail::Closed<W>::Type>;
 /// What a ray meets at a hit: one surface, or one of several in one place.
 template <std::floating_point T>
 struct PlaceHitT {
-    SceneHitT<T> met{};                ///< The surface that counts; see \ref contacts.
-    MaterialId left = no_material;     ///< Of a body that ends there for the ray.
-    MaterialId entered = no_material;  ///< Of a body that begins there.
+    SceneHitT<T> met{};               ///< The surface that counts; see \ref contacts.
+    MaterialId left = no_material;    ///< Of a body that ends there for the ray.
+    MaterialId entered = no_material; ///< Of a body that begins there.
     T depth = T(0); ///< Distance of the other surfaces, in scene units.
 };
 
@@ -502,8 +511,8 @@ struct PlaceHitT {
 /// \cost One intersection for each object that may share the place.
 // [place_of]
 template <typename S, typename Compute, std::floating_point T>
-[[nodiscard]] PlaceHitT<T> place_of(const World<S, Compute>& world, const RayT<T>& ray,
-                                    const SceneHitT<T>& hit) {
+[[nodiscard, gnu::noinline]] PlaceHitT<T>
+place_of(const World<S, Compute>& world, const RayT<T>& ray, const SceneHitT<T>& hit) {
     PlaceHitT<T> place{.met = hit};
     const auto& objects = world.contacts().objects;
     const TouchingObjectT<T>* const here = world.contacts().find(hit.object);
@@ -516,14 +525,11 @@ template <typename S, typename Compute, std::floating_point T>
         if (world.object(at.object).inside_out) point.normal = -point.normal;
         return point;
     };
-    const T rounding = T(64) * std::numeric_limits<T>::epsilon();
-    const Vec3T<T> way = hit.at.t * ray.direction;
-    const Vec3T<T> slack = rounding * (glm::abs(ray.origin) + glm::abs(way));
-    const Vec3T<T> low = ray.origin + way - slack, high = ray.origin + way + slack;
     std::optional<SurfacePointT<T>> point;
     RayT<T> near = ray; // only around the hit
     std::uint32_t left = 0xffffffffu, entered = left, met = here->rank;
     SceneHitT<T> into{};
+    bool shared = false;
     const auto pass = [&](const TouchingObjectT<T>& object, const SceneHitT<T>& at,
                           const Vec3T<T>& normal) {
         if (object.kind == ContactKind::body) {
@@ -531,8 +537,7 @@ template <typename S, typename Compute, std::floating_point T>
             std::uint32_t& best = front ? entered : left;
             if (object.rank < best) {
                 best = object.rank;
-                (front ? place.entered : place.left) =
-                    world.object(at.object).material;
+                (front ? place.entered : place.left) = world.object(at.object).material;
                 if (front) into = at;
             }
         }
@@ -542,14 +547,13 @@ template <typename S, typename Compute, std::floating_point T>
         }
     };
     for (const auto& [other, box] : here->others) {
-        if (!detail::overlap(box, BoxT<T>{low, high})) continue;
+        if (!detail::may_be_in(box, ray, hit.at.t)) continue;
         if (!point) {
             point = point_of(hit);
             const T across = std::abs(glm::dot(ray.direction, point->normal));
-            const T reach =
-                T(2) * detail::leaving_distance(*point) /
-                    glm::max(across, T(1e-3) * glm::length(ray.direction)) +
-                rounding * hit.at.t;
+            const T reach = T(2) * detail::leaving_distance(*point) /
+                                glm::max(across, T(1e-3) * glm::length(ray.direction)) +
+                            T(16) * std::numeric_limits<T>::epsilon() * hit.at.t;
             near.t_min = glm::max(ray.t_min, hit.at.t - reach);
             near.t_max = glm::min(ray.t_max, hit.at.t + reach);
             pass(*here, hit, point->normal);
@@ -564,6 +568,7 @@ template <typename S, typename Compute, std::floating_point T>
         const T apart =
             std::abs(glm::dot(point->normal, there.position - point->position));
         if (!(apart <= detail::leaving_distance(*point))) continue;
+        shared = true;
         place.depth = glm::max(place.depth, apart);
         pass(objects[other], at, there.normal);
     }
@@ -571,6 +576,7 @@ template <typename S, typename Compute, std::floating_point T>
     if (place.entered != no_material &&
         world.contacts().find(place.met.object)->kind == ContactKind::body)
         place.met = into;
+    place.met.shared = shared;
     return place;
 }
 // [place_of]
@@ -598,8 +604,8 @@ closest_hit_plain(const World<S, Compute>& world, const RayT<T>& asked) {
         ++type;
     };
     std::apply([&](const auto&... shapes) { (ask_all(shapes), ...); }, world.shapes());
-    if (closest && !world.contacts().objects.empty())
-        closest = place_of(world, asked, *closest).met;
+    if (closest && world.may_share_place(asked, closest->at.t))
+        return place_of(world, asked, *closest).met;
     return closest;
 }
 
@@ -636,7 +642,7 @@ closest_hit(const World<S, Compute>& world, const RayT<T>& ray) {
         });
     if (!nearest.found) return std::nullopt;
     const SceneHitT<T> hit{nearest.at, world.ids()[nearest.slot]};
-    if (world.contacts().objects.empty()) return hit;
+    if (!world.may_share_place(ray, nearest.at.t)) return hit;
     return place_of(world, ray, hit).met;
 }
 
