@@ -94,6 +94,7 @@ template <std::floating_point W>
 namespace detail {
 
 /// The distance from a surface at which offset_ray_origin() lets a ray start.
+// [leaving_distance]
 template <std::floating_point T>
 [[nodiscard]] inline T leaving_distance(const SurfacePointT<T>& point) noexcept {
     const T scale = max_component(sizes(point.position) + point.error);
@@ -101,6 +102,7 @@ template <std::floating_point T>
                                   std::numeric_limits<T>::min());
     return T(2) * glm::dot(sizes(point.normal), point.error) + T(4) * last_place;
 }
+// [leaving_distance]
 
 } // namespace detail
 

@@ -140,47 +140,57 @@ template <std::floating_point T>
 /// more.
 /// \param budget  Decreases by the number of comparisons; the search ends at 0.
 template <std::floating_point T, typename Visit>
-void overlapping_parts(const std::vector<ContactPartT<T>>& list, long long& budget,
+void overlapping_parts(std::vector<ContactPartT<T>> list, long long& budget,
                        const Visit& visit) {
     const auto alike = [&](const ContactPartT<T>& part) {
         return part.look == list[0].look;
     };
-    if (list.empty() || std::all_of(list.begin(), list.end(), alike)) return;
-    if (list.size() > 16) {
-        Vec3T<T> middle{0};
+    if (std::all_of(list.begin(), list.end(), alike)) return;
+    const auto size = list.size();
+    if (size > 16) {
+        Vec3T<T> twice{0};
+        for (const auto& part : list) twice += part.box.low + part.box.high;
+        const Vec3T<T> middle = twice / (T(2) * T(size));
+        std::array<std::size_t, 3> below{}, above{}; // how many reach to each side
         for (const auto& part : list)
-            middle += (part.box.low + part.box.high) / (T(2) * T(list.size()));
-        std::array<std::size_t, 3> below{}, above{};
-        for (const auto& part : list)
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto axis = static_cast<glm::length_t>(k);
+            for (glm::length_t axis = 0; axis < 3; ++axis) {
+                const auto k = static_cast<std::size_t>(axis);
                 below[k] += part.box.low[axis] <= middle[axis] ? 1 : 0;
                 above[k] += part.box.high[axis] >= middle[axis] ? 1 : 0;
             }
-        std::size_t k = 0;
-        for (std::size_t other = 1; other < 3; ++other)
-            if (below[other] + above[other] < below[k] + above[k]) k = other;
-        if (4 * (below[k] + above[k]) <= 5 * list.size() &&
-            5 * std::max(below[k], above[k]) <= 4 * list.size()) {
+        std::size_t k = 0, least = 3 * size;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::size_t both = below[axis] + above[axis];
+            if (5 * std::max(below[axis], above[axis]) > 4 * size || both >= least)
+                continue;
+            k = axis;
+            least = both;
+        }
+        if (4 * least <= 5 * size) {
             const auto axis = static_cast<glm::length_t>(k);
             std::vector<ContactPartT<T>> half;
-            half.reserve(std::max(below[k], above[k]));
+            half.reserve(below[k]);
             for (const auto& part : list)
                 if (part.box.low[axis] <= middle[axis]) half.push_back(part);
-            overlapping_parts(half, budget, visit);
-            half.clear();
-            for (const auto& part : list)
-                if (part.box.high[axis] >= middle[axis]) half.push_back(part);
-            return overlapping_parts(half, budget, visit);
+            overlapping_parts(std::move(half), budget, visit);
+            std::erase_if(list, [&](const ContactPartT<T>& part) {
+                return !(part.box.high[axis] >= middle[axis]);
+            });
+            return overlapping_parts(std::move(list), budget, visit);
         }
     }
-    for (std::size_t i = 0; i < list.size(); ++i)
-        for (std::size_t j = i + 1; j < list.size(); ++j) {
-            if (--budget < 0) return;
-            if (list[i].look != list[j].look && list[i].object != list[j].object &&
-                overlap(list[i].box, list[j].box))
-                visit(list[i], list[j]);
-        }
+    std::sort(list.begin(), list.end(),
+              [](const auto& a, const auto& b) { return a.look < b.look; });
+    for (auto group = list.begin(); group != list.end();) {
+        const auto next = std::find_if(group, list.end(), [&](const auto& part) {
+            return part.look != group->look;
+        });
+        for (; group != next; ++group)
+            for (auto other = next; other != list.end(); ++other) {
+                if (--budget < 0) return;
+                if (overlap(group->box, other->box)) visit(*group, *other);
+            }
+    }
 }
 
 /// Finds the contacts between parts of objects.
@@ -267,8 +277,7 @@ contact_key(const M& m, ContactKind kind, const RgbT<T>& emitted, double area) {
     const Vec3T<T> wo{T(0.6), T(0), T(0.8)}, up{T(0), T(0), T(1)};
     const auto& here = material_at(m, Vec3T<T>{T(0)}, Vec2T<T>{T(0.5)});
     add(evaluate(here, wo, up));
-    const auto next =
-        sample(here, wo, Vec3T<T>{T(0.5), T(0.5), T(0.5)}, Transport::flux);
+    const auto next = sample(here, wo, Vec3T<T>{T(0.5)}, Transport::flux, Lobes::all);
     add(next ? next->weight : RgbT<T>{T(0)});
     return key;
 }
