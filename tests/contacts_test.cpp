@@ -350,8 +350,8 @@ TEST_CASE("contacts: a lamp in the plane of the ceiling shines as one below it")
 }
 
 TEST_CASE("contacts: no order of a list changes what a path finds") {
-    // A floor with a rug, a slab of glass and a bubble-free block of water on it, a lamp
-    // in the plane of the ceiling: six planes are shared.
+    // A floor with a rug, a slab of glass and a block of water on it, and a lamp in the
+    // plane of the ceiling.
     std::array<int, 7> order{};
     std::iota(order.begin(), order.end(), 0);
     std::vector<Rgb> first;
@@ -541,8 +541,8 @@ TEST_CASE("contacts: a search among thousands finds what a loop finds") {
         scene.add(Sphere{{x + 0.25f, y + 0.5f, 0.2f}, 0.2f}, matt[0]);
     }
     const World world(std::move(scene));
-    // Each tile of glass lies over two others, but for the last of a row over one. Balls
-    // stand on tiles, half of which are of their own material, and on glass but for the
+    // Each tile of glass lies over two others, the last of a row over one. Balls stand
+    // on tiles, half of which are of their own material, and on glass, except for the
     // first of a row.
     constexpr std::size_t tiles = side * side, rows = side;
     CHECK(world.contacts().pairs.size() ==

@@ -26,15 +26,14 @@ namespace ljus {
 /// several surfaces in one place a path meets one, and it must not depend on the order
 /// in which they were added which one that is:
 ///
-/// | in one place                 | what a path meets                                 |
-/// |------------------------------|---------------------------------------------------|
-/// | a lamp and anything          | the lamp; of two lamps the brighter one           |
-/// | something opaque and glass   | what is opaque, without air in between            |
-/// | two opaque surfaces          | that of the material that covers less of the scene |
-/// | glass against glass          | one boundary, of the index of one over the other's |
-/// | two bodies side by side, with | that of the higher index                         |
-/// | their insides on one side    |                                                   |
-/// | a thin surface and anything  | anything but the thin surface                     |
+/// | in one place                             | what a path meets                   |
+/// |------------------------------------------|-------------------------------------|
+/// | a lamp and anything                      | the lamp; of two the brighter one   |
+/// | something opaque and a body              | what is opaque, no air between      |
+/// | two bodies, one on each side             | one boundary of the relative index  |
+/// | two bodies, on the same side             | the one of the higher index         |
+/// | two opaque surfaces                      | the one whose material covers less  |
+/// | a thin surface and anything              | anything but the thin surface       |
 ///
 /// A World looks for contacts once, when it is made. They are found between flat
 /// shapes, meshes and spheres at rest; other shapes are met in the order of addition.
