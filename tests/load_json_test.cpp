@@ -16,6 +16,7 @@
 
 #include "ljus/io/load_json.hpp"
 #include "ljus/io/png.hpp"
+#include "ljus/render/photon_mapping.hpp"
 #include "ljus/scene/world.hpp"
 #include "scratch_folder.hpp"
 
@@ -1005,4 +1006,30 @@ TEST_CASE("load_json: a file beside the scene, or anywhere if its name is whole"
     CHECK(beside("scenes/a.json", "/whole/b.obj") == "/whole/b.obj");
     CHECK(beside("scenes/a.json", "") == "scenes/");
 }
+
+TEST_CASE("load_json: a slab of glass on the floor, in either order of the objects") {
+    // An endless slab: 2 * 0.96 / pi * 0.5 * 0.96 / 2.25 / (1 - 0.5 * 0.596) = 0.186.
+    // This one is 5 wide and 0.5 thick; 2 % of the light leaves through its sides.
+    for (const bool turned : {false, true}) {
+        nlohmann::json file = nlohmann::json::parse(
+            detail::load_text(LJUS_TEST_INPUTS "/glass_on_floor.json", 1 << 20));
+        if (turned) std::swap(file["objects"][0], file["objects"][1]);
+        LoadedScene loaded = read_json_scene(file.dump(), "glass_on_floor.json");
+        const World world(std::move(loaded.scene));
+        CHECK(world.contacts().pairs.size() == 1);
+        PhotonMappingSettings settings;
+        settings.caustics.photons = 300000;
+        settings.caustics_estimate.radius = 0.2f;
+        const PhotonMapper mapper(world, settings);
+        CHECK(mapper.maps().remarks.find("what is opaque") != std::string::npos);
+        const RenderSettings small{.width = 16, .height = 16, .samples = 4};
+        double sum = 0;
+        for (const Rgb& pixel : render(mapper, loaded.camera, small).image.pixels)
+            sum += double(pixel.x) / 256;
+        CAPTURE(sum);
+        CHECK(sum == doctest::Approx(0.182).epsilon(0.02));
+        CHECK(sum == doctest::Approx(0.186).epsilon(0.04));
+    }
+}
+
 #endif

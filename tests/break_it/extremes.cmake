@@ -1,6 +1,6 @@
 # A length in scene units, hidden in the code: at another size the picture is another one.
 ljus_break_it(NAME extremes-epsilon HEADER geometry/surface_point.hpp TEST extremes
-    FROM "T(2) * glm::dot(detail::sizes(n), point.error) + T(4) * last_place"
+    FROM "T(2) * glm::dot(sizes(point.normal), point.error) + T(4) * last_place"
     TO   "T(1e-5)"
     CASES "extremes: at every power*")
 

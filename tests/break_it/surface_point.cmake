@@ -1,6 +1,6 @@
 # A fixed distance is too long for a small scene.
 ljus_break_it(NAME surface-fixed HEADER geometry/surface_point.hpp TEST surface_point
-    FROM "T(2) * glm::dot(detail::sizes(n), point.error) + T(4) * last_place"
+    FROM "T(2) * glm::dot(sizes(point.normal), point.error) + T(4) * last_place"
     TO   "T(1e-3)"
     CASES "surface: at a millionth*")
 
@@ -61,6 +61,6 @@ ljus_break_it(NAME surface-tilt-parallel HEADER geometry/surface_point.hpp
 
 # At coordinates of 0 the error in the wall's plane is the only scale there is.
 ljus_break_it(NAME surface-scale-of-error HEADER geometry/surface_point.hpp TEST surface_point
-    FROM "max_component(detail::sizes(point.position) + point.error)"
-    TO   "max_component(detail::sizes(point.position))"
+    FROM "max_component(sizes(point.position) + point.error)"
+    TO   "max_component(sizes(point.position))"
     CASES "surface: the last place*")

@@ -91,6 +91,21 @@ template <std::floating_point W>
 
 } // namespace detail
 
+namespace detail {
+
+/// The distance from a surface at which offset_ray_origin() lets a ray start.
+// [leaving_distance]
+template <std::floating_point T>
+[[nodiscard]] inline T leaving_distance(const SurfacePointT<T>& point) noexcept {
+    const T scale = max_component(sizes(point.position) + point.error);
+    const T last_place = glm::max(scale * std::numeric_limits<T>::epsilon(),
+                                  std::numeric_limits<T>::min());
+    return T(2) * glm::dot(sizes(point.normal), point.error) + T(4) * last_place;
+}
+// [leaving_distance]
+
+} // namespace detail
+
 /// The origin of a ray that leaves a surface: on the side to which `direction` points,
 /// and as close to the surface as rounding permits.
 ///
@@ -111,11 +126,7 @@ template <std::floating_point T>
 [[nodiscard]] inline Vec3T<T> offset_ray_origin(const SurfacePointT<T>& point,
                                                 const Vec3T<T>& direction) noexcept {
     const Vec3T<T>& n = point.normal;
-    const T scale = max_component(detail::sizes(point.position) + point.error);
-    const T last_place = glm::max(scale * std::numeric_limits<T>::epsilon(),
-                                  std::numeric_limits<T>::min());
-    const T distance =
-        T(2) * glm::dot(detail::sizes(n), point.error) + T(4) * last_place;
+    const T distance = detail::leaving_distance(point);
     return point.position + std::copysign(distance, glm::dot(direction, n)) * n;
 }
 // [offset_ray_origin]

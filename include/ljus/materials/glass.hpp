@@ -94,6 +94,12 @@ split(const GlassT<T>& glass, const Vec3T<T>& wo, Transport transport) noexcept 
         specular_sample(*met.refracted, RgbT<T>{T(1) - f}, met.eta_scale)};
 }
 
+/// The index of refraction inside.
+template <std::floating_point T>
+[[nodiscard]] constexpr T refractive_index(const GlassT<T>& glass) noexcept {
+    return glass.index;
+}
+
 /// The absorption coefficient inside, per scene unit; see transmittance().
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<T> absorption(const GlassT<T>& glass) noexcept {

@@ -172,6 +172,24 @@ concept MayAbsorb = requires(const detail::Own<M>& m) {
     absorption(m);
 };
 
+/// The material of a transparent body: it provides `refractive_index(m)`, which is 0 if
+/// it is opaque after all, and a member `index`.
+template <typename M>
+concept Refractive = requires(M m) {
+    { refractive_index(m) } -> std::same_as<typename M::Scalar>;
+    m.index /= refractive_index(m);
+};
+
+/// A material whose body touches another one instead of air. At the boundary only the
+/// ratio of the indices counts.
+/// \param m        The material.
+/// \param outside  Index of refraction of the other body.
+template <Refractive M>
+[[nodiscard]] constexpr M relative_to(M m, typename M::Scalar outside) noexcept {
+    m.index /= outside;
+    return m;
+}
+
 /// The default emitted radiance: none.
 /// \return 0 W/(m^2 sr).
 template <typename M>
@@ -231,6 +249,8 @@ template <Material M>
         // [material hooks]
         Hook{"absorption", "a medium inside", "clear",
              requires(O m) { absorption(m); }},
+        Hook{"refractive_index", "contact with another body", "opaque in contact",
+             requires(O m) { refractive_index(m); }},
         Hook{"emission", "its own light", "black",
              requires(O m) { emission(m); }},
         Hook{"at_point", "varies over the surface", "the same anywhere",

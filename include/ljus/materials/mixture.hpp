@@ -173,6 +173,12 @@ sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
     return specular_sample(reflect(wo), RgbT<T>{sum});
 }
 
+/// The index of refraction inside; 0 without transparency.
+template <std::floating_point T>
+[[nodiscard]] constexpr T refractive_index(const MixtureT<T>& mixture) noexcept {
+    return mixture.transparency > T(0) ? mixture.index : T(0);
+}
+
 /// The absorption coefficient inside, per scene unit; see transmittance().
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<T> absorption(const MixtureT<T>& mixture) noexcept {

@@ -29,12 +29,13 @@ struct VertexT {
     SurfacePointT<T> point{};      ///< Position, rounding error, geometric normal.
     FrameT<T> frame{};             ///< Shading frame, in which materials work.
     Vec3T<T> wo{T(0), T(0), T(1)}; ///< To the previous vertex; unit, in the frame.
-    Vec2T<T> uv{T(0)};         ///< texture_coordinates(), if the material uses them.
-    ObjectId id{};             ///< Identity of the object.
-    ObjectT<T> object{};       ///< Its material and emission.
-    RgbT<T> medium{T(0)};      ///< Absorption before it, per scene unit.
-    T distance = T(0);         ///< From the previous vertex, in scene units.
-    T time = T(0);             ///< Time of the path, in [0, 1].
+    Vec2T<T> uv{T(0)};    ///< texture_coordinates(), if the material uses them.
+    ObjectId id{};        ///< Identity of the object.
+    ObjectT<T> object{};  ///< Its material and emission.
+    T outside = T(1);     ///< Index of refraction outside: of a body that touches here.
+    RgbT<T> medium{T(0)}; ///< Absorption before it, per scene unit.
+    T distance = T(0);    ///< From the previous vertex, in scene units.
+    T time = T(0);        ///< Time of the path, in [0, 1].
     T stop_probability = T(1); ///< Probability of not passing a thin surface.
     bool smooth = false; ///< Whether the shading normal differs from the geometric one.
     bool turned = false; ///< Whether the normals disagree about the side of `wo`.
@@ -81,6 +82,28 @@ inline void set_frame(VertexT<T>& vertex, const RayT<T>& ray, Vec3T<T> normal) {
 }
 // [set_frame]
 
+/// The index of refraction of a body; 1 if its material does not know it.
+template <AnyWorld W>
+[[nodiscard]] typename W::Scalar index_of(const W& world, MaterialId material) {
+    return world.visit_material(material, []<typename M>(const M& m) {
+        if constexpr (Refractive<M>)
+            return refractive_index(m);
+        else
+            return typename W::Scalar(1);
+    });
+}
+
+/// Sets what a vertex shares its place with: the body outside, and an error that lets a
+/// ray start beyond all surfaces there.
+template <AnyWorld W, std::floating_point T>
+[[gnu::cold]] void set_contact(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
+                               const SceneHitT<T>& hit) {
+    const PlaceHitT<T> place = place_of(world, ray, hit);
+    vertex.point.error += place.depth;
+    if (place.entered == vertex.object.material && place.left != no_body)
+        vertex.outside = index_of(world, place.left);
+}
+
 /// Sets a vertex to the result of vertex_at(), in place: next_vertex() would otherwise
 /// copy 160 bytes per ray.
 /// \param vertex  A new vertex; all members except its medium are set.
@@ -124,17 +147,23 @@ template <AnyWorld W, std::floating_point T>
                                    const SceneHitT<T>& hit) {
     VertexT<T> vertex;
     detail::fill_vertex(vertex, world, ray, hit);
+    if (hit.shared) detail::set_contact(vertex, world, ray, hit);
     return vertex;
 }
 
 /// Calls f(material) with the material of a vertex. A textured material is its base
-/// with the colour at the vertex, and a soap film has its thickness at the vertex;
-/// other materials are the same everywhere.
+/// with the colour at the vertex, and a soap film has its thickness at the vertex.
+/// Where a transparent body touches another one, its index is relative to that of the
+/// other. Other materials are the same everywhere.
 // [visit_material_at]
 template <AnyWorld W, std::floating_point T, typename F>
 decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f) {
     return world.visit_material(vertex.object.material, [&](const auto& m) {
-        return f(material_at(m, vertex.point.position, vertex.uv));
+        const auto& here = material_at(m, vertex.point.position, vertex.uv);
+        if constexpr (Refractive<std::remove_cvref_t<decltype(here)>>)
+            return f(relative_to(here, vertex.outside));
+        else
+            return f(here);
     });
 }
 // [visit_material_at]
@@ -371,6 +400,20 @@ inline constexpr bool lists_media = W::any_material([]<typename M>() {
     return MayAbsorb<M>;
 });
 
+/// The absorption in a body of a material; nothing if the material is opaque.
+template <AnyWorld W>
+[[nodiscard]] std::optional<RgbT<typename W::Scalar>> medium_of(const W& world,
+                                                                MaterialId material) {
+    return world.visit_material(
+        material,
+        []<typename M>(const M& m) -> std::optional<RgbT<typename W::Scalar>> {
+            if constexpr (MayAbsorb<M>)
+                return absorption(m);
+            else
+                return std::nullopt;
+        });
+}
+
 } // namespace detail
 
 /// The absorption at a ray's origin: that of the innermost body around it. A body
@@ -390,22 +433,20 @@ template <AnyWorld W, std::floating_point T>
         const auto hit = closest_hit(world, ray);
         if (!hit) break;
         const VertexT<T> vertex = vertex_at(world, ray, *hit);
-        const MaterialId id = vertex.object.material;
-        const auto found = world.visit_material(
-            id, [&]<typename M>(const M& m) -> std::optional<RgbT<T>> {
-                if constexpr (MayAbsorb<M>) {
-                    if (vertex.wo.z > T(0)) {
-                        if (count < entered.size()) entered[count++] = id;
-                        return std::nullopt;
-                    }
-                    const auto last = entered.begin() + std::ptrdiff_t(count);
-                    const auto body = std::find(entered.begin(), last, id);
-                    if (body == last) return absorption(m);
-                    *body = entered[--count];
-                }
-                return std::nullopt;
-            });
-        if (found) return *found;
+        PlaceHitT<T> place = place_of(world, ray, *hit);
+        if (place.left == no_body && place.entered == no_body)
+            (vertex.wo.z > T(0) ? place.entered : place.left) = vertex.object.material;
+        if (place.left != no_body) {
+            const auto last = entered.begin() + std::ptrdiff_t(count);
+            const auto body = std::find(entered.begin(), last, place.left);
+            if (body != last)
+                *body = entered[--count];
+            else if (const auto found = detail::medium_of(world, place.left))
+                return *found;
+        }
+        if (place.entered != no_body && count < entered.size() &&
+            detail::medium_of(world, place.entered))
+            entered[count++] = place.entered;
         ray = spawn_ray(vertex.point, ray.direction, ray.time);
     }
     return RgbT<T>{T(0)};
@@ -455,6 +496,7 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     if (!hit) return vertex;
 
     detail::fill_vertex(vertex.emplace(), world, path.ray, *hit);
+    if (hit->shared) detail::set_contact(*vertex, world, path.ray, *hit);
     vertex->medium = path.medium;
     vertex->distance += passage.distance;
     vertex->stop_probability = passage.stop_probability;

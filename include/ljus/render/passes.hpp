@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "ljus/hook.hpp"
 #include "ljus/path/next_vertex.hpp"
 #include "ljus/render/photon_mapping_settings.hpp"
 
@@ -232,6 +233,88 @@ template <AnyWorld W>
         world.materials());
 }
 
+/// The rule that decides a contact, as the end of a sentence.
+/// \param met    The kind of the surface that is met.
+/// \param other  The kind of the other one.
+/// \return Null if it is of no interest: surfaces that touch in points, and opaque ones
+///         back to back.
+template <std::floating_point T>
+[[nodiscard, gnu::cold]] const char*
+contact_rule(const ContactT<T>& contact, ContactKind met, ContactKind other) noexcept {
+    if (!contact.over_area) return nullptr;
+    if (other == ContactKind::sheet)
+        return "the thin surface has no effect there; move it away from the other one";
+    if (met == ContactKind::lamp)
+        return other == ContactKind::lamp ? "of two lamps paths meet the brighter one, "
+                                            "but shadow rays find both; "
+                                            "move or remove one"
+                                          : "the lamp is met there";
+    if (met == ContactKind::body)
+        return contact.opposed ? "light passes from one body into the other; for air "
+                                 "between them, move "
+                                 "them apart"
+                               : "the body of the higher index is met there; let one "
+                                 "end before the other";
+    if (other == ContactKind::body)
+        return "light passes from the body to what is opaque; for air between them, "
+               "move them apart";
+    return contact.alike ? "of two opaque surfaces that is met whose material covers "
+                           "less of the scene"
+                         : nullptr;
+}
+
+/// The name of an object, such as "Quad 3".
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] std::string object_name(const W& world, ObjectId id) {
+    std::string name =
+        world.visit_shape(id, []<typename G>(const G&) { return type_name<G>(); });
+    if (const auto end = name.find("T<"); end != std::string::npos) name.resize(end);
+    return join({name, " ", std::to_string(id.index)});
+}
+
+/// Adds a sentence for each rule that decides what is met where surfaces of different
+/// objects lie in one place.
+template <AnyWorld W>
+[[gnu::cold]] void add_contact_remarks(const W& world,
+                                       std::vector<std::string>& remarks) {
+    using T = typename W::Scalar;
+    const ContactsT<T>& contacts = world.contacts();
+    struct Found {
+        const char* rule;
+        std::size_t pairs;
+        std::string first;
+    };
+    std::vector<Found> all;
+    for (const ContactT<T>& contact : contacts.pairs) {
+        const auto* met = &contacts.objects[contact.pair[0]];
+        const auto* other = &contacts.objects[contact.pair[1]];
+        if (other->rank < met->rank) std::swap(met, other);
+        const char* const rule = contact_rule(contact, met->kind, other->kind);
+        if (rule == nullptr) continue;
+        const auto same = std::find_if(all.begin(), all.end(), [&](const Found& found) {
+            return found.rule == rule;
+        });
+        if (same != all.end()) {
+            ++same->pairs;
+            continue;
+        }
+        all.push_back({rule, 1,
+                       join({object_name(world, met->object), " and ",
+                             object_name(world, other->object), " around ",
+                             to_text(contact.box.low +
+                                     (contact.box.high - contact.box.low) / T(2))})});
+    }
+    for (const Found& found : all)
+        remarks.push_back(
+            join({std::to_string(found.pairs),
+                  " pair(s) of objects have surfaces in one place, such as ",
+                  found.first, ": ", found.rule}));
+    if (!contacts.complete)
+        remarks.push_back("too many objects overlap to compare all of them: where "
+                          "surfaces lie in one place, their order may decide what is "
+                          "met");
+}
+
 } // namespace detail
 
 /// The warnings of a survey about a scene.
@@ -260,6 +343,7 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
              " object(s) are nearly mirrors, in whose lobe a shadow ray hardly ever "
              "lies: their light is missing or in a few bright pixels; ask for "
              "direct light by mis, or for a mirror, of roughness 0"}));
+    detail::add_contact_remarks(world, remarks);
     return remarks;
 }
 

@@ -13,7 +13,7 @@
 #include "ljus/accel/bvh8.hpp"
 #include "ljus/math/frame.hpp"
 #include "ljus/ref.hpp"
-#include "ljus/scene/scene.hpp"
+#include "ljus/scene/contacts.hpp"
 
 namespace ljus {
 
@@ -97,15 +97,6 @@ inline constexpr std::size_t flat_loop_limit = 2;
     return shapes > flat_loop_limit;
 }
 
-/// The bounding box of a shape: its own bounds(), or those of its bounding sphere.
-template <Shape S>
-[[nodiscard]] auto box_around(const S& shape) {
-    if constexpr (requires { bounds(shape); })
-        return bounds(shape);
-    else
-        return bounds(bounding_sphere(shape));
-}
-
 /// Intersects a ray with a shape of any type, in a given arithmetic if the shape offers
 /// a choice.
 /// \tparam Compute  As for intersect().
@@ -169,8 +160,9 @@ inline constexpr std::type_identity<Compute> compute_in{};
 /// The first object that a ray meets.
 template <std::floating_point T>
 struct SceneHitT {
-    ShapeHitT<T> at{}; ///< Distance, and the shape's own coordinates.
-    ObjectId object{}; ///< Which object.
+    ShapeHitT<T> at{};   ///< Distance, and the shape's own coordinates.
+    ObjectId object{};   ///< Which object.
+    bool shared = false; ///< Whether other objects have surfaces in the same place.
 };
 
 /// A closed scene. It owns shapes, materials and lights, a tree over the shapes \cite
@@ -204,6 +196,8 @@ public:
         materials_ = std::move(scene.materials);
         if constexpr (any_material([]<typename M>() { return MayAbsorb<M>; }))
             find_media();
+        contacts_ = find_contacts(*this);
+        has_contacts_ = !contacts_.pairs.empty();
     }
 
     /// All shapes, an array per type.
@@ -225,6 +219,16 @@ public:
     /// Whether the bounding box of an absorbing body overlaps that of another body with
     /// a medium: a path that leaves one of them may still be in the other.
     [[nodiscard]] bool has_nested_media() const noexcept { return nested_media_; }
+    /// Which objects have surfaces in one place.
+    [[nodiscard]] const ContactsT<Scalar>& contacts() const noexcept {
+        return contacts_;
+    }
+    /// Whether surfaces of several objects may lie at a point of a ray.
+    /// \cost A comparison in a scene without contacts.
+    [[nodiscard]] bool may_share_place(const RayT<Scalar>& ray,
+                                       Scalar t) const noexcept {
+        return has_contacts_ && detail::may_be_in(contacts_.box, ray, t);
+    }
     /// The number of lights, including emissive objects; numbered in order of addition.
     [[nodiscard]] std::size_t light_count() const noexcept { return lights_.size(); }
     /// The flux of each light, W.
@@ -449,6 +453,7 @@ private:
     BoxT<Scalar> box_{};
     BoxT<Scalar> media_{}; // of all absorbing bodies; empty if there are none
     bool nested_media_ = false;
+    bool has_contacts_ = false;
     Tree tree_{};
     std::vector<ObjectId> ids_{};
     Kept kept_{};
@@ -456,6 +461,7 @@ private:
     std::vector<LightId> lights_{};
     std::vector<RgbT<Scalar>> powers_{};
     LightChoice choice_{};
+    ContactsT<Scalar> contacts_{};
 };
 
 namespace detail {
@@ -488,15 +494,104 @@ struct Closed {
 template <typename W>
 using WorldRef = Ref<typename detail::Closed<W>::Type>;
 
+/// What a ray meets at a hit: one surface, or one of several in one place.
+template <std::floating_point T>
+struct PlaceHitT {
+    SceneHitT<T> met{};           ///< The surface that counts; see \ref contacts.
+    MaterialId left = no_body;    ///< Of a body that ends there for the ray.
+    MaterialId entered = no_body; ///< Of a body that begins there.
+    T depth = T(0);               ///< Distance of the other surfaces, in scene units.
+};
+
+/// Decides which of several surfaces in one place a ray meets.
+/// \param world  The closed scene.
+/// \param ray    Its direction may have any length.
+/// \param hit    A hit of the ray.
+/// \return The hit itself, and no bodies, unless its object shares the place.
+/// \cost One intersection for each object that may share the place.
+// [place_of]
+template <typename S, typename Compute, std::floating_point T>
+[[nodiscard, gnu::noinline]] PlaceHitT<T>
+place_of(const World<S, Compute>& world, const RayT<T>& ray, const SceneHitT<T>& hit) {
+    PlaceHitT<T> place{.met = hit};
+    const auto& objects = world.contacts().objects;
+    const TouchingObjectT<T>* const here = world.contacts().find(hit.object);
+    if (here == nullptr) return place;
+
+    const auto point_of = [&](const SceneHitT<T>& at) {
+        auto point = world.visit_shape(at.object, [&](const auto& shape) {
+            return surface_point(shape, ray, at.at);
+        });
+        if (world.object(at.object).inside_out) point.normal = -point.normal;
+        return point;
+    };
+    std::optional<SurfacePointT<T>> point;
+    RayT<T> near = ray; // only around the hit
+    std::uint32_t left = 0xffffffffu, entered = left, met = here->rank;
+    SceneHitT<T> into{};
+    bool shared = false;
+    const auto pass = [&](const TouchingObjectT<T>& object, const SceneHitT<T>& at,
+                          const Vec3T<T>& normal) {
+        if (object.kind == ContactKind::body) {
+            const bool front = glm::dot(ray.direction, normal) < T(0);
+            std::uint32_t& best = front ? entered : left;
+            if (object.rank < best) {
+                best = object.rank;
+                (front ? place.entered : place.left) = world.object(at.object).material;
+                if (front) into = at;
+            }
+        }
+        if (object.rank <= met) {
+            met = object.rank;
+            place.met = at;
+        }
+    };
+    for (const auto& [other, box] : here->others) {
+        if (!detail::may_be_in(box, ray, hit.at.t)) continue;
+        if (!point) {
+            point = point_of(hit);
+            const T across = std::abs(glm::dot(ray.direction, point->normal));
+            const T reach = T(2) * detail::leaving_distance(*point) /
+                                glm::max(across, T(1e-3) * glm::length(ray.direction)) +
+                            T(16) * std::numeric_limits<T>::epsilon() * hit.at.t;
+            near.t_min = glm::max(ray.t_min, hit.at.t - reach);
+            near.t_max = glm::min(ray.t_max, hit.at.t + reach);
+            pass(*here, hit, point->normal);
+        }
+        const ObjectId id = objects[other].object;
+        const auto found = world.visit_shape(id, [&](const auto& shape) {
+            return detail::hit_of<Compute>(near, shape);
+        });
+        if (!found) continue;
+        const SceneHitT<T> at{*found, id};
+        const SurfacePointT<T> there = point_of(at);
+        const T apart =
+            std::abs(glm::dot(point->normal, there.position - point->position));
+        if (!(apart <= detail::leaving_distance(*point))) continue;
+        shared = true;
+        place.depth = glm::max(place.depth, apart);
+        pass(objects[other], at, there.normal);
+    }
+    // Of a body that ends and one that begins, the path meets the one that begins.
+    if (place.entered != no_body &&
+        world.contacts().find(place.met.object)->kind == ContactKind::body)
+        place.met = into;
+    place.met.shared = shared;
+    return place;
+}
+// [place_of]
+
 /// The first object that a ray meets, by a loop over all shapes: the plain twin of
 /// closest_hit().
 /// \param world  The closed scene.
-/// \param ray    Hits count in [t_min, t_max].
-/// \return The nearest hit, the earlier object on a tie; nothing for a miss.
+/// \param asked  The ray; hits count in [t_min, t_max].
+/// \return The nearest hit; of several in one place see \ref contacts; nothing for a
+///         miss.
 /// \cost One intersection per shape.
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] std::optional<SceneHitT<T>>
-closest_hit_plain(const World<S, Compute>& world, RayT<T> ray) {
+closest_hit_plain(const World<S, Compute>& world, const RayT<T>& asked) {
+    RayT<T> ray = asked;
     std::optional<SceneHitT<T>> closest;
     std::uint32_t type = 0;
     const auto ask_all = [&](const auto& shapes) {
@@ -509,6 +604,8 @@ closest_hit_plain(const World<S, Compute>& world, RayT<T> ray) {
         ++type;
     };
     std::apply([&](const auto&... shapes) { (ask_all(shapes), ...); }, world.shapes());
+    if (closest && world.may_share_place(asked, closest->at.t))
+        return place_of(world, asked, *closest).met;
     return closest;
 }
 
@@ -531,7 +628,8 @@ template <typename S, typename Compute, std::floating_point T>
 /// of closest_hit_plain(), to the last bit.
 /// \param world  The closed scene.
 /// \param ray    Hits count in [t_min, t_max].
-/// \return The nearest hit, the earlier object on a tie; nothing for a miss.
+/// \return The nearest hit; of several in one place see \ref contacts; nothing for a
+///         miss.
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] inline std::optional<SceneHitT<T>>
 closest_hit(const World<S, Compute>& world, const RayT<T>& ray) {
@@ -543,7 +641,9 @@ closest_hit(const World<S, Compute>& world, const RayT<T>& ray) {
             });
         });
     if (!nearest.found) return std::nullopt;
-    return SceneHitT<T>{nearest.at, world.ids()[nearest.slot]};
+    const SceneHitT<T> hit{nearest.at, world.ids()[nearest.slot]};
+    if (!world.may_share_place(ray, nearest.at.t)) return hit;
+    return place_of(world, ray, hit).met;
 }
 
 /// Whether any object intersects a ray, for shadow rays.

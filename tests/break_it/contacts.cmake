@@ -1,0 +1,65 @@
+# A ray that leaves glass on a floor meets the air between.
+ljus_break_it(NAME contacts-first HEADER scene/world.hpp TEST contacts
+    FROM "return place_of(world, ray, hit).met;"
+    TO   "return hit;"
+    CASES "contacts: glass that rests on a floor*")
+
+# Glass against water has the boundary of water against air.
+ljus_break_it(NAME contacts-index HEADER path/next_vertex.hpp TEST contacts
+    FROM "relative_to(here, vertex.outside)"
+    TO   "relative_to(here, T(1))"
+    CASES "contacts: slabs of glass and water in contact*")
+
+# Of two bodies in contact the path meets the one that it leaves.
+ljus_break_it(NAME contacts-into HEADER scene/world.hpp TEST contacts
+    FROM "place.met = into;"
+    TO   ";"
+    CASES "contacts: slabs of glass and water in contact*")
+
+# Glass covers a lamp, and a ceiling hides it.
+ljus_break_it(NAME contacts-lamp HEADER scene/contacts.hpp TEST contacts
+    FROM "if (!is_black(emitted)) return ContactKind::lamp;"
+    TO   ""
+    CASES "contacts: a lamp in the plane*")
+
+# The one that was added first is met.
+ljus_break_it(NAME contacts-order HEADER scene/contacts.hpp TEST contacts
+    FROM "contacts.objects[order[rank]].rank = rank;"
+    TO   "contacts.objects[rank].rank = rank;"
+    CASES "contacts: no order of a list*")
+
+# A rug is hidden by the floor on which it lies.
+ljus_break_it(NAME contacts-area HEADER scene/contacts.hpp TEST contacts
+    FROM "key.push_back(area);"
+    TO   "key.push_back(-area);"
+    CASES "contacts: which of two*")
+
+# Tiles that share an edge are in contact.
+ljus_break_it(NAME contacts-edge HEADER geometry/touching.hpp TEST contacts
+    FROM ">= -distance;"
+    TO   "> distance;"
+    CASES "contacts: what only shares an edge*")
+
+# Planes at a right angle are in contact.
+ljus_break_it(NAME contacts-plane HEADER geometry/touching.hpp TEST contacts
+    FROM "if (!(std::abs(glm::dot(normal, other"
+    TO   "if (false && !(std::abs(glm::dot(normal, other"
+    CASES "contacts: what only shares an edge*")
+
+# The search halves its list and forgets one half.
+ljus_break_it(NAME contacts-half HEADER scene/contacts.hpp TEST contacts
+    FROM "return overlapping_parts(std::move(list), budget, visit);"
+    TO   "return;"
+    CASES "contacts: a search among thousands*")
+
+# A path that begins in a stack of bodies skips where one ends on the next.
+ljus_break_it(NAME contacts-medium HEADER path/next_vertex.hpp TEST contacts
+    FROM "if (place.left == no_body && place.entered == no_body)"
+    TO   ""
+    CASES "contacts: a path that begins in a stack*")
+
+# The survey is silent about contacts.
+ljus_break_it(NAME contacts-remark HEADER render/passes.hpp TEST contacts
+    FROM "    detail::add_contact_remarks(world, remarks);"
+    TO   ""
+    CASES "contacts: the survey says*")
