@@ -114,6 +114,14 @@ inline constexpr int max_image_pixels = 1 << 25;
 /// The largest width and height; stb_image has the same.
 inline constexpr int max_image_side = 1 << 24;
 
+// Why a picture is too large beside others that have so many pixels; empty if it is not.
+inline std::string too_large_beside(long long others, long long wide, long long high) {
+    if (wide * high <= max_image_pixels - others) return "";
+    return join({"has ", to_text(wide), " x ", to_text(high),
+                 " pixels, and the pictures before it have ", to_text(others),
+                 "; together there must be at most ", to_text(max_image_pixels)});
+}
+
 #ifdef LJUS_HAS_STB_IMAGE
 // A decoded picture: three bytes per pixel.
 struct DecodedBytes {
@@ -152,11 +160,8 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, Refuse refuse) {
             refuse(join({"has ", to_text(wide), " x ", to_text(high),
                          " pixels; width and height must be at most ",
                          to_text(max_image_side)}));
-        if (wide * high > max_image_pixels - others)
-            refuse(
-                join({"has ", to_text(wide), " x ", to_text(high),
-                      " pixels, and the pictures before it have ", to_text(others),
-                      "; together there must be at most ", to_text(max_image_pixels)}));
+        if (const std::string why = too_large_beside(others, wide, high); !why.empty())
+            refuse(why);
     };
     // stb_image would report a PNG file that is too large as damaged.
     if (png && png_number(bytes, 12) == 0x49484452u)

@@ -26,8 +26,8 @@ struct alignas(std::max_align_t) StbBlock {
 };
 
 // stb_image_write tests only some of its allocations, and stb_image does not always
-// report one that failed. Here it throws std::bad_alloc. stb cannot free its memory then:
-// at the end of its scope a StbMemory frees what the thread has allocated in it.
+// report one that failed. Here that throws std::bad_alloc. stb cannot free its memory
+// then; at the end of its scope a StbMemory frees what the thread has allocated in it.
 class StbMemory {
 public:
     StbMemory() noexcept : outer_(list()) { list() = &blocks_; }
