@@ -171,7 +171,8 @@ TEST_CASE("load_obj: random polygons are cut into triangles that all turn one wa
     RandomStream stream = random_stream(7, Pass::user, 0, 0);
     for (int round = 0; round < 300; ++round) {
         // Around a point, at any radius: mostly hollow corners.
-        const int count = 4 + int(next_1d<double>(stream) * 9);
+        const int most = round % 10 == 0 ? 120 : 9;
+        const int count = 4 + int(next_1d<double>(stream) * most);
         std::vector<glm::dvec3> corners;
         for (int i = 0; i < count; ++i) {
             const double a = 2 * std::numbers::pi *
@@ -717,6 +718,23 @@ TEST_CASE("load_obj: a pipe in the place of a material file is not waited for") 
     CHECK(to_text(loaded.report).find("line 1: ") != std::string::npos);
 }
 #endif
+
+TEST_CASE(
+    "load_obj: a material file is read once, by whatever name and however often") {
+    const ScratchFolder folder;
+    const std::string mesh = folder.file("a.obj");
+    ScratchFolder::write(folder.file("a.mtl"), "newmtl red\nKd 1 0 0\n");
+    detail::MaterialLibraries libraries;
+    ObjReport report;
+    libraries.add("a.mtl", mesh, 1, report);
+    libraries.add("./a.mtl .//a.mtl none.mtl", mesh, 2, report);
+    CHECK(libraries.read.size() == 3); // with all three as one name
+    CHECK(report[ObjTrouble::no_library].count == 1);
+    ScratchFolder::write(folder.file("a.mtl"), "newmtl blue\n");
+    libraries.add("a.mtl", mesh, 3, report);
+    CHECK(libraries.materials.size() == 1);
+    CHECK(report[ObjTrouble::no_library].count == 1);
+}
 
 TEST_CASE("load_obj: no file crashes it") {
     // Bytes changed, cut out, doubled and swapped in; each

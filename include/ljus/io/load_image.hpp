@@ -114,7 +114,7 @@ inline constexpr int max_image_pixels = 1 << 25;
 /// The largest width and height; stb_image has the same.
 inline constexpr int max_image_side = 1 << 24;
 
-// Why a picture is too large beside others that have so many pixels; empty if it is not.
+// Why a picture is too large beside others with so many pixels; empty if it is not.
 inline std::string too_large_beside(long long others, long long wide, long long high) {
     if (wide * high <= max_image_pixels - others) return "";
     return join({"has ", to_text(wide), " x ", to_text(high),

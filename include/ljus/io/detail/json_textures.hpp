@@ -136,8 +136,8 @@ CheckerT<T, FileMapT<T>> read_checker(const JsonField& field) {
     return checker;
 }
 
-// The pictures of a scene file. Each is read once, and kept until its last use; each use
-// has its own copy, so that these are limited together.
+// The pictures of a scene file. Each is read once, and kept until its last use. A use
+// has a copy of its own, so that all are limited together.
 template <std::floating_point T>
 struct FilePicturesT {
     struct Picture {
