@@ -23,13 +23,13 @@ struct CutPolygon {
     bool crossed = false; // the polygon crosses itself, so its triangles overlap
 };
 
-// The corners of a polygon along two axes across its area vector, in boxes of a few that
-// follow each other. Most boxes lie outside an ear, and their corners with them.
+// The corners of a polygon along two axes across its area vector, and boxes of a few
+// that follow each other. Most boxes lie outside an ear, and their corners with them.
 class FlatCorners {
 public:
     static constexpr std::uint32_t group = 16; // corners in a box
-    // Those of an ear: x u + y v + w is at least 0 within it, and wherever rounding could
-    // put a corner into it.
+    // Those of an ear: x u + y v + w is at least 0 within it, and wherever rounding
+    // could put a corner into it.
     struct Sides {
         std::array<double, 3> u, v, w;
     };
