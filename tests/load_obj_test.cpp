@@ -797,6 +797,34 @@ TEST_CASE("load_obj: no file crashes it") {
     CHECK(message(many).find("more than 1000 corners") != std::string::npos);
 }
 
+TEST_CASE("load_obj: a report has all that the file has") {
+    // A tetrahedron of volume 4 / 3 with one vertex twice; a vertex without a face; and
+    // two faces that cannot be used.
+    const std::string text =
+        "o a\nv 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nv 0 0 0\nv 9 9 9\n"
+        "vt 0 0\nvt 1 0\nvn 0 0 -1\ng b\ng c\n"
+        "f 1//1 3//1 2//1\nf 5/1 2/2 4/1\nf 1 4 3\nf 2 3 4\n"
+        "f 1 1 2\nf 1 2 99\n";
+    const ObjContent has = read_obj(text, "x").report.content;
+    CHECK(has.vertices == 6);
+    CHECK(has.unused == 1);
+    CHECK(has.normals == 1);
+    CHECK(has.uvs == 2);
+    CHECK(has.objects == 1);
+    CHECK(has.groups == 2);
+    CHECK(has.faces == 4);
+    CHECK(has.polygons == 0);
+    CHECK(has.flat_faces == 3);
+    CHECK(has.no_uv_faces == 3);
+    CHECK(has.closed);
+    CHECK(has.volume == doctest::Approx(4.0 / 3));
+    const auto square =
+        read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", "x");
+    CHECK(square.report.content.polygons == 1);
+    CHECK_FALSE(square.report.content.closed);
+    CHECK(square.report.content.volume == 0);
+}
+
 TEST_CASE("load_obj: a report has the first line of each trouble, in any order") {
     ObjReport report;
     for (const long long line : {7, 3, 5}) report.add(ObjTrouble::no_area, line);

@@ -165,3 +165,9 @@ ljus_break_it(NAME obj-part-reset HEADER io/detail/obj_reader.hpp TEST load_obj
     FROM "part.reset();"
     TO   ""
     CASES "load_obj: materials of a file*")
+
+# A tetrahedron has a third of its parallelepiped in place of a sixth.
+ljus_break_it(NAME obj-volume HEADER io/obj_report.hpp TEST load_obj
+    FROM "report.content.volume = volume / 6;"
+    TO   "report.content.volume = volume / 3;"
+    CASES "load_obj: a report has all*")

@@ -91,6 +91,10 @@ template <std::floating_point T = float>
     require_positive("the scale of a mesh file", settings.scale);
     detail::ObjReader<T> reader{.file = file, .settings = settings};
     reader.read(detail::plain_text(text, file));
+    ObjContent& content = reader.report.content;
+    content.vertices = static_cast<long long>(reader.exact.size());
+    content.normals = static_cast<long long>(reader.normals.size());
+    content.uvs = static_cast<long long>(reader.uv.size());
     if (reader.parts.empty()) detail::refuse_without_faces(file, reader.report);
 
     LoadedObjT<T> loaded{.report = std::move(reader.report)};

@@ -108,6 +108,10 @@ struct ObjReader {
                 face(words);
             else if (keyword == "usemtl")
                 use(words.name());
+            else if (keyword == "o")
+                ++report.content.objects;
+            else if (keyword == "g")
+                ++report.content.groups;
             else if (keyword == "l" || keyword == "p" || keyword == "curv" ||
                      keyword == "curv2" || keyword == "surf")
                 report.add(ObjTrouble::no_face, line);
@@ -171,11 +175,20 @@ struct ObjReader {
         }
         keep_what_all_have();
         const CutPolygon cut = cut_polygon(face_positions);
+        const std::size_t before = whole.triangles.size();
         bool empty = cut.triangles.empty();
         for (const auto& [a, b, c] : cut.triangles)
             empty = !add({face_corners[a], face_corners[b], face_corners[c]}) || empty;
+        if (whole.triangles.size() > before) count_face();
         if (empty) report.add(ObjTrouble::no_area, line);
         if (cut.crossed) report.add(ObjTrouble::crossed, line);
+    }
+    void count_face() {
+        ObjContent& all = report.content;
+        ++all.faces;
+        all.polygons += face_corners.size() > 3 ? 1 : 0;
+        all.flat_faces += face_corners[0].normal ? 0 : 1;
+        all.no_uv_faces += face_corners[0].uv ? 0 : 1;
     }
     // Normals and texture coordinates that are not good at every corner of a face are
     // used at none.
