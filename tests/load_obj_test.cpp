@@ -797,6 +797,25 @@ TEST_CASE("load_obj: no file crashes it") {
     CHECK(message(many).find("more than 1000 corners") != std::string::npos);
 }
 
+TEST_CASE("load_obj: the pictures of all materials together are limited") {
+    const ScratchFolder folder;
+    const std::string file = folder.file("two.png");
+    save_png(make_image<float>(2, 1), file);
+    LoadedObj loaded;
+    long long pixels = (1 << 25) - 4;
+    ObjMaterial material{.picture = file, .picture_at = "a.mtl, line 3"};
+    for (int i = 0; i < 2; ++i) detail::load_picture(material, loaded, pixels);
+    CHECK(loaded.report.notes.empty());
+    CHECK(loaded.pictures.size() == 1);
+    detail::load_picture(material, loaded, pixels);
+    CHECK(material.picture.empty()); // so that it is not copied
+    REQUIRE(loaded.report.notes.size() == 1);
+    CHECK(loaded.report.notes[0] ==
+          "a.mtl, line 3: " + file +
+              " has 2 x 1 pixels, and the pictures before it have 33554432; together "
+              "there must be at most 33554432.");
+}
+
 TEST_CASE("load_obj: a report has all that the file has") {
     // A tetrahedron of volume 4 / 3 with one vertex twice; a vertex without a face; and
     // two faces that cannot be used.
