@@ -40,8 +40,8 @@ file(RELATIVE_PATH ljus_pc_prefix
 configure_file(cmake/ljus.pc.in "${CMAKE_CURRENT_BINARY_DIR}/ljus.pc" @ONLY)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/ljus.pc"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/pkgconfig")
-# ljus-compare and ljus-merge, if the example programs were built.
-foreach(program IN ITEMS compare merge)
+# ljus-compare, ljus-inspect and ljus-merge, if the example programs were built.
+foreach(program IN ITEMS compare inspect merge)
     if(TARGET ${program})
         install(TARGETS ${program}
             RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" OPTIONAL)

@@ -1,6 +1,8 @@
 # Sourced by the scripts of this folder. Works with bash 3.2 (macOS).
 
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# With it, cd may go elsewhere, and prints where.
+unset CDPATH
+root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 me=$(basename "$0")
 
 # Both print one sentence on stderr and exit: with 2 for bad usage, with 1 for other errors.
@@ -17,6 +19,11 @@ jobs=${LJUS_JOBS:-$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)}
 configure() {
     local folder=$1 log status=0
     shift
+    case $folder in
+        *[\"\;\#\\]* | *$'\n'*)
+            fail "CMake cannot work in '$folder': a folder's name must not have a \" or ; or # or \\ or a line feed in it; move the project."
+            ;;
+    esac
     if [ ! -f "$folder/CMakeCache.txt" ] && command -v ninja >/dev/null 2>&1; then
         set -- -G Ninja "$@"
     fi

@@ -379,6 +379,31 @@ TEST_CASE("command_line: threads that cannot be had are asked for before they ar
     CHECK(answer({"--threads", "8"}) == "accepted");
 }
 
+TEST_CASE("command_line: stacks that are too small or too large are told") {
+    const auto with = [](const char* size) {
+        ::setenv("OMP_STACKSIZE", size, 1);
+        const std::string said = answer({});
+        ::unsetenv("OMP_STACKSIZE");
+        return said;
+    };
+    for (const char* const good :
+         {"256K", "262144b", "256", "8 M", "1G", " 2m ", "", "x"})
+        CHECK(with(good) == "accepted");
+    for (const char* const bad :
+         {"16k", "255", "1000G", "1025M", "100000B", "-8M", "8X"})
+        CHECK(with(bad) == "the environment variable OMP_STACKSIZE is '" +
+                               std::string(bad) + "'; it must be from 256K to 1G");
+    ::rlimit stack{};
+    ::getrlimit(RLIMIT_STACK, &stack);
+    ::rlimit small = stack;
+    small.rlim_cur = 128 << 10;
+    ::setrlimit(RLIMIT_STACK, &small);
+    const std::string said = answer({});
+    ::setrlimit(RLIMIT_STACK, &stack);
+    CHECK(said == "the limit of the stack (ulimit -s) is 128 kilobytes; it must be at "
+                  "least 256");
+}
+
 TEST_CASE("command_line: whoever does not listen to Ctrl-C is stopped two seconds "
           "later") {
     const ::pid_t child = ::fork();

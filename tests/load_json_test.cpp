@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <initializer_list>
 #include <limits>
 #include <numbers>
@@ -458,6 +459,60 @@ TEST_CASE("load_json: a picture as a texture, and one that is not there") {
             "or directory.");
 }
 
+TEST_CASE(
+    "load_json: a picture of several materials is read once, and all together are "
+    "limited") {
+    const ScratchFolder folder;
+    save_png(make_image<float>(3, 2), folder.file("a.png"));
+    const std::string file = folder.file("s.json");
+    const auto materials = nlohmann::json::parse(
+        R"([{"file": "a.png"}, {"file": "./a.png"}, {"file": "b.png"}, {"file": 1}, 2])");
+    detail::FilePicturesT<float> pictures({materials, file, ""});
+    CHECK(pictures.take(folder.file("a.png")).pixels.size() == 6);
+    std::filesystem::rename(folder.file("a.png"), folder.file("b.png"));
+    CHECK(pictures.take(folder.file("a.png")).pixels.size() == 6);
+    CHECK(pictures.pixels == 12);
+    CHECK(pictures.at(folder.file("a.png")).image.pixels.empty());
+
+    detail::FilePicturesT<float> many({materials, file, ""});
+    many.at(folder.file("b.png")).uses = 3;
+    many.pixels = (1 << 25) - 13;
+    for (int i = 0; i < 2; ++i) (void)many.take(folder.file("b.png"));
+    CHECK_THROWS_WITH((void)many.take(folder.file("b.png")),
+                      (folder.file("b.png") +
+                       " has 3 x 2 pixels, and the pictures before it have 33554431; "
+                       "together there must be at most 33554432.")
+                          .c_str());
+}
+
+TEST_CASE("load_json: full gloss of one roughness has one table, and at most 64 have") {
+    const auto glosses = [](int count, int different) {
+        std::string text;
+        for (int i = 0; i < count; ++i)
+            text += "\"g" + std::to_string(i) +
+                    "\": {\"type\": \"full-glossy\", \"reflectance\": [1, 1, 1], "
+                    "\"roughness\": " +
+                    std::to_string(0.25 + 0.005 * (i % different)) + "},";
+        return changed("\"materials\": {", "\"materials\": {" + text);
+    };
+    // Of 5000 tables that would take a minute.
+    const LoadedScene loaded = read_json_scene(glosses(5000, 2), "a.json");
+    const auto& all = std::get<std::vector<CompensatedGlossy>>(loaded.scene.materials);
+    REQUIRE(all.size() == 5000);
+    for (const CompensatedGlossy& gloss : all) {
+        const CompensatedGlossy& same =
+            gloss.first.roughness == 0.25f ? all[0] : all[1];
+        CHECK(gloss.loss.at == same.loss.at);
+    }
+    CHECK(all[1].loss.at == compensated_glossy(all[1].first).loss.at);
+    CHECK(all[0].loss.mean == compensated_glossy(all[0].first).loss.mean);
+    refused(
+        glosses(65, 65),
+        "materials.g9.roughness is 0.295; it must be one of the 64 that full-glossy "
+        "and full-rough-metal have before it, because each takes a table that is "
+        "slow to compute.");
+}
+
 // The good scene with a list of lights.
 static std::string lit(const std::string& lights) {
     const std::string end = R"("indices": [[0, 1, 2]]}
@@ -860,6 +915,59 @@ TEST_CASE("load_json: who reads meshes is told the file, the scale and the norma
           "sub/a.json: objects[0].normals is \"sharp\"; it must be file, smooth or "
           "flat.");
     CHECK(calls.size() == 4);
+}
+
+TEST_CASE("load_json: a mesh file is read once for each scale and normals") {
+    const MeshData triangle{.positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                            .triangles{{0, 1, 2}}};
+    int calls = 0;
+    std::size_t triangles = 1;
+    const auto load = [&](const std::string&, double scale, const std::string&) {
+        ++calls;
+        MeshData data = triangle;
+        data.positions[1].x = float(scale);
+        data.triangles.resize(triangles, data.triangles[0]);
+        return std::vector<Mesh>{Mesh(triangle), Mesh(data)};
+    };
+    const auto objects = [](int count, const char* rest, int different = 1) {
+        std::string text;
+        for (int i = 0; i < count; ++i)
+            text += R"({"type": "mesh", "file": "m.obj", "material": ")" +
+                    std::string(i % 2 == 0 ? "matt" : "glass") + "\"" + rest +
+                    (different > 1 ? ", \"scale\": " + std::to_string(1 + i % different)
+                                   : "") +
+                    "}, ";
+        return changed("\"objects\": [", "\"objects\": [" + text);
+    };
+    const LoadedScene loaded = read_json_scene(objects(100, "", 3), "a.json", load);
+    CHECK(calls == 3);
+    const auto& meshes = std::get<std::vector<Mesh>>(loaded.scene.shapes);
+    REQUIRE(meshes.size() == 200);
+    for (std::uint32_t i = 0; i < 200; ++i) {
+        const float right = i % 2 == 0 ? 1 : float(1 + i / 2 % 3);
+        CHECK(meshes[i].data().positions[1].x == right);
+        CHECK((loaded.scene.objects[3][i].material ==
+               loaded.scene.objects[3][i % 4].material));
+    }
+    CHECK(loaded.scene.objects[3][0].material != loaded.scene.objects[3][2].material);
+
+    const auto sentence = [&](const std::string& text) -> std::string {
+        try {
+            (void)read_json_scene(text, "a.json", load);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    CHECK(sentence(objects(40, "", 16)) == "accepted");
+    CHECK(sentence(objects(40, "", 17)) ==
+          "a.json: objects[16].file is named with more than 16 scales and normals.");
+    triangles = (1 << 19) - 1; // and one
+    CHECK(sentence(objects(9, "")) == "accepted");
+    CHECK(
+        sentence(objects(10, "")) ==
+        "a.json: objects[9].file is named once more; meshes that are named again have "
+        "at most 4194304 triangles together.");
 }
 
 TEST_CASE("load_json: counts are right to the last one") {

@@ -171,7 +171,8 @@ TEST_CASE("load_obj: random polygons are cut into triangles that all turn one wa
     RandomStream stream = random_stream(7, Pass::user, 0, 0);
     for (int round = 0; round < 300; ++round) {
         // Around a point, at any radius: mostly hollow corners.
-        const int count = 4 + int(next_1d<double>(stream) * 9);
+        const int most = round % 10 == 0 ? 120 : 9;
+        const int count = 4 + int(next_1d<double>(stream) * most);
         std::vector<glm::dvec3> corners;
         for (int i = 0; i < count; ++i) {
             const double a = 2 * std::numbers::pi *
@@ -718,6 +719,23 @@ TEST_CASE("load_obj: a pipe in the place of a material file is not waited for") 
 }
 #endif
 
+TEST_CASE(
+    "load_obj: a material file is read once, by whatever name and however often") {
+    const ScratchFolder folder;
+    const std::string mesh = folder.file("a.obj");
+    ScratchFolder::write(folder.file("a.mtl"), "newmtl red\nKd 1 0 0\n");
+    detail::MaterialLibraries libraries;
+    ObjReport report;
+    libraries.add("a.mtl", mesh, 1, report);
+    libraries.add("./a.mtl .//a.mtl none.mtl", mesh, 2, report);
+    CHECK(libraries.read.size() == 3); // with all three as one name
+    CHECK(report[ObjTrouble::no_library].count == 1);
+    ScratchFolder::write(folder.file("a.mtl"), "newmtl blue\n");
+    libraries.add("a.mtl", mesh, 3, report);
+    CHECK(libraries.materials.size() == 1);
+    CHECK(report[ObjTrouble::no_library].count == 1);
+}
+
 TEST_CASE("load_obj: no file crashes it") {
     // Bytes changed, cut out, doubled and swapped in; each
     // mesh that comes out is asked.
@@ -777,6 +795,53 @@ TEST_CASE("load_obj: no file crashes it") {
     std::string many = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
     for (int i = 0; i < 300000; ++i) many += " 1";
     CHECK(message(many).find("more than 1000 corners") != std::string::npos);
+}
+
+TEST_CASE("load_obj: the pictures of all materials together are limited") {
+    const ScratchFolder folder;
+    const std::string file = folder.file("two.png");
+    save_png(make_image<float>(2, 1), file);
+    LoadedObj loaded;
+    long long pixels = (1 << 25) - 4;
+    ObjMaterial material{.picture = file, .picture_at = "a.mtl, line 3"};
+    for (int i = 0; i < 2; ++i) detail::load_picture(material, loaded, pixels);
+    CHECK(loaded.report.notes.empty());
+    CHECK(loaded.pictures.size() == 1);
+    detail::load_picture(material, loaded, pixels);
+    CHECK(material.picture.empty()); // so that it is not copied
+    REQUIRE(loaded.report.notes.size() == 1);
+    CHECK(loaded.report.notes[0] ==
+          "a.mtl, line 3: " + file +
+              " has 2 x 1 pixels, and the pictures before it have 33554432; together "
+              "there must be at most 33554432.");
+}
+
+TEST_CASE("load_obj: a report has all that the file has") {
+    // A tetrahedron of volume 4 / 3 with one vertex twice; a vertex without a face; and
+    // two faces that cannot be used.
+    const std::string text =
+        "o a\nv 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nv 0 0 0\nv 9 9 9\n"
+        "vt 0 0\nvt 1 0\nvn 0 0 -1\ng b\ng c\n"
+        "f 1//1 3//1 2//1\nf 5/1 2/2 4/1\nf 1 4 3\nf 2 3 4\n"
+        "f 1 1 2\nf 1 2 99\n";
+    const ObjContent has = read_obj(text, "x").report.content;
+    CHECK(has.vertices == 6);
+    CHECK(has.unused == 1);
+    CHECK(has.normals == 1);
+    CHECK(has.uvs == 2);
+    CHECK(has.objects == 1);
+    CHECK(has.groups == 2);
+    CHECK(has.faces == 4);
+    CHECK(has.polygons == 0);
+    CHECK(has.flat_faces == 3);
+    CHECK(has.no_uv_faces == 3);
+    CHECK(has.closed);
+    CHECK(has.volume == doctest::Approx(4.0 / 3));
+    const auto square =
+        read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", "x");
+    CHECK(square.report.content.polygons == 1);
+    CHECK_FALSE(square.report.content.closed);
+    CHECK(square.report.content.volume == 0);
 }
 
 TEST_CASE("load_obj: a report has the first line of each trouble, in any order") {

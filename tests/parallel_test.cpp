@@ -13,6 +13,12 @@
 #include <vector>
 
 #include "ljus/parallel.hpp"
+#include "scratch_folder.hpp"
+
+#if __has_include(<nlohmann/json.hpp>)
+#define HAS_SLICES
+#include "common/picture_slice.hpp"
+#endif
 
 namespace {
 
@@ -498,6 +504,52 @@ TEST_CASE("parallel: a loop over things is one over their blocks, with its optio
     CHECK_THROWS_AS(parallel_each(20, 3, [](std::size_t) {}, {.threads = -1}),
                     std::invalid_argument);
 }
+
+#ifdef HAS_SLICES
+// Files with the right checksum that say what no renderer says.
+TEST_CASE(
+    "parallel: a slice that promises too much is refused before memory is taken") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.slice");
+    const auto said = [&](const examples::PictureSlice& slice) -> std::string {
+        examples::save_slice(path, slice);
+        try {
+            (void)examples::merge_slices({path});
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "merged";
+    };
+    examples::PictureSlice slice{.slice = {1, 1}, .width = 2, .height = 1};
+    slice.settings = R"({"scene": "a", "light": {"pairs": [[1, 2]]}})";
+    slice.pixels.assign(2, ljus::RgbT<double>(1));
+    CHECK(said(slice) == "merged");
+    const std::string refused =
+        "cannot read '" + path + "': no slice has its settings.";
+    auto other = slice;
+    for (const std::string settings : {"", "no JSON", "[1]", "1"}) {
+        other.settings = settings;
+        CHECK(said(other) == refused);
+    }
+    // Whoever writes these again overflows the stack.
+    other.settings =
+        "{\"a\": " + std::string(300'000, '[') + std::string(300'000, ']') + "}";
+    CHECK(said(other) == refused);
+    other = slice;
+    other.exposure = std::numeric_limits<double>::quiet_NaN();
+    CHECK(said(other) == refused);
+    // No rows of a picture of 6 gigabytes.
+    other = slice;
+    other.slice.count = 65536;
+    other.width = other.height = 16384;
+    other.pixels.clear();
+    const auto before = std::chrono::steady_clock::now();
+    CHECK(said(other).find("of 65536 slices 65535 are missing: 2/65536,") == 0);
+    const std::chrono::duration<double> seconds =
+        std::chrono::steady_clock::now() - before;
+    CHECK(seconds.count() < 5); // it was 15 when the picture was made first
+}
+#endif
 
 // What a loop costs depends on what else the machine does: shown, not required.
 TEST_CASE("parallel: two threads on a job of 0.1 s (information)") {

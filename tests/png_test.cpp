@@ -8,6 +8,7 @@
 
 #include "ljus/io/png.hpp"
 #include "scratch_folder.hpp"
+#include "support/little_memory.hpp"
 
 // The reader: another program part than the writer, from the same collection.
 #if __has_include(<stb/stb_image.h>) || __has_include(<stb_image.h>)
@@ -139,4 +140,34 @@ TEST_CASE("png: an image or an exposure that makes no picture leaves the older f
             std::invalid_argument);
     CHECK(ScratchFolder::read(folder.file("a.png")) == "older");
     CHECK(folder.count() == 1);
+}
+
+#ifdef LJUS_TEST_LITTLE_MEMORY
+TEST_CASE("png: an encoder without memory throws, wherever that ends") {
+    ljus::Image image = ramp(600, 400);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] *= float(i * 2654435761u % 1000003u) / 1e6f; // noise
+    const ljus::Bytes right = ljus::encode_png(image);
+    CHECK(ljus_test::trouble_with_little_memory(
+              65536, 1 << 23, [&] { return ljus::encode_png(image) == right; }) == "");
+}
+#endif
+
+TEST_CASE("png: what the encoder has not freed is freed behind it, and nothing else") {
+    using ljus::detail::StbMemory;
+    const auto number = [](void* memory) { return static_cast<int*>(memory); };
+    void* const outside = StbMemory::resize(nullptr, sizeof(int));
+    *number(outside) = 7;
+    {
+        const StbMemory scope; // a leak is the sanitizer's to find
+        void* grown = StbMemory::resize(nullptr, sizeof(int));
+        (void)StbMemory::resize(nullptr, 100);
+        *number(grown) = 8;
+        grown = StbMemory::resize(grown, 1 << 20);
+        CHECK(*number(grown) == 8);
+        StbMemory::release(StbMemory::resize(nullptr, 10));
+        StbMemory::release(nullptr);
+    }
+    CHECK(*number(outside) == 7);
+    StbMemory::release(outside);
 }

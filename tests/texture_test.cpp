@@ -23,6 +23,7 @@
 #include "scratch_folder.hpp"
 #include "support/bsdf_checks.hpp"
 #include "support/jpeg_segment.hpp"
+#include "support/little_memory.hpp"
 
 #if __has_include(<stb/stb_image.h>)
 #include "ljus/io/load_image.hpp"
@@ -570,12 +571,43 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
           "a is damaged: it ends in the middle of its pixels.");
     CHECK(refusal_of(with({24}, 3)) == // bits of a channel
           "a is not a picture that can be read: its header is damaged or unknown.");
+    // As few pixels as are allowed, in one row that the decoder would not read.
+    Bytes row = encode_png(make_image(2, 1));
+    row[16] = 2; // 2^25 pixels wide
+    row[19] = 0;
+    const std::uint32_t sum_of_row = detail::png_sum(row, 12, 29);
+    for (std::size_t i = 0; i < 4; ++i)
+        row[29 + i] = static_cast<unsigned char>(sum_of_row >> (24 - 8 * i) & 255u);
+    CHECK(refusal_of(row) == "a has 33554432 x 1 pixels; width and height must be at "
+                             "most 16777216.");
     // Another chunk where the header must be.
     Bytes late = whole;
     late.erase(late.begin() + 8, late.begin() + 33);
     CHECK(refusal_of(late) ==
           "a is not a picture that can be read: its header is damaged or unknown.");
 }
+
+TEST_CASE("texture: pictures that are kept together are limited together") {
+    const Bytes file = encode_png(make_image(4, 2));
+    CHECK(decode_image(file, "a", (1 << 25) - 8).pixels.size() == 8);
+    CHECK_THROWS_WITH(
+        (void)decode_image(file, "a", (1 << 25) - 7),
+        "a has 4 x 2 pixels, and the pictures before it have 33554425; together there "
+        "must be at most 33554432.");
+}
+
+#ifdef LJUS_TEST_LITTLE_MEMORY
+TEST_CASE("texture: a picture for which there is no memory is not called damaged") {
+    Image image = make_image(600, 400);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = Rgb(float(i * 2654435761u % 1000003u) / 1e6f); // noise
+    const Bytes file = encode_png(image);
+    const auto right = decode_image(file, "a").pixels;
+    CHECK(ljus_test::trouble_with_little_memory(65536, 1 << 23, [&] {
+              return decode_image(file, "a").pixels == right;
+          }) == "");
+}
+#endif
 
 TEST_CASE("texture: the tables of a JPEG file, segment by segment") {
     const auto add = [](Bytes& to, std::initializer_list<int> values) {

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iterator>
@@ -19,6 +21,10 @@
 #include <thread>
 
 #include <CLI/CLI.hpp>
+
+#if __has_include(<sys/resource.h>)
+#include <sys/resource.h>
+#endif
 
 #include "ljus/io/file.hpp"
 #include "ljus/parallel.hpp"
@@ -96,6 +102,32 @@ void require_threads(int wanted) {
     if (!why.empty())
         throw std::runtime_error("cannot start " + std::to_string(count) +
                                  " threads: " + why + "; --threads 1 needs none");
+    // OpenMP keeps its threads: it has them before the work takes the memory.
+    ljus::parallel_blocks(count, [](long long) {}, {.threads = wanted});
+}
+
+// A stack that is too small ends the program without a word, and one that is too large
+// with OpenMP's.
+void require_stacks() {
+    constexpr double least = 256 << 10, most = 1 << 30;
+    if (const char* const given = std::getenv("OMP_STACKSIZE")) {
+        double size = 0;
+        char unit = 'K';
+        const bool is_size = std::sscanf(given, "%lf %c", &size, &unit) > 0;
+        const std::string_view units = "BbKkMmGg";
+        size *= std::pow(1024.0, units.find(unit) / 2);
+        if (is_size && (size < least || size > most))
+            throw std::runtime_error("the environment variable OMP_STACKSIZE is '" +
+                                     ljus::shown(given) +
+                                     "'; it must be from 256K to 1G");
+    }
+#if __has_include(<sys/resource.h>)
+    ::rlimit stack{};
+    if (::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur < ::rlim_t(least))
+        throw std::runtime_error("the limit of the stack (ulimit -s) is " +
+                                 std::to_string(stack.rlim_cur >> 10) +
+                                 " kilobytes; it must be at least 256");
+#endif
 }
 
 // Digits with an optional sign: the parser's own conversion would read 010 as 8.
@@ -422,6 +454,7 @@ Options CommandLine::parse(const Presets& presets) {
                 ? "--out is " + options.out + "; it must be a folder, for all files"
                 : "--out is " + options.out + "; the name of a file must end in " +
                       list_of(types) + ", and any other is that of a folder");
+    require_stacks();
     require_threads(options.threads);
     if (types.empty()) require_folder(options.out);
     return options;

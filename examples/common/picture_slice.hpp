@@ -10,12 +10,15 @@
 /// rows from the top. Numbers keep all their bits, lowest byte first. The file is
 /// written whole or not at all (save_file()).
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -140,6 +143,20 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
     ljus::save_file(path, bytes);
 }
 
+// Whether a text can be the settings of a slice: an object, and not so deeply nested that
+// writing it again would overflow the stack.
+inline bool are_settings(const std::string& text) {
+    bool shallow = true;
+    const auto json = nlohmann::json::parse(
+        text,
+        [&shallow](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+            shallow = shallow && depth < 16;
+            return shallow;
+        },
+        false);
+    return shallow && json.is_object();
+}
+
 /// Loads a slice.
 /// \param path  The file.
 /// \return The slice, bit for bit as it was saved.
@@ -166,13 +183,15 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
     const bool numbered = part.slice.number >= 1 && part.slice.count <= max_slices &&
                           part.slice.number <= part.slice.count;
     if (!sized || !numbered || (channel != 4 && channel != 8) || letters > file.left())
-        file.refuse("its numbers are none that a slice can have");
+        file.refuse("no slice has its numbers");
     part.width = int(width);
     part.height = int(height);
     part.wide = channel == 8;
     const auto text = file.bytes.begin() + std::ptrdiff_t(file.position);
     part.settings.assign(text, text + std::ptrdiff_t(letters));
     file.position += letters;
+    if (!std::isfinite(part.exposure) || !are_settings(part.settings))
+        file.refuse("no slice has its settings");
     const ljus::RowRange rows = rows_of(part.slice, part.height);
     const std::size_t pixels =
         std::size_t(width) * static_cast<std::size_t>(rows.last - rows.first);
@@ -221,44 +240,53 @@ struct MergedPicture {
 // [merge]
 [[nodiscard]] inline MergedPicture merge_slices(const std::vector<std::string>& paths) {
     if (paths.empty()) throw std::runtime_error("there is no slice to merge");
-    const PictureSlice first = load_slice(paths.front());
     const auto fail = [](const std::string& why) { throw std::runtime_error(why); };
-    MergedPicture merged{ljus::make_image<double>(first.width, first.height),
-                         first.wide, first.exposure};
-    std::vector<std::string> of(static_cast<std::size_t>(first.slice.count));
-    ljus::Counts counts;
-    double seconds = 0;
+    struct Named {
+        std::string path;
+        PictureSlice part;
+    };
+    // The picture gets its memory when all of it is there: a small file may say anything.
+    std::map<int, Named> parts;
+    const PictureSlice* known = nullptr;
     for (const std::string& path : paths) {
-        const PictureSlice part = load_slice(path);
-        if (part.slice.count != first.slice.count)
+        PictureSlice part = load_slice(path);
+        if (known != nullptr && part.slice.count != known->slice.count)
             fail("'" + path + "' is slice " + slice_text(part.slice) + " and '" +
-                 paths.front() + "' " + slice_text(first.slice) +
+                 paths.front() + "' " + slice_text(known->slice) +
                  ": slices of one picture have one count");
-        if (const std::string why = difference(first, part); !why.empty())
-            fail("'" + path + "' is of another picture than '" + paths.front() +
-                 "': " + why);
-        std::string& there = of[static_cast<std::size_t>(part.slice.number - 1)];
-        if (!there.empty())
-            fail("'" + there + "' and '" + path + "' are both slice " +
+        if (known != nullptr)
+            if (const std::string why = difference(*known, part); !why.empty())
+                fail("'" + path + "' is of another picture than '" + paths.front() +
+                     "': " + why);
+        Named& there = parts[part.slice.number];
+        if (!there.path.empty())
+            fail("'" + there.path + "' and '" + path + "' are both slice " +
                  slice_text(part.slice) + "; give one of them");
-        there = path;
-        const auto begin = std::ptrdiff_t(rows_of(part.slice, part.height).first);
-        std::copy(part.pixels.begin(), part.pixels.end(),
-                  merged.image.pixels.begin() + begin * part.width);
-        counts += part.counts;
-        seconds += part.seconds;
+        there = {path, std::move(part)};
+        if (known == nullptr) known = &there.part;
     }
+    const PictureSlice& first = *known;
     std::string missing;
     int holes = 0;
-    for (std::size_t i = 0; i < of.size(); ++i)
-        if (of[i].empty() && ++holes <= 10)
-            missing += (holes == 1 ? " " : ", ") +
-                       slice_text({static_cast<int>(i) + 1, first.slice.count});
+    for (int number = 1; number <= first.slice.count; ++number)
+        if (!parts.contains(number) && ++holes <= 10)
+            missing +=
+                (holes == 1 ? " " : ", ") + slice_text({number, first.slice.count});
     if (holes > 0)
         fail("of " + std::to_string(first.slice.count) + " slices " +
              std::to_string(holes) + (holes == 1 ? " is" : " are") +
              " missing:" + missing + (holes > 10 ? ", ..." : "") +
              "; render with --slice what is missing, and nothing else");
+    MergedPicture merged{ljus::make_image<double>(first.width, first.height),
+                         first.wide, first.exposure};
+    ljus::Counts counts;
+    double seconds = 0;
+    auto to = merged.image.pixels.begin();
+    for (const auto& [number, slice] : parts) {
+        to = std::copy(slice.part.pixels.begin(), slice.part.pixels.end(), to);
+        counts += slice.part.counts;
+        seconds += slice.part.seconds;
+    }
     auto json = nlohmann::ordered_json::parse(first.settings);
     json["slices"] = first.slice.count;
     json["cost"] = cost_json(counts, seconds);

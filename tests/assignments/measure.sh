@@ -3,7 +3,7 @@
 # Seconds are those of one processor, user and system: the least of three runs.
 # Usage: tests/assignments/measure.sh >chapters/measured/assignments.csv
 set -euo pipefail
-cd "$(dirname "$0")/../.."
+CDPATH= cd -- "$(dirname -- "$0")/../.."
 cxx=${CXX:-g++}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT

@@ -22,3 +22,21 @@ ljus_break_it(NAME json-film-level HEADER io/detail/json_materials.hpp TEST load
     FROM [[in.has("scale") || in.has("level") || in.has("up")]]
     TO   [[in.has("scale") || in.has("up")]]
     CASES "load_json: panes*")
+
+# A picture is forgotten before its last use.
+ljus_break_it(NAME json-picture-once HEADER io/detail/json_textures.hpp TEST load_json
+    FROM "if (--known.uses > 0) return image;"
+    TO   "--known.uses;"
+    CASES "load_json: a picture of several*")
+
+# Each full gloss computes its own table.
+ljus_break_it(NAME json-loss-tables HEADER io/detail/json_materials.hpp TEST load_json
+    FROM "if (shared.losses.size() == max_loss_tables)"
+    TO   "if (false)"
+    CASES "load_json: full gloss*")
+
+# A mesh file that is named again is read again.
+ljus_break_it(NAME json-mesh-once HEADER io/detail/json_objects.hpp TEST load_json
+    FROM "if (reading.scale != factor || reading.normals != which) continue;"
+    TO   "if (reading.normals != \"\") continue;"
+    CASES "load_json: a mesh file is read once*")

@@ -125,3 +125,15 @@ ljus_break_it(NAME png-apple HEADER io/load_image.hpp TEST texture
     FROM "if (png && png_number(bytes, 12) == 0x43674249u)"
     TO   "if (false)"
     CASES "texture: a PNG file of another kind*")
+
+# Each picture of a scene may be as large as all of them together.
+ljus_break_it(NAME load-image-together HEADER io/load_image.hpp TEST texture
+    FROM "wide * high <= max_image_pixels - others"
+    TO   "wide * high <= max_image_pixels"
+    CASES "texture: pictures that are kept*")
+
+# A picture too wide for the decoder is called damaged.
+ljus_break_it(NAME load-image-side HEADER io/load_image.hpp TEST texture
+    FROM "wide > max_image_side || high > max_image_side"
+    TO   "false"
+    CASES "texture: of pictures only*")

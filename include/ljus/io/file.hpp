@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -46,6 +47,18 @@ inline std::string folder_of(const std::string& path) {
 // The path of a file that another file names: relative to that file, unless absolute.
 inline std::string path_beside(const std::string& file, const std::string& name) {
     return name.starts_with('/') ? name : folder_of(file) + name;
+}
+
+// One path for all names and links of a file; the path itself if it does not exist.
+inline std::string one_path(const std::string& path) {
+#if __has_include(<unistd.h>)
+    if (char* const resolved = ::realpath(path.c_str(), nullptr)) {
+        const std::string found = resolved;
+        std::free(resolved);
+        return found;
+    }
+#endif
+    return path;
 }
 
 } // namespace detail

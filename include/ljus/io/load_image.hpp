@@ -8,6 +8,8 @@
 /// include that first. Without stb_image no picture can be read, and loading one throws
 /// an error that says so.
 
+#include "ljus/io/detail/stb_memory.hpp"
+
 #if defined(STBI_INCLUDE_STB_IMAGE_H)
 #define LJUS_HAS_STB_IMAGE 1 // the program's own
 #elif __has_include(<stb/stb_image.h>) || __has_include(<stb_image.h>)
@@ -43,6 +45,9 @@
 #define STBI_ONLY_BMP
 #define STBI_NO_LINEAR
 #define STBI_NO_STDIO
+#define STBI_MALLOC(size) ljus::detail::StbMemory::resize(nullptr, size)
+#define STBI_REALLOC(memory, size) ljus::detail::StbMemory::resize(memory, size)
+#define STBI_FREE(memory) ljus::detail::StbMemory::release(memory)
 #if __has_include(<stb/stb_image.h>)
 #include <stb/stb_image.h>
 #else
@@ -55,6 +60,10 @@
 #undef STBI_ONLY_BMP
 #undef STBI_NO_LINEAR
 #undef STBI_NO_STDIO
+#undef STBI_MALLOC
+#undef STBI_REALLOC
+#undef STBI_REALLOC_SIZED
+#undef STBI_FREE
 #undef STBI_NO_GIF // stb_image has defined the others itself
 #undef STBI_NO_HDR
 #undef STBI_NO_PIC
@@ -102,6 +111,17 @@ inline constexpr std::size_t max_image_file = std::size_t(1) << 27;
 /// The largest number of pixels: 8192 x 4096; half of them for a 16-bit PNG file.
 inline constexpr int max_image_pixels = 1 << 25;
 
+/// The largest width and height; stb_image has the same.
+inline constexpr int max_image_side = 1 << 24;
+
+// Why a picture is too large beside others with so many pixels; empty if it is not.
+inline std::string too_large_beside(long long others, long long wide, long long high) {
+    if (wide * high <= max_image_pixels - others) return "";
+    return join({"has ", to_text(wide), " x ", to_text(high),
+                 " pixels, and the pictures before it have ", to_text(others),
+                 "; together there must be at most ", to_text(max_image_pixels)});
+}
+
 #ifdef LJUS_HAS_STB_IMAGE
 // A decoded picture: three bytes per pixel.
 struct DecodedBytes {
@@ -111,9 +131,10 @@ struct DecodedBytes {
     std::unique_ptr<stbi_uc, void (*)(void*)> pixels{nullptr, stbi_image_free};
 };
 
-// Decodes the bytes of a picture; errors go to refuse(why).
+// Decodes the bytes of a picture; errors go to refuse(why). See decode_image() for
+// `others`.
 template <typename Refuse>
-DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
+DecodedBytes decode_bytes(const Bytes& bytes, long long others, Refuse refuse) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                                 bytes.size());
     const bool png = text.starts_with("\x89PNG\r\n\x1a\n");
@@ -135,6 +156,12 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
             refuse(join({"has ", to_text(wide), " x ", to_text(high), " pixels",
                          is_deep ? " of 16 bits per channel" : "",
                          "; there must be 1 to ", to_text(most_pixels)}));
+        if (wide > max_image_side || high > max_image_side)
+            refuse(join({"has ", to_text(wide), " x ", to_text(high),
+                         " pixels; width and height must be at most ",
+                         to_text(max_image_side)}));
+        if (const std::string why = too_large_beside(others, wide, high); !why.empty())
+            refuse(why);
     };
     // stb_image would report a PNG file that is too large as damaged.
     if (png && png_number(bytes, 12) == 0x49484452u)
@@ -155,26 +182,34 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
         refuse("is damaged: it ends in the middle of its pixels");
     picture.pixels.reset(
         stbi_load_from_memory(data, size, &width, &height, &channels, 3));
+    if (picture.pixels) return picture;
     const char* const why = stbi_failure_reason(); // it may repeat bytes of the file
-    if (!picture.pixels) refuse(join({"is damaged: ", shown(why ? why : "error", 48)}));
+    refuse(join({"is damaged: ", shown(why != nullptr ? why : "error", 48)}));
     return picture;
 }
 #endif
 
 } // namespace detail
 
-/// Decodes a picture; `path` is its name for messages.
+/// Decodes a picture.
+/// \param bytes   The file.
+/// \param path    Its name for messages.
+/// \param others  The number of pixels in pictures that are kept beside it: a file of
+///                four kilobytes can have thirty million, so all together are limited.
 /// \return Linear colours in [0, 1]; alpha is ignored. A PNG file with a gAMA chunk and
 ///         neither an sRGB chunk nor a profile is decoded by its gamma; a photograph is
 ///         turned upright by its EXIF orientation.
-/// \throws std::runtime_error  with path and reason, if it is not a picture.
+/// \throws std::runtime_error  with path and reason, if it is not a picture, or too
+///         large; std::bad_alloc if there is not enough memory.
 template <std::floating_point T = float>
-[[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path) {
+[[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path,
+                                     long long others = 0) {
     const auto refuse = [&](std::string_view why) {
         throw std::runtime_error(detail::join({shown_path(path), " ", why, "."}));
     };
 #ifdef LJUS_HAS_STB_IMAGE
-    const detail::DecodedBytes picture = detail::decode_bytes(bytes, refuse);
+    const detail::StbMemory memory; // which outlives the picture
+    const detail::DecodedBytes picture = detail::decode_bytes(bytes, others, refuse);
     std::array<T, 256> linear{};
     for (std::size_t i = 0; i < 256; ++i)
         linear[i] = static_cast<T>(
@@ -202,6 +237,7 @@ template <std::floating_point T = float>
     return image;
 #else
     (void)bytes;
+    (void)others;
     refuse("cannot be read: this program was compiled without stb_image.h");
     return {};
 #endif
@@ -209,8 +245,8 @@ template <std::floating_point T = float>
 
 /// Loads a picture, for a texture; as decode_image().
 template <std::floating_point T = float>
-[[nodiscard]] ImageT<T> load_image(const std::string& path) {
-    return decode_image<T>(load_file(path, detail::max_image_file), path);
+[[nodiscard]] ImageT<T> load_image(const std::string& path, long long others = 0) {
+    return decode_image<T>(load_file(path, detail::max_image_file), path, others);
 }
 
 /// \}

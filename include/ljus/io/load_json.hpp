@@ -86,7 +86,7 @@ void read_image_size(const JsonField& image, LoadedSceneT<T>& loaded) {
 }
 
 // The materials of a scene, by name.
-template <typename Scene>
+template <typename Scene, std::floating_point T = typename Scene::Scalar>
 std::map<std::string, MaterialId> read_materials(const JsonField& list, Scene& scene) {
     if (!list.value.is_object()) refuse_value(list, "an object");
     std::size_t films = 0;
@@ -96,10 +96,11 @@ std::map<std::string, MaterialId> read_materials(const JsonField& list, Scene& s
     if (films > max_soap_films)
         refuse(list, "has more than 16 soap films, whose colours are slow to compute");
 
+    SharedByMaterialsT<T> shared{.pictures = FilePicturesT<T>(list)};
     std::map<std::string, MaterialId> materials;
     for (const auto& [name, value] : list.value.items())
-        materials[name] =
-            read_material({value, list.file, path_of_member(list.path, name)}, scene);
+        materials[name] = read_material(
+            {value, list.file, path_of_member(list.path, name)}, shared, scene);
     return materials;
 }
 
@@ -126,8 +127,9 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
     read_image_size(member(top, "image"), loaded);
     const auto materials = read_materials(member(top, "materials"), loaded.scene);
     const JsonField objects = member(top, "objects");
+    FileMeshes meshes;
     for (std::size_t i = 0; i < list_size(objects); ++i)
-        read_object(entry(objects, i), materials, loaded.scene, load_meshes);
+        read_object(entry(objects, i), materials, loaded.scene, meshes, load_meshes);
     if (const auto lights = find(top, "lights"))
         for (std::size_t i = 0; i < list_size(*lights); ++i)
             read_light(entry(*lights, i), loaded.scene);
@@ -140,8 +142,8 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
 /// Reads a scene from the text of a scene file.
 /// \param source  The text.
 /// \param file    The name of the file for messages.
-/// \param load_meshes  Called as load_meshes(path, scale, normals) for each mesh;
-///         returns a vector of meshes.
+/// \param load_meshes  Called as load_meshes(path, scale, normals), once for each mesh
+///         file, scale and normals; returns a vector of meshes.
 /// \return The scene. Two triangles that form a parallelogram become one quad.
 /// \throws std::runtime_error  with one sentence that names the file, the path of the
 ///         field, its value and what would be right: "scene.json: objects[3].radius is

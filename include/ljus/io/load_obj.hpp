@@ -58,13 +58,23 @@ namespace detail {
                              why);
 }
 
-// Loads the picture of a material, unless it has none or it is loaded already.
+// Loads the picture of a material, unless it has none or it is loaded already. The
+// pixels of all materials so far are limited, because add_obj() copies each picture.
 template <std::floating_point T>
-void load_picture(const ObjMaterial& material, LoadedObjT<T>& loaded) {
-    const std::string& path = material.picture;
-    if (path.empty() || loaded.pictures.contains(path)) return;
+void load_picture(ObjMaterial& material, LoadedObjT<T>& loaded, long long& pixels) {
+    const std::string path = material.picture;
+    if (path.empty()) return;
     try {
-        loaded.pictures.emplace(path, load_image<T>(path));
+        auto known = loaded.pictures.find(path);
+        if (known == loaded.pictures.end())
+            known = loaded.pictures.emplace(path, load_image<T>(path, pixels)).first;
+        const ImageT<T>& image = known->second;
+        const std::string why = too_large_beside(pixels, image.width, image.height);
+        if (!why.empty()) {
+            material.picture.clear();
+            throw std::runtime_error(join({shown_path(path), " ", why, "."}));
+        }
+        pixels += static_cast<long long>(image.pixels.size());
     } catch (const std::runtime_error& wrong) {
         loaded.report.notes.push_back(
             (material.picture_at + ": ").append(wrong.what()));
@@ -91,13 +101,18 @@ template <std::floating_point T = float>
     require_positive("the scale of a mesh file", settings.scale);
     detail::ObjReader<T> reader{.file = file, .settings = settings};
     reader.read(detail::plain_text(text, file));
+    ObjContent& content = reader.report.content;
+    content.vertices = static_cast<long long>(reader.exact.size());
+    content.normals = static_cast<long long>(reader.normals.size());
+    content.uvs = static_cast<long long>(reader.uv.size());
     if (reader.parts.empty()) detail::refuse_without_faces(file, reader.report);
 
     LoadedObjT<T> loaded{.report = std::move(reader.report)};
     detail::count_edges(reader.whole, reader.lines, loaded.report);
+    long long pixels = 0;
     for (detail::ObjFacesT<T>& part : reader.parts) {
         detail::finish(part, settings.normals, loaded.report);
-        if (settings.pictures) detail::load_picture(part.material, loaded);
+        if (settings.pictures) detail::load_picture(part.material, loaded, pixels);
         try {
             loaded.parts.push_back(
                 {MeshT<T>(std::move(part.data)), std::move(part.material)});

@@ -58,11 +58,28 @@ struct ObjCount {
     long long line = 0;  ///< The first line, counted from 1.
 };
 
+/// What a mesh file has in it, problems or not.
+struct ObjContent {
+    long long vertices = 0;    ///< Lines v.
+    long long normals = 0;     ///< Lines vn.
+    long long uvs = 0;         ///< Lines vt.
+    long long objects = 0;     ///< Lines o.
+    long long groups = 0;      ///< Lines g.
+    long long faces = 0;       ///< Faces that are used.
+    long long polygons = 0;    ///< Those of more than three corners, which are cut.
+    long long flat_faces = 0;  ///< Those whose normals are missing or not used.
+    long long no_uv_faces = 0; ///< Those without usable texture coordinates.
+    long long unused = 0;      ///< Vertices of no triangle.
+    bool closed = false;       ///< Each edge has two faces, wound alike: see `volume`.
+    double volume = 0; ///< Signed, of a closed mesh; below 0 if it is inside out.
+};
+
 /// The problems of a mesh file.
 struct ObjReport {
     std::array<ObjCount, detail::obj_troubles> counts{}; ///< By ObjTrouble.
     /// One sentence per problem of a material file or a picture, with file and line.
     std::vector<std::string> notes{};
+    ObjContent content{}; ///< All that was read.
 
     /// Counts an occurrence.
     void add(ObjTrouble trouble, long long line) {
@@ -140,6 +157,8 @@ void count_edges(const MeshDataT<T>& data, const std::vector<long long>& lines,
         place[order[i]] = i > 0 && key(order[i]) == key(order[i - 1])
                               ? place[order[i - 1]]
                               : order[i];
+    const auto used = std::unique(order.begin(), order.end()) - order.begin();
+    report.content.unused = static_cast<long long>(data.positions.size()) - used;
     struct Edge {
         std::uint32_t low, high; // its ends
         bool forwards;           // as its triangle has it
@@ -171,6 +190,7 @@ void count_edges(const MeshDataT<T>& data, const std::vector<long long>& lines,
         else
             report.add(ObjTrouble::edge_turned, line);
     }
+    report.content.closed = closed;
     if (!closed) return;
     double volume = 0; // six times, from a corner of the mesh
     const glm::dvec3 from(data.positions[data.triangles[0][0]]);
@@ -178,6 +198,7 @@ void count_edges(const MeshDataT<T>& data, const std::vector<long long>& lines,
         volume += glm::dot(glm::dvec3(data.positions[a]) - from,
                            glm::cross(glm::dvec3(data.positions[b]) - from,
                                       glm::dvec3(data.positions[c]) - from));
+    report.content.volume = volume / 6;
     if (volume < 0) report.add(ObjTrouble::inside_out, lines[0]);
 }
 

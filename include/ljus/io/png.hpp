@@ -13,6 +13,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "ljus/io/detail/stb_memory.hpp"
+
 #if !defined(LJUS_NO_STB)
 #if defined(INCLUDE_STB_IMAGE_WRITE_H)
 #define LJUS_HAS_STB 1 // the program's own
@@ -34,6 +36,9 @@
 #endif
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STBIW_MALLOC(size) ljus::detail::StbMemory::resize(nullptr, size)
+#define STBIW_REALLOC(memory, size) ljus::detail::StbMemory::resize(memory, size)
+#define STBIW_FREE(memory) ljus::detail::StbMemory::release(memory)
 #if __has_include(<stb/stb_image_write.h>)
 #include <stb/stb_image_write.h>
 #else
@@ -41,6 +46,10 @@
 #endif
 #undef STB_IMAGE_WRITE_STATIC
 #undef STB_IMAGE_WRITE_IMPLEMENTATION
+#undef STBIW_MALLOC
+#undef STBIW_REALLOC
+#undef STBIW_REALLOC_SIZED
+#undef STBIW_FREE
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
 #elif defined(_MSC_VER)
@@ -67,7 +76,7 @@ struct PngSettings {
 /// Encodes an image as PNG: 8 bits per channel, sRGB. NaN and negative channels become
 /// 0, and channels that exceed 1 after exposure become 255.
 /// \throws std::invalid_argument  for an image without pixels or an exposure that is
-///         not finite.
+///         not finite; std::bad_alloc if there is not enough memory.
 template <std::floating_point T>
 [[nodiscard]] Bytes encode_png(const ImageT<T>& image,
                                const PngSettings& options = {}) {
@@ -83,6 +92,7 @@ template <std::floating_point T>
             screen[next++] = srgb_byte(scale * static_cast<double>(channel));
 
     Bytes file;
+    const detail::StbMemory memory;
     const auto append = [](void* context, void* data, int size) {
         const auto* bytes = static_cast<const unsigned char*>(data);
         Bytes& whole = *static_cast<Bytes*>(context);

@@ -46,6 +46,21 @@ template <std::floating_point T, typename Facet>
 
 } // namespace detail
 
+/// Adds multiple scattering to a rough mirror, with a table that is there already.
+/// \param first  The rough mirror.
+/// \param loss   From bake_energy_loss() or another material, for the same roughness.
+/// \return The material.
+/// \throws std::invalid_argument as check(first); adding the material to a scene checks
+///         the table.
+template <std::floating_point T, typename F>
+[[nodiscard]] CompensatedGlossyT<T, F>
+compensated_glossy(const GlossyT<T, F>& first, const detail::EnergyLossT<T>& loss) {
+    check(first);
+    return {.first = first,
+            .loss = loss,
+            .mean = detail::mean_reflectance<T>(first.reflectance)};
+}
+
 /// Adds multiple scattering to a rough mirror.
 /// \param first  The rough mirror.
 /// \return The material; with roughness 0 the same mirror.
@@ -54,9 +69,8 @@ template <std::floating_point T, typename Facet>
 template <std::floating_point T, typename F>
 [[nodiscard]] CompensatedGlossyT<T, F> compensated_glossy(const GlossyT<T, F>& first) {
     check(first);
-    return {.first = first,
-            .loss = detail::bake_energy_loss(first.roughness * first.roughness),
-            .mean = detail::mean_reflectance<T>(first.reflectance)};
+    return compensated_glossy(
+        first, detail::bake_energy_loss(first.roughness * first.roughness));
 }
 
 /// The lobes of this material: those of `first`.

@@ -47,7 +47,7 @@ enum class ContactKind : std::uint8_t {
     sheet   ///< A thin surface.
 };
 
-/// No material.
+/// The material of air, which is none.
 inline constexpr MaterialId no_body{0xffffffffu, 0};
 
 /// Two objects that share an area or a point.

@@ -115,10 +115,10 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
     /// \return Its number, to add shapes with.
     /// \throws std::invalid_argument  if a value lies outside the material's range.
     template <Material B>
-    requires lists<B> MaterialId add(const B& material) {
+    requires lists<B> MaterialId add(B material) {
         check(material);
         auto& array = std::get<std::vector<B>>(materials);
-        array.push_back(material);
+        array.push_back(std::move(material));
         return {detail::type_number<B, M...>,
                 static_cast<std::uint32_t>(array.size() - 1)};
     }
@@ -134,7 +134,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
     /// \throws std::invalid_argument  if a value is out of range, or the material
     ///                                unknown.
     template <Shape G>
-    requires lists<G> ObjectId add(const G& shape, MaterialId material,
+    requires lists<G> ObjectId add(G shape, MaterialId material,
                                    RgbT<Scalar> radiance = {},
                                    bool inside_out = false) {
         check(shape);
@@ -143,7 +143,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
         auto& array = std::get<std::vector<G>>(shapes);
         const ObjectId id{detail::type_number<G, FirstShape, S...>,
                           static_cast<std::uint32_t>(array.size())};
-        array.push_back(shape);
+        array.push_back(std::move(shape));
         objects[id.type].push_back(object);
         order.push_back({id.type, id.index, false});
         return id;

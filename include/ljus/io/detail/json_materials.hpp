@@ -4,6 +4,7 @@
 /// \brief The materials of a scene file: one row per material.
 
 #include <array>
+#include <map>
 #include <numbers>
 #include <tuple>
 
@@ -55,10 +56,22 @@ namespace ljus {
 
 namespace detail {
 
+/// The largest number of tables for full-glossy and full-rough-metal; each takes some
+/// hundredths of a second.
+inline constexpr std::size_t max_loss_tables = 64;
+
+// What several materials of a file can have in common.
+template <std::floating_point T>
+struct SharedByMaterialsT {
+    FilePicturesT<T> pictures;
+    std::map<T, EnergyLossT<T>> losses{}; // by the roughness
+};
+
 // Reads the fields of a material for the rows below.
 template <std::floating_point T>
 struct MaterialFields {
     const JsonField& field;
+    SharedByMaterialsT<T>& shared;
 
     T value(const char* name, double low, double high, std::string_view right) const {
         return static_cast<T>(number(member(field, name), low, high, right));
@@ -95,6 +108,21 @@ struct MaterialFields {
     }
     GlossyT<T, ConductorIndexT<T>> rough_metal() const {
         return {metal(), roughness()};
+    }
+    // The same with multiple scattering.
+    template <typename Facet>
+    CompensatedGlossyT<T, Facet> full(const GlossyT<T, Facet>& gloss) const {
+        const T rough = gloss.roughness;
+        auto known = shared.losses.find(rough);
+        if (known == shared.losses.end()) {
+            if (shared.losses.size() == max_loss_tables)
+                refuse_value(member(field, "roughness"),
+                             "one of the 64 that full-glossy and full-rough-metal have "
+                             "before it, because each takes a table that is slow to "
+                             "compute");
+            known = shared.losses.emplace(rough, bake_energy_loss(rough * rough)).first;
+        }
+        return compensated_glossy(gloss, known->second);
     }
     RoughDiffuseT<T> rough(RoughModel model) const {
         return {color("albedo"), degrees("sigma_deg"), model};
@@ -191,10 +219,10 @@ constexpr auto material_rows() {
         row("rough-metal", {"metal", "roughness"},
             [](In in) { return in.rough_metal(); }),
         row("full-rough-metal", {"metal", "roughness"},
-            [](In in) { return compensated_glossy(in.rough_metal()); }),
+            [](In in) { return in.full(in.rough_metal()); }),
         row("glossy", {"reflectance", "roughness"}, [](In in) { return in.gloss(); }),
         row("full-glossy", {"reflectance", "roughness"},
-            [](In in) { return compensated_glossy(in.gloss()); }),
+            [](In in) { return in.full(in.gloss()); }),
         row("thin-glass", {"ior", "tint"},
             [](In in) {
                 return ThinGlassT<T>{in.ior(), in.color("tint")};
@@ -206,7 +234,9 @@ constexpr auto material_rows() {
              "columns", "rows"},
             [](In in) { return white<T>(read_checker<T>(in.field)); }),
         row("picture", {"file", "map", "origin", "edge_u", "edge_v", "center", "scale"},
-            [](In in) { return white<T>(read_picture<T>(in.field)); })};
+            [](In in) {
+                return white<T>(read_picture(in.field, in.shared.pictures));
+            })};
 }
 
 // The types of the rows, each once: several names may have one type.
@@ -224,7 +254,8 @@ template <std::floating_point T>
 using FileMaterialsT = decltype(listed(materials_of<T>(material_rows<T>())));
 
 template <typename Scene, std::floating_point T = typename Scene::Scalar>
-MaterialId read_material(const JsonField& field, Scene& scene) {
+MaterialId read_material(const JsonField& field, SharedByMaterialsT<T>& shared,
+                         Scene& scene) {
     const JsonField type = member(field, "type");
     MaterialId id{};
     const auto read = [&](const auto& row) {
@@ -232,7 +263,7 @@ MaterialId read_material(const JsonField& field, Scene& scene) {
         std::vector<std::string> known{"type"};
         known.insert(known.end(), row.fields.begin(), row.fields.end());
         require_object(field, known);
-        id = made_of(field, [&] { return scene.add(row.read({field})); });
+        id = made_of(field, [&] { return scene.add(row.read({field, shared})); });
         return true;
     };
     std::apply(

@@ -86,14 +86,51 @@ FlatShapesT<T> read_triangles(const JsonField& field) {
     return pair_triangles<T>(points, triangles);
 }
 
-template <std::floating_point T, typename LoadMeshes>
-std::vector<MeshT<T>> read_meshes(const JsonField& field, LoadMeshes& load_meshes) {
-    const std::string path = path_beside(member(field, "file"));
+/// The largest number of scales and normals with which a scene reads one mesh file, and
+/// the largest number of triangles that it has by naming a file again as it is.
+inline constexpr std::size_t max_mesh_readings = 16, max_copied_triangles = 1 << 22;
+
+// The mesh files of a scene so far. What is named again is copied from the scene.
+struct FileMeshes {
+    struct Reading {
+        double scale;
+        std::string normals;
+        std::size_t first, last; // of the meshes in the scene
+    };
+    std::map<std::string, std::vector<Reading>> by_path{};
+    std::size_t copied = 0; // triangles
+};
+
+// Adds the meshes of a file as `add` does it.
+template <std::floating_point T, typename LoadMeshes, typename Add>
+void read_meshes(const JsonField& field, const FileSceneT<T>& scene, FileMeshes& known,
+                 LoadMeshes& load_meshes, Add add) {
+    const JsonField file = member(field, "file");
+    const std::string path = path_beside(file);
     const auto scale = find(field, "scale");
     const auto normals = find(field, "normals");
     if (normals) require_one_of(*normals, {"file", "smooth", "flat"});
     const double factor = scale ? number(*scale, 1e-9, 1e9, "within [1e-9, 1e9]") : 1.0;
-    return load_meshes(path, factor, normals ? text(*normals) : "file");
+    const std::string which = normals ? text(*normals) : "file";
+
+    const auto& all = std::get<std::vector<MeshT<T>>>(scene.shapes);
+    auto& readings = known.by_path[one_path(path)];
+    for (const FileMeshes::Reading& reading : readings) {
+        if (reading.scale != factor || reading.normals != which) continue;
+        for (std::size_t i = reading.first; i < reading.last; ++i) {
+            known.copied += all[i].size();
+            if (known.copied > max_copied_triangles)
+                refuse(file, "is named once more; meshes that are named again have at "
+                             "most 4194304 triangles together");
+            add(MeshT<T>(all[i]));
+        }
+        return;
+    }
+    if (readings.size() == max_mesh_readings)
+        refuse(file, "is named with more than 16 scales and normals");
+    const std::size_t first = all.size();
+    for (MeshT<T>& mesh : load_meshes(path, factor, which)) add(std::move(mesh));
+    readings.push_back({factor, which, first, all.size()});
 }
 
 template <std::floating_point T>
@@ -131,7 +168,7 @@ inline void require_fields_of_object(const JsonField& field, const std::string& 
 template <std::floating_point T, typename LoadMeshes>
 void read_object(const JsonField& field,
                  const std::map<std::string, MaterialId>& materials,
-                 FileSceneT<T>& scene, LoadMeshes& load_meshes) {
+                 FileSceneT<T>& scene, FileMeshes& meshes, LoadMeshes& load_meshes) {
     const JsonField type = member(field, "type");
     require_one_of(type, {"sphere", "triangles", "mesh"});
     require_fields_of_object(field, text(type));
@@ -140,13 +177,13 @@ void read_object(const JsonField& field,
     const auto emission = find(field, "emission");
     const RgbT<T> radiance{emission ? light_field(*emission) : glm::dvec3(0)};
 
-    const auto add = [&](const auto& shape) {
-        made_of(field, [&] { scene.add(shape, material, radiance); });
+    const auto add = [&](auto shape) {
+        made_of(field, [&] { scene.add(std::move(shape), material, radiance); });
     };
     if (text(type) == "sphere") {
         add(read_sphere<T>(field));
     } else if (text(type) == "mesh") {
-        for (const MeshT<T>& mesh : read_meshes<T>(field, load_meshes)) add(mesh);
+        read_meshes(field, scene, meshes, load_meshes, add);
     } else {
         const FlatShapesT<T> shapes = read_triangles<T>(field);
         for (const QuadT<T>& quad : shapes.quads) add(quad);

@@ -3,6 +3,7 @@
 /// \file ljus/io/detail/json_textures.hpp
 /// \brief The vectors and colours of a scene file, and its textures.
 
+#include <map>
 #include <variant>
 
 #include <nlohmann/json.hpp>
@@ -135,13 +136,48 @@ CheckerT<T, FileMapT<T>> read_checker(const JsonField& field) {
     return checker;
 }
 
+// The pictures of a scene file. Each is read once, and kept until its last use. A use
+// has a copy of its own, so that all are limited together.
 template <std::floating_point T>
-PictureTextureT<T, FileMapT<T>> read_picture(const JsonField& field) {
+struct FilePicturesT {
+    struct Picture {
+        int uses = 0; // that are still to come
+        ImageT<T> image{};
+    };
+    std::map<std::string, Picture> by_path{};
+    long long pixels = 0; // of all copies so far
+
+    // Counts the uses in a list of materials.
+    explicit FilePicturesT(const JsonField& materials) {
+        for (const auto& value : materials.value)
+            if (const auto file = value.find("file");
+                file != value.end() && file->is_string())
+                ++at(path_beside(materials.file, *file)).uses;
+    }
+    Picture& at(const std::string& path) { return by_path[one_path(path)]; }
+
+    ImageT<T> take(const std::string& path) {
+        Picture& known = at(path);
+        ImageT<T>& image = known.image;
+        if (image.pixels.empty())
+            image = load_image<T>(path, pixels);
+        else if (const std::string why =
+                     too_large_beside(pixels, image.width, image.height);
+                 !why.empty())
+            throw std::runtime_error(join({shown_path(path), " ", why, "."}));
+        pixels += static_cast<long long>(image.pixels.size());
+        if (--known.uses > 0) return image;
+        return std::move(image);
+    }
+};
+
+template <std::floating_point T>
+PictureTextureT<T, FileMapT<T>> read_picture(const JsonField& field,
+                                             FilePicturesT<T>& pictures) {
     PictureTextureT<T, FileMapT<T>> texture{.map = read_map<T>(field)};
     const JsonField file = member(field, "file");
-    const std::string path = path_beside(file);
     try {
-        texture.image = load_image<T>(path);
+        texture.image = pictures.take(path_beside(file));
     } catch (const std::runtime_error& error) {
         refuse_for(file, error);
     }

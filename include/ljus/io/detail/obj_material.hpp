@@ -166,26 +166,37 @@ struct MaterialReader {
     }
 };
 
-// The materials of all files that a mesh file names; the first of a name counts. A line
-// "mtllib" has the name of one file, or those of several without blanks.
-inline void add_library(const std::string& names, const std::string& file,
-                        long long line, std::map<std::string, ObjMaterial>& materials,
-                        ObjReport& report) {
-    const auto read = [&](const std::string& path) {
-        try {
-            const std::string text = load_text(path, max_obj_file);
-            MaterialReader{path, materials, report.notes}.read(text);
-            return true;
-        } catch (const std::runtime_error&) {
-            return false;
+// The materials of all files that a mesh file names; the first of a name counts.
+struct MaterialLibraries {
+    std::map<std::string, ObjMaterial> materials{};
+    std::map<std::string, bool> read{}; // whether a file could be, by one_path()
+
+    // A line "mtllib": the name of one file, or those of several without blanks. A file
+    // that is named again is not read again.
+    void add(const std::string& names, const std::string& file, long long line,
+             ObjReport& report) {
+        if (add_file(file_named(file, names), report)) return;
+        Words words{names};
+        for (std::string_view name = words.next(); !name.empty(); name = words.next())
+            if (name.size() == names.size() ||
+                !add_file(file_named(file, std::string(name)), report))
+                report.add(ObjTrouble::no_library, line);
+    }
+
+private:
+    bool add_file(const std::string& path, ObjReport& report) {
+        const auto [known, fresh] = read.try_emplace(one_path(path), false);
+        if (fresh) {
+            try {
+                const std::string text = load_text(path, max_obj_file);
+                MaterialReader{path, materials, report.notes}.read(text);
+                known->second = true;
+            } catch (const std::runtime_error&) { // it is reported where it is named
+            }
         }
-    };
-    if (read(file_named(file, names))) return;
-    Words words{names};
-    for (std::string_view name = words.next(); !name.empty(); name = words.next())
-        if (name.size() == names.size() || !read(file_named(file, std::string(name))))
-            report.add(ObjTrouble::no_library, line);
-}
+        return known->second;
+    }
+};
 
 } // namespace detail
 

@@ -80,10 +80,11 @@ struct ObjReader {
     std::vector<long long> lines{};  // of the triangles of `whole`
     std::vector<Vec3T<T>> normals{}; // 0 for a bad one
     std::vector<Vec2T<T>> uv{};      // NaN for a bad one
-    std::map<std::string, ObjMaterial> materials{};
+    MaterialLibraries libraries{};
     std::map<std::string, std::size_t> numbers{}; // of the parts, by material
     std::vector<ObjFacesT<T>> parts{};
     std::string material{};                   // that faces have from here on
+    std::optional<std::size_t> part{};        // of that material, once it has a face
     std::vector<ObjCorner> face_corners{};    // of the face that is read
     std::vector<glm::dvec3> face_positions{}; // of these
 
@@ -91,7 +92,7 @@ struct ObjReader {
         each_line(text, [&](std::string_view all, long long number) {
             Words words{all};
             if (words.next() == "mtllib") // wherever it stands
-                add_library(words.name(), file, number, materials, report);
+                libraries.add(words.name(), file, number, report);
         });
         each_line(text, [&](std::string_view all, long long number) {
             Words words{all};
@@ -107,6 +108,10 @@ struct ObjReader {
                 face(words);
             else if (keyword == "usemtl")
                 use(words.name());
+            else if (keyword == "o")
+                ++report.content.objects;
+            else if (keyword == "g")
+                ++report.content.groups;
             else if (keyword == "l" || keyword == "p" || keyword == "curv" ||
                      keyword == "curv2" || keyword == "surf")
                 report.add(ObjTrouble::no_face, line);
@@ -137,9 +142,10 @@ struct ObjReader {
         return std::isfinite(uv.x) && std::isfinite(uv.y);
     }
     void use(const std::string& name) {
-        const bool known = materials.contains(name);
+        const bool known = libraries.materials.contains(name);
         if (!known) report.add(ObjTrouble::no_material, line);
         material = known ? name : std::string();
+        part.reset();
     }
     void face(Words words) {
         face_corners.clear();
@@ -169,11 +175,20 @@ struct ObjReader {
         }
         keep_what_all_have();
         const CutPolygon cut = cut_polygon(face_positions);
+        const std::size_t before = whole.triangles.size();
         bool empty = cut.triangles.empty();
         for (const auto& [a, b, c] : cut.triangles)
             empty = !add({face_corners[a], face_corners[b], face_corners[c]}) || empty;
+        if (whole.triangles.size() > before) count_face();
         if (empty) report.add(ObjTrouble::no_area, line);
         if (cut.crossed) report.add(ObjTrouble::crossed, line);
+    }
+    void count_face() {
+        ObjContent& all = report.content;
+        ++all.faces;
+        all.polygons += face_corners.size() > 3 ? 1 : 0;
+        all.flat_faces += face_corners[0].normal ? 0 : 1;
+        all.no_uv_faces += face_corners[0].uv ? 0 : 1;
     }
     // Normals and texture coordinates that are not good at every corner of a face are
     // used at none.
@@ -205,15 +220,15 @@ struct ObjReader {
             report.add(ObjTrouble::turned, line);
             for (ObjCorner& corner : corners) corner.normal.reset();
         }
-        ObjFacesT<T>& part = part_in_use();
-        part.smooth = part.smooth || corners[0].normal;
-        part.has_uv = part.has_uv || corners[0].uv;
-        auto& without = part.without_uv;
+        ObjFacesT<T>& into = part_in_use();
+        into.smooth = into.smooth || corners[0].normal;
+        into.has_uv = into.has_uv || corners[0].uv;
+        auto& without = into.without_uv;
         if (!corners[0].uv && (without.empty() || without.back() != line))
             without.push_back(line);
-        part.data.triangles.push_back({vertex_of(part, corners[0]),
-                                       vertex_of(part, corners[1]),
-                                       vertex_of(part, corners[2])});
+        into.data.triangles.push_back({vertex_of(into, corners[0]),
+                                       vertex_of(into, corners[1]),
+                                       vertex_of(into, corners[2])});
         return true;
     }
     bool normals_point_along(const Vec3T<WideT<T>>& across,
@@ -223,23 +238,27 @@ struct ObjReader {
         return glm::dot(Vec3T<WideT<T>>(sum), across) > 0;
     }
     ObjFacesT<T>& part_in_use() {
-        const auto [at, fresh] = numbers.try_emplace(material, parts.size());
-        if (fresh) {
-            parts.emplace_back();
-            if (!material.empty()) parts.back().material = materials[material];
+        if (!part) {
+            const auto [at, fresh] = numbers.try_emplace(material, parts.size());
+            part = at->second;
+            if (fresh) {
+                parts.emplace_back();
+                if (!material.empty())
+                    parts.back().material = libraries.materials[material];
+            }
         }
-        return parts[at->second];
+        return parts[*part];
     }
     // The vertex of a part that a corner is.
-    std::uint32_t vertex_of(ObjFacesT<T>& part, const ObjCorner& corner) const {
-        const auto [at, fresh] = part.vertices.try_emplace(
-            corner, static_cast<std::uint32_t>(part.data.positions.size()));
+    std::uint32_t vertex_of(ObjFacesT<T>& into, const ObjCorner& corner) const {
+        const auto [at, fresh] = into.vertices.try_emplace(
+            corner, static_cast<std::uint32_t>(into.data.positions.size()));
         if (fresh) {
-            part.positions.push_back(corner.position);
-            part.data.positions.push_back(whole.positions[corner.position]);
-            part.data.normals.push_back(corner.normal ? normals[*corner.normal]
+            into.positions.push_back(corner.position);
+            into.data.positions.push_back(whole.positions[corner.position]);
+            into.data.normals.push_back(corner.normal ? normals[*corner.normal]
                                                       : Vec3T<T>{0});
-            part.data.uv.push_back(corner.uv ? uv[*corner.uv] : Vec2T<T>{0});
+            into.data.uv.push_back(corner.uv ? uv[*corner.uv] : Vec2T<T>{0});
         }
         return at->second;
     }

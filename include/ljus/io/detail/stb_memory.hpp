@@ -1,0 +1,73 @@
+#pragma once
+
+/// \file ljus/io/detail/stb_memory.hpp
+/// \brief Memory of stb_image_write and stb_image, for png.hpp and load_image.hpp.
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+namespace ljus::detail {
+
+// The front of each piece of memory, and a link of a circular list.
+struct alignas(std::max_align_t) StbBlock {
+    StbBlock* before = this;
+    StbBlock* next = this;
+
+    void leave() noexcept {
+        before->next = next;
+        next->before = before;
+    }
+    void join(StbBlock& after) noexcept {
+        before = &after;
+        next = after.next;
+        before->next = next->before = this;
+    }
+};
+
+// stb_image_write tests only some of its allocations, and stb_image does not always
+// report one that failed. Here that throws std::bad_alloc. stb cannot free its memory
+// then; at the end of its scope a StbMemory frees what the thread has allocated in it.
+class StbMemory {
+public:
+    StbMemory() noexcept : outer_(list()) { list() = &blocks_; }
+    StbMemory(const StbMemory&) = delete;
+    StbMemory& operator=(const StbMemory&) = delete;
+    ~StbMemory() {
+        list() = outer_;
+        while (blocks_.next != &blocks_) release(blocks_.next + 1);
+    }
+
+    // As std::realloc, but throws.
+    static void* resize(void* old, std::size_t size) {
+        StbBlock* const from =
+            old != nullptr ? static_cast<StbBlock*>(old) - 1 : nullptr;
+        if (from != nullptr) from->leave();
+        void* const raw =
+            std::realloc(static_cast<void*>(from), sizeof(StbBlock) + size);
+        if (raw == nullptr) {
+            if (from != nullptr) from->join(*from->before);
+            throw std::bad_alloc();
+        }
+        StbBlock* const block = ::new (raw) StbBlock;
+        if (list() != nullptr) block->join(*list());
+        return block + 1;
+    }
+    static void release(void* memory) noexcept {
+        if (memory == nullptr) return;
+        StbBlock* const block = static_cast<StbBlock*>(memory) - 1;
+        block->leave();
+        std::free(static_cast<void*>(block));
+    }
+
+private:
+    // Of the innermost scope on this thread; null outside.
+    static StbBlock*& list() noexcept {
+        static thread_local StbBlock* current = nullptr;
+        return current;
+    }
+    StbBlock blocks_;
+    StbBlock* outer_;
+};
+
+} // namespace ljus::detail
