@@ -44,6 +44,7 @@ done
 same a || wrong "killed and resumed, the picture is another"
 
 # Ctrl-C leaves a checkpoint, of more passes than none, says so, and makes not the last picture.
+set -m # else a script's programs in the background ignore it
 "$program" --width 32 --height 32 --quiet --passes 1000000 --every 1000 --out b 2>err.txt &
 pid=$!
 sleep 1
