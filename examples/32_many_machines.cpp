@@ -18,15 +18,13 @@
 #include <ljus/math/stratified_stream.hpp>
 
 #include "common/example.hpp"
+#include "common/program_files.hpp"
+#include "common/ranks.hpp"
 
 using namespace ljus;
+using examples::Rank;
 
 namespace {
-
-/// One of several processes that have a job together: its number, from 0 on.
-struct Rank {
-    int number = 0, count = 1;
-};
 
 /// The photons of the caustics map: this rank traces a part, and gets those of all ranks.
 // [photons]
@@ -67,19 +65,21 @@ std::vector<RowRange> strips_of(const Rank& rank, int height) {
 }
 // [strips]
 
-void body(examples::CommandLine& line) {
-    Rank rank;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank.number);
-    MPI_Comm_size(MPI_COMM_WORLD, &rank.count);
+void body(examples::CommandLine& line, Rank& rank) {
     PhotonPassSettings pass;
     std::string path;
     line.about("Photon mapping on many machines: mpirun -n 8 32_many_machines SCENE.");
     line.add_positional("SCENE", path, "A scene file");
+    line.group("Picture", {"--width", "--height", "--rays", "--seed"});
     line.add("--caustic-photons", pass.photons, "Aimed at mirrors and glass", 0,
              1'000'000'000);
     const examples::Options options = line.parse();
+    const std::string picture_file = options.path("many-machines.pfm");
     const examples::StopWatch watch;
+    const FilesRead read;
     auto file = load_json(path);
+    examples::agree(rank, examples::picture_text(line.values("Picture"), read.hash()));
+    examples::require_outputs({{"--out", picture_file}}, examples::paths_of(read));
     const World world(std::move(file.scene));
     pass.seed = options.seed;
     const PhotonMappingSettings settings{.caustics{.photons = 0}}; // but those of ranks
@@ -102,7 +102,7 @@ void body(examples::CommandLine& line) {
                3 * int(image.pixels.size()), MPI_FLOAT, MPI_SUM, 0, MPI_COMM_WORLD);
     // [rows]
     if (rank.number != 0) return;
-    save_pfm(image, options.path("many-machines.pfm"));
+    save_pfm(image, picture_file);
     if (!options.quiet) std::printf("%d ranks: %.3f s\n", rank.count, watch.seconds());
 }
 
@@ -110,11 +110,5 @@ void body(examples::CommandLine& line) {
 
 /// Renders on many machines.
 int main(int argc, char** argv) {
-    int threads = 0; // only the first one talks to the other ranks
-    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads);
-    const int code = examples::run_main(argc, argv, body);
-    // A rank that has failed has said why; the others would wait for it for ever.
-    if (code != 0) MPI_Abort(MPI_COMM_WORLD, code);
-    MPI_Finalize();
-    return code;
+    return examples::run_ranks(argc, argv, body);
 }

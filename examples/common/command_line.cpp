@@ -375,6 +375,11 @@ std::vector<std::string> CommandLine::all_given() const {
     return names;
 }
 
+std::string CommandLine::group_of(const std::string& name) const {
+    const CLI::Option* const option = parser_->app.get_option_no_throw(name);
+    return option != nullptr ? option->get_group() : "";
+}
+
 std::vector<std::pair<std::string, std::string>>
 CommandLine::values(const std::string& heading) const {
     std::vector<std::pair<std::string, std::string>> all;

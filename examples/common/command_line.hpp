@@ -227,6 +227,9 @@ public:
     /// The names of all options that were given, as "--seed".
     [[nodiscard]] std::vector<std::string> all_given() const;
 
+    /// The heading of the group that an option stands in; empty if there is no such option.
+    [[nodiscard]] std::string group_of(const std::string& name) const;
+
     /// All settings of a group as they are now, whoever has set them: their names, as
     /// "seed", and their values as JSON. Texts that are no words, such as names of
     /// files, are left out, and so is a word that nobody has chosen.

@@ -35,6 +35,9 @@ inline const std::string pass_group = "Passes: photon maps that converge";
 /// What the user asks for, and what is chosen where they ask for nothing.
 struct RenderRequest {
     std::string scene{};                  ///< The scene file.
+    std::vector<std::string> reads{};     ///< It and all files that it names.
+    std::uint64_t scene_hash = 0;         ///< Of what was in them when they were read.
+    std::string file{};                   ///< Where the picture or the slice goes.
     bool path_tracing = false;            ///< And no photon mapping.
     bool in_double = false;               ///< Scene, photons and light.
     std::optional<ljus::Preset> preset{}; ///< Below what is given by name.
@@ -204,53 +207,6 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
              {"direct", "indirect", "shadow", "caustic", "all"});
 }
 
-/// Refuses options that do not go together, and reads the number of a slice.
-/// \param line  The command line, parsed.
-/// \param r     What the user asks for.
-/// \param file  The file's name, if --out names one.
-/// \throws std::invalid_argument  with the options and what would be right.
-inline void check_options(const CommandLine& line, RenderRequest& r,
-                          const std::string& file) {
-    const auto refuse = [&line](const std::vector<std::string>& options,
-                                const std::string& why) {
-        for (const std::string& option : options)
-            if (line.given(option)) throw std::invalid_argument(option + why);
-    };
-    const bool in_time = r.promise.seconds > 0;
-    if (in_time) refuse({"--error"}, " does not go with --seconds: give one of them");
-    if (in_time || r.promise.error > 0) {
-        std::vector<std::string> others = line.all_given();
-        for (const char* fits :
-             {"--seconds", "--error", "--width", "--height", "--seed", "--precision",
-              "--exposure", "--threads", "--out", "--quiet"})
-            std::erase(others, fits);
-        refuse(others, std::string(" does not go with ") +
-                           (in_time ? "--seconds" : "--error") +
-                           ", which chooses the settings");
-    }
-    const bool slice_file = std::filesystem::path(file).extension() == ".slice";
-    if (!r.slice.empty()) {
-        refuse({"--explain", "--show-photons", "--passes"},
-               " does not go with --slice");
-        r.part = slice_of(r.slice);
-        if (!file.empty() && !slice_file)
-            throw std::invalid_argument("--out is " + file +
-                                        "; a slice is no picture: it "
-                                        "must be NAME.slice, or a folder for it");
-    } else if (slice_file) {
-        throw std::invalid_argument("--out is " + file +
-                                    "; a file NAME.slice is for --slice K/N");
-    }
-    if (r.passes.passes == 0)
-        return refuse({"--alpha", "--checkpoint", "--resume", "--preview", "--every"},
-                      " is for pictures that are made in passes: give --passes N, too");
-    refuse({"--more-rays", "--explain", "--show-photons"},
-           " does not go with --passes");
-    if (r.path_tracing)
-        throw std::invalid_argument("--passes is for --renderer photon; give a path "
-                                    "tracer more --rays");
-}
-
 /// Settles what was not given by name: by the scene, by the preset, and for passes.
 /// \param line    The command line, parsed.
 /// \param r       What the user asks for.
@@ -278,6 +234,11 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
             "--more-rays is " + std::to_string(r.more_rays) +
             "; with --slice, which takes the same rays in every "
             "pixel, it must be 0: give --more-rays 0");
+    if (r.more_rays > 0 && options.samples < 2)
+        throw std::invalid_argument(
+            "--rays is " + std::to_string(options.samples) + "; with --more-rays " +
+            std::to_string(r.more_rays) +
+            ", whose first rays must be compared, it must be at least 2");
     const auto sampling = r.picture.sampling;
     r.picture = picture_settings(options);
     r.picture.sampling = sampling;
@@ -316,6 +277,20 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
         json["caustic-shares"] = r.photon.caustics.shares;
     if (!r.kept.empty()) json["promise"] = r.kept;
     return json;
+}
+
+/// What the passes of a picture are of; passes that were made by the same text go on.
+/// \param line  The command line, parsed.
+/// \param r     What the user asked for, with all settings, and the scene's hash.
+[[nodiscard]] inline std::string text_of_passes(const CommandLine& line,
+                                                const RenderRequest& r) {
+    std::vector<std::pair<std::string, std::string>> settings;
+    const auto json = to_json(line, r);
+    for (const auto& [name, value] : json.items())
+        if (name != "scene" && name != "exposure" && name != "passes" &&
+            name != "resume" && name != "every")
+            settings.emplace_back(name, value.dump());
+    return picture_text(settings, r.scene_hash);
 }
 
 } // namespace examples
