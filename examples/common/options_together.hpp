@@ -65,10 +65,11 @@ namespace detail {
 }
 
 /// What is said: the picture is right, and the same without these options.
+/// \param line The command line, parsed.
 /// \param r    What the user asks for, with all settings.
 /// \param run  The passes that a photon mapper runs.
-[[nodiscard]] inline std::vector<NoEffect> options_idle(const RenderRequest& r,
-                                                        const ljus::Passes& run) {
+[[nodiscard]] inline std::vector<NoEffect>
+options_idle(const CommandLine& line, const RenderRequest& r, const ljus::Passes& run) {
     const bool dots = !r.photons.empty();
     const bool maps = !r.path_tracing && !dots;
     const bool general = run.general_map || run.skipped_rays || run.skipped_bounces;
@@ -106,6 +107,9 @@ namespace detail {
          r.path_tracing,
          {photon_group(0), photon_group(1), photon_group(2), photon_group(3),
           photon_group(4)}},
+        {"with --renderer path and --rays",
+         r.path_tracing && line.given("--rays") && r.more_rays == 0,
+         {"--preset"}},
         {"without --renderer path", !r.path_tracing, {path_group}},
         {"without --more-rays", r.more_rays == 0, {"--disagreement"}},
         {"in a file that holds radiance", !detail::exposed(r), {"--exposure"}},
@@ -196,7 +200,7 @@ inline void check_options(const CommandLine& line, RenderRequest& r,
 inline void tell_idle_options(const CommandLine& line, const RenderRequest& r,
                               const ljus::Passes& run) {
     std::vector<std::string> told;
-    for (const NoEffect& row : options_idle(r, run)) {
+    for (const NoEffect& row : options_idle(line, r, run)) {
         std::vector<std::string> options = idle_options(line, row);
         std::erase_if(options, [&told](const std::string& option) {
             return std::find(told.begin(), told.end(), option) != told.end();

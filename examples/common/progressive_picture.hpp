@@ -88,10 +88,7 @@ template <typename RenderPass>
     ProgressiveState state{.alpha = how.alpha, .picture = how.picture};
     if (how.resume) {
         state = load_checkpoint(how.checkpoint);
-        if (const std::string why = difference(state.picture, how.picture);
-            !why.empty())
-            throw std::invalid_argument("'" + how.checkpoint +
-                                        "' is of another picture: " + why);
+        require_same_picture(how.checkpoint, state.picture, how.picture);
         require_first_pass(state, pass);
         say(state.passes);
     }

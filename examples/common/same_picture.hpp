@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,11 +21,12 @@ namespace examples {
 /// What a picture is made by: its settings, and of what. Slices, checkpoints and ranks
 /// carry it; two that differ are not of one picture.
 /// \param settings    Names and values, as CommandLine::values() returns them.
-/// \param scene_hash  Of the files of the scene as they were read: FilesRead::hash().
+/// \param scene_hash  Of the files of the scene as they were read: FilesRead::hash();
+///                    0: the scene is the program's own.
 /// \return One line "name: value" for each.
 [[nodiscard]] inline std::string
 picture_text(const std::vector<std::pair<std::string, std::string>>& settings,
-             std::uint64_t scene_hash) {
+             std::uint64_t scene_hash = 0) {
     std::string text = "scene_hash: " + hex_text(scene_hash) +
                        "\nversion: " + std::to_string(LJUS_VERSION_MAJOR) + "." +
                        std::to_string(LJUS_VERSION_MINOR) + "." +
@@ -61,6 +63,18 @@ picture_text(const std::vector<std::pair<std::string, std::string>>& settings,
                        a + ", and not " + b;
         }
     return is == right ? "" : "its settings are others";
+}
+
+/// Refuses to go on with the checkpoint of another picture.
+/// \param checkpoint  Its name.
+/// \param is          The picture_text() in it.
+/// \param right       That of the picture that is to be made.
+/// \throws std::invalid_argument  with the first setting that differs.
+inline void require_same_picture(const std::string& checkpoint, const std::string& is,
+                                 const std::string& right) {
+    if (const std::string why = difference(is, right); !why.empty())
+        throw std::invalid_argument("'" + checkpoint +
+                                    "' is of another picture: " + why);
 }
 
 } // namespace examples

@@ -69,8 +69,8 @@ refused() {
     grep -qF -- "$sentence" err.txt || wrong "$*: no '$sentence' in: $(cat err.txt)"
     [ ! -e "$folder/progressive-last.png" ] || wrong "a picture of a refused checkpoint"
 }
-refused "of another picture" a "${few[@]}" --seed 2
-refused "of another picture" a --width 33 --height 32 --passes 150 --quiet
+refused "of another picture: its seed is 1, and not 2" a "${few[@]}" --seed 2
+refused "of another picture: its width is 32, and not 33" a --width 33 --height 32 --passes 150 --quiet
 refused "cannot read 'none/progressive.check'" none "${few[@]}"
 mkdir short
 head -c 1000 a/progressive.check >short/progressive.check
