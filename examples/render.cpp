@@ -238,8 +238,8 @@ RenderedT<typename S::Scalar> draw_photons(const Room<S>& room, const Request& r
     return drawn;
 }
 
-/// The scene of a request, and of which files it is; what is wrong with its meshes goes to
-/// the terminal.
+/// The scene of a request, and of which files it is; what is wrong with its meshes goes
+/// to the terminal.
 template <std::floating_point T>
 LoadedSceneT<T> load_scene(Request& r) {
     const FilesRead read;

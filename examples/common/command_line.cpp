@@ -99,8 +99,8 @@ void require_threads(int wanted) {
 }
 
 // Whether a text is a number as all options take it: a sign if it is negative, digits
-// without needless zeros in front, and, of one that need not be whole, a fraction and an
-// exponent. The conversions of the libraries take more: 010 for 8, 0x10, blanks, nan.
+// without needless zeros in front, and, of one that need not be whole, a fraction and
+// an exponent. The conversions of the libraries take more: 010 for 8, 0x10, blanks, nan.
 bool is_number(std::string_view text, bool whole) {
     const auto digits = [&text] {
         const std::size_t count =
@@ -470,9 +470,9 @@ int run_main(int argc, const char* const* argv,
                      without_end(what, 1500).c_str());
         return 2;
     };
-    // What was said to a full disk or a closed pipe must not be lost in silence. Whoever
-    // has closed a pipe knows that they have; an error before the last write has no
-    // reason any more.
+    // What was said to a full disk or a closed pipe must not be lost in silence.
+    // Whoever has closed a pipe knows that they have; an error before the last write
+    // has no reason any more.
     const auto lost_text = [&complain] {
         const int error = std::fflush(stdout) != 0 ? errno : 0;
         if (error == 0 && std::ferror(stdout) == 0 && std::ferror(stderr) == 0)

@@ -227,7 +227,7 @@ public:
     /// The names of all options that were given, as "--seed".
     [[nodiscard]] std::vector<std::string> all_given() const;
 
-    /// The heading of the group that an option stands in; empty if there is no such option.
+    /// The heading of the group that an option stands in; empty if there is none such.
     [[nodiscard]] std::string group_of(const std::string& name) const;
 
     /// All settings of a group as they are now, whoever has set them: their names, as

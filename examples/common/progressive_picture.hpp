@@ -68,8 +68,8 @@ inline void check_pass_files(const PassOptions& how) {
 /// \param pass   Called as pass(i, scale); see \ref progressive.
 /// \return The state after the last pass.
 /// \throws Interrupted  after Ctrl-C; what is done by then is in the checkpoint.
-/// \throws std::invalid_argument  if the checkpoint is of another picture, with the first
-///                                setting that differs.
+/// \throws std::invalid_argument  if the checkpoint is of another picture, with what
+///                                differs.
 template <typename RenderPass>
 [[nodiscard]] ljus::ProgressiveState run_passes(const PassOptions& how, bool quiet,
                                                 RenderPass&& pass) {

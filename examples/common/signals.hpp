@@ -2,8 +2,8 @@
 
 /// \file examples/common/signals.hpp
 /// \brief Ctrl-C asks a program to stop; it does so between two blocks of work, or else
-/// two seconds later, wherever it is: files are whole or not there at any moment. A pipe
-/// that nobody reads any more ends no work.
+/// two seconds later, wherever it is: files are whole or not there at any moment. A
+/// pipe that nobody reads any more ends no work.
 
 #include <array>
 #include <atomic>

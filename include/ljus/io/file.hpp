@@ -72,9 +72,9 @@ inline void require_writable(const std::string& path) {
     probe.close();
 }
 
-/// The files that load_file() is asked for, by one thread and while the list exists: what
-/// a scene was made of, meshes, materials and pictures included, as it was when it was
-/// read. A list within a list takes over until it ends.
+/// The files that load_file() is asked for, by one thread and while the list exists:
+/// what a scene was made of, meshes, materials and pictures included, as it was when it
+/// was read. A list within a list takes over until it ends.
 class FilesRead {
 public:
     /// A file that was asked for.
@@ -91,8 +91,8 @@ public:
     /// All files so far, in the order of reading.
     [[nodiscard]] const std::vector<File>& files() const noexcept { return files_; }
 
-    /// A hash of the contents of all files so far, in the order of reading. Names do not
-    /// count, the absence of a file does.
+    /// A hash of the contents of all files so far, in the order of reading. Names do
+    /// not count, the absence of a file does.
     [[nodiscard]] std::uint64_t hash() const noexcept {
         std::uint64_t all = detail::fnv_start;
         for (const File& file : files_)

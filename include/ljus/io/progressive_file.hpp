@@ -12,10 +12,10 @@ namespace ljus {
 /// \brief The whole state of a progressive picture in a file that survives a kill.
 ///
 /// 16 letters that name the format; version, side of the blocks, width, height and a
-/// checksum; the numbers of the state, exact to the last bit, lowest byte first; and the
-/// length of the text that says what the picture is, and this text. save_file() replaces
-/// the older file at once, so that one of the two always exists if the program is
-/// killed. After a loss of power that depends on the file system.
+/// checksum; the numbers of the state, exact to the last bit, lowest byte first; and
+/// the length of the text that says what the picture is, and this text. save_file()
+/// replaces the older file at once, so that one of the two always exists if the program
+/// is killed. After a loss of power that depends on the file system.
 /// \{
 
 namespace detail {
