@@ -439,7 +439,7 @@ TEST_CASE("command_line: a text that is lost on a full disk is an exit code") {
     const auto parse_line = [](CommandLine& line) { (void)line.parse(); };
     CHECK(code_into("/dev/full", parse_line, {"program", "--help"}) == 2);
     CHECK(code_into("/dev/null", parse_line, {"program", "--help"}) == 0);
-    for (const std::size_t bytes : {10, 5000, 100'000}) { // below and above a buffer
+    for (const std::size_t bytes : {10u, 5000u, 100'000u}) { // below and above a buffer
         CAPTURE(bytes);
         const auto say = [bytes](CommandLine&) {
             std::fputs(std::string(bytes, 'x').c_str(), stdout);
