@@ -10,6 +10,7 @@
 #include <ljus/scenes/cornell_box.hpp>
 
 #include "common/example.hpp"
+#include "common/same_picture.hpp"
 
 using namespace ljus;
 
@@ -20,6 +21,8 @@ int main(int argc, char** argv) {
         double every = 2;
         bool resume = false;
         line.about("Chapter 31, progressive photons: the Cornell box.");
+        line.group("Picture", {"--width", "--height", "--rays", "--seed"});
+        line.group("Passes");
         line.add("--passes", passes, "Number of photon maps", 1, 1'000'000'000);
         line.add("--every", every, "Seconds between checkpoints", 0, 1e6);
         line.add("--resume", resume, "Continue from progressive.check in the folder");
@@ -48,10 +51,12 @@ int main(int argc, char** argv) {
 
         // [resume]
         const std::string checkpoint = options.out + "/progressive.check";
-        ProgressiveState state;
+        const auto picture = examples::picture_text(line.values("Picture"));
+        ProgressiveState state{.picture = picture};
         if (resume) {
             state = load_checkpoint(checkpoint);
-            require_first_pass(state, pass); // of the same picture?
+            examples::require_same_picture(checkpoint, state.picture, picture);
+            require_first_pass(state, pass); // by the same program?
         }
         examples::ProgressBar bar("passes", options.quiet);
         examples::StopWatch watch;

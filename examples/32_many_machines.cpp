@@ -19,15 +19,13 @@
 #include <ljus/math/stratified_stream.hpp>
 
 #include "common/example.hpp"
+#include "common/program_files.hpp"
+#include "common/ranks.hpp"
 
 using namespace ljus;
+using examples::Rank;
 
 namespace {
-
-/// One of several processes that share a job; its number counts from 0.
-struct Rank {
-    int number = 0, count = 1;
-};
 
 /// The photons of the caustics map: this rank traces some, and receives all.
 // [photons]
@@ -64,19 +62,21 @@ std::vector<RowRange> strips_of(const Rank& rank, int height) {
 }
 // [strips]
 
-void body(examples::CommandLine& line) {
-    Rank rank;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank.number);
-    MPI_Comm_size(MPI_COMM_WORLD, &rank.count);
+void body(examples::CommandLine& line, Rank& rank) {
     PhotonPassSettings pass;
     std::string path;
     line.about("Photon mapping on many machines: mpirun -n 8 32_many_machines SCENE.");
     line.add_positional("SCENE", path, "A scene file");
+    line.group("Picture", {"--width", "--height", "--rays", "--seed"});
     line.add("--caustic-photons", pass.photons, "Photons aimed at mirrors and glass", 0,
              1'000'000'000);
     const examples::Options options = line.parse();
+    const std::string picture_file = options.path("many-machines.pfm");
     const examples::StopWatch watch;
+    const FilesRead read;
     auto file = load_json(path);
+    examples::agree(rank, examples::picture_text(line.values("Picture"), read.hash()));
+    examples::require_outputs({{"--out", picture_file}}, examples::paths_of(read));
     const World world(std::move(file.scene));
     pass.seed = options.seed;
     const PhotonMappingSettings settings{.caustics{.photons = 0}}; // traced below
@@ -99,7 +99,7 @@ void body(examples::CommandLine& line) {
                3 * int(image.pixels.size()), MPI_FLOAT, MPI_SUM, 0, MPI_COMM_WORLD);
     // [rows]
     if (rank.number != 0) return;
-    save_pfm(image, options.path("many-machines.pfm"));
+    save_pfm(image, picture_file);
     if (!options.quiet) std::printf("%d ranks: %.3f s\n", rank.count, watch.seconds());
 }
 
@@ -107,11 +107,5 @@ void body(examples::CommandLine& line) {
 
 /// Renders on many machines.
 int main(int argc, char** argv) {
-    int threads = 0; // only the main thread calls MPI
-    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads);
-    const int code = examples::run_main(argc, argv, body);
-    // A rank that fails has printed why; end the others, which would wait for it.
-    if (code != 0) MPI_Abort(MPI_COMM_WORLD, code);
-    MPI_Finalize();
-    return code;
+    return examples::run_ranks(argc, argv, body);
 }

@@ -18,6 +18,7 @@
 #include "common/command_line.hpp"
 #include "common/error_map.hpp"
 #include "common/plot.hpp"
+#include "common/program_files.hpp"
 #include "ljus/image/hdr_flip.hpp"
 #include "ljus/inspect/block_statistics.hpp"
 #include "ljus/io/hdr.hpp"
@@ -288,7 +289,11 @@ void body(examples::CommandLine& line) {
     const std::string map_path =
         options.path(options.file.empty() ? "error-map.png" : options.file);
     if (line.given("--out") && request.map == "none") request.map = "flip";
-    if (request.map != "none") examples::require_writable(map_path);
+    std::vector<std::string> pictures = request.pieces;
+    pictures.insert(pictures.end(), {request.image, request.reference});
+    examples::require_outputs({{"--out", request.map != "none" ? map_path : ""},
+                               {"--blocks", request.blocks}},
+                              pictures);
 
     const Image image = load(request.image);
     const Image reference = load(request.reference);

@@ -17,6 +17,7 @@
 
 #include "common/command_line.hpp"
 #include "common/picture_slice.hpp"
+#include "common/program_files.hpp"
 #include "common/save_picture.hpp"
 
 namespace {
@@ -50,8 +51,11 @@ void body(examples::CommandLine& line) {
     const examples::Options options = line.parse();
     const std::string path =
         options.path(options.file.empty() ? "picture.png" : options.file);
-    examples::require_writable(path);
-    const examples::MergedPicture merged = examples::merge_slices(files_of(names));
+    const std::vector<std::string> slices = files_of(names);
+    examples::require_outputs(
+        {{"--out", path}, {"the file of settings beside --out", path + ".json"}},
+        slices);
+    const examples::MergedPicture merged = examples::merge_slices(slices);
     if (merged.wide) {
         examples::save_picture(merged.image, path, merged.exposure);
     } else { // the numbers were float, so this is exact

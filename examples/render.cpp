@@ -20,7 +20,9 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
+#include "common/options_together.hpp"
 #include "common/picture_cost.hpp"
+#include "common/program_files.hpp"
 #include "common/promised_picture.hpp"
 #include "common/render_settings.hpp"
 #include "common/save_picture.hpp"
@@ -244,12 +246,16 @@ RenderedT<typename S::Scalar> draw_photons(const Room<S>& room, const Request& r
     return drawn;
 }
 
-/// Loads the scene of a request; prints remarks about its meshes on the terminal.
+/// Loads the scene of a request, and lists its files; prints remarks about its meshes on
+/// the terminal.
 template <std::floating_point T>
-LoadedSceneT<T> load_scene(const Request& r) {
+LoadedSceneT<T> load_scene(Request& r) {
+    const FilesRead read;
     std::string troubles;
     auto loaded = load_json<T>(r.scene, ObjMeshesT<T>{&troubles});
     if (!r.quiet) std::fputs(troubles.c_str(), stderr);
+    r.reads = examples::paths_of(read);
+    r.scene_hash = read.hash();
     return loaded;
 }
 
@@ -262,30 +268,42 @@ std::string path_of(const Request& r, const examples::Options& options) {
                         std::to_string(r.part.count) + ".slice");
 }
 
+/// Makes sure that all files can be written, and that none replaces another one.
+void check_files(const Request& r) {
+    examples::check_pass_files(r.passes);
+    const bool alone = r.part.count > 0 || !r.photons.empty();
+    examples::require_outputs(
+        {{"--out", r.file},
+         {"the file of settings beside --out", alone ? "" : r.file + ".json"},
+         {"--preview", r.passes.preview},
+         {"--checkpoint", r.passes.checkpoint}},
+        r.reads);
+}
+
 /// Saves a picture, and beside it a file that says how it was made; or a slice, which
 /// holds both.
 template <std::floating_point T>
-void save_result(const std::string& path, const Request& r, nlohmann::ordered_json json,
+void save_result(const Request& r, nlohmann::ordered_json json,
                  const RenderedT<T>& rendered, double seconds) {
     if (r.part.count > 0) {
-        json["scene_hash"] = examples::scene_hash(r.scene);
+        json["scene_hash"] = examples::hex_text(r.scene_hash);
         json["version"] = {LJUS_VERSION_MAJOR, LJUS_VERSION_MINOR, LJUS_VERSION_PATCH};
-        return examples::save_slice(path, {.slice = r.part,
-                                           .width = r.picture.width,
-                                           .height = r.picture.height,
-                                           .wide = std::is_same_v<T, double>,
-                                           .exposure = r.exposure,
-                                           .settings = json.dump(),
-                                           .counts = rendered.counts,
-                                           .seconds = seconds,
-                                           .pixels = {rendered.image.pixels.begin(),
-                                                      rendered.image.pixels.end()}});
+        return examples::save_slice(r.file, {.slice = r.part,
+                                             .width = r.picture.width,
+                                             .height = r.picture.height,
+                                             .wide = std::is_same_v<T, double>,
+                                             .exposure = r.exposure,
+                                             .settings = json.dump(),
+                                             .counts = rendered.counts,
+                                             .seconds = seconds,
+                                             .pixels = {rendered.image.pixels.begin(),
+                                                        rendered.image.pixels.end()}});
     }
-    examples::save_picture(rendered.image, path, r.exposure);
+    examples::save_picture(rendered.image, r.file, r.exposure);
     if (!r.photons.empty()) return;
     json["cost"] = examples::cost_json(rendered.counts, seconds);
     const std::string text = json.dump(2) + "\n";
-    save_file(path + ".json", Bytes(text.begin(), text.end()));
+    save_file(r.file + ".json", Bytes(text.begin(), text.end()));
 }
 
 /// Prints what is about to be done.
@@ -329,15 +347,16 @@ void run_request(examples::CommandLine& line, Request& r,
     auto loaded = load_scene<T>(r);
     const Room room{World(std::move(loaded.scene)), loaded.camera};
     choose_settings(line, r, loaded.width, loaded.height);
-    const std::string path = path_of(r, options);
+    r.file = path_of(r, options);
     if (!r.quiet || r.plan) print_heading(room.world, loaded.name, r);
-    if (r.plan || r.hooks) return print_plan(room.world, r);
+    const bool prints = r.plan || r.hooks;
     if (!r.pixel.empty())
         (void)pixel_of(r); // refuse a wrong pixel before any work is done
-    else {
-        examples::require_writable(path);
-        examples::require_pass_files(r.passes, path);
-    }
+    else if (!prints)
+        check_files(r);
+    tell_idle_options(line, r, choose_passes(needs(room.world), r.photon));
+    if (prints) return print_plan(room.world, r);
+    r.passes.picture = text_of_passes(line, r);
 
     examples::when_stopped_say(
         r.part.count > 0 ? "the slice is not saved; the same command makes it again"
@@ -355,10 +374,10 @@ void run_request(examples::CommandLine& line, Request& r,
     if (!r.pixel.empty()) return;
     const double seconds = watch.seconds();
     line.fill({r.picture.width, r.picture.height, r.picture.samples});
-    save_result(path, r, to_json(line, r), rendered, seconds);
-    examples::when_stopped_say("'" + path + "' is saved");
+    save_result(r, to_json(line, r), rendered, seconds);
+    examples::when_stopped_say("'" + r.file + "' is saved");
     if (r.quiet) return;
-    std::printf("  %-16s %8.2f s\n  %s\n", "all passes", seconds, path.c_str());
+    std::printf("  %-16s %8.2f s\n  %s\n", "all passes", seconds, r.file.c_str());
 }
 
 void body(examples::CommandLine& line) {

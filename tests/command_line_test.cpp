@@ -316,7 +316,7 @@ TEST_CASE("command_line: two numbers with a character between them") {
     CHECK(examples::two_numbers("120,80", ',') == Two{120, 80});
     CHECK(examples::two_numbers("-3/16", '/') == Two{-3, 16});
     for (const char* text :
-         {"", "3", "3,", ",4", "3/4", "3,4x", "3.0,4", "3,,4", "a,b"})
+         {"", "3", "3,", ",4", "3/4", "3,4x", "3.0,4", "3,,4", "a,b", "03,4", "+3,4"})
         CHECK_FALSE(examples::two_numbers(text, ',').has_value());
 }
 
@@ -357,6 +357,34 @@ TEST_CASE("command_line: a number that is not whole is called so") {
         answer({"--width", "99999999999999999999"}) ==
         "--width is '99999999999999999999'; it must be a whole number from 1 to 65536 "
         "(see --help)");
+}
+
+TEST_CASE("command_line: all options take numbers by one rule") {
+    const auto given = [](const std::string& text) {
+        double number = -1;
+        CommandLine line({"program", "--radius", text});
+        line.add("--radius", number, "How large", -1e9, 1e9);
+        try {
+            (void)line.parse();
+        } catch (const std::invalid_argument&) {
+            return std::string("refused");
+        }
+        return std::to_string(number);
+    };
+    CHECK(given("1e-3") == "0.001000");
+    CHECK(given(".5") == "0.500000");
+    CHECK(given("5.") == "5.000000");
+    CHECK(given("-2.5E+2") == "-250.000000");
+    CHECK(given("0.25") == "0.250000");
+    for (const char* text :
+         {"0x10", " 1", "1 ", "010", "00.5", "+1", "", ".", "-", "1e", "1e+", "e3",
+          "1.5.2", "nan", "inf", "1f", "1,5", "1'0"}) {
+        CAPTURE(text);
+        CHECK(given(text) == "refused");
+        CHECK(answer({"--seed", text}) != "accepted");
+    }
+    for (const char* seed : {"007", "0x1", " 1", "+1", "1.", "1e2"})
+        CHECK(answer({"--seed", seed}) != "accepted");
 }
 
 #if __has_include(<sys/resource.h>)
@@ -404,17 +432,97 @@ TEST_CASE("command_line: stacks that are too small or too large are told") {
                   "least 256");
 }
 
+namespace {
+
+// The status of a child that runs a program, for waitpid(); -1: it did not start.
+template <typename Body>
+int status_of(const Body& body, std::vector<const char*> words = {"program"}) {
+    const ::pid_t child = ::fork();
+    if (child == 0) ::_exit(run(body, std::move(words)));
+    int status = 0;
+    return child > 0 && ::waitpid(child, &status, 0) == child ? status : -1;
+}
+
+// The same, where the standard output of the child is a file: its exit code.
+template <typename Body>
+int code_into(const char* path, const Body& body,
+              std::vector<const char*> words = {"program"}) {
+    std::fflush(stdout);
+    const int output = ::dup(1);
+    REQUIRE(std::freopen(path, "w", stdout) != nullptr);
+    const int status = status_of(body, std::move(words));
+    std::clearerr(stdout);
+    ::dup2(output, 1);
+    ::close(output);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+} // namespace
+
+TEST_CASE("command_line: a text that is lost on a full disk is an exit code") {
+    if (!std::filesystem::exists("/dev/full")) return;
+    const auto parse_line = [](CommandLine& line) { (void)line.parse(); };
+    CHECK(code_into("/dev/full", parse_line, {"program", "--help"}) == 2);
+    CHECK(code_into("/dev/null", parse_line, {"program", "--help"}) == 0);
+    for (const std::size_t bytes : {10u, 5000u, 100'000u}) { // below and above a buffer
+        CAPTURE(bytes);
+        const auto say = [bytes](CommandLine&) {
+            std::fputs(std::string(bytes, 'x').c_str(), stdout);
+        };
+        CHECK(code_into("/dev/full", say) == 2);
+        CHECK(code_into("/dev/null", say) == 0);
+    }
+    const auto in_the_middle = [](CommandLine&) {
+        std::puts("one");
+        std::fflush(stdout); // fails, and leaves nothing to flush in the end
+    };
+    CHECK(code_into("/dev/full", in_the_middle) == 2);
+}
+
+TEST_CASE("command_line: a pipe that nobody reads any more ends no work") {
+    int ends[2];
+    REQUIRE(::pipe(&ends[0]) == 0);
+    ::close(ends[0]);
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.png");
+    const int status = status_of([&](CommandLine&) {
+        ::dup2(ends[1], 1);
+        std::puts("one");
+        std::fflush(stdout);
+        ljus::save_file(path, {1});
+    });
+    ::close(ends[1]);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 128 + SIGPIPE);
+    CHECK(std::filesystem::exists(path));
+}
+
+TEST_CASE("command_line: a signal that is ignored from outside stays so") {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        CAPTURE(signal);
+        const auto raise = [signal](CommandLine&) { std::raise(signal); };
+        const int heard = status_of(raise);
+        CHECK(WIFEXITED(heard));
+        CHECK(WEXITSTATUS(heard) == 128 + signal);
+        std::signal(signal, SIG_IGN);
+        const int ignored = status_of(raise);
+        std::signal(signal, SIG_DFL);
+        CHECK(WIFEXITED(ignored));
+        CHECK(WEXITSTATUS(ignored) == 0);
+    }
+    // An alarm that the program has not set ends it as any other.
+    std::signal(SIGALRM, SIG_DFL);
+    const int alarmed = status_of([](CommandLine&) { std::raise(SIGALRM); });
+    CHECK(WIFSIGNALED(alarmed));
+    CHECK(WTERMSIG(alarmed) == SIGALRM);
+}
+
 TEST_CASE("command_line: whoever does not listen to Ctrl-C is stopped two seconds "
           "later") {
-    const ::pid_t child = ::fork();
-    REQUIRE(child >= 0);
-    if (child == 0)
-        ::_exit(run([](CommandLine&) {
-            std::raise(SIGINT);
-            for (;;) ::pause();
-        }));
-    int status = 0;
-    REQUIRE(::waitpid(child, &status, 0) == child);
+    const int status = status_of([](CommandLine&) {
+        std::raise(SIGINT);
+        for (;;) ::pause();
+    });
     CHECK(WIFEXITED(status));
     CHECK(WEXITSTATUS(status) == 130);
 }

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -318,6 +319,35 @@ TEST_CASE("file: a file of too few bytes does not begin as it must") {
                                begin + "': it is another kind of file.")
                                   .c_str());
     }
+}
+
+TEST_CASE("file: a list has what was read, as it was then") {
+    const ScratchFolder folder;
+    const std::string a = folder.file("a"), b = folder.file("b");
+    ScratchFolder::write(a, "a");
+    ScratchFolder::write(b, "foobar");
+    const auto read = [](const std::string& path) { (void)ljus::load_file(path, 10); };
+    const auto hash_of = [&](std::initializer_list<std::string> paths) {
+        const ljus::FilesRead list;
+        for (const std::string& path : paths) read(path);
+        return list.hash();
+    };
+    ljus::FilesRead list;
+    read(a);
+    ScratchFolder::write(a, "later");
+    CHECK(hash_of({b}) != hash_of({a})); // a list of its own
+    read(b);
+    CHECK_THROWS((void)ljus::load_file("/missing/c", 10));
+    REQUIRE(list.files().size() == 3);
+    CHECK(list.files()[0].path == a);
+    CHECK(list.files()[0].hash == 0xaf63dc4c8601ec8cu); // as FNV-1a is published
+    CHECK(list.files()[1].hash == 0x85944171f73967e8u);
+    CHECK(list.files()[2].path == "/missing/c");
+    CHECK(list.files()[2].hash == 0);
+    CHECK(list.hash() != hash_of({a, b, a}));
+    CHECK(hash_of({a, b}) != hash_of({b, a}));
+    CHECK(hash_of({a, b}) != hash_of({a}));
+    CHECK(hash_of({a}) == hash_of({a}));
 }
 
 TEST_CASE("file: what another file names stands beside it, or at the root") {

@@ -101,7 +101,8 @@ bool same_image(const ImageT<double>& a, const ImageT<double>& b) {
 bool same_state(const ProgressiveState& a, const ProgressiveState& b) {
     return a.alpha == b.alpha && a.shrink == b.shrink && a.passes == b.passes &&
            a.block_side == b.block_side && a.first_pass == b.first_pass &&
-           same_image(a.sum, b.sum) && same_image(a.squares, b.squares) &&
+           a.picture == b.picture && same_image(a.sum, b.sum) &&
+           same_image(a.squares, b.squares) &&
            same_image(a.block_squares, b.block_squares);
 }
 
@@ -567,6 +568,7 @@ TEST_CASE("progressive: a checkpoint comes back, and nothing else does") {
     for (const int side : {1, 2, 8}) {
         ProgressiveState state{.alpha = 0.4, .block_side = side};
         (void)run_progressive(state, 7, NoisyPass{.width = 3, .height = 2}, go_on);
+        if (side > 1) state.picture = std::string("seed: 1\n\0end", 12);
         save_checkpoint(path, state);
         CHECK(same_state(load_checkpoint(path), state));
     }
@@ -593,12 +595,15 @@ TEST_CASE("progressive: a checkpoint comes back, and nothing else does") {
         ScratchFolder::write(path, std::string(file.begin(), file.end()));
         return why_not();
     };
-    CHECK(forged(16, 2, 4).find("its version is 2") != std::string::npos);
+    CHECK(forged(16, 1, 4).find("its version is 1") != std::string::npos);
     CHECK(forged(20, 0, 4).find("block side is out") !=
           std::string::npos); // block side
     CHECK(forged(24, 0, 4).find("block side is out") != std::string::npos); // width
     CHECK(forged(24, 0xffffffffu, 4).find("block side is out") != std::string::npos);
     CHECK(forged(24, 6, 4).find("do not match") != std::string::npos);
+    for (const std::uint64_t letters : {0, 11, 13}) // of the text, which has 12
+        CHECK(forged(whole.size() - 20, letters, 8).find("do not match") !=
+              std::string::npos);
     CHECK(forged(40, 0x7ff8000000000000u, 8).find("not finite") != std::string::npos);
     CHECK(forged(40, 0, 8).find("out of range") != std::string::npos); // alpha
     for (const double shrink : {0.0, -0.5, 1.001})                     // of the radius

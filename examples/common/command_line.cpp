@@ -130,22 +130,52 @@ void require_stacks() {
 #endif
 }
 
-// Digits with an optional sign: the parser's own conversion would read 010 as 8.
-bool is_whole(const std::string& text) {
-    const std::size_t first = text.find_first_not_of('-');
-    return first <= 1 && text.find_first_not_of("0123456789", first) == text.npos &&
-           (text[first] != '0' || first + 1 == text.size());
+// Whether a text is a number as all options take it: a minus sign or none, digits
+// without leading zeros, and a fraction and an exponent unless it must be whole. The
+// conversions of the libraries accept more: 010 for 8, 0x10, blanks, nan.
+bool is_number(std::string_view text, bool whole) {
+    const auto digits = [&text] {
+        const std::size_t count =
+            std::min(text.find_first_not_of("0123456789"), text.size());
+        text.remove_prefix(count);
+        return count;
+    };
+    const auto skip = [&text](std::string_view any) {
+        const bool there = !text.empty() && any.find(text[0]) != any.npos;
+        if (there) text.remove_prefix(1);
+        return there;
+    };
+    skip("-");
+    const bool zero = text.starts_with('0');
+    std::size_t count = digits();
+    if (zero && count > 1) return false;
+    if (whole) return count > 0 && text.empty();
+    if (skip(".")) count += digits();
+    if (count == 0) return false;
+    if (skip("eE")) {
+        skip("+-");
+        if (digits() == 0) return false;
+    }
+    return text.empty();
 }
 
-// Only digits, below 2^64: the parser's own conversion would read -1 as the largest
-// seed.
+// A whole number as to_chars() writes it; nothing for any other text.
+template <typename Whole>
+std::optional<Whole> whole_number(std::string_view text) {
+    Whole number = 0;
+    const auto [rest, error] =
+        std::from_chars(text.data(), text.data() + text.size(), number);
+    if (!is_number(text, true) || error != std::errc() ||
+        rest != text.data() + text.size())
+        return std::nullopt;
+    return number;
+}
+
+// The parser's own conversion reads -1 as the largest seed.
 std::string take_seed(const std::string& text, std::uint64_t& seed) {
-    const char* const end = text.data() + text.size();
-    std::uint64_t given = 0;
-    const auto [rest, error] = std::from_chars(text.data(), end, given);
-    if (error != std::errc() || rest != end)
-        return "a whole number from 0 to 18446744073709551615";
-    seed = given;
+    const auto given = whole_number<std::uint64_t>(text);
+    if (!given) return "a whole number from 0 to 18446744073709551615";
+    seed = *given;
     return "";
 }
 
@@ -168,14 +198,13 @@ void require_writable(const std::string& path) {
 }
 
 std::optional<std::pair<int, int>> two_numbers(const std::string& text, char between) {
-    std::pair<int, int> numbers;
-    const char* const end = text.data() + text.size();
-    const auto first = std::from_chars(text.data(), end, numbers.first);
-    if (first.ec != std::errc() || first.ptr == end || *first.ptr != between)
-        return std::nullopt;
-    const auto second = std::from_chars(first.ptr + 1, end, numbers.second);
-    if (second.ec != std::errc() || second.ptr != end) return std::nullopt;
-    return numbers;
+    const std::string_view all = text;
+    const std::size_t at = all.find(between);
+    if (at == all.npos) return std::nullopt;
+    const auto first = whole_number<int>(all.substr(0, at));
+    const auto second = whole_number<int>(all.substr(at + 1));
+    if (!first || !second) return std::nullopt;
+    return std::pair{*first, *second};
 }
 
 std::string Options::path(const std::string& name) const {
@@ -270,7 +299,7 @@ void CommandLine::add_number(const std::string& name, const std::string& help,
                         : "%sa number from %g to %g",
                   or_zero ? "0 or " : "", least, most);
     const auto good = [=](const std::string& text, double& number) { // NaN is not
-        return (!whole || is_whole(text)) && CLI::detail::lexical_cast(text, number) &&
+        return is_number(text, whole) && CLI::detail::lexical_cast(text, number) &&
                ((number >= least && number <= most) || (or_zero && number == 0));
     };
     parser_->add_setting(
@@ -380,6 +409,11 @@ std::vector<std::string> CommandLine::all_given() const {
     return names;
 }
 
+std::string CommandLine::group_of(const std::string& name) const {
+    const CLI::Option* const option = parser_->app.get_option_no_throw(name);
+    return option != nullptr ? option->get_group() : "";
+}
+
 std::vector<std::pair<std::string, std::string>>
 CommandLine::values(const std::string& heading) const {
     std::vector<std::pair<std::string, std::string>> all;
@@ -471,6 +505,18 @@ int run_main(int argc, const char* const* argv,
                      without_end(what, 1500).c_str());
         return 2;
     };
+    // What was said to a full disk or a closed pipe must not be lost in silence.
+    // Whoever has closed a pipe knows that they have; an error before the last write
+    // has no reason any more.
+    const auto lost_text = [&complain] {
+        const int error = std::fflush(stdout) != 0 ? errno : 0;
+        if (error == 0 && std::ferror(stdout) == 0 && std::ferror(stderr) == 0)
+            return 0;
+        if (broken_pipe != 0) return 128 + broken_pipe;
+        return complain(
+            "cannot write to standard output" +
+            (error != 0 ? ": " + std::generic_category().message(error) : ""));
+    };
     const auto stopped = [&name] {
         std::fprintf(stderr, "%s: stopped%s.\n", name.c_str(), last_words_text());
         return 128 + stop_signal();
@@ -480,16 +526,11 @@ int run_main(int argc, const char* const* argv,
         handle_signals();
         CommandLine line({argv, argv + argc});
         body(line);
-        // Report output that was lost to a full disk or a closed pipe.
-        if (std::fflush(stdout) != 0) {
-            const int error = errno;
-            return complain("cannot write to standard output: " +
-                            std::generic_category().message(error));
-        }
+        if (const int code = lost_text()) return code;
         stop_if_asked();
         return 0;
     } catch (const Exit& exit) {
-        return exit.code;
+        return exit.code != 0 ? exit.code : lost_text();
     } catch (const Interrupted&) {
         return stopped();
     } catch (const std::bad_alloc&) {

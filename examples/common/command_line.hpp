@@ -223,6 +223,9 @@ public:
     /// The names of all options that were given, as "--seed".
     [[nodiscard]] std::vector<std::string> all_given() const;
 
+    /// The heading of the group to which an option belongs; empty if there is none.
+    [[nodiscard]] std::string group_of(const std::string& name) const;
+
     /// The current value of each setting of a group, by its name, as "seed", in JSON.
     /// Free texts, such as names of files, are left out, and so are words that were not
     /// chosen.

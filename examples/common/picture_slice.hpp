@@ -14,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -24,11 +23,11 @@
 #include <nlohmann/json.hpp>
 
 #include "command_line.hpp"
-#include "fingerprint.hpp"
 #include "ljus/io/binary_file.hpp"
 #include "ljus/path/renderer.hpp"
 #include "ljus/render/render.hpp"
 #include "picture_cost.hpp"
+#include "same_picture.hpp"
 
 namespace examples {
 
@@ -86,27 +85,6 @@ struct PictureSlice {
     std::vector<ljus::RgbT<double>> pixels{}; ///< Its rows, from the top.
 };
 
-/// A hash of a scene: of its file and of all files that it refers to.
-/// \param path  The scene file.
-/// \return 16 digits.
-[[nodiscard]] inline std::string scene_hash(const std::string& path) {
-    const auto folder = std::filesystem::path(path).parent_path();
-    constexpr std::size_t most = std::size_t(1) << 30;
-    const ljus::Bytes scene = ljus::load_file(path, most);
-    std::uint64_t hash = hash_of(scene);
-    const auto each = [&](const auto& self, const nlohmann::json& json) -> void {
-        if (json.is_object() && json.contains("file") && json["file"].is_string())
-            hash =
-                hash_of(ljus::load_file(
-                            (folder / json["file"].get<std::string>()).string(), most),
-                        hash);
-        if (json.is_structured())
-            for (const auto& member : json) self(self, member);
-    };
-    each(each, nlohmann::json::parse(scene.begin(), scene.end()));
-    return hex_text(hash);
-}
-
 inline constexpr ljus::FileFormat slice_format{"ljus picturepart", 1};
 
 // Calls `each` with each number between the header and the text of the settings.
@@ -143,8 +121,8 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
     ljus::save_file(path, bytes);
 }
 
-// Whether a text can be the settings of a slice: an object, and not so deeply nested that
-// writing it again would overflow the stack.
+// Whether a text can be the settings of a slice: an object, and not nested so deeply
+// that writing it again would overflow the stack.
 inline bool are_settings(const std::string& text) {
     bool shallow = true;
     const auto json = nlohmann::json::parse(
@@ -215,13 +193,13 @@ inline std::string difference(const PictureSlice& a, const PictureSlice& b) {
                    : "size, precision or exposure";
     const auto x = nlohmann::ordered_json::parse(a.settings, nullptr, false);
     const auto y = nlohmann::ordered_json::parse(b.settings, nullptr, false);
-    if (x.is_object() && y.is_object())
-        for (const auto& [key, value] : x.items()) {
-            const std::string other = y.contains(key) ? y[key].dump() : "nothing";
-            if (value.dump() != other)
-                return "its " + key + " is " + other + ", and not " + value.dump();
-        }
-    return "its settings are others";
+    const auto lines_of = [](const nlohmann::ordered_json& settings) {
+        std::string lines;
+        for (const auto& [key, value] : settings.items())
+            lines += key + ": " + value.dump() + "\n";
+        return lines;
+    };
+    return examples::difference(lines_of(y), lines_of(x));
 }
 
 /// A picture merged from slices.
@@ -245,7 +223,8 @@ struct MergedPicture {
         std::string path;
         PictureSlice part;
     };
-    // The picture gets its memory when all of it is there: a small file may say anything.
+    // Memory for the picture is taken when all of it is there: a small file may claim
+    // any size.
     std::map<int, Named> parts;
     const PictureSlice* known = nullptr;
     for (const std::string& path : paths) {

@@ -13,6 +13,7 @@
 #include "command_line.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/io/progressive_file.hpp"
+#include "same_picture.hpp"
 #include "terminal.hpp"
 
 namespace examples {
@@ -26,6 +27,7 @@ struct PassOptions {
     double every = 2;            ///< Seconds between saves; 0: after each pass.
     bool resume = false;         ///< Whether to continue from the checkpoint.
     double exposure = 0;         ///< Of the preview, in stops.
+    std::string picture = {};    ///< What the passes are of: picture_text().
 };
 
 /// Adds the options of passes to a command line.
@@ -43,34 +45,21 @@ inline void add_pass_options(CommandLine& line, PassOptions& how) {
              1e6);
 }
 
-/// Checks that the files of the passes can be written, before any work is done.
-/// \param how      The options.
-/// \param picture  The file of the picture, which must be another file.
-/// \throws std::invalid_argument  for names that conflict, and for a checkpoint that
-///         would be
-///                                overwritten.
-inline void require_pass_files(const PassOptions& how, const std::string& picture) {
+/// Refuses names of files that conflict, and a checkpoint that would be lost.
+/// \param how  The options.
+/// \throws std::invalid_argument  with what would be right.
+inline void check_pass_files(const PassOptions& how) {
     if (how.resume && how.checkpoint.empty())
         throw std::invalid_argument("--resume needs --checkpoint FILE.");
     if (!how.preview.empty() &&
         std::filesystem::path(how.preview).extension() != ".png")
         throw std::invalid_argument("--preview is " + how.preview +
                                     "; its name must end with .png.");
-    const auto place = [](const std::string& file) {
-        return std::filesystem::absolute(file).lexically_normal();
-    };
-    if (!how.checkpoint.empty())
-        for (const std::string& file : {picture, how.preview})
-            if (!file.empty() && place(file) == place(how.checkpoint))
-                throw std::invalid_argument("--checkpoint is " + how.checkpoint +
-                                            "; it must be a file of its own.");
     if (!how.resume && !how.checkpoint.empty() &&
         std::filesystem::exists(how.checkpoint)) // it may hold hours of work
         throw std::invalid_argument("--checkpoint is " + how.checkpoint +
                                     ", which is there already; it must be a new file, "
                                     "unless --resume goes on from it.");
-    for (const std::string& file : {how.checkpoint, how.preview})
-        if (!file.empty()) require_writable(file);
 }
 
 /// Makes the passes.
@@ -79,6 +68,8 @@ inline void require_pass_files(const PassOptions& how, const std::string& pictur
 /// \param pass   Called as pass(i, scale); see \ref progressive.
 /// \return The state after the last pass.
 /// \throws Interrupted  after Ctrl-C; the passes done so far are in the checkpoint.
+/// \throws std::invalid_argument  if the checkpoint is of another picture, with what
+///                                differs.
 template <typename RenderPass>
 [[nodiscard]] ljus::ProgressiveState run_passes(const PassOptions& how, bool quiet,
                                                 RenderPass&& pass) {
@@ -94,11 +85,10 @@ template <typename RenderPass>
                       "'; the same command with --resume goes on from there");
     };
     say(0);
-    ProgressiveState state{.alpha = how.alpha};
+    ProgressiveState state{.alpha = how.alpha, .picture = how.picture};
     if (how.resume) {
         state = load_checkpoint(how.checkpoint);
-        require(state.alpha == how.alpha, "alpha", how.alpha,
-                "that of the passes so far, " + to_text(state.alpha));
+        require_same_picture(how.checkpoint, state.picture, how.picture);
         require_first_pass(state, pass);
         say(state.passes);
     }

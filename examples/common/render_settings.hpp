@@ -48,6 +48,9 @@ first_hit_of(RendererName renderer) noexcept {
 /// All settings, as the user gave them or as chosen for the user.
 struct RenderRequest {
     std::string scene{};                          ///< The scene file.
+    std::vector<std::string> reads{};             ///< It and all files that it names.
+    std::uint64_t scene_hash = 0;                 ///< Of their bytes as they were read.
+    std::string file{};                           ///< The file of the picture or slice.
     RendererName renderer = RendererName::photon; ///< What a pixel shows.
     bool in_double = false;                       ///< Whether to compute in double.
     std::optional<ljus::Preset> preset{}; ///< Options given by name override it.
@@ -219,54 +222,6 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
              {"direct", "indirect", "shadow", "caustic", "all"});
 }
 
-/// Refuses options that cannot be combined, and reads the number of a slice.
-/// \param line  The command line, parsed.
-/// \param r     What the user asks for.
-/// \param file  The file's name, if --out names one.
-/// \throws std::invalid_argument  with the options and what would be right.
-inline void check_options(const CommandLine& line, RenderRequest& r,
-                          const std::string& file) {
-    const auto refuse = [&line](const std::vector<std::string>& options,
-                                const std::string& why) {
-        for (const std::string& option : options)
-            if (line.given(option)) throw std::invalid_argument(option + why);
-    };
-    const bool in_time = r.promise.seconds > 0;
-    if (in_time)
-        refuse({"--error"}, " cannot be combined with --seconds: give one of them");
-    if (in_time || r.promise.error > 0) {
-        std::vector<std::string> others = line.all_given();
-        for (const char* fits :
-             {"--seconds", "--error", "--width", "--height", "--seed", "--precision",
-              "--exposure", "--threads", "--out", "--quiet"})
-            std::erase(others, fits);
-        refuse(others, std::string(" cannot be combined with ") +
-                           (in_time ? "--seconds" : "--error") +
-                           ", which chooses the settings");
-    }
-    const bool slice_file = std::filesystem::path(file).extension() == ".slice";
-    if (!r.slice.empty()) {
-        refuse({"--explain", "--show-photons", "--passes"},
-               " cannot be combined with --slice");
-        r.part = slice_of(r.slice);
-        if (!file.empty() && !slice_file)
-            throw std::invalid_argument("--out is " + file +
-                                        "; a slice is not a picture: it "
-                                        "must be NAME.slice, or a folder for it");
-    } else if (slice_file) {
-        throw std::invalid_argument("--out is " + file +
-                                    "; a file NAME.slice is for --slice K/N");
-    }
-    if (r.passes.passes == 0)
-        return refuse({"--alpha", "--checkpoint", "--resume", "--preview", "--every"},
-                      " is for pictures that are made in passes: give --passes N, too");
-    refuse({"--more-rays", "--explain", "--show-photons"},
-           " cannot be combined with --passes");
-    if (r.renderer != RendererName::photon)
-        throw std::invalid_argument("--passes is for --renderer photon; give other "
-                                    "renderers more --rays");
-}
-
 /// Chooses the settings that the user did not give: from the scene, from the preset,
 /// and for passes.
 /// \param line    The command line, parsed.
@@ -295,6 +250,11 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
             "--more-rays is " + std::to_string(r.more_rays) +
             "; with --slice, which takes the same rays in every "
             "pixel, it must be 0: give --more-rays 0");
+    if (r.more_rays > 0 && options.samples < 2)
+        throw std::invalid_argument(
+            "--rays is " + std::to_string(options.samples) + "; with --more-rays " +
+            std::to_string(r.more_rays) +
+            ", whose first rays must be compared, it must be at least 2");
     const auto sampling = r.picture.sampling;
     r.picture = picture_settings(options);
     r.picture.sampling = sampling;
@@ -335,6 +295,20 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
         json["caustic-light-shares"] = r.photon.caustics.light_shares;
     if (!r.kept.empty()) json["promise"] = r.kept;
     return json;
+}
+
+/// What the passes of a picture are of; passes that were made by the same text go on.
+/// \param line  The command line, parsed.
+/// \param r     What the user asked for, with all settings, and the scene's hash.
+[[nodiscard]] inline std::string text_of_passes(const CommandLine& line,
+                                                const RenderRequest& r) {
+    std::vector<std::pair<std::string, std::string>> settings;
+    const auto json = to_json(line, r);
+    for (const auto& [name, value] : json.items())
+        if (name != "scene" && name != "exposure" && name != "passes" &&
+            name != "resume" && name != "every")
+            settings.emplace_back(name, value.dump());
+    return picture_text(settings, r.scene_hash);
 }
 
 } // namespace examples

@@ -2,7 +2,8 @@
 
 /// \file examples/common/signals.hpp
 /// \brief Ctrl-C asks a program to stop; it does so between two blocks of work, or else
-/// two seconds later, wherever it is: files are whole or not there at any moment.
+/// two seconds later, wherever it is: files are whole or not there at any moment. A
+/// pipe that nobody reads any more ends no work.
 
 #include <array>
 #include <atomic>
@@ -33,14 +34,6 @@ inline std::atomic<std::size_t> last_words_now{0};
     return last_words[last_words_now].data();
 }
 
-extern "C" inline void ask_to_stop(int signal) {
-    asked_to_stop = signal;
-    std::signal(signal, SIG_DFL); // the second time it ends the program at once
-#ifdef SIGALRM
-    ::alarm(2);
-#endif
-}
-
 #ifdef SIGALRM
 extern "C" inline void stop_now(int) {
     for (const char* text : {"stopped", last_words_text(), ".\n"})
@@ -48,6 +41,27 @@ extern "C" inline void stop_now(int) {
     ::_exit(128 + asked_to_stop);
 }
 #endif
+
+extern "C" inline void ask_to_stop(int signal) {
+    asked_to_stop = signal;
+    std::signal(signal, SIG_DFL); // the second time it ends the program at once
+#ifdef SIGALRM
+    std::signal(SIGALRM, stop_now);
+    ::alarm(2);
+#endif
+}
+
+// The signal, once a text has been written into a pipe that nobody reads.
+inline std::atomic<int> broken_pipe{0};
+extern "C" inline void note_broken_pipe(int signal) {
+    broken_pipe = signal;
+}
+
+// Handles a signal, unless whoever has started the program wants it to be ignored, as
+// nohup does.
+inline void handle(int signal, void (*handler)(int)) {
+    if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
 
 // No longer: the program has ended by itself.
 inline void let_be() {
@@ -66,17 +80,18 @@ inline void when_stopped_say(const std::string& sentence) {
     last_words_now = next;
 }
 
-/// Lets Ctrl-C (and SIGTERM) ask for a stop, and a file-size limit be an error when
-/// writing (SIGXFSZ) instead of the end of the program.
+/// Lets Ctrl-C, SIGTERM and the end of a terminal ask for a stop, and makes what can go
+/// wrong in writing (a limit of size, a broken pipe) an error instead of the end of the
+/// program.
 inline void handle_signals() {
     let_be();
     asked_to_stop = 0;
+    broken_pipe = 0;
+    handle(SIGINT, ask_to_stop);
+    handle(SIGTERM, ask_to_stop);
 #ifdef SIGALRM
-    std::signal(SIGALRM, stop_now);
-#endif
-    std::signal(SIGINT, ask_to_stop);
-    std::signal(SIGTERM, ask_to_stop);
-#ifdef SIGXFSZ
+    handle(SIGHUP, ask_to_stop);
+    handle(SIGPIPE, note_broken_pipe);
     std::signal(SIGXFSZ, SIG_IGN);
 #endif
 }

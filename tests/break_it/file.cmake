@@ -39,3 +39,9 @@ ljus_break_it(NAME file-shown-letters HEADER io/file_beside.hpp TEST file
     FROM "byte(i + k) >> 6 == 2"
     TO   "byte(i + k) >> 6 < 4"
     CASES "file: a message shows letters*")
+
+# What was read is listed without what was in it.
+ljus_break_it(NAME file-hash HEADER io/file.hpp TEST file
+    FROM "current()->files_.back().hash = hash;"
+    TO   "(void)hash;"
+    CASES "file: a list has what*")

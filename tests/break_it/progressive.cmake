@@ -86,3 +86,9 @@ ljus_break_it(NAME progressive-general-photons HEADER render/progressive.hpp
     FROM "settings.caustics.iteration = settings.general.iteration = number;"
     TO   "settings.caustics.iteration = number;"
     CASES "progressive: each pass has photons*")
+
+# A checkpoint forgets what its picture is.
+ljus_break_it(NAME progressive-picture HEADER io/progressive_file.hpp TEST progressive
+    FROM "bytes.insert(bytes.end(), state.picture.begin(), state.picture.end());"
+    TO   "bytes.resize(bytes.size() + state.picture.size());"
+    CASES "progressive: a checkpoint*")

@@ -47,6 +47,31 @@ ranks 2 "$program" none.json --out never >out.txt 2>err.txt || code=$?
 [ $code -ne 0 ] && [ $code -ne 124 ] || wrong "a missing scene: exit code $code"
 grep -q "cannot read 'none.json'" err.txt || wrong "no sentence: $(cat err.txt)"
 
+# Ranks that disagree: the scene, or any setting; or one that only prints its help.
+sed 's/"ior": 1.5/"ior": 1.6/' "$scene" >other.json
+apart() { # SENTENCE, and what the second rank is given
+    local sentence=$1 code=0 other=$2
+    shift 2
+    timeout 60 "$mpirun" -n 1 "$program" "$scene" "${few[@]}" --out never : \
+        -n 1 "$program" "$other" "${few[@]}" --out never "$@" >out.txt 2>err.txt || code=$?
+    [ $code -ne 0 ] && [ $code -ne 124 ] || wrong "ranks apart, $*: exit code $code"
+    grep -q "$sentence" err.txt || wrong "ranks apart, $*: $(cat err.txt)"
+    [ ! -e never/$picture ] || wrong "ranks apart, $*: there is a picture"
+}
+apart "rank 1 is to make another picture than rank 0: its scene_hash is" other.json
+apart "its width is 41, and not 40" "$scene" --width 41
+apart "its rays is 3, and not 2" "$scene" --rays 3
+apart "its seed is 2, and not 1" "$scene" --seed 2
+apart "its caustic-photons is 5001, and not 5000" "$scene" --caustic-photons 5001
+apart "another rank has ended before the work began" "$scene" --help
+ranks 2 "$program" --help >out.txt || wrong "all ranks with --help: exit code $?"
+cp "$scene" many-machines.pfm
+code=0
+ranks 2 "$program" many-machines.pfm "${few[@]}" --out . >out.txt 2>err.txt || code=$?
+[ $code -ne 0 ] && grep -q "which is read as 'many-machines.pfm'" err.txt ||
+    wrong "the scene is written over: $(cat err.txt)"
+cmp "$scene" many-machines.pfm || wrong "the scene is lost"
+
 # A killed rank ends the others, and leaves neither a picture nor part of one.
 timeout 120 "$mpirun" -n 3 "$program" "$scene" --width 200 --height 200 --rays 100000 \
     --threads 1 --out never >out.txt 2>err.txt &

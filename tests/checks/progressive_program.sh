@@ -43,6 +43,7 @@ done
 same a || wrong "killed and resumed, the picture is another"
 
 # Ctrl-C leaves a checkpoint of at least one pass, says so, and writes no final picture.
+set -m # else a script's programs in the background ignore it
 "$program" --width 32 --height 32 --quiet --passes 1000000 --every 1000 --out b 2>err.txt &
 pid=$!
 sleep 1
@@ -67,8 +68,8 @@ refused() {
     grep -qF -- "$sentence" err.txt || wrong "$*: no '$sentence' in: $(cat err.txt)"
     [ ! -e "$folder/progressive-last.png" ] || wrong "a picture of a refused checkpoint"
 }
-refused "of another picture" a "${few[@]}" --seed 2
-refused "of another picture" a --width 33 --height 32 --passes 150 --quiet
+refused "of another picture: its seed is 1, and not 2" a "${few[@]}" --seed 2
+refused "of another picture: its width is 32, and not 33" a --width 33 --height 32 --passes 150 --quiet
 refused "cannot read 'none/progressive.check'" none "${few[@]}"
 mkdir short
 head -c 1000 a/progressive.check >short/progressive.check

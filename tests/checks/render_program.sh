@@ -205,7 +205,7 @@ refused "there is no option or argument '--nope'" "$scene" --nope
 refused "there is no option or argument '--quality'" "$scene" --quality draft
 refused "--seconds" "$scene" --seconds 0
 refused "--error" "$scene" --error nan
-refused "--error cannot be combined with --seconds: give one of them" "$scene" --seconds 1 --error 0.1
+refused "--error cannot be combined with --seconds, which chooses the settings" "$scene" --seconds 1 --error 0.1
 for option in "--preset fast" "--rays 4" --plan "--explain 1,1" "--renderer path"; do
     # shellcheck disable=SC2086
     refused "cannot be combined with --seconds, which chooses the settings" "$scene" --seconds 1 \
@@ -226,10 +226,15 @@ refused "--passes" "$scene" --passes 0
 refused "--alpha" "$scene" --passes 2 --alpha 0
 for option in "--alpha 0.5" "--checkpoint a.check" --resume "--preview a.png" "--every 1"; do
     # shellcheck disable=SC2086
-    refused "give --passes N" "$scene" $option
+    refused "is for pictures that are made in passes: give --passes N, too" "$scene" $option
 done
-refused "--passes is for --renderer photon" "$scene" --passes 2 --renderer path
+refused "--passes is for --renderer photon; give other renderers more --rays" "$scene" --passes 2 --renderer path
 refused "--more-rays cannot be combined with --passes" "$scene" --passes 2 --more-rays 3
+refused "--rays is 1; with --more-rays 3, whose first rays must be compared, it must be at least 2" \
+    "$scene" --rays 1 --more-rays 3
+refused "--rays is 1; with --more-rays 4" "$scene" --preset draft --more-rays 4
+refused "--show-photons cannot be combined with --explain" "$scene" --explain 1,1 --show-photons all
+refused "--plan cannot be combined with --explain" "$scene" --explain 1,1 --plan
 refused "--explain cannot be combined with --passes" "$scene" --passes 2 --explain 1,1
 refused "--show-photons cannot be combined with --passes" "$scene" --passes 2 --show-photons all
 refused "--resume needs --checkpoint" "$scene" --passes 2 --resume
@@ -238,9 +243,15 @@ refused "it must be a file of its own" "$scene" --passes 2 --out a.pfm --checkpo
 refused "cannot write" "$scene" --passes 2 --checkpoint /proc/none/a.check
 refused "cannot read 'none.check'" "$scene" --passes 2 --checkpoint none.check --resume
 refused "which is there already" "${passes[@]}" --passes 9 --checkpoint part.check
-refused "of another picture" "${passes[@]}" --passes 9 --seed 3 --checkpoint part.check --resume
-refused "alpha is 0.75; it must be that" "${passes[@]}" --passes 9 --alpha 0.75 \
-    --checkpoint part.check --resume
+resume=("${passes[@]}" --passes 9 --checkpoint part.check --resume)
+refused "'part.check' is of another picture: its seed is 1, and not 3" "${resume[@]}" --seed 3
+refused "its alpha is 0.5, and not 0.75" "${resume[@]}" --alpha 0.75
+refused "its caustic-budget is \"brightness\", and not \"area\"" "${resume[@]}" --caustic-budget area
+refused "its precision is \"float\", and not \"double\"" "${resume[@]}" --precision double
+cp "$scene" moved.json # the same scene by another name; and another one by the same
+"$render" moved.json "${resume[@]:1}" --exposure 1 --threads 1 --out choice.pfm || wrong "a scene by another name"
+sed 's/"ior": 1.5/"ior": 1.6/' "$scene" >moved.json
+refused "is of another picture: its scene_hash is " moved.json "${resume[@]:1}"
 refused "cannot write" "$scene" --out /proc/none/a.png
 printf '{"name": "x",\n "camera": {"position": [1e999' >huge.json
 refused "huge.json: line 2, column 30: camera.position[0] is 1e999" huge.json

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "ljus/io/file_beside.hpp"
+#include "ljus/math/field_hash.hpp"
 
 #if __has_include(<unistd.h>)
 #include <sys/stat.h>
@@ -84,13 +85,63 @@ inline void require_writable(const std::string& path) {
     probe.close();
 }
 
-/// Reads a file.
+/// The files that load_file() is asked for, by one thread and while the list exists:
+/// what a scene was made of, meshes, materials and pictures included, as it was when it
+/// was read. A list within a list takes over until it ends.
+class FilesRead {
+public:
+    /// A file that was asked for.
+    struct File {
+        std::string path;       ///< As load_file() was given it.
+        std::uint64_t hash = 0; ///< FNV-1a of its bytes; 0: it could not be read.
+    };
+
+    FilesRead() { current() = this; }
+    FilesRead(const FilesRead&) = delete;
+    FilesRead& operator=(const FilesRead&) = delete;
+    ~FilesRead() { current() = outer_; }
+
+    /// All files so far, in the order of reading.
+    [[nodiscard]] const std::vector<File>& files() const noexcept { return files_; }
+
+    /// A hash of the contents of all files so far, in the order of reading. Names do
+    /// not count, the absence of a file does.
+    [[nodiscard]] std::uint64_t hash() const noexcept {
+        std::uint64_t all = detail::fnv_start;
+        for (const File& file : files_)
+            for (const unsigned char byte : detail::bytes_of(file.hash))
+                all = detail::fnv_hash(all, byte);
+        return all;
+    }
+
+private:
+    friend Bytes load_file(const std::string&, std::size_t, std::string_view);
+    static FilesRead*& current() noexcept {
+        thread_local FilesRead* list = nullptr;
+        return list;
+    }
+    static void note(const std::string& path) {
+        if (current() != nullptr) current()->files_.push_back({path});
+    }
+    static void note(const Bytes& bytes) {
+        if (current() == nullptr) return;
+        std::uint64_t hash = detail::fnv_start;
+        for (const unsigned char byte : bytes) hash = detail::fnv_hash(hash, byte);
+        current()->files_.back().hash = hash;
+    }
+
+    std::vector<File> files_;
+    FilesRead* outer_ = current();
+};
+
+/// Reads a file; a FilesRead takes note of it.
 /// \param path  The file; not a pipe or a device, which may never end.
 /// \param most  The largest size in bytes.
 /// \param begin The first bytes that it must have; they are tested first.
 /// \throws std::runtime_error  with path and reason.
 [[nodiscard]] inline Bytes load_file(const std::string& path, std::size_t most,
                                      std::string_view begin = {}) {
+    FilesRead::note(path);
     struct Closed {
         std::FILE* file;
         ~Closed() {
@@ -130,7 +181,10 @@ inline void require_writable(const std::string& path) {
             detail::fail_to_read(
                 path, detail::join({"it is longer than the ", std::to_string(most),
                                     " bytes allowed"}));
-        if (got < wanted) return bytes;
+        if (got < wanted) {
+            FilesRead::note(bytes);
+            return bytes;
+        }
     }
 }
 

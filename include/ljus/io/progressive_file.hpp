@@ -12,14 +12,15 @@ namespace ljus {
 /// \brief The whole state of a progressive picture in a file that survives a kill.
 ///
 /// 16 letters that name the format; version, side of the blocks, width, height and a
-/// checksum; then the state, exact to the last bit, lowest byte first. save_file()
+/// checksum; the numbers of the state, exact to the last bit, lowest byte first; and
+/// the length of the text that says what the picture is, and this text. save_file()
 /// replaces the older file at once, so that one of the two always exists if the program
 /// is killed. After a loss of power that depends on the file system.
 /// \{
 
 namespace detail {
 
-inline constexpr FileFormat checkpoint_format{"ljus progressive", 1};
+inline constexpr FileFormat checkpoint_format{"ljus progressive", 2};
 
 // Calls `each` with every number behind the header, in the file's order.
 template <typename State, typename Each>
@@ -46,10 +47,15 @@ void each_checkpoint_number(State& state, Each each) {
     const std::uint32_t rows = (height - 1) / side + 1;
     const std::size_t numbers =
         4 + 6 * std::size_t(width) * height + 3 * std::size_t(columns) * rows;
-    if (file.bytes.size() != file_front_bytes + 8 * numbers)
-        file.refuse("its " + std::to_string(file.bytes.size()) +
+    const std::size_t text = file_front_bytes + 8 * numbers;
+    const std::size_t size = file.bytes.size();
+    if (size < text + 8 ||
+        size - text - 8 != number_at<std::uint64_t>(file.bytes, text))
+        file.refuse("its " + std::to_string(size) +
                     " bytes do not match its picture's size");
     ProgressiveState state{.block_side = int(side)};
+    state.picture.assign(file.bytes.begin() + std::ptrdiff_t(text) + 8,
+                         file.bytes.end());
     state.sum = state.squares = make_image<double>(int(width), int(height));
     state.block_squares = make_image<double>(int(columns), int(rows));
     return state;
@@ -79,6 +85,8 @@ inline void save_checkpoint(const std::string& path, const ProgressiveState& sta
                    std::uint32_t(state.sum.width), std::uint32_t(state.sum.height));
     detail::each_checkpoint_number(
         state, [&](const auto& number) { put_number(bytes, number); });
+    put_number(bytes, std::uint64_t(state.picture.size()));
+    bytes.insert(bytes.end(), state.picture.begin(), state.picture.end());
     put_checksum(bytes);
     save_file(path, bytes);
 }

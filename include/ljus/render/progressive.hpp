@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
@@ -112,6 +113,8 @@ struct ProgressiveState {
     ImageT<double> sum{};           ///< Sum of the passes, W/(m^2 sr).
     ImageT<double> squares{};       ///< Squared deviations from the mean.
     ImageT<double> block_squares{}; ///< The same for the means of blocks.
+    std::string picture{}; ///< What the passes are of, in words of the program's own: a
+        ///< checkpoint keeps it, and a program that resumes compares.
 };
 
 /// The standard error of the mean of the passes.

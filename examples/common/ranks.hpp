@@ -1,0 +1,65 @@
+#pragma once
+
+/// \file ranks.hpp
+/// \brief Processes that make one picture together by MPI, and agree on which.
+
+#include <stdexcept>
+#include <string>
+
+#include <mpi.h>
+
+#include "command_line.hpp"
+#include "same_picture.hpp"
+
+namespace examples {
+
+/// One of several processes that have a job together.
+struct Rank {
+    int number = 0;   ///< From 0 on.
+    int count = 1;    ///< How many there are.
+    bool met = false; ///< Whether it has met the others; see agree().
+};
+
+// Whether all ranks have come to do the work; each tells once.
+inline bool all_come(Rank& rank, bool this_one) {
+    rank.met = true;
+    int all = this_one ? 1 : 0;
+    MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    return all == 1;
+}
+
+/// Goes on if all ranks have come, and are to make the picture of the first one.
+/// \param rank     This one.
+/// \param picture  Its picture_text().
+/// \throws std::runtime_error  if one has not come, or with what differs.
+inline void agree(Rank& rank, const std::string& picture) {
+    if (!all_come(rank, true))
+        throw std::runtime_error("another rank has ended before the work began");
+    std::string first = picture;
+    int letters = static_cast<int>(first.size());
+    MPI_Bcast(&letters, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    first.resize(static_cast<std::size_t>(letters));
+    MPI_Bcast(first.data(), letters, MPI_CHAR, 0, MPI_COMM_WORLD);
+    if (const std::string why = difference(picture, first); !why.empty())
+        throw std::runtime_error("rank " + std::to_string(rank.number) +
+                                 " is to make another picture than rank 0: " + why);
+}
+
+/// The main() of a program of several ranks: run_main() with a body that is given the
+/// command line and its rank, and calls agree() before the work. No rank waits for one
+/// that has failed, or that has only printed --help.
+template <typename Body>
+int run_ranks(int argc, char** argv, Body&& body) {
+    int threads = 0; // only the first one talks to the other ranks
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads);
+    Rank rank;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank.number);
+    MPI_Comm_size(MPI_COMM_WORLD, &rank.count);
+    const int code = run_main(argc, argv, [&](CommandLine& line) { body(line, rank); });
+    if (code != 0) MPI_Abort(MPI_COMM_WORLD, code); // it has said why
+    if (!rank.met) (void)all_come(rank, false);
+    MPI_Finalize();
+    return code;
+}
+
+} // namespace examples
