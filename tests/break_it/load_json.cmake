@@ -25,8 +25,8 @@ ljus_break_it(NAME json-film-level HEADER io/detail/json_materials.hpp TEST load
 
 # A picture is forgotten before its last use.
 ljus_break_it(NAME json-picture-once HEADER io/detail/json_textures.hpp TEST load_json
-    FROM "if (--known.uses > 0) return image;"
-    TO   "--known.uses;"
+    FROM "if (--known.uses > 0 &&"
+    TO   "if (--known.uses < 0 &&"
     CASES "load_json: a picture of several*")
 
 # Each full gloss computes its own table.

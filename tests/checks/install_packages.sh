@@ -43,5 +43,20 @@ printf '#!%s\nexit 100\n' "$(command -v bash)" >"$bin/apt-get"
 chmod +x "$bin/apt-get"
 looks 0 1 test
 grep -q 'apt-get could not install' "$scratch/err" || { echo "WRONG: apt-get failed in silence"; wrong=1; }
+# Every script finds its folder with CDPATH, with which cd prints one or finds another.
+for script in book figures install-packages measure new-concept plot test trades; do
+    help=$(cd "$LJUS_ROOT" && CDPATH=$LJUS_ROOT/tests:$LJUS_ROOT bash scripts/$script --help 2>&1) &&
+        [ -n "$help" ] || { echo "WRONG: $script --help with CDPATH: $help"; wrong=1; }
+done
+# CMake's own words would not say what is wrong.
+odd="$scratch/a\"b"
+mkdir -p "$odd"
+ln -s "$LJUS_ROOT/scripts" "$odd/scripts"
+said=$(. "$odd/scripts/common.sh" && configure "$root/build" 2>&1) && wrong=1
+case $said in
+    *"CMake cannot work in '$odd/build'"*"move the project."*) ;;
+    *) echo "WRONG: a folder with a quotation mark: $said"; wrong=1 ;;
+esac
+
 [ $wrong -eq 0 ] && echo "install-packages says what is missing"
 exit $wrong

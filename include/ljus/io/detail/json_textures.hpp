@@ -166,7 +166,10 @@ struct FilePicturesT {
                  !why.empty())
             throw std::runtime_error(join({shown_path(path), " ", why, "."}));
         pixels += static_cast<long long>(image.pixels.size());
-        if (--known.uses > 0) return image;
+        // It is not kept if there is no room for one more.
+        if (--known.uses > 0 &&
+            too_large_beside(pixels, image.width, image.height).empty())
+            return image;
         return std::move(image);
     }
 };
