@@ -19,8 +19,8 @@ wrong() { echo "WRONG: $*"; wrong=1; }
 # of the program, and --resume, --checkpoint and --preview of files.
 options=("--width 7" "--height 7" "--rays 3" "--seed 2" "--more-rays 40"
     "--disagreement 0.01" "--sampling random" "--precision double" "--exposure 2"
-    "--renderer path" "--preset draft" "--depth 2" "--roulette 1" "--seconds 0.05"
-    "--error 5" "--direct mis" "--shadow-rays 3" "--indirect cache" "--indirect map"
+    "--renderer path" "--preset exact" "--depth 2" "--roulette 1" "--seconds 0.05"
+    "--error 5" "--direct analytic" "--shadow-rays 3" "--indirect cache" "--indirect map"
     "--split-glass" "--caustic-photons 400" "--general-photons 700"
     "--caustic-budget equal" "--photon-numbers sobol" "--photon-bounces 3"
     "--caustic-radius 0.7" "--caustic-nearest 3" "--caustic-kernel cone"
