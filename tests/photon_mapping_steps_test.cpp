@@ -141,7 +141,8 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
                             ++cost.map_queries;
                             const auto irradiance = [&](const Vec3&) {
                                 return irradiance_at(known.points,
-                                                     vertex.point.position, normal);
+                                                     vertex.point.position, normal)
+                                    .value();
                             };
                             right.push_back(
                                 {"irradiance points", "DL|D..DL|DS+L",
@@ -159,10 +160,9 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
                                      ask(maps.general, settings.general_estimate,
                                          one_kind(PhotonKind::indirect))});
                             if (indirect == IndirectLight::cache && diffuse) {
-                                const Rgb irradiance =
-                                    irradiance_between(world, known.points, known.cache,
-                                                       vertex, material,
-                                                       settings.gather, plain);
+                                const Rgb irradiance = irradiance_between(
+                                    world, known.points, known.cache, vertex, material,
+                                    settings.gather, plain);
                                 if constexpr (std::is_same_v<decltype(material),
                                                              const Lambertian&>) {
                                     right.push_back(
@@ -407,11 +407,10 @@ TEST_CASE("photon mapping: behind a glossy surface only photons answer for gloss
     room.add(Quad{{-9, 1, -9}, {18, 0, 0}, {0, 0, 18}}, gloss);
     room.add(PointLight{.position{0, 0.5f, 0}, .intensity = Rgb{1}});
     const World world(std::move(room));
-    for (const auto& [indirect, owner] :
-         {std::pair{IndirectLight::rays, "shadow ray"},
-          {IndirectLight::map, "general map"},
-          {IndirectLight::gather, "shadow ray"},
-          {IndirectLight::cache, "shadow ray"}}) {
+    for (const auto& [indirect, owner] : {std::pair{IndirectLight::rays, "shadow ray"},
+                                          {IndirectLight::map, "general map"},
+                                          {IndirectLight::gather, "shadow ray"},
+                                          {IndirectLight::cache, "shadow ray"}}) {
         const std::string who = owner; // captured below
         CAPTURE(who);
         const auto settings = distinct(indirect, DirectLight::sampled);

@@ -55,8 +55,8 @@ struct DrawnScene {
 
 /// Draws scenes. Objects touch neither each other nor a wall. A path tracer finds no
 /// caustic of a light without an area, so that no scene has such a light together with
-/// a specular material; and the lamps beside specular materials are large enough that
-/// its paths meet them.
+/// a specular or nearly specular material; and the lamps beside specular materials are
+/// large enough that its paths meet them.
 class SceneDrawer {
 public:
     explicit SceneDrawer(std::uint64_t seed) : draws_{seed} {
@@ -141,7 +141,7 @@ private:
     /// A material with a glossy lobe.
     Id gloss() {
         glossy_ = true;
-        const float roughness = draws_.between(0.15f, 0.8f);
+        const float roughness = draws_.between(point_ ? 0.45f : 0.15f, 0.8f);
         sharp_ = sharp_ || roughness < 0.42f;
         const ljus::Glossy glossy{.reflectance = color(0.4f, 0.95f),
                                   .roughness = roughness};
@@ -176,9 +176,8 @@ private:
             return scene_.add(ljus::ThinGlass{.tint = color(0.5f, 1)});
         case 3:
             say("film");
-            return scene_.add(ljus::SoapFilm{.thickness = draws_.between(200.f, 700.f),
-                                             .scale = 1,
-                                             .up{0, 1, 0}});
+            return scene_.add(ljus::SoapFilm{
+                .thickness = draws_.between(200.f, 700.f), .scale = 1, .up{0, 1, 0}});
         case 4: {
             say("glass");
             const float index = draws_.between(1.2f, 1.9f);
@@ -297,9 +296,9 @@ private:
         case 5: {
             say("moving-ball");
             const V way = 0.7f * reach * draws_.direction<float>();
-            scene_.add(ljus::Moving<ljus::Sphere>{
-                           {center - 0.5f * way, 0.6f * reach}, way},
-                       any(true));
+            scene_.add(
+                ljus::Moving<ljus::Sphere>{{center - 0.5f * way, 0.6f * reach}, way},
+                any(true));
             break;
         }
         case 6: {
@@ -378,11 +377,11 @@ private:
             break;
         default:
             say("MOVING");
-            scene_.add(ljus::Moving<ljus::Quad>{{center - V{size, 0, size},
-                                                 {2 * size, 0, 0},
-                                                 {0, 0, 2 * size}},
-                                                {0, -0.3f, 0}},
-                       black, light);
+            scene_.add(
+                ljus::Moving<ljus::Quad>{
+                    {center - V{size, 0, size}, {2 * size, 0, 0}, {0, 0, 2 * size}},
+                    {0, -0.3f, 0}},
+                black, light);
             break;
         }
     }
