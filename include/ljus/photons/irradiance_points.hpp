@@ -112,8 +112,9 @@ estimate_irradiance(const W& world, const PhotonMapT<T>& map, const VertexT<T>& 
     RgbT<double> sum{0};
     for (const Neighbor& near : photons) {
         const detail::PhotonRecordT<T> photon = map.records[near.index];
-        if (!(glm::dot(photon.direction, normal) < T(0))) continue;
-        if (!(side * glm::dot(photon.direction, Vec3T<T>(photon.normal)) < T(0)))
+        const T on_other_side =
+            side * glm::dot(photon.direction, Vec3T<T>(photon.normal));
+        if (!(glm::dot(photon.direction, normal) < T(0)) || on_other_side > T(0))
             continue;
         if (detail::leaves_disc(map.tree.point(near.index) - vertex.point.position,
                                 normal, T(radius2)))
