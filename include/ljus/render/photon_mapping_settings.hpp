@@ -155,8 +155,8 @@ enum class Preset : std::uint8_t {
 
 /// The rays per pixel of a preset. The further rays go where the first ones disagree,
 /// and two that both miss a small bright reflection agree: around reflections of lamps
-/// in mirrors and narrow gloss, blocks of pixels were up to a quarter too dark. The same
-/// number of rays everywhere, as in Preset::exact, has no such bias.
+/// in mirrors and narrow gloss, blocks of pixels were up to a quarter too dark. The
+/// same number of rays everywhere, as in Preset::exact, has no such bias.
 struct PresetRays {
     int first = 1;             ///< In every pixel.
     int more = 0;              ///< More rays in pixels above the standard error below.
