@@ -139,9 +139,13 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
                             caustics();
                         } else if (gather) {
                             ++cost.map_queries;
-                            const auto irradiance = [&](const Vec3&) {
-                                return irradiance_at(known.points,
-                                                     vertex.point.position, normal);
+                            const auto irradiance = [&](const Vec3& wi) {
+                                const auto at_point = irradiance_at(
+                                    known.points, vertex.point.position, normal);
+                                return at_point ? *at_point
+                                                : detail::irradiance_towards(
+                                                      world, gather_lookup(mapper),
+                                                      vertex, wi, plain);
                             };
                             right.push_back(
                                 {"irradiance points", "DL|D..DL|DS+L",

@@ -768,7 +768,8 @@ Image box_with_points(const Eye& eye) {
         if (vertex.emits()) return Rgb{1};
         const Rgb irradiance =
             irradiance_at(points, vertex.point.position,
-                          std::copysign(1.0f, vertex.wo.z) * vertex.frame.normal);
+                          std::copysign(1.0f, vertex.wo.z) * vertex.frame.normal)
+                .value_or(Rgb{0});
         return visit_material_at(room.world, vertex, [&](const auto& material) {
             return evaluate(material, vertex.wo, vertex.wo) * irradiance;
         });

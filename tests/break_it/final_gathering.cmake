@@ -22,8 +22,8 @@ ljus_break_it(NAME final-gathering-few HEADER photons/irradiance_points.hpp
 # Light from the other side of a wall shines through it.
 ljus_break_it(NAME final-gathering-side HEADER photons/irradiance_points.hpp
     TEST final_gathering
-    FROM "if (!(glm::dot(photon.direction, normal) < T(0))) continue;"
-    TO   ""
+    FROM "if (!(glm::dot(photon.direction, normal) < T(0)) || on_other_side > T(0))"
+    TO   "if (false)"
     CASES "final gathering: an even light*")
 
 # No correction at edges: half of the light is missing there.
@@ -199,3 +199,17 @@ ljus_break_it(NAME final-gathering-weights HEADER render/final_gathering.hpp
     FROM "weights[c] > T(0) ? std::numbers::pi_v<T> / weights[c] : T(0);"
     TO   "std::numbers::pi_v<T> / T(settings.rays);"
     CASES "final gathering: a rough floor*")
+
+# Where no point is near, a surface is black to gather rays.
+ljus_break_it(NAME final-gathering-no-point HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM "if (!lookup.general) return RgbT<T>{T(0)};"
+    TO   "return RgbT<T>{T(0)};"
+    CASES "final gathering: a strong lamp*")
+
+# Points and photons of a parallel wall nearby count.
+ljus_break_it(NAME final-gathering-height HEADER photons/irradiance_points.hpp
+    TEST final_gathering
+    FROM "return T(4) * height * height > radius2;"
+    TO   "return height * height > 4 * radius2;"
+    CASES "final gathering: a strong lamp*")

@@ -3,9 +3,11 @@
 /// \file ljus/photons/irradiance_points.hpp
 /// \brief Irradiance precomputed at some photons, for gather rays to look up.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/parallel.hpp"
@@ -35,6 +37,7 @@ struct IrradiancePointsT {
     KdTree8T<T> tree;                      ///< Positions.
     std::vector<IrradianceAtT<T>> records; ///< In the tree's order.
     T radius = T(0); ///< A lookup uses no point farther away than this.
+    T disc = T(0);   ///< Maximum radius of an estimate.
 
     /// Whether there are no points.
     [[nodiscard]] bool empty() const noexcept { return records.empty(); }
@@ -58,11 +61,33 @@ template <std::floating_point T>
     return map.tree.point_ids()[index] % static_cast<std::size_t>(every) == 0;
 }
 
+/// Whether a map holds direct photons.
+template <std::floating_point T>
+[[nodiscard]] bool has_direct(const PhotonMapT<T>& map) {
+    for (std::size_t i = 0; i < map.records.size(); ++i)
+        if (is_of_kind(map, std::uint32_t(i), PhotonKind::direct)) return true;
+    return false;
+}
+
+/// Whether a point lies above or below a disc, which is as high as its radius.
+/// \param way      From the centre of the disc to the point.
+/// \param normal   Unit normal of the disc.
+/// \param radius2  Squared radius of the disc.
+template <std::floating_point T>
+[[nodiscard]] bool leaves_disc(const Vec3T<T>& way, const Vec3T<T>& normal,
+                               T radius2) noexcept {
+    const T height = glm::dot(way, normal);
+    return T(4) * height * height > radius2;
+}
+
 } // namespace detail
 
 /// The irradiance on one side of a surface from the nearest photons, with
 /// Epanechnikov's kernel. Unlike the overload without a scene, it can correct for edges
-/// of the surface.
+/// of the surface. It counts the photons of a disc half as high as it is wide, which
+/// leaves out those of a parallel wall nearby, and of these only the ones that arrived
+/// on the side in question: without the latter, the light in a hollow ball would shine
+/// through its wall, because some of it grazes the wall within the disc.
 /// \param world     The closed scene.
 /// \param map       The photons.
 /// \param vertex    The point.
@@ -83,10 +108,17 @@ estimate_irradiance(const W& world, const PhotonMapT<T>& map, const VertexT<T>& 
     const auto [photons, radius2] = detail::nearest_photons(
         map, vertex.point, radius, std::span(room.data(), settings.nearest), counts);
     if (!(radius2 > 0)) return RgbT<T>{T(0)};
+    const T side = glm::dot(normal, vertex.point.normal);
     RgbT<double> sum{0};
     for (const Neighbor& near : photons) {
         const detail::PhotonRecordT<T> photon = map.records[near.index];
-        if (!(glm::dot(photon.direction, normal) < T(0))) continue;
+        const T on_other_side =
+            side * glm::dot(photon.direction, Vec3T<T>(photon.normal));
+        if (!(glm::dot(photon.direction, normal) < T(0)) || on_other_side > T(0))
+            continue;
+        if (detail::leaves_disc(map.tree.point(near.index) - vertex.point.position,
+                                normal, T(radius2)))
+            continue;
         const double weight =
             kernel_weight(Kernel::epanechnikov, near.distance2 / radius2);
         sum += weight * RgbT<double>(photon.flux);
@@ -107,19 +139,18 @@ namespace detail {
 /// \param caustics  The caustics map; may be empty.
 /// \param vertex    The point, seen from the side of the irradiance.
 /// \param radius    Maximum radius of an estimate, in scene units.
+/// \param context   The random stream of the point; counts the shadow rays.
 /// \return W/m^2.
-template <AnyWorld W, std::floating_point T>
+template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> irradiance_of_point(const W& world, const PhotonMapT<T>& general,
                                           const PhotonMapT<T>& caustics,
                                           const VertexT<T>& vertex,
                                           const IrradiancePointSettings& settings,
-                                          T radius, RandomStream& stream) {
+                                          T radius, Context& context) {
     const Vec3T<T> side =
         vertex.wo.z < T(0) ? -vertex.point.normal : vertex.point.normal;
     const T every = T(settings.every);
     // [at_point]
-    Counts counts;
-    auto context = context_of(stream, counts);
     const LambertianT<T> white{.albedo = RgbT<T>{T(1)}};
     RgbT<T> sum =
         std::numbers::pi_v<T> *
@@ -177,13 +208,19 @@ template <AnyWorld W, std::floating_point T>
             detail::vertex_below(world, positions[i], normal, T(1e-3) * radius);
         if (!vertex) return;
         auto stream = random_stream(seed, Pass::irradiance, 0, i);
+        Counts counts;
+        auto context = context_of(stream, counts);
         records[i].irradiance = detail::irradiance_of_point(
-            world, general, caustics, *vertex, settings, radius, stream);
+            world, general, caustics, *vertex, settings, radius, context);
     };
     (void)detail::parallel_each(chosen.size(), 64, work_out, {.threads = threads});
 
     IrradiancePointsT<T> points;
-    points.radius = radius;
+    points.radius = points.disc = radius;
+    // Shadows hold few points if these are where direct light lands as well.
+    if (settings.radius == 0 && detail::has_direct(general))
+        points.radius =
+            typical_radius(general, std::size_t(std::min(2 * settings.every, 511)));
     points.tree = KdTree8T<T>(positions, threads);
     points.records.reserve(chosen.size());
     for (const std::uint32_t i : points.tree.point_ids())
@@ -191,22 +228,25 @@ template <AnyWorld W, std::floating_point T>
     return points;
 }
 
-/// The irradiance at the nearest lookup point with a similar normal. `normal` is a unit
-/// vector on the side in question.
-/// \return W/m^2; 0 if there is none nearby, because photons reach every lit surface.
+/// The irradiance at the nearest lookup point with a similar normal, within a disc half
+/// as high as it is wide. `normal` is a unit vector on the side in question.
+/// \return W/m^2; nothing if there is no such point nearby.
 // [irradiance_at]
 template <std::floating_point T>
-[[nodiscard]] RgbT<T> irradiance_at(const IrradiancePointsT<T>& points,
-                                    const Vec3T<T>& position, const Vec3T<T>& normal) {
+[[nodiscard]] std::optional<RgbT<T>> irradiance_at(const IrradiancePointsT<T>& points,
+                                                   const Vec3T<T>& position,
+                                                   const Vec3T<T>& normal) {
     const auto like = [&](std::uint32_t i) {
-        return glm::dot(points.records[i].normal, normal) > T(0.9);
+        return glm::dot(points.records[i].normal, normal) > T(0.9) &&
+               !detail::leaves_disc(points.tree.point(i) - position, normal,
+                                    points.radius * points.radius);
     };
     const auto nearest = points.tree.nearest(position, points.radius);
-    if (!nearest) return RgbT<T>{T(0)};
+    if (!nearest) return std::nullopt;
     if (like(nearest->index)) return points.records[nearest->index].irradiance;
     std::array<Neighbor, 1> found;
     if (points.tree.template nearest<1>(position, points.radius, found, like) == 0)
-        return RgbT<T>{T(0)};
+        return std::nullopt;
     return points.records[found[0].index].irradiance;
 }
 // [irradiance_at]

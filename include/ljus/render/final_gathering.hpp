@@ -31,19 +31,6 @@ template <std::floating_point T>
     return std::copysign(T(1), vertex.wo.z) * vertex.frame.normal;
 }
 
-/// The irradiance on the side of a surface into which a direction points.
-/// \param points   The points with known irradiance.
-/// \param resting  The surface, detail::at_rest().
-/// \param wi       A direction in the surface's frame.
-/// \return W/m^2.
-template <std::floating_point T>
-[[nodiscard]] RgbT<T> irradiance_towards(const IrradiancePointsT<T>& points,
-                                         const VertexT<T>& resting,
-                                         const Vec3T<T>& wi) {
-    return irradiance_at(points, resting.point.position,
-                         std::copysign(T(1), wi.z) * resting.frame.normal);
-}
-
 /// The radiance that some lobes of a material reflect or transmit along `wo` if the
 /// incident radiance on each side is the same in all directions: albedo times E / pi.
 /// It is exact for a Lambertian surface; the albedo of any other is estimated by one
@@ -72,11 +59,13 @@ template <Material M, std::floating_point T, typename Irradiance, typename Strea
 template <std::floating_point T>
 struct GatherLookupT {
     const IrradiancePointsT<T>* points;          ///< The points with known irradiance.
-    const PhotonMapT<T>* caustics = nullptr;     ///< For glossy surfaces; or none.
-    DensityEstimateSettings caustics_estimate{}; ///< Estimate of caustics there.
+    const PhotonMapT<T>* general = nullptr;      ///< For surfaces without points.
+    IrradiancePointSettings irradiance{};        ///< How the points were made.
+    const PhotonMapT<T>* caustics = nullptr;     ///< For both, and glossy surfaces.
+    DensityEstimateSettings caustics_estimate{}; ///< Estimate of caustics on gloss.
     bool gloss_as_mirrors = false; ///< As in the PhotonPassSettings of the map.
 
-    /// Irradiance points alone, without caustics on glossy surfaces.
+    /// Irradiance points alone: where there is none, it is dark.
     GatherLookupT(const IrradiancePointsT<T>& known) noexcept : points(&known) {}
 };
 
@@ -88,6 +77,30 @@ struct GatherRayT {
 };
 
 namespace detail {
+
+/// The irradiance on the side of a surface into which a direction points. Few indirect
+/// photons land in the open, or where most of them stay behind a wall; there is no
+/// point near then, and the irradiance is computed as it is for the points.
+/// \param world    The closed scene.
+/// \param lookup   The points and the maps.
+/// \param resting  The surface, detail::at_rest().
+/// \param wi       In its frame.
+/// \param context  A random stream, used if there is no point; counts shadow rays.
+/// \return W/m^2.
+template <AnyWorld W, std::floating_point T, typename Context>
+[[nodiscard]] RgbT<T> irradiance_towards(const W& world, const GatherLookupT<T>& lookup,
+                                         const VertexT<T>& resting, const Vec3T<T>& wi,
+                                         Context& context) {
+    const T side = std::copysign(T(1), wi.z);
+    if (const auto known = irradiance_at(*lookup.points, resting.point.position,
+                                         side * resting.frame.normal))
+        return *known;
+    if (!lookup.general) return RgbT<T>{T(0)};
+    VertexT<T> vertex = resting;
+    vertex.wo = {T(0), T(0), side};
+    return irradiance_of_point(world, *lookup.general, *lookup.caustics, vertex,
+                               lookup.irradiance, lookup.points->disc, context);
+}
 
 /// The radiance that a glossy surface reflects to the viewer of the light of lamps and
 /// of the caustics map.
@@ -152,7 +165,7 @@ gather_ray(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
                 ++counts.map_queries;
                 const auto irradiance = [&](const Vec3T<T>& wi) {
                     return detail::irradiance_towards(
-                        *lookup.points, detail::at_rest(world, *vertex), wi);
+                        world, lookup, detail::at_rest(world, *vertex), wi, context);
                 };
                 found.radiance += path.throughput *
                                   detail::reflected(material, vertex->wo, irradiance,

@@ -29,6 +29,8 @@ template <typename Mapper>
 gather_lookup(const Mapper& mapper) noexcept {
     GatherLookupT<typename Mapper::Scalar> lookup(
         mapper.template state<Gathering>().points);
+    if (mapper.passes().irradiance) lookup.general = &mapper.maps().general;
+    lookup.irradiance = mapper.settings().irradiance;
     lookup.caustics = &mapper.maps().caustics;
     lookup.caustics_estimate = mapper.settings().caustics_estimate;
     lookup.gloss_as_mirrors = mapper.passes().gloss_as_mirrors;
@@ -61,8 +63,8 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
                                   const M& material, Context& context) {
     ++context.counts.map_queries;
     const auto irradiance = [&](const Vec3T<T>& wi) {
-        return detail::irradiance_towards(mapper.template state<Gathering>().points,
-                                          vertex, wi);
+        return detail::irradiance_towards(mapper.world(), gather_lookup(mapper), vertex,
+                                          wi, context);
     };
     return detail::reflected(material, vertex.wo, irradiance, Lobes::non_specular,
                              context.stream);

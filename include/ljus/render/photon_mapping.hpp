@@ -106,6 +106,19 @@ requires(Included<First>&& StreamLike<First>) struct StreamAmong<First, X...> {
     return settings.general.shadow_photons ? all_kinds : light_kinds;
 }
 
+/// Whether most photons land once only, as in the open: irradiance points at indirect
+/// photons alone would then be too few.
+/// \param photons  Of the general pass.
+template <std::floating_point T>
+[[nodiscard]] bool lands_once(const std::vector<PhotonT<T>>& photons) {
+    std::size_t direct = 0, indirect = 0;
+    for (const PhotonT<T>& photon : photons) {
+        direct += photon.kind == PhotonKind::direct ? 1 : 0;
+        indirect += photon.kind == PhotonKind::indirect ? 1 : 0;
+    }
+    return direct > 2 * indirect;
+}
+
 /// Runs the photon passes: the maps that the plan asks for, and no others.
 /// \param world     The closed scene.
 /// \param settings  Photons, seed, threads.
@@ -139,18 +152,20 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     if (!run.general_map && !verdicts) return maps;
     PhotonPassSettings general = settings.general;
     general.shadow_photons = run.shadow_photons;
-    const PhotonKinds kept = kept_kinds(settings);
-    if (!verdicts) general.keep = kept;
+    PhotonKinds kept = kept_kinds(settings);
+    const bool choose =
+        run.irradiance && kept.bits == one_kind(PhotonKind::indirect).bits;
+    if (!verdicts) general.keep = choose ? light_kinds : kept;
     if (!run.general_map && !run.skipped_bounces) { // only direct light is judged
         general.max_bounces = 1;
         general.equal_lights = true;
     }
     auto photons = trace(MapType::general, general, maps.general_audit);
-    if (verdicts) {
-        judge(photons);
+    if (verdicts) judge(photons);
+    if (choose && lands_once(photons)) kept = light_kinds;
+    if (verdicts || choose)
         std::erase_if(photons,
                       [&](const auto& photon) { return !kept.has(photon.kind); });
-    }
     if (run.general_map) maps.general = make_photon_map(photons);
     return maps;
 }

@@ -114,7 +114,9 @@ enum class Preset : std::uint8_t {
     draft, ///< A first look: blotches, in a fraction of a second.
     fast,  ///< Least time without visible errors. It has bias that more time does not
            ///< remove: indirect light is smoothed over 4 pixels, penumbras are slightly
-           ///< wrong, and caustics and reflections from gloss are blurred.
+           ///< wrong, and caustics and reflections from gloss are blurred. In
+           ///< random scenes a ninth of the picture is off by 5 % or less. The further
+           ///< rays of preset_rays() add a bias of their own: see there.
     exact  ///< Indirect rays at every bounce; only the caustics map is biased.
 };
 
@@ -151,7 +153,10 @@ enum class Preset : std::uint8_t {
     return settings;
 }
 
-/// The rays per pixel of a preset.
+/// The rays per pixel of a preset. The further rays go where the first ones disagree,
+/// and two that both miss a small bright reflection agree: around reflections of lamps
+/// in mirrors and narrow gloss, blocks of pixels were up to a quarter too dark. The
+/// same number of rays everywhere, as in Preset::exact, has no such bias.
 struct PresetRays {
     int first = 1;             ///< In every pixel.
     int more = 0;              ///< More rays in pixels above the standard error below.

@@ -1,0 +1,226 @@
+// long: 8 ways of carrying light in each of 20 scenes
+// concept: photon_mapping
+/// \file random_scenes_test.cpp
+/// \brief Every way of carrying light against path tracing, in scenes drawn at random.
+///
+/// Each scene is rendered by a path tracer and by each carrier of light, with several
+/// seeds, and the pictures are compared block by block. A carrier may be off by its
+/// stated bias, a part of the sum of the block's mean and the picture's mean, and by
+/// what chance allows: by Welch's t test, whose errors come from the scatter of the
+/// seeds. Of all comparisons of a run together one fails by chance in a thousand runs
+/// (Bonferroni).
+///
+/// A block whose reference is too noisy is undecided: its standard error is too large,
+/// or one seed alone makes most of its variance, as a few bright pixels do.
+///
+///     LJUS_SCENES=200 random_scenes_test      200 scenes instead of 20
+///     LJUS_FIRST_SCENE=17 LJUS_SCENES=1 SHOW=1 random_scenes_test
+///                                             scene 17, with all numbers
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "ljus/math/stratified_stream.hpp"
+#include "ljus/render/gathering.hpp"
+#include "ljus/render/path_tracing.hpp"
+#include "ljus/render/progressive.hpp"
+#include "support/random_scene.hpp"
+#include "support/seed.hpp"
+#include "support/student.hpp"
+
+using namespace ljus;
+using namespace ljus_test;
+
+namespace {
+
+constexpr int across = 3; // blocks, and down
+constexpr int blocks = across * across;
+constexpr int traced_seeds = 12;
+constexpr int carried_seeds = 8;
+constexpr int small = 24, large = 48; // pixels on a side of a picture
+constexpr double run_risk = 1e-3;     // of a false alarm
+
+long long number_of(const char* name, long long otherwise) {
+    const char* const text = std::getenv(name);
+    return text ? std::strtoll(text, nullptr, 10) : otherwise;
+}
+
+/// The means of the blocks, and last of the whole picture, over several seeds.
+struct Blocks {
+    std::array<Mean, blocks + 1> of;
+
+    template <typename T>
+    void add(const ImageT<T>& image) {
+        const int side = image.width / across;
+        std::array<double, blocks + 1> sum{};
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) {
+                const auto& c = pixel(image, x, y);
+                const double value = double(c.x + c.y + c.z) / 3;
+                sum[std::size_t(y / side * across + x / side)] += value / (side * side);
+                sum[blocks] += value / (image.width * image.height);
+            }
+        for (std::size_t b = 0; b <= blocks; ++b) {
+            of[b].add(sum[b]);
+            all[b].push_back(sum[b]);
+        }
+    }
+
+    /// The part of the variance that comes from one seed.
+    [[nodiscard]] double part_of_one(std::size_t b) const {
+        double most = 0;
+        for (const double x : all[b])
+            most = std::max(most, (x - of[b].mean) * (x - of[b].mean));
+        return of[b].squares > 0 ? most / of[b].squares : 0;
+    }
+
+private:
+    std::array<std::vector<double>, blocks + 1> all;
+};
+
+/// A way of carrying light.
+struct Carrier {
+    const char* name;
+    double bias;          ///< Of a block, part of its mean and the picture's together.
+    double specular_bias; ///< The same in a scene with mirrors or glass.
+};
+constexpr std::array carriers{
+    Carrier{"rays", 0, 0.03},       Carrier{"map", 0.03, 0.03},
+    Carrier{"photons", 0.06, 0.06}, Carrier{"gather", 0.03, 0.03},
+    Carrier{"cache", 0.04, 0.04},   Carrier{"draft", 0.06, 0.06},
+    Carrier{"fast", 0.05, 0.05},    Carrier{"progressive", 0.08, 0.08},
+};
+
+constexpr auto listed = abilities<Gathering, StratifiedStream>;
+
+/// Without the further rays of noisy pixels, whose choice is biased.
+Image by_preset(const DrawnScene& drawn, Preset preset, std::uint64_t seed) {
+    PhotonMappingSettings settings = preset_settings(preset, large, large);
+    settings.caustics.seed = settings.general.seed = seed;
+    settings.caustics.threads = settings.general.threads = 1;
+    const RenderSettings picture{.width = large,
+                                 .height = large,
+                                 .samples = preset == Preset::draft ? 1 : 4,
+                                 .seed = seed,
+                                 .threads = 1};
+    PhotonMapper mapper(drawn.world, settings, listed);
+    mapper.fill_cache(drawn.camera, picture);
+    return render(mapper, drawn.camera, picture).image;
+}
+
+/// One picture by a carrier.
+Image carried(const DrawnScene& drawn, const std::string& name, std::uint64_t seed) {
+    if (name == "draft") return by_preset(drawn, Preset::draft, seed);
+    if (name == "fast") return by_preset(drawn, Preset::fast, seed);
+    const IndirectLight indirect = name == "rays"     ? IndirectLight::rays
+                                   : name == "map"    ? IndirectLight::map
+                                   : name == "gather" ? IndirectLight::gather
+                                   : name == "cache"  ? IndirectLight::cache
+                                                      : IndirectLight::photons;
+    PhotonMappingSettings settings{.indirect = indirect};
+    settings.direct = drawn.sharp ? DirectLight::mis : DirectLight::sampled;
+    settings.caustics = {.photons = 20000, .seed = seed, .threads = 1};
+    settings.general = {
+        .photons = 20000, .seed = seed, .shadow_photons = false, .threads = 1};
+    settings.caustics_estimate.radius = settings.general_estimate.radius = 0;
+    RenderSettings picture{
+        .width = small, .height = small, .samples = 16, .seed = seed, .threads = 1};
+    if (name == "progressive") {
+        settings.caustics.photons = settings.general.photons = 10000;
+        settings = settings_for_passes(drawn.world, settings, listed);
+        for (float* const radius :
+             {&settings.caustics_estimate.radius, &settings.general_estimate.radius})
+            if (*radius == 0) *radius = 0.1f; // there are no photons
+        picture.samples = 4;
+        ProgressiveState state;
+        (void)run_progressive(
+            state, 4,
+            [&](long long pass, double scale) {
+                return photon_mapping_pass(drawn.world, drawn.camera, settings, picture,
+                                           pass, scale, listed);
+            },
+            [](const auto&) { return true; });
+        return mean_image(state);
+    }
+    if (indirect == IndirectLight::cache)
+        picture.width = picture.height = large, picture.samples = 4;
+    PhotonMapper mapper(drawn.world, settings, listed);
+    mapper.fill_cache(drawn.camera, picture);
+    return render(mapper, drawn.camera, picture).image;
+}
+
+/// What was found over all scenes.
+struct Found {
+    int compared = 0, undecided = 0, alarms = 0;
+};
+
+} // namespace
+
+TEST_CASE("random scenes: every carrier of light agrees with path tracing") {
+    const auto scenes = number_of("LJUS_SCENES", 20);
+    const auto first = number_of("LJUS_FIRST_SCENE", 0);
+    const bool show = std::getenv("SHOW") != nullptr;
+    const double risk =
+        run_risk / (double(scenes) * double(carriers.size()) * (blocks + 1));
+    Found all;
+    for (long long scene = first; scene < first + scenes; ++scene) {
+        const auto number = static_cast<std::uint64_t>(scene);
+        const DrawnScene drawn = SceneDrawer(number).draw();
+        const std::uint64_t key = test_seed(1000 * number);
+        Blocks traced;
+        const PathTracer tracer(drawn.world);
+        for (std::uint64_t s = 0; s < traced_seeds; ++s)
+            traced.add(render(tracer, drawn.camera,
+                              {.width = small,
+                               .height = small,
+                               .samples = 48,
+                               .seed = key + s,
+                               .threads = 1})
+                           .image);
+        if (show) std::printf("%lld %s\n", scene, drawn.what.c_str());
+        std::uint64_t seed = key + 500;
+        for (const Carrier& carrier : carriers) {
+            Blocks blocks_of;
+            for (int s = 0; s < carried_seeds; ++s)
+                blocks_of.add(carried(drawn, carrier.name, ++seed));
+            if (show) std::printf("  %-11s", carrier.name);
+            for (std::size_t b = 0; b <= blocks; ++b) {
+                const Mean &right = traced.of[b], &found = blocks_of.of[b];
+                const double scale = right.mean + traced.of[blocks].mean;
+                const double bias =
+                    (drawn.specular ? carrier.specular_bias : carrier.bias) * scale *
+                    (drawn.open ? 2 : 1); // few photons land twice in the open
+                const double chance = chance_of(found, right, bias);
+                const bool vague =
+                    right.error() > 0.02 * scale || traced.part_of_one(b) > 0.6;
+                ++all.compared;
+                all.undecided += vague ? 1 : 0;
+                const bool alarm = !vague && chance < risk;
+                all.alarms += alarm ? 1 : 0;
+                if (show)
+                    std::printf(" %+5.1f(%.1f)%s",
+                                100 * (found.mean - right.mean) / scale,
+                                100 * std::hypot(found.error(), right.error()) / scale,
+                                vague   ? "?"
+                                : alarm ? "!"
+                                        : "");
+                CAPTURE(scene);
+                CAPTURE(drawn.what);
+                CAPTURE(std::string(carrier.name));
+                CAPTURE(b);
+                CHECK_FALSE(alarm);
+            }
+            if (show) std::printf("\n"), std::fflush(stdout);
+        }
+    }
+    MESSAGE(all.compared, " compared, ", all.undecided, " undecided, ", all.alarms,
+            " alarms");
+    CHECK(all.undecided < all.compared / 10);
+}
