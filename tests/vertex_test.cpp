@@ -12,6 +12,7 @@
 #include "ljus/materials/textured.hpp"
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/next_vertex.hpp"
+#include "ljus/photons/photon_path.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/scene/make_scene.hpp"
 #include "ljus/scene/world.hpp"

@@ -43,8 +43,8 @@ ljus_break_it(NAME final-gathering-diagonal HEADER photons/kernel_border.hpp
 # A gather ray takes the light of whatever surface is near.
 ljus_break_it(NAME final-gathering-normal HEADER photons/irradiance_points.hpp
     TEST final_gathering
-    FROM "return glm::dot(points.records[i].normal, normal) > T(0.9);"
-    TO   "return glm::dot(points.records[i].normal, normal) > T(-2);"
+    FROM "return glm::dot(points.records[i].normal, normal) > T(0.9) &&"
+    TO   "return glm::dot(points.records[i].normal, normal) > T(-2) &&"
     CASES "final gathering: points answer*")
 
 # Irradiance taken for radiance: pi times too bright.
@@ -106,8 +106,8 @@ ljus_break_it(NAME final-gathering-branch HEADER render/final_gathering.hpp
 # What is known of the side that the normal points to, whichever the ray meets.
 ljus_break_it(NAME final-gathering-seen-side HEADER render/final_gathering.hpp
     TEST final_gathering
-    FROM "std::copysign(T(1), wi.z) * resting.frame.normal"
-    TO   "resting.frame.normal"
+    FROM "const T side = std::copysign(T(1), wi.z);"
+    TO   "const T side = T(1);"
     CASES "final gathering: a gather ray looks up*")
 
 # Whatever is asked for, the radius is that of 32 photons.

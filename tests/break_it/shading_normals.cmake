@@ -5,7 +5,7 @@ ljus_break_it(NAME shading_normals-adjoint HEADER path/continue_path.hpp TEST me
     CASES "mesh: photons and camera*")
 
 # The same for where a photon lands.
-ljus_break_it(NAME shading_normals-landing HEADER path/next_vertex.hpp TEST mesh
+ljus_break_it(NAME shading_normals-landing HEADER photons/photon_path.hpp TEST mesh
     FROM "return std::abs(vertex.wo.z / glm::dot(direction, vertex.point.normal));"
     TO   "return T(1);"
     CASES "mesh: photons land*")

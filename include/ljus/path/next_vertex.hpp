@@ -192,18 +192,6 @@ template <std::floating_point T>
     return (side > T(0) && local.z > T(0)) || (side < T(0) && local.z < T(0));
 }
 
-/// The correction of a photon's flux where it lands: its flux density follows the
-/// geometric normal, but the material reflects by the cosine of the shading normal.
-/// \param direction  The photon's direction of travel.
-/// \return \f$ |\omega \cdot N_s| / |\omega \cdot N_g| \f$; 0 if the normals disagree.
-template <std::floating_point T>
-[[nodiscard]] T landing_factor(const VertexT<T>& vertex,
-                               const Vec3T<T>& direction) noexcept {
-    if (vertex.turned) return T(0);
-    if (!vertex.smooth) return T(1);
-    return std::abs(vertex.wo.z / glm::dot(direction, vertex.point.normal));
-}
-
 } // namespace detail
 
 /// \}

@@ -186,6 +186,18 @@ template <std::floating_point T>
     return path.met_specular ? PhotonKind::caustic : PhotonKind::direct;
 }
 
+/// The correction of a photon's flux where it lands: its flux density follows the
+/// geometric normal, but the material reflects by the cosine of the shading normal.
+/// \param direction  The photon's direction of travel.
+/// \return \f$ |\omega \cdot N_s| / |\omega \cdot N_g| \f$; 0 if the normals disagree.
+template <std::floating_point T>
+[[nodiscard]] T landing_factor(const VertexT<T>& vertex,
+                               const Vec3T<T>& direction) noexcept {
+    if (vertex.turned) return T(0);
+    if (!vertex.smooth) return T(1);
+    return std::abs(vertex.wo.z / glm::dot(direction, vertex.point.normal));
+}
+
 /// Stores a photon, if the surface is diffuse and the map stores its kind.
 /// \param path      The path of the photon; its throughput is the flux.
 template <AnyWorld W, std::floating_point T, Material M>
@@ -196,7 +208,7 @@ void store_photon(const W& world, const PathStateT<T>& path, const VertexT<T>& v
     const bool caustics = map == MapType::caustics;
     const bool owned = (kind == PhotonKind::caustic) == caustics && keep.has(kind);
     if (!owned || !has(lobes(material), Lobes::non_specular)) return;
-    const T landing = detail::landing_factor(vertex, path.ray.direction);
+    const T landing = landing_factor(vertex, path.ray.direction);
     if (!(landing > T(0))) return;
     out.push_back({at_rest(world, vertex).point.position, path.ray.direction,
                    landing * path.throughput, light, kind,
