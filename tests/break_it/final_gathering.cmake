@@ -208,7 +208,7 @@ ljus_break_it(NAME final-gathering-no-point HEADER render/final_gathering.hpp
     CASES "final gathering: a strong lamp*")
 
 # Points and photons of a parallel wall nearby count.
-ljus_break_it(NAME final-gathering-height HEADER photons/irradiance_points.hpp
+ljus_break_it(NAME final-gathering-wall HEADER photons/irradiance_points.hpp
     TEST final_gathering
     FROM "return T(4) * height * height > radius2;"
     TO   "return height * height > 4 * radius2;"
