@@ -134,7 +134,7 @@ TEST_CASE("bsdf: which hooks a material has, by name") {
     CHECK(names(ljus::detail::material_hooks<reader::Paint>()).empty());
     CHECK(names(ljus::detail::material_hooks<reader::Lamp>()) == "emission ");
     CHECK(names(ljus::detail::material_hooks<ljus::Glass>()) ==
-          "absorption split only_specular ");
+          "absorption refractive_index split only_specular ");
     CHECK(names(ljus::detail::material_hooks<ljus::ThinGlass>()) ==
           "pass_through only_specular ");
     CHECK(names(ljus::detail::material_hooks<reader::Wall>()) == "at_point uses_uv ");
