@@ -18,8 +18,8 @@ ljus_break_it(NAME contacts-into HEADER scene/world.hpp TEST contacts
 
 # Glass covers a lamp, and a ceiling hides it.
 ljus_break_it(NAME contacts-lamp HEADER scene/contacts.hpp TEST contacts
-    FROM "if (!is_black(emitted)) return ContactKind::lamp;"
-    TO   ""
+    FROM "is_black(object.emission)\n"
+    TO   "true\n"
     CASES "contacts: a lamp in the plane*")
 
 # The one that was added first is met.

@@ -10,6 +10,9 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <span>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -246,127 +249,245 @@ template <Shape S>
         return bounds(bounding_sphere(shape));
 }
 
-/// The kind of an object.
-template <Material M, std::floating_point T>
-[[nodiscard]] ContactKind contact_kind(const M& m, const RgbT<T>& emitted) {
-    if (!is_black(emitted)) return ContactKind::lamp;
-    if constexpr (requires { pass_through(m, Vec3T<T>{}, Vec3T<T>{}); })
-        return ContactKind::sheet;
-    else if constexpr (Refractive<M>)
-        return refractive_index(m) > T(0) ? ContactKind::body : ContactKind::opaque;
-    else
-        return MayAbsorb<M> ? ContactKind::body : ContactKind::opaque;
-}
-
-/// What is compared between objects of one kind; the smaller list is met. It depends on
-/// nothing but the materials, the emission and the areas.
-/// \param area  Of the material in the whole scene.
-template <Material M, std::floating_point T>
-[[nodiscard, gnu::cold]] std::vector<double>
-contact_key(const M& m, ContactKind kind, const RgbT<T>& emitted, double area) {
-    std::vector<double> key{double(kind)};
-    const auto add = [&](const RgbT<T>& color) {
-        key.push_back(-double(color.x) - double(color.y) - double(color.z));
-        for (int c = 0; c < 3; ++c) key.push_back(-double(color[c]));
-    };
-    if (kind == ContactKind::lamp) add(emitted);
-    if constexpr (Refractive<M>) key.push_back(-double(refractive_index(m)));
-    if constexpr (MayAbsorb<M>) add(absorption(m));
-    key.push_back(area);
-    const Vec3T<T> wo{T(0.6), T(0), T(0.8)}, up{T(0), T(0), T(1)};
-    const auto& here = material_at(m, Vec3T<T>{T(0)}, Vec2T<T>{T(0.5)});
-    add(evaluate(here, wo, up));
-    const auto next = sample(here, wo, Vec3T<T>{T(0.5)}, Transport::flux, Lobes::all);
-    add(next ? next->weight : RgbT<T>{T(0)});
-    return key;
-}
-
 /// Whether a shape consists of triangles.
 template <typename G>
 inline constexpr bool has_triangles = requires(const G& mesh) {
     facet_of(mesh.triangle(mesh.size()));
 };
 
-/// A part of a shape at rest; an empty sphere for shapes of which no part is compared.
+/// The shapes of one type, behind functions that are compiled once per type, not once
+/// per scene. Each takes the list and a position in it.
+template <std::floating_point T>
+struct ContactShapesT {
+    const void* list; ///< A vector of shapes.
+    BoxT<T> (*box)(const void*, std::uint32_t);
+    double (*area)(const void*, std::uint32_t); ///< 0 if the shape does not know it.
+    std::uint32_t (*parts)(const void*, std::uint32_t); ///< 0: it is not compared.
+    SurfacePiece (*piece)(const void*, std::uint32_t, std::uint32_t part);
+};
+
+/// A list of shapes for a search.
 template <Shape G>
-[[nodiscard]] SurfacePiece piece_of(const G& shape, std::uint32_t part,
-                                    bool inside_out) {
-    SurfacePiece piece{.inside_out = inside_out};
-    if constexpr (requires { facet_of(shape); })
-        piece.facet = facet_of(shape);
-    else if constexpr (has_triangles<G>)
-        piece.facet = facet_of(shape.triangle(part));
-    else if constexpr (std::is_same_v<G, SphereT<ScalarOf<G>>>)
-        piece.sphere = {glm::dvec3(shape.center), double(shape.radius)};
+[[nodiscard]] ContactShapesT<ScalarOf<G>> contact_shapes(const std::vector<G>& list) {
+    using T = ScalarOf<G>;
+    static constexpr auto at = [](const void* shapes, std::uint32_t i) -> const G& {
+        return (*static_cast<const std::vector<G>*>(shapes))[i];
+    };
+    constexpr bool flat = requires(const G& shape) {
+        facet_of(shape);
+    };
+    constexpr bool ball = std::is_same_v<G, SphereT<T>>;
+    return {
+        .list = &list,
+        .box = [](const void* all, std::uint32_t i) { return box_around(at(all, i)); },
+        .area =
+            []([[maybe_unused]] const void* all, [[maybe_unused]] std::uint32_t i) {
+                if constexpr (HasArea<G>)
+                    return double(area(at(all, i)));
+                else
+                    return 0.0;
+            },
+        .parts =
+            []([[maybe_unused]] const void* all, [[maybe_unused]] std::uint32_t i) {
+                if constexpr (has_triangles<G>)
+                    return static_cast<std::uint32_t>(at(all, i).size());
+                else
+                    return flat || ball ? 1u : 0u;
+            },
+        .piece =
+            []([[maybe_unused]] const void* all, [[maybe_unused]] std::uint32_t i,
+               [[maybe_unused]] std::uint32_t part) {
+                SurfacePiece piece;
+                if constexpr (flat)
+                    piece.facet = facet_of(at(all, i));
+                else if constexpr (has_triangles<G>)
+                    piece.facet = facet_of(at(all, i).triangle(part));
+                else if constexpr (ball)
+                    piece.sphere = {glm::dvec3(at(all, i).center),
+                                    double(at(all, i).radius)};
+                return piece;
+            }};
+}
+
+/// The materials of one type, as ContactShapesT.
+struct ContactMaterials {
+    const void* list;                                ///< A vector of materials.
+    std::uint32_t count;                             ///< Its size.
+    ContactKind (*kind)(const void*, std::uint32_t); ///< Without emission.
+    /// Numbers that tell materials apart: of a body, and of what it reflects.
+    std::array<std::vector<double>, 2> (*key)(const void*, std::uint32_t);
+};
+
+/// A list of materials for a search.
+template <Material M>
+[[nodiscard]] ContactMaterials contact_materials(const std::vector<M>& list) {
+    using T = typename M::Scalar;
+    static constexpr auto at = [](const void* all, std::uint32_t i) -> const M& {
+        return (*static_cast<const std::vector<M>*>(all))[i];
+    };
+    static constexpr auto add = [](std::vector<double>& key, const RgbT<T>& color) {
+        key.push_back(-double(color.x) - double(color.y) - double(color.z));
+        for (int c = 0; c < 3; ++c) key.push_back(-double(color[c]));
+    };
+    return {.list = &list,
+            .count = static_cast<std::uint32_t>(list.size()),
+            .kind =
+                []([[maybe_unused]] const void* all, [[maybe_unused]] std::uint32_t i) {
+                    if constexpr (requires(const M& m) {
+                                      pass_through(m, Vec3T<T>{}, Vec3T<T>{});
+                                  })
+                        return ContactKind::sheet;
+                    else if constexpr (Refractive<M>)
+                        return refractive_index(at(all, i)) > T(0)
+                                   ? ContactKind::body
+                                   : ContactKind::opaque;
+                    else
+                        return MayAbsorb<M> ? ContactKind::body : ContactKind::opaque;
+                },
+            .key =
+                [](const void* all, std::uint32_t i) {
+                    const M& m = at(all, i);
+                    std::array<std::vector<double>, 2> key;
+                    if constexpr (Refractive<M>)
+                        key[0].push_back(-double(refractive_index(m)));
+                    if constexpr (MayAbsorb<M>) add(key[0], absorption(m));
+                    const Vec3T<T> wo{T(0.6), T(0), T(0.8)}, up{T(0), T(0), T(1)};
+                    const auto& here = material_at(m, Vec3T<T>{T(0)}, Vec2T<T>{T(0.5)});
+                    add(key[1], evaluate(here, wo, up));
+                    const auto next =
+                        sample(here, wo, Vec3T<T>{T(0.5)}, Transport::flux, Lobes::all);
+                    add(key[1], next ? next->weight : RgbT<T>{T(0)});
+                    return key;
+                }};
+}
+
+/// A search for contacts: what is known of a scene, and of each object.
+template <std::floating_point T>
+struct ContactSearchT {
+    std::span<const ContactShapesT<T>> shapes;        ///< By type.
+    std::span<const ContactMaterials> materials;      ///< By type.
+    std::span<const std::vector<ObjectT<T>>> objects; ///< By type of shape.
+    std::vector<ObjectId> ids{};                      ///< All objects.
+    std::vector<ContactKind> kinds{};                 ///< What they are.
+    std::vector<ContactPartT<T>> whole{};             ///< Their boxes and looks.
+
+    /// The properties of an object.
+    [[nodiscard]] const ObjectT<T>& object(ObjectId id) const {
+        return objects[id.type][id.index];
+    }
+};
+
+/// Lists the objects of a search.
+template <std::floating_point T>
+void list_objects(ContactSearchT<T>& search) {
+    std::vector<std::uint32_t> before{0}; // materials of the types before
+    for (const ContactMaterials& list : search.materials)
+        before.push_back(before.back() + list.count);
+    for (std::uint32_t type = 0; type < search.shapes.size(); ++type)
+        for (std::uint32_t i = 0; i < search.objects[type].size(); ++i) {
+            const ObjectT<T>& object = search.objects[type][i];
+            const auto [of, which] = object.material;
+            const auto number = static_cast<std::uint32_t>(search.ids.size());
+            const ContactKind kind =
+                is_black(object.emission)
+                    ? search.materials[of].kind(search.materials[of].list, which)
+                    : ContactKind::lamp;
+            const BoxT<T> box = search.shapes[type].box(search.shapes[type].list, i);
+            search.ids.push_back({type, i});
+            search.kinds.push_back(kind);
+            search.whole.push_back({.box = widened(box, reach_of(box)),
+                                    .object = number,
+                                    .look = kind == ContactKind::opaque
+                                                ? before[of] + which
+                                                : before.back() + number});
+        }
+}
+
+/// The piece of a surface that is a part in a search.
+template <std::floating_point T>
+[[nodiscard]] SurfacePiece piece_of(const ContactSearchT<T>& search,
+                                    const ContactPartT<T>& part) {
+    const ObjectId id = search.ids[part.object];
+    const ContactShapesT<T>& shapes = search.shapes[id.type];
+    SurfacePiece piece = shapes.piece(shapes.list, id.index, part.part);
+    piece.inside_out = search.object(id).inside_out;
     return piece;
 }
 
-/// Adds the parts of an object that may touch another one to the list of a search.
-/// \param whole  All objects.
-template <Shape G>
-void add_parts(const G& shape, const ContactPartT<ScalarOf<G>>& object,
-               const std::vector<ContactPartT<ScalarOf<G>>>& whole,
-               std::vector<ContactPartT<ScalarOf<G>>>& parts) {
-    using T = ScalarOf<G>;
-    if constexpr (has_triangles<G>) {
+/// The parts of objects that may touch another object.
+template <std::floating_point T>
+[[nodiscard]] std::vector<ContactPartT<T>> list_parts(const ContactSearchT<T>& search) {
+    std::vector<ContactPartT<T>> parts;
+    for (const ContactPartT<T>& object : search.whole) {
+        const ObjectId id = search.ids[object.object];
+        const ContactShapesT<T>& shapes = search.shapes[id.type];
+        const std::uint32_t count = shapes.parts(shapes.list, id.index);
+        if (count == 1) parts.push_back(object);
+        if (count <= 1) continue;
         std::vector<BoxT<T>> others;
-        for (const auto& other : whole)
+        for (const ContactPartT<T>& other : search.whole)
             if (other.look != object.look && overlap(other.box, object.box))
                 others.push_back(other.box);
         const bool few = others.size() <= 64; // otherwise the search is faster
         ContactPartT<T> part = object;
-        for (; part.part < shape.size(); ++part.part) {
-            part.box = bounds(shape.triangle(part.part));
+        for (; part.part < count; ++part.part) {
+            const BoxT<double> box = box_of(piece_of(search, part));
+            part.box = {Vec3T<T>(box.low), Vec3T<T>(box.high)};
             part.box = widened(part.box, reach_of(part.box));
-            const auto near = [&](const BoxT<T>& box) {
-                return overlap(box, part.box);
+            const auto near = [&](const BoxT<T>& other) {
+                return overlap(other, part.box);
             };
             if (!few || std::any_of(others.begin(), others.end(), near))
                 parts.push_back(part);
         }
-    } else if constexpr (requires { facet_of(shape); } ||
-                         std::is_same_v<G, SphereT<T>>) {
-        parts.push_back(object);
     }
+    return parts;
 }
 
 /// Completes contacts: the objects that take part, and which of them is met.
-/// \param ids    The objects, in the order of the search.
-/// \param kinds  What they are.
-/// \param contacts  Its pairs hold numbers of `ids`; they become positions.
-template <typename W, std::floating_point T>
-[[gnu::cold]] void rank_contacts(const W& world, const std::vector<ObjectId>& ids,
-                                 const std::vector<ContactKind>& kinds,
-                                 ContactsT<T>& contacts) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<double>> areas;
-    for (const ObjectId id : ids)
-        world.visit_shape(id, [&]<typename G>(const G& shape) {
-            const MaterialId material = world.object(id).material;
-            if constexpr (HasArea<G>)
-                areas[{material.type, material.index}].push_back(double(area(shape)));
-        });
-    for (auto& [material, list] : areas) { // sorted, so that the order is no matter
+/// \param contacts  Its pairs hold numbers of objects; they become positions.
+template <std::floating_point T>
+void rank_contacts(const ContactSearchT<T>& search, ContactsT<T>& contacts) {
+    using Id = std::pair<std::uint32_t, std::uint32_t>;
+    std::map<Id, std::vector<double>> areas; // by material
+    for (const ObjectId id : search.ids) {
+        const MaterialId material = search.object(id).material;
+        const ContactShapesT<T>& shapes = search.shapes[id.type];
+        areas[{material.type, material.index}].push_back(
+            shapes.area(shapes.list, id.index));
+    }
+    for (auto& [material, list] : areas) { // sorted, so that the order has no effect
         std::sort(list.begin(), list.end());
         list = {std::accumulate(list.begin(), list.end(), 0.0)};
     }
     for (const ContactT<T>& contact : contacts.pairs)
         contacts.box = box_union(contacts.box, contact.box);
-    contacts.position.resize(world.objects().size());
-    for (std::size_t type = 0; type < world.objects().size(); ++type)
-        contacts.position[type].assign(world.objects()[type].size(), 0xffffffffu);
-    std::vector<std::vector<double>> keys;
+    for (const auto& list : search.objects)
+        contacts.position.emplace_back(list.size(), 0xffffffffu);
+    std::vector<std::vector<double>> keys; // the smallest is met
     const auto position = [&](std::uint32_t number) {
-        const ObjectId id = ids[number];
+        const ObjectId id = search.ids[number];
         std::uint32_t& at = contacts.position[id.type][id.index];
         if (at < contacts.objects.size()) return at;
         at = static_cast<std::uint32_t>(contacts.objects.size());
-        contacts.objects.push_back({.object = id, .kind = kinds[number]});
-        const ObjectT<T>& object = world.object(id);
-        const auto& area = areas[{object.material.type, object.material.index}];
-        keys.push_back(world.visit_material(object.material, [&](const auto& m) {
-            return contact_key(m, kinds[number], object.emission,
-                               area.empty() ? 0.0 : area[0]);
-        }));
+        const ContactKind kind = search.kinds[number];
+        contacts.objects.push_back({.object = id, .kind = kind});
+        const ObjectT<T>& object = search.object(id);
+        const auto [of, which] = object.material;
+        const double area = areas[{of, which}][0];
+        const auto [body, reflected] =
+            search.materials[of].key(search.materials[of].list, which);
+        std::vector<double> key{double(kind)};
+        if (kind == ContactKind::lamp)
+            for (const double less :
+                 {-double(object.emission.x) - double(object.emission.y) -
+                      double(object.emission.z),
+                  -double(object.emission.x), -double(object.emission.y)})
+                key.push_back(less);
+        key.insert(key.end(), body.begin(), body.end());
+        key.push_back(area);
+        key.insert(key.end(), reflected.begin(), reflected.end());
+        keys.push_back(std::move(key));
         return at;
     };
     for (ContactT<T>& contact : contacts.pairs) {
@@ -384,62 +505,46 @@ template <typename W, std::floating_point T>
         contacts.objects[order[rank]].rank = rank;
 }
 
+/// The contacts of a search, which need not know the types of a scene.
+template <std::floating_point T>
+[[nodiscard, gnu::cold]] ContactsT<T> contacts_of(ContactSearchT<T> search) {
+    list_objects(search);
+    const auto one_look = [&](const auto& part) {
+        return part.look == search.whole[0].look;
+    };
+    if (std::all_of(search.whole.begin(), search.whole.end(), one_look)) return {};
+    const auto piece = [&](const ContactPartT<T>& part) {
+        return piece_of(search, part);
+    };
+    auto contacts = contacts_between<T>(list_parts(search), piece);
+    if (!contacts.pairs.empty()) rank_contacts(search, contacts);
+    return contacts;
+}
+
 } // namespace detail
 
 /// Finds the contacts of a scene.
 /// \param world  A World; of its members, shapes, objects and materials are used.
-/// \return The contacts; nothing that depends on the order of addition but their order.
+/// \return The contacts; only their own order depends on the order of addition.
 /// \cost O(n log n) boxes; less where neighbours are opaque and of one material.
 // [find_contacts]
 template <typename W>
 [[nodiscard, gnu::cold]] ContactsT<typename W::Scalar> find_contacts(const W& world) {
     using T = typename W::Scalar;
-    std::vector<ObjectId> ids;
-    std::vector<ContactKind> kinds;
-    std::vector<detail::ContactPartT<T>> whole, parts;
-    std::vector<std::uint32_t> materials_before{0};
-    const auto count = [&](const auto& list) {
-        materials_before.push_back(materials_before.back() +
-                                   static_cast<std::uint32_t>(list.size()));
-    };
-    std::apply([&](const auto&... lists) { (count(lists), ...); }, world.materials());
-    std::uint32_t type = 0;
-    const auto add_objects = [&](const auto& list) {
-        for (std::uint32_t i = 0; i < list.size(); ++i) {
-            const ObjectT<T>& object = world.object({type, i});
-            const auto number = static_cast<std::uint32_t>(ids.size());
-            ids.push_back({type, i});
-            kinds.push_back(world.visit_material(object.material, [&](const auto& m) {
-                return detail::contact_kind(m, object.emission);
-            }));
-            const bool plain = kinds.back() == ContactKind::opaque;
-            const BoxT<T> box = detail::box_around(list[i]);
-            whole.push_back({.box = detail::widened(box, detail::reach_of(box)),
-                             .object = number,
-                             .look = plain ? materials_before[object.material.type] +
-                                                 object.material.index
-                                           : materials_before.back() + number});
-        }
-        ++type;
-    };
-    std::apply([&](const auto&... lists) { (add_objects(lists), ...); },
-               world.shapes());
-    const auto one_look = [&](const auto& part) { return part.look == whole[0].look; };
-    if (std::all_of(whole.begin(), whole.end(), one_look)) return {};
-
-    for (const auto& object : whole)
-        world.visit_shape(ids[object.object], [&](const auto& shape) {
-            detail::add_parts(shape, object, whole, parts);
-        });
-    const auto piece = [&](const detail::ContactPartT<T>& part) {
-        return world.visit_shape(ids[part.object], [&](const auto& shape) {
-            return detail::piece_of(shape, part.part,
-                                    world.object(ids[part.object]).inside_out);
-        });
-    };
-    auto contacts = detail::contacts_between<T>(parts, piece);
-    if (!contacts.pairs.empty()) detail::rank_contacts(world, ids, kinds, contacts);
-    return contacts;
+    return std::apply(
+        [&](const auto&... shapes) {
+            return std::apply(
+                [&](const auto&... materials) {
+                    const std::array<detail::ContactShapesT<T>, sizeof...(shapes)> s{
+                        detail::contact_shapes(shapes)...};
+                    const std::array<detail::ContactMaterials, sizeof...(materials)> m{
+                        detail::contact_materials(materials)...};
+                    return detail::contacts_of<T>(
+                        {.shapes = s, .materials = m, .objects = world.objects()});
+                },
+                world.materials());
+        },
+        world.shapes());
 }
 // [find_contacts]
 
