@@ -328,9 +328,14 @@ TEST_CASE("load_obj: each trouble is counted, with its first line") {
           2, 19);
     check("vt 0 0\nvt nan 0\nf 1/1 2/1 3/1\nf 1/1 2/2 3/1\nf 1/1 2/1 3\n",
           ObjTrouble::no_uv, 8, 12); // 6 of them the cube's
-    check("f 1 2 9\nf 0 1 2\nf -9 1 2\nf 1 2 x\nf 1/1/1/1 2 3\n",
-          ObjTrouble::bad_index, 5, 18);
+    check("f 1 2 9\nf 0 1 2\nf -9 1 2\nf 1 2 x\nf 1/1/1/1 2 3\n", ObjTrouble::bad_index,
+          5, 18);
     check("f 1/0 2 3\n", ObjTrouble::no_such_uv, 1, 18);
+    check("s off\nf 1 2 3\ns 7\nf 1 2 3\nf 1 2 2\nf 5//1 6//1 7//1\ns 0\nf 1 2 3\n",
+          ObjTrouble::not_smooth, 1, 21);
+    CHECK(read_obj(cube + "s 1\nf 1 2 3\n", "x.obj", {.normals = ObjNormals::smooth})
+              .report[ObjTrouble::not_smooth]
+              .count == 0);
     check("f 4294967297 2 3\nf 1.5 2 3\nf 1 2 99999999999999999999\n",
           ObjTrouble::bad_index, 3, 18);
     check("\nf 1 2\nf 1\n", ObjTrouble::few_corners, 2, 19);
@@ -935,6 +940,7 @@ TEST_CASE("load_obj: files of other programs") {
                "small_letters.mtl, line 4: MAP_D is not used."},
           Case{"glass_of_nothing", 1, white, true,
                "glass_of_nothing.mtl, line 6: map_Kd is multiplied by Kd, which is 0"},
+          Case{"tr_opaque", 1, white, true, "line 7: map_Kd is on a surface that Tr 1"},
           Case{"zero_indices", 1, none, false,
                "line 9: 1 faces refer to a normal that does not exist"},
           Case{"values", 6, none, false,
@@ -969,6 +975,8 @@ TEST_CASE("load_obj: files of other programs") {
     // Cloth that calls itself glass, of an index of 1.
     const auto shirt = load_obj(LJUS_TEST_INPUTS "/glass_of_nothing.obj");
     CHECK_FALSE(shirt.parts[0].material.is_glass());
+    const auto house = load_obj(LJUS_TEST_INPUTS "/tr_opaque.obj");
+    CHECK_FALSE(house.parts[0].material.is_glass());
     // The first face has the uv of the file, the second its normal.
     const auto zero = load_obj(LJUS_TEST_INPUTS "/zero_indices.obj");
     CHECK(zero.report[ObjTrouble::no_such_uv].line == 10);

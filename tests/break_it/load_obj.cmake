@@ -207,3 +207,15 @@ ljus_break_it(NAME obj-black-picture HEADER io/detail/obj_material.hpp TEST load
     FROM "const bool black = has_diffuse && color == glm::dvec3(0);"
     TO   "const bool black = false;"
     CASES "load_obj: files of other programs")
+
+# Tr 1 under a picture is glass.
+ljus_break_it(NAME obj-tr-opaque HEADER io/detail/obj_material.hpp TEST load_obj
+    FROM "!has_dissolve && material->dissolve == 0)"
+    TO   "false)"
+    CASES "load_obj: files of other programs")
+
+# That faces are meant to be smooth is not said.
+ljus_break_it(NAME obj-not-smooth HEADER io/detail/obj_reader.hpp TEST load_obj
+    FROM "in_smooth_group = !group.empty() && group != \"off\" && group != \"0\";"
+    TO   "in_smooth_group = group == \"on\";"
+    CASES "load_obj: each trouble*")

@@ -27,7 +27,8 @@ struct ObjMaterial {
     glm::dvec3 specular{0};   ///< Ks, in [0, 1].
     glm::dvec3 emission{0};   ///< Ke, W/(m^2 sr), at least 0.
     double index = 1.5;       ///< Ni, within [0.001, 1000].
-    double dissolve = 1;      ///< d, or 1 - Tr: 0 is clear.
+    double dissolve = 1;      ///< d, or 1 - Tr: 0 is clear. Tr 1 under a picture is
+                              ///< taken for opaque.
     int illumination = 2;     ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass
                               ///< unless Ni is 1, which some programs write for all.
     std::string picture{};    ///< map_Kd, which Kd multiplies: its path; empty: none.
@@ -134,6 +135,15 @@ struct MaterialReader {
             if (black && material != &ignored)
                 notes.push_back(material->picture_at +
                                 ": map_Kd is multiplied by Kd, which is 0; 1 is used.");
+        }
+        // Programs to which 1 is opaque write it beside a picture.
+        if (!material->picture.empty() && !has_dissolve && material->dissolve == 0) {
+            material->dissolve = 1;
+            if (material != &ignored)
+                notes.push_back(
+                    material->picture_at +
+                    ": map_Kd is on a surface that Tr 1 makes wholly clear; "
+                    "Tr is not used.");
         }
         has_diffuse = has_dissolve = false;
     }
