@@ -515,6 +515,8 @@ TEST_CASE("texture: files that other readers of pictures had trouble with") {
     CHECK(pixel(turned, 1, 0) == Rgb{1, 0, 0});
     CHECK(pixel(turned, 1, 2) == Rgb{0, 0, 1});
     CHECK(load_image(folder + "turned_late.png").width == 3);
+    // A photograph 8 wide, with two bytes of padding before what turns it.
+    CHECK(load_image(folder + "turned_padded.jpg").width == 4);
     // Inks: 255, 40 and 90 of 255 parts are not absorbed, and by black 200 are not.
     const Rgb ink = load_image(folder + "adobe_cmyk.jpg").pixels[0];
     CHECK(ink.x == doctest::Approx(srgb_decode(200 / 255.0)));

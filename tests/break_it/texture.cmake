@@ -152,6 +152,12 @@ ljus_break_it(NAME png-turned HEADER io/load_image.hpp TEST texture
 
 # Four channels are taken for brightness, two differences and nothing.
 ljus_break_it(NAME jpeg-four-channels HEADER io/detail/picture_damage.hpp TEST texture
-    FROM "if (frame && file[at + 9] == 4 && !adobe)"
-    TO   "if (false)"
+    FROM "file[at + 5] == 4 && !adobe"
+    TO   "false"
+    CASES "texture: files that other readers*")
+
+# Bytes that fill the gap before a segment end the search for the orientation.
+ljus_break_it(NAME jpeg-padding HEADER io/detail/picture_damage.hpp TEST texture
+    FROM "if (kind == padding) {"
+    TO   "if (kind == padding) return;\n        if (kind == padding) {"
     CASES "texture: files that other readers*")

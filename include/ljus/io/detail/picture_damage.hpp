@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include "ljus/io/file.hpp"
 
@@ -174,48 +175,59 @@ inline bool too_many_scans(int scans, bool in_parts) {
     return scans > (in_parts ? 64 : 4);
 }
 
+// Calls use(kind, at) for the segments of a JPEG file before its pixels, with the index
+// behind the length of each, until it returns true.
+template <typename Use>
+void find_jpeg_segment(const Bytes& file, Use use) {
+    constexpr unsigned char padding = 0xff, scan = 0xda;
+    for (std::size_t at = 2; at + 4 <= file.size() && file[at] == 0xff;) {
+        const unsigned char kind = file[at + 1];
+        if (kind == padding) {
+            ++at;
+            continue;
+        }
+        if (kind == scan || use(kind, at + 4)) return;
+        at += 2 + std::size_t(file[at + 2]) * 256 + file[at + 3];
+    }
+}
+
+// Whether a text stands at an index of a file.
+inline bool stands_at(const Bytes& file, std::size_t at, std::string_view text) {
+    return at + text.size() <= file.size() &&
+           std::equal(text.begin(), text.end(), file.data() + at);
+}
+
 // The orientation in the EXIF segment of a JPEG file; 1 without one.
 inline int jpeg_orientation(const Bytes& file) {
-    constexpr unsigned char exif = 0xe1, scan = 0xda;
-    for (std::size_t at = 2; at + 4 <= file.size() && file[at] == 0xff;
-         at += 2 + std::size_t(file[at + 2]) * 256 + file[at + 3]) {
-        if (file[at + 1] == scan) break;
-        constexpr std::array<unsigned char, 6> name{'E', 'x', 'i', 'f', 0, 0};
-        const std::size_t tiff = at + 10;
-        if (file[at + 1] != exif || tiff + 8 > file.size() ||
-            !std::equal(name.begin(), name.end(), file.data() + at + 4))
-            continue;
-        return tiff_orientation(file, tiff);
-    }
-    return 1;
+    int orientation = 1;
+    find_jpeg_segment(file, [&](unsigned char kind, std::size_t at) {
+        const bool found = kind == 0xe1 && stands_at(file, at, {"Exif\0\0", 6});
+        if (found) orientation = tiff_orientation(file, at + 6);
+        return found;
+    });
+    return orientation;
 }
 
 // What a JPEG file is that stb_image does not read, or reads in other colours; null if
 // there is nothing.
 inline const char* jpeg_kind_unread(const Bytes& file) {
+    const char* why = nullptr;
     bool adobe = false; // says what four channels mean
-    for (std::size_t at = 2; at + 10 <= file.size() && file[at] == 0xff;) {
-        const unsigned char kind = file[at + 1];
-        if (kind == 0xff) { // padding
-            ++at;
-            continue;
-        }
-        if (kind == 0xda) break; // pixels
-        constexpr std::array<unsigned char, 5> name{'A', 'd', 'o', 'b', 'e'};
-        adobe = adobe ||
-                (kind == 0xee && std::equal(name.begin(), name.end(), &file[at + 4]));
+    find_jpeg_segment(file, [&](unsigned char kind, std::size_t at) {
+        adobe = adobe || (kind == 0xee && stands_at(file, at, "Adobe"));
         const bool frame = kind >= 0xc0 && kind <= 0xcf && kind != 0xc4 &&
                            kind != 0xc8 && kind != 0xcc;
-        if (frame && kind > 0xc2)
-            return "that is lossless, in layers or coded arithmetically; save it as "
-                   "baseline JPEG or PNG";
-        if (frame && file[at + 4] != 8)
-            return "of more than 8 bits per channel; save it with 8 bits";
-        if (frame && file[at + 9] == 4 && !adobe)
-            return "of four channels that does not say what they mean; save it as RGB";
-        at += 2 + std::size_t(file[at + 2]) * 256 + file[at + 3];
-    }
-    return nullptr;
+        if (!frame || at + 6 > file.size()) return false;
+        if (kind > 0xc2)
+            why = "that is lossless, in layers or coded arithmetically; save it as "
+                  "baseline JPEG or PNG";
+        else if (file[at] != 8)
+            why = "of more than 8 bits per channel; save it with 8 bits";
+        else if (file[at + 5] == 4 && !adobe)
+            why = "of four channels that does not say what they mean; save it as RGB";
+        return why != nullptr;
+    });
+    return why;
 }
 
 // The damage of a JPEG file, or null, segment by segment: stb_image trusts its tables,
