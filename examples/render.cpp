@@ -91,8 +91,7 @@ RenderedT<T> run(const Renderer& renderer, const CameraT<T>& camera, const Reque
 
 template <typename S>
 RenderedT<typename S::Scalar> path_trace(const Room<S>& room, const Request& r) {
-    // Its paths sample narrow lobes themselves, as with DirectLight::mis.
-    for (const auto& remark : scene_remarks(room.world, {.direct = DirectLight::mis}))
+    for (const auto& remark : path_remarks(room.world))
         std::fprintf(stderr, "%s\n", remark.c_str());
     const PathTracer tracer(room.world, r.path);
     return run(tracer, room.camera, r);
@@ -333,6 +332,9 @@ void print_plan(const W& world, const Request& r) {
         for (const PlanItem* item : plan.items())
             std::fputs(to_text(*item).c_str(), stdout);
         for (const std::string& remark : plan.remarks)
+            std::fprintf(stderr, "%s\n", remark.c_str());
+    } else if (r.plan && r.renderer == RendererName::path) {
+        for (const std::string& remark : path_remarks(world))
             std::fprintf(stderr, "%s\n", remark.c_str());
     }
     if (r.hooks)

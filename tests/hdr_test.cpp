@@ -247,6 +247,33 @@ TEST_CASE("hdr: the exposure of the header is taken out again") {
     }
 }
 
+TEST_CASE("hdr: the colour correction of the header is taken out, other primaries are "
+          "refused") {
+    // Two lines, 2 4 0.5 and 1 1 2, over (1, 0.5, 0.25).
+    const std::string folder = LJUS_TEST_INPUTS "/";
+    CHECK(ljus::load_hdr(folder + "colorcorr.hdr").pixels[1] ==
+          ljus::Rgb{0.5f, 0.125f, 0.25f});
+    CHECK(
+        message_of_load(folder + "primaries.hdr").find("its header says PRIMARIES=") ==
+        0);
+    CHECK(message_of_load(folder + "old_runs.hdr") ==
+          "it has the run-length coding from before 1991, which is not supported.");
+    const ScratchFolder scratch;
+    const std::string path = scratch.file("a.hdr");
+    const auto message = [&](const std::string& line) {
+        ScratchFolder::write(path,
+                             "#?RADIANCE\n" + line + "\n\n-Y 1 +X 1\n\x80\x40\x20\x81");
+        return message_of_load(path);
+    };
+    CHECK(message("PRIMARIES= .640 .330 .290 .600 .150 .060 .333 .333") == "loaded");
+    CHECK(message("PRIMARIES= .640 .330 .290 .600") != "loaded");
+    CHECK(message("FORMAT= 32-bit_rle_rgbe\t ") == "loaded");
+    for (const char* const bad :
+         {"COLORCORR=1 1", "COLORCORR=1 1 1 1", "COLORCORR=1 0 1", "COLORCORR=1 x 1"})
+        CHECK(message(bad) == std::string("its header says ") + bad +
+                                  ", which is not three numbers above 0.");
+}
+
 TEST_CASE("hdr: a truncated, longer or foreign file is refused in a sentence") {
     const ScratchFolder folder;
     const std::string path = folder.file("a.hdr");

@@ -402,6 +402,9 @@ TEST_CASE("light: the ends of what a spot may be, and a direction along each axi
     CHECK_THROWS_AS(spot(20.1f, 20), std::invalid_argument);
     CHECK_THROWS_AS(spot(-0.1f, 20), std::invalid_argument);
     CHECK_THROWS_AS(spot(0, 0), std::invalid_argument);
+    // The flux of a cone of 1e-30 degrees is 0 in float, and its density infinite.
+    CHECK_THROWS_AS(spot(0, 1e-30f), std::invalid_argument);
+    CHECK_NOTHROW(spot(0.001f, 0.001f));
     for (int axis = 0; axis < 3; ++axis)
         for (const float length : {1e-30f, -1.0f, 3e38f}) {
             Vec3 way{0}, unit{0};

@@ -328,8 +328,14 @@ TEST_CASE("load_obj: each trouble is counted, with its first line") {
           2, 19);
     check("vt 0 0\nvt nan 0\nf 1/1 2/1 3/1\nf 1/1 2/2 3/1\nf 1/1 2/1 3\n",
           ObjTrouble::no_uv, 8, 12); // 6 of them the cube's
-    check("f 1 2 9\nf 0 1 2\nf -9 1 2\nf 1 2 x\nf 1/0 2 3\nf 1/1/1/1 2 3\n",
-          ObjTrouble::bad_index, 6, 18);
+    check("f 1 2 9\nf 0 1 2\nf -9 1 2\nf 1 2 x\nf 1/1/1/1 2 3\n", ObjTrouble::bad_index,
+          5, 18);
+    check("f 1/0 2 3\n", ObjTrouble::no_such_uv, 1, 18);
+    check("s off\nf 1 2 3\ns 7\nf 1 2 3\nf 1 2 2\nf 5//1 6//1 7//1\ns 0\nf 1 2 3\n",
+          ObjTrouble::not_smooth, 1, 21);
+    CHECK(read_obj(cube + "s 1\nf 1 2 3\n", "x.obj", {.normals = ObjNormals::smooth})
+              .report[ObjTrouble::not_smooth]
+              .count == 0);
     check("f 4294967297 2 3\nf 1.5 2 3\nf 1 2 99999999999999999999\n",
           ObjTrouble::bad_index, 3, 18);
     check("\nf 1 2\nf 1\n", ObjTrouble::few_corners, 2, 19);
@@ -700,6 +706,19 @@ TEST_CASE("load_obj: a path-traced wall shows the four colours") {
         }
 }
 
+TEST_CASE("load_obj: two names in quotation marks, and half a pair of them") {
+    const ScratchFolder folder;
+    ScratchFolder::write(folder.file("a.mtl"), "newmtl \"red\"\nKd 1 0 0\n");
+    ScratchFolder::write(folder.file("b.mtl"), "newmtl 2\"\nkd 0 1 0\n");
+    const auto loaded = read_obj("mtllib \"a.mtl\" \"b.mtl\"\nv 0 0 0\nv 1 0 0\n"
+                                 "v 0 1 0\nusemtl red\nf 1 2 3\nusemtl 2\"\nf 1 3 2\n",
+                                 folder.file("x.obj"));
+    REQUIRE(loaded.parts.size() == 2);
+    CHECK(loaded.parts[0].material.diffuse == glm::dvec3{1, 0, 0});
+    CHECK(loaded.parts[1].material.diffuse == glm::dvec3{0, 1, 0});
+    CHECK(loaded.report[ObjTrouble::no_library].count == 0);
+}
+
 TEST_CASE("load_obj: an exponent that overflows is no number") {
     for (const char* number :
          {"0E-99999999999x", "1e9999999999", "-1e400", "1e", "0x1"})
@@ -916,6 +935,14 @@ TEST_CASE("load_obj: files of other programs") {
           Case{"g_comment_after_face", 1, none, false, ""},
           Case{"n_missing_vn", 0.5, none, false, "1 faces refer to a normal that does"},
           Case{"v_keyhole", 12, none, false, ""}, Case{"names", 3, red, false, ""},
+          Case{"quotes", 1, red, true, ""}, Case{"tiny_number", 1, none, false, ""},
+          Case{"small_letters", 1, red, true,
+               "small_letters.mtl, line 4: MAP_D is not used."},
+          Case{"glass_of_nothing", 1, white, true,
+               "glass_of_nothing.mtl, line 6: map_Kd is multiplied by Kd, which is 0"},
+          Case{"tr_opaque", 1, white, true, "line 7: map_Kd is on a surface that Tr 1"},
+          Case{"zero_indices", 1, none, false,
+               "line 9: 1 faces refer to a normal that does not exist"},
           Case{"values", 6, none, false,
                "values.mtl, line 12: Kd is spectral glass.rfl; it must be one number"},
           Case{"inside_out", 0.5 * 3 + std::sqrt(0.75), none, false,
@@ -945,6 +972,17 @@ TEST_CASE("load_obj: files of other programs") {
     CHECK(is(3).dissolve == 0.25);            // Tr is its opposite
     CHECK(is(4).dissolve == 1);               // d counts, if there is one
     CHECK(is(5).diffuse == glm::dvec3{0.5});  // a spectrum is not read
+    // Cloth that calls itself glass, of an index of 1.
+    const auto shirt = load_obj(LJUS_TEST_INPUTS "/glass_of_nothing.obj");
+    CHECK_FALSE(shirt.parts[0].material.is_glass());
+    const auto house = load_obj(LJUS_TEST_INPUTS "/tr_opaque.obj");
+    CHECK_FALSE(house.parts[0].material.is_glass());
+    // The first face has the uv of the file, the second its normal.
+    const auto zero = load_obj(LJUS_TEST_INPUTS "/zero_indices.obj");
+    CHECK(zero.report[ObjTrouble::no_such_uv].line == 10);
+    const MeshData& has = zero.parts[0].mesh.data();
+    CHECK(has.uv[has.triangles[0][2]] == Vec2{1, 1});
+    CHECK(has.normals[has.triangles[1][0]] == Vec3{0, 0, 1});
 }
 
 TEST_CASE("load_obj: text in UTF-16 is refused by its name") {

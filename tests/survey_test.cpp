@@ -12,6 +12,8 @@
 #include "ljus/accel/mesh.hpp"
 #include "ljus/geometry/metaballs.hpp"
 #include "ljus/inspect/survey.hpp"
+#include "ljus/lights/point_light.hpp"
+#include "ljus/lights/sun_light.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/glossy.hpp"
 #include "ljus/materials/mixture.hpp"
@@ -361,6 +363,31 @@ TEST_CASE("survey: a sigma that looks like degrees is remarked on") {
     CHECK(remarks[0] ==
           "2 material(s) have a sigma above 1.6 radians, where the models of rough "
           "surfaces hardly change: divide degrees by 57.3");
+}
+
+TEST_CASE("survey: the light that no path carries is named") {
+    const auto remarks = [](bool glass, bool sun, bool lamp) {
+        Scene<Shapes<Sphere>, Materials<Lambertian, Glass>,
+              Lights<PointLight, SunLight>>
+            scene;
+        const auto matt = scene.add(Lambertian{});
+        scene.add(Sphere{{0, -10, 0}, 10}, matt);
+        if (glass) scene.add(Sphere{{0, 2, 0}, 1}, scene.add(Glass{}));
+        if (lamp) scene.add(Sphere{{0, 6, 0}, 1}, matt, Rgb{1});
+        if (sun) {
+            scene.add(SunLight{.direction = {0, -1, 0}});
+            scene.add(PointLight{.position = {3, 3, 0}});
+        }
+        const World world(std::move(scene));
+        CHECK(survey(world, {}).remarks.empty()); // photons carry it
+        return path_remarks(world);
+    };
+    CHECK(remarks(true, true, true) ==
+          std::vector<std::string>{
+              "2 light(s) have no size, so that no path meets them: what mirrors and "
+              "glass make of their light is missing; photon mapping carries it"});
+    CHECK(remarks(true, false, true).empty());
+    CHECK(remarks(false, true, true).empty());
 }
 
 TEST_CASE("survey: where float stops holding, it says so, with the digits left") {

@@ -494,6 +494,44 @@ TEST_CASE("texture: a photograph stands upright, as its EXIF segment says") {
         }
 }
 
+TEST_CASE("texture: files that other readers of pictures had trouble with") {
+    const std::string folder = LJUS_TEST_INPUTS "/";
+    const auto refusal = [&](const std::string& name) -> std::string {
+        try {
+            (void)load_image(folder + name);
+        } catch (const std::runtime_error& error) {
+            return std::string(error.what()).substr((folder + name).size());
+        }
+        return "";
+    };
+    // Indices 0 to 3 into a palette of red and green.
+    CHECK(load_image(folder + "short_palette.png").pixels ==
+          std::vector<Rgb>{Rgb{1, 0, 0}, Rgb{0, 1, 0}, Rgb{0}, Rgb{0}});
+    // Red, green, blue above white and two greys, to be turned by a quarter to the
+    // right; behind the pixels that is not said any more.
+    const Image turned = load_image(folder + "turned.png");
+    REQUIRE(turned.width == 2);
+    CHECK(pixel(turned, 0, 0) == Rgb{1});
+    CHECK(pixel(turned, 1, 0) == Rgb{1, 0, 0});
+    CHECK(pixel(turned, 1, 2) == Rgb{0, 0, 1});
+    CHECK(load_image(folder + "turned_late.png").width == 3);
+    // A photograph 8 wide, with two bytes of padding before what turns it.
+    CHECK(load_image(folder + "turned_padded.jpg").width == 4);
+    // Inks: 255, 40 and 90 of 255 parts are not absorbed, and by black 200 are not.
+    const Rgb ink = load_image(folder + "adobe_cmyk.jpg").pixels[0];
+    CHECK(ink.x == doctest::Approx(srgb_decode(200 / 255.0)));
+    CHECK(ink.y == doctest::Approx(srgb_decode(31 / 255.0)));
+    CHECK(ink.z == doctest::Approx(srgb_decode(71 / 255.0)));
+    CHECK(refusal("four_channels.jpg") ==
+          " is a JPEG file of four channels that does not say what they mean; save it "
+          "as RGB.");
+    CHECK(refusal("twelve_bits.jpg") ==
+          " is a JPEG file of more than 8 bits per channel; save it with 8 bits.");
+    CHECK(refusal("arithmetic.jpg") ==
+          " is a JPEG file that is lossless, in layers or coded arithmetically; save "
+          "it as baseline JPEG or PNG.");
+}
+
 TEST_CASE("texture: of pictures only those are read whose reader is trusted, and of "
           "PNG files only whole ones") {
     const auto refusal_of = [](const Bytes& bytes) -> std::string {

@@ -27,3 +27,15 @@ ljus_break_it(NAME hdr-plain-row HEADER io/hdr.hpp TEST hdr
     FROM "first[1] == 2 && first[2] < 128)"
     TO   "first[1] == 2)"
     CASES "hdr: a plain row*")
+
+# The colour correction stays in the pixels.
+ljus_break_it(NAME hdr-color-correction HEADER io/hdr.hpp TEST hdr
+    FROM "if (!three && !line.starts_with(\"EXPOSURE=\")) continue;"
+    TO   "if (!line.starts_with(\"EXPOSURE=\")) continue;"
+    CASES "hdr: the colour correction*")
+
+# Colours of other primaries are taken for those of sRGB.
+ljus_break_it(NAME hdr-primaries HEADER io/hdr.hpp TEST hdr
+    FROM "std::abs(a - b) < 0.02"
+    TO   "std::abs(a - b) < 2"
+    CASES "hdr: the colour correction*")

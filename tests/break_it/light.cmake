@@ -40,3 +40,9 @@ ljus_break_it(NAME light-pdf HEADER lights/area_light.hpp TEST light
     TO   "const T pdf = sample->pdf;
     sample->pdf = T(0);"
     CASES "light: a sample says its density*")
+
+# A cone so narrow that it is empty.
+ljus_break_it(NAME light-spot-needle HEADER lights/spot_light.hpp TEST light
+    FROM "light.outer_degrees >= T(0.001)"
+    TO   "light.outer_degrees > T(0)"
+    CASES "light: the ends of what a spot*")

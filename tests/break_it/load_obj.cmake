@@ -12,8 +12,8 @@ ljus_break_it(NAME load-obj-bad-number HEADER io/detail/obj_text.hpp TEST load_o
 
 # A number that does not fit, or is none, is taken as far as it goes.
 ljus_break_it(NAME load-obj-overflow HEADER io/detail/obj_text.hpp TEST load_obj
-    FROM "stop != last || error != std::errc{} || *number == 0"
-    TO   "*number == 0"
+    FROM "end > 0 && (stop != last || error != std::errc{})"
+    TO   "false"
     CASES "load_obj: each trouble*")
 
 # Both ends of a line count as lines.
@@ -90,8 +90,8 @@ ljus_break_it(NAME polygon-no-area HEADER geometry/detail/polygon.hpp TEST load_
 
 # A map without Kd is grey.
 ljus_break_it(NAME obj-map-alone HEADER io/detail/obj_material.hpp TEST load_obj
-    FROM "if (!has_diffuse && !material->picture.empty())"
-    TO   "if (false)"
+    FROM "(black || !has_diffuse)"
+    TO   "black"
     CASES "load_obj: files of other programs")
 
 # What one material says, the next one has.
@@ -171,3 +171,51 @@ ljus_break_it(NAME obj-volume HEADER io/obj_report.hpp TEST load_obj
     FROM "report.content.volume = volume / 6;"
     TO   "report.content.volume = volume / 3;"
     CASES "load_obj: a report has all*")
+
+# A name keeps its quotation marks.
+ljus_break_it(NAME obj-quotes HEADER io/detail/obj_text.hpp TEST load_obj
+    FROM "text = text.substr(1, text.size() - 2);"
+    TO   ";"
+    CASES "load_obj: files of other programs,load_obj: two names*")
+
+# A word in other letters is another word.
+ljus_break_it(NAME obj-small-letters HEADER io/detail/obj_text.hpp TEST load_obj
+    FROM "return small(c) == small(d);"
+    TO   "return c == d;"
+    CASES "load_obj: files of other programs")
+
+# A number that is nearly 0 is no number.
+ljus_break_it(NAME obj-tiny-number HEADER io/detail/obj_text.hpp TEST load_obj
+    FROM "return tiny ? 0 :"
+    TO   "return false ? 0 :"
+    CASES "load_obj: files of other programs")
+
+# A 0 for "no normal" makes the whole corner unreadable.
+ljus_break_it(NAME obj-zero-index HEADER io/detail/obj_text.hpp TEST load_obj
+    FROM "*number = std::numeric_limits<long long>::max();"
+    TO   "return std::nullopt;"
+    CASES "load_obj: files of other programs")
+
+# Glass of index 1, which nobody sees.
+ljus_break_it(NAME obj-glass-of-nothing HEADER io/detail/obj_material.hpp TEST load_obj
+    FROM "(glass && index != 1)"
+    TO   "glass"
+    CASES "load_obj: files of other programs")
+
+# A picture under a black Kd is black.
+ljus_break_it(NAME obj-black-picture HEADER io/detail/obj_material.hpp TEST load_obj
+    FROM "const bool black = has_diffuse && color == glm::dvec3(0);"
+    TO   "const bool black = false;"
+    CASES "load_obj: files of other programs")
+
+# Tr 1 under a picture is glass.
+ljus_break_it(NAME obj-tr-opaque HEADER io/detail/obj_material.hpp TEST load_obj
+    FROM "!has_dissolve && material->dissolve == 0)"
+    TO   "false)"
+    CASES "load_obj: files of other programs")
+
+# That faces are meant to be smooth is not said.
+ljus_break_it(NAME obj-not-smooth HEADER io/detail/obj_reader.hpp TEST load_obj
+    FROM "in_smooth_group = !group.empty() && group != \"off\" && group != \"0\";"
+    TO   "in_smooth_group = group == \"on\";"
+    CASES "load_obj: each trouble*")

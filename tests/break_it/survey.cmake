@@ -40,3 +40,9 @@ ljus_break_it(NAME survey-gloss HEADER render/passes.hpp TEST survey
     FROM "caustic && general && looked_up && found.narrow > 0"
     TO   "caustic && general && found.narrow > 0"
     CASES "survey: narrow gloss*")
+
+# Lamps are taken for lights that no path meets, and suns for lamps.
+ljus_break_it(NAME survey-never-met HEADER render/passes.hpp TEST survey
+    FROM "never_met += world.visit_light(i, is_met) ? 0 : 1;"
+    TO   "never_met += world.visit_light(i, is_met) ? 1 : 0;"
+    CASES "survey: the light that no path carries*")

@@ -137,3 +137,27 @@ ljus_break_it(NAME load-image-side HEADER io/load_image.hpp TEST texture
     FROM "wide > max_image_side || high > max_image_side"
     TO   "false"
     CASES "texture: of pictures only*")
+
+# Pixels behind the end of a palette have the colours that memory has.
+ljus_break_it(NAME png-short-palette HEADER io/load_image.hpp TEST texture
+    FROM "const Bytes filled = png ? with_whole_palette(bytes) : Bytes{};"
+    TO   "const Bytes filled{};"
+    CASES "texture: files that other readers*")
+
+# A PNG file is not turned upright.
+ljus_break_it(NAME png-turned HEADER io/load_image.hpp TEST texture
+    FROM "if (png) picture.orientation = png_orientation(bytes);"
+    TO   ""
+    CASES "texture: files that other readers*")
+
+# Four channels are taken for brightness, two differences and nothing.
+ljus_break_it(NAME jpeg-four-channels HEADER io/detail/picture_damage.hpp TEST texture
+    FROM "file[at + 5] == 4 && !adobe"
+    TO   "false"
+    CASES "texture: files that other readers*")
+
+# Bytes that fill the gap before a segment end the search for the orientation.
+ljus_break_it(NAME jpeg-padding HEADER io/detail/picture_damage.hpp TEST texture
+    FROM "if (kind == padding) {"
+    TO   "if (kind == padding) return;\n        if (kind == padding) {"
+    CASES "texture: files that other readers*")

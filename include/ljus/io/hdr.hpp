@@ -118,9 +118,10 @@ inline void read_rgbe_row(ByteReader& reader,
         row.resize(width);
         return read_rgbe_runs(reader, row);
     }
-    if (reader.left() / 4 < width) reader.fail("its last row is incomplete");
-    row.resize(width);
-    for (auto& rgbe : row) {
+    row.clear(); // it grows by pixels: a short file takes no memory
+    while (row.size() < width) {
+        if (reader.left() < 4) reader.fail("its last row is incomplete");
+        auto& rgbe = row.emplace_back();
         for (unsigned char& byte : rgbe) byte = reader.next();
         if (rgbe[0] == 1 && rgbe[1] == 1 && rgbe[2] == 1)
             reader.fail("it has the run-length coding from before 1991, which is not "
@@ -128,30 +129,64 @@ inline void read_rgbe_row(ByteReader& reader,
     }
 }
 
+// The numbers of a line of the header, such as "COLORCORR= 1 1.2 0.9", behind its first
+// `name` letters; NaN for what is none.
+inline std::vector<double> header_numbers(const std::string& line, std::size_t name) {
+    std::vector<double> numbers;
+    for (std::size_t at = name;;) {
+        at = line.find_first_not_of(" \t", at);
+        if (at == std::string::npos) return numbers;
+        const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
+        numbers.push_back(to_number(line.substr(at, end - at)));
+        at = end;
+    }
+}
+
+// Whether primaries are about those of sRGB, (x, y) of red, green and blue; the file
+// format's own differ by 0.01. White may be another one.
+inline bool are_srgb_primaries(const std::vector<double>& numbers) {
+    constexpr std::array<double, 6> srgb{0.64, 0.33, 0.3, 0.6, 0.15, 0.06};
+    return numbers.size() >= srgb.size() &&
+           std::equal(srgb.begin(), srgb.end(), numbers.begin(),
+                      [](double a, double b) { return std::abs(a - b) < 0.02; });
+}
+
 } // namespace detail
 
 /// Loads a Radiance file: RGBE, rows from the top, plain or run-length coded.
-/// \return Its image, divided by the EXPOSURE lines of the header, which gives
-///     radiance.
+/// \return Its image, divided by the EXPOSURE and COLORCORR lines of the header, which
+///     gives radiance.
 /// \throws std::runtime_error  with path and reason, if it cannot be read, is of an
-///     unsupported kind (XYZE, another pixel order, the run-length coding from before
-///     1991), or is shorter or longer than its header says.
+///     unsupported kind (XYZE, other primaries than those of sRGB, another pixel order,
+///     the run-length coding from before 1991), or is shorter or longer than its header
+///     says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_hdr(const std::string& path) {
     detail::ByteReader reader{path, load_file(path, 8 * std::size_t(max_pixels), "#?")};
-    double exposure = 1.0;
+    RgbT<double> exposure{1.0};
     for (std::string line = reader.line(); !line.empty(); line = reader.line()) {
-        if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
-            reader.fail("its header says " + shown(line) +
-                        "; only 32-bit_rle_rgbe is supported");
-        if (!line.starts_with("EXPOSURE=")) continue;
-        std::string text = line.substr(9);
-        text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
-        const double number = detail::to_number(text);
-        if (!(number > 0.0) || !std::isfinite(number))
-            reader.fail("its header says " + shown(line) +
-                        ", which is not a number above 0");
-        exposure *= number;
+        const std::string says = "its header says " + shown(line);
+        line.erase(line.find_last_not_of(" \t") + 1);
+        if (line.starts_with("FORMAT=") &&
+            line.substr(std::min(line.find_first_not_of(" \t", 7), line.size())) !=
+                "32-bit_rle_rgbe")
+            reader.fail(says + "; only 32-bit_rle_rgbe is supported");
+        if (line.starts_with("PRIMARIES=") &&
+            !detail::are_srgb_primaries(detail::header_numbers(line, 10)))
+            reader.fail(says + "; only the primaries of sRGB are supported");
+        const bool three = line.starts_with("COLORCORR=");
+        if (!three && !line.starts_with("EXPOSURE=")) continue;
+        const auto numbers = detail::header_numbers(line, three ? 10 : 9);
+        const bool good =
+            numbers.size() == (three ? 3u : 1u) &&
+            std::all_of(numbers.begin(), numbers.end(), [](double number) {
+                return number > 0.0 && std::isfinite(number);
+            });
+        if (!good)
+            reader.fail(says + ", which is not " +
+                        (three ? "three numbers above 0" : "a number above 0"));
+        exposure *= three ? RgbT<double>{numbers[0], numbers[1], numbers[2]}
+                          : RgbT<double>{numbers[0]};
     }
     const std::string y_word = reader.word();
     const std::string y_size = reader.word();

@@ -127,7 +127,7 @@ inline std::string too_large_beside(long long others, long long wide, long long 
 struct DecodedBytes {
     int width = 0, height = 0;
     double gamma = 0;    // light to this power is what the bytes are; 0: sRGB
-    int orientation = 1; // jpeg_orientation()
+    int orientation = 1; // by EXIF
     std::unique_ptr<stbi_uc, void (*)(void*)> pixels{nullptr, stbi_image_free};
 };
 
@@ -148,6 +148,8 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, Refuse refuse) {
     if (png && png_number(bytes, 12) == 0x43674249u) // CgBI
         refuse("is a PNG file of Apple's own kind (CgBI), which has red and blue "
                "exchanged; save it as plain PNG");
+    if (const char* const kind = jpeg ? jpeg_kind_unread(bytes) : nullptr)
+        refuse(join({"is a JPEG file ", kind}));
     // A 16-bit channel takes twice the memory before it is reduced to 8 bits.
     const bool is_deep = png && byte_at(bytes, 24) == 16;
     const int most_pixels = is_deep ? max_image_pixels / 2 : max_image_pixels;
@@ -168,9 +170,12 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, Refuse refuse) {
         require_size(png_number(bytes, 16), png_number(bytes, 20));
     DecodedBytes picture;
     if (png) picture.gamma = png_gamma(bytes);
+    if (png) picture.orientation = png_orientation(bytes);
     if (jpeg) picture.orientation = jpeg_orientation(bytes);
-    const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
-    const auto size = static_cast<int>(bytes.size());
+    const Bytes filled = png ? with_whole_palette(bytes) : Bytes{};
+    const Bytes& read = filled.empty() ? bytes : filled;
+    const auto* data = reinterpret_cast<const stbi_uc*>(read.data());
+    const auto size = static_cast<int>(read.size());
     int &width = picture.width, &height = picture.height, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
         refuse("is not a picture that can be read: its header is damaged or unknown");
@@ -197,8 +202,9 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, Refuse refuse) {
 /// \param others  The number of pixels in pictures that are kept beside it: a file of
 ///                four kilobytes can have thirty million, so all together are limited.
 /// \return Linear colours in [0, 1]; alpha is ignored. A PNG file with a gAMA chunk and
-///         neither an sRGB chunk nor a profile is decoded by its gamma; a photograph is
-///         turned upright by its EXIF orientation.
+///         neither an sRGB chunk nor a profile is decoded by its gamma; a picture is
+///         turned upright by its EXIF orientation. Pixels behind the end of a palette
+///         are black.
 /// \throws std::runtime_error  with path and reason, if it is not a picture, or too
 ///         large; std::bad_alloc if there is not enough memory.
 template <std::floating_point T = float>

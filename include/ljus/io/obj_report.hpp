@@ -30,6 +30,7 @@ enum class ObjTrouble : std::uint8_t {
     bad_index,      ///< A face with a vertex that does not exist, left out.
     no_such_uv,     ///< A face with a uv that does not exist: it gets (0, 0).
     no_such_normal, ///< A face with a normal that does not exist: it is flat.
+    not_smooth,     ///< A face of a smoothing group without normals: it is flat.
     few_corners,    ///< A face with fewer than three corners, left out.
     many_corners,   ///< A face with more than 1000 corners, left out.
     no_area,        ///< A face without an area, left out.
@@ -48,7 +49,7 @@ enum class ObjTrouble : std::uint8_t {
 namespace detail {
 
 /// The number of values of ObjTrouble.
-inline constexpr std::size_t obj_troubles = 20;
+inline constexpr std::size_t obj_troubles = 21;
 
 } // namespace detail
 
@@ -105,6 +106,8 @@ struct ObjReport {
         "faces refer to a vertex that does not exist; they are left out",
         "faces refer to a texture coordinate that does not exist; (0, 0) is used",
         "faces refer to a normal that does not exist; they are shaded flat",
+        "faces are in a smoothing group, without normals; they are shaded flat, unless "
+        "smooth normals are asked for",
         "faces have fewer than three corners; they are left out",
         "faces have more than 1000 corners; they are left out",
         "faces have no area; they are left out",

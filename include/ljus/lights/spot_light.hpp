@@ -19,7 +19,7 @@ struct SpotLightT {
     Vec3T<T> direction{0, -1, 0}; ///< Axis of the cone; any length but 0.
     RgbT<T> intensity{T(1)};      ///< W/sr within the inner cone.
     T inner_degrees = T(20);      ///< Half angle of the constant part.
-    T outer_degrees = T(30);      ///< Half angle of the cone, up to 180.
+    T outer_degrees = T(30);      ///< Half angle of the cone, from 0.001 to 180.
 };
 using SpotLight = SpotLightT<float>; ///< SpotLightT in float.
 
@@ -44,8 +44,9 @@ template <std::floating_point T>
 void check(const SpotLightT<T>& light) {
     require_finite("spot light.position", light.position);
     require_radiance("spot light.intensity", light.intensity);
-    require(light.outer_degrees > T(0) && light.outer_degrees <= T(180),
-            "spot light.outer_degrees", light.outer_degrees, "within (0, 180]");
+    // In narrower cones rounding decides which directions there are.
+    require(light.outer_degrees >= T(0.001) && light.outer_degrees <= T(180),
+            "spot light.outer_degrees", light.outer_degrees, "within [0.001, 180]");
     require(light.inner_degrees >= T(0) && light.inner_degrees <= light.outer_degrees,
             "spot light.inner_degrees", light.inner_degrees,
             "within [0, outer_degrees]");

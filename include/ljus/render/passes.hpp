@@ -347,6 +347,35 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
     return remarks;
 }
 
+/// The remarks for path tracing: those of scene_remarks(), and the light that no path
+/// carries. A path meets lamps and the sky, but no light without a size.
+/// \param world  The closed scene.
+/// \return As scene_remarks().
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] std::vector<std::string> path_remarks(const W& world) {
+    // Paths sample narrow lobes themselves, as with DirectLight::mis.
+    auto remarks = scene_remarks(world, {.direct = DirectLight::mis});
+    const auto is_met = []<typename L>(const L& light) {
+        using T = typename L::Scalar;
+        if constexpr (requires { emission_point(light, Vec2T<T>{T(0)}, T(0)); })
+            return !std::same_as<decltype(emission_point(light, Vec2T<T>{T(0)}, T(0))),
+                                 Vec3T<T>>;
+        else
+            return FillsSky<L>;
+    };
+    long long never_met = 0;
+    for (std::uint32_t i = 0; i < world.light_count(); ++i)
+        never_met += world.visit_light(i, is_met) ? 0 : 1;
+    const SceneNeeds found = needs(world);
+    if (never_met > 0 && found.specular > 0 && found.diffuse > 0)
+        remarks.push_back(detail::join(
+            {to_text(never_met),
+             " light(s) have no size, so that no path meets them: what mirrors and "
+             "glass "
+             "make of their light is missing; photon mapping carries it"}));
+    return remarks;
+}
+
 /// \}
 
 } // namespace ljus

@@ -51,7 +51,7 @@ void read_light(const JsonField& field, Scene& scene) {
     } else {
         require_object(field, {"type", "position", "direction", "intensity",
                                "inner_deg", "outer_deg"});
-        const double outer = degrees("outer_deg", 180, "within (0, 180] degrees");
+        const double outer = degrees("outer_deg", 180, "within [0.001, 180] degrees");
         const double inner = degrees("inner_deg", outer, "within [0, outer_deg]");
         add(SpotLightT<T>{.position = vector("position", point_field),
                           .direction = vector("direction", direction_field),

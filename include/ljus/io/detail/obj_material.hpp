@@ -22,19 +22,23 @@ namespace ljus {
 /// A material as described by a material file.
 struct ObjMaterial {
     std::string name{};       ///< Empty for faces without a material.
-    glm::dvec3 diffuse{0.5};  ///< Kd, in [0, 1]; 1 if there is a picture and no Kd.
+    glm::dvec3 diffuse{0.5};  ///< Kd, in [0, 1]; 1 if there is a picture and no Kd
+                              ///< above 0.
     glm::dvec3 specular{0};   ///< Ks, in [0, 1].
     glm::dvec3 emission{0};   ///< Ke, W/(m^2 sr), at least 0.
     double index = 1.5;       ///< Ni, within [0.001, 1000].
-    double dissolve = 1;      ///< d, or 1 - Tr: 0 is clear.
-    int illumination = 2;     ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass.
+    double dissolve = 1;      ///< d, or 1 - Tr: 0 is clear. Tr 1 under a picture is
+                              ///< taken for opaque.
+    int illumination = 2;     ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass
+                              ///< unless Ni is 1, which some programs write for all.
     std::string picture{};    ///< map_Kd, which Kd multiplies: its path; empty: none.
     std::string picture_at{}; ///< Its position: "room.mtl, line 12".
 
     /// Whether it is glass: by illum, or because d says that it is mostly clear.
     [[nodiscard]] bool is_glass() const noexcept {
         const int i = illumination;
-        return i == 4 || i == 6 || i == 7 || i == 9 || dissolve < 0.5;
+        const bool glass = i == 4 || i == 6 || i == 7 || i == 9;
+        return (glass && index != 1) || dissolve < 0.5;
     }
     /// Whether it is a mirror.
     [[nodiscard]] bool is_mirror() const noexcept {
@@ -124,8 +128,23 @@ struct MaterialReader {
         }
     }
     void finish() {
-        if (!has_diffuse && !material->picture.empty())
-            material->diffuse = glm::dvec3(1);
+        glm::dvec3& color = material->diffuse;
+        const bool black = has_diffuse && color == glm::dvec3(0);
+        if (!material->picture.empty() && (black || !has_diffuse)) {
+            color = glm::dvec3(1);
+            if (black && material != &ignored)
+                notes.push_back(material->picture_at +
+                                ": map_Kd is multiplied by Kd, which is 0; 1 is used.");
+        }
+        // Programs to which 1 is opaque write it beside a picture.
+        if (!material->picture.empty() && !has_dissolve && material->dissolve == 0) {
+            material->dissolve = 1;
+            if (material != &ignored)
+                notes.push_back(
+                    material->picture_at +
+                    ": map_Kd is on a surface that Tr 1 makes wholly clear; "
+                    "Tr is not used.");
+        }
         has_diffuse = has_dissolve = false;
     }
     void read(std::string_view text) {
@@ -133,33 +152,36 @@ struct MaterialReader {
             Words words{line};
             number = at;
             const std::string_view keyword = words.next();
-            if (keyword == "newmtl") {
+            const auto is = [&](const char* word) { return same_word(keyword, word); };
+            if (is("newmtl")) {
                 finish();
                 const auto [entry, fresh] = materials.try_emplace(words.name());
                 material = fresh ? &entry->second : &ignored;
                 material->name = entry->first;
-            } else if (keyword == "Kd") {
+            } else if (is("Kd")) {
                 has_diffuse = true;
                 color(keyword, words, material->diffuse, 1);
-            } else if (keyword == "Ks") {
+            } else if (is("Ks")) {
                 color(keyword, words, material->specular, 1);
-            } else if (keyword == "Ke") {
+            } else if (is("Ke")) {
                 color(keyword, words, material->emission, 1e12);
-            } else if (keyword == "Ni") {
+            } else if (is("Ni")) {
                 value(keyword, words, material->index, 1e-3, 1e3);
-            } else if (keyword == "d") {
+            } else if (is("d")) {
                 has_dissolve = true;
                 value(keyword, words, material->dissolve, 0, 1);
-            } else if (keyword == "Tr" && !has_dissolve) {
+            } else if (is("Tr") && !has_dissolve) {
                 double clear = 1 - material->dissolve;
                 value(keyword, words, clear, 0, 1);
                 material->dissolve = 1 - clear;
-            } else if (keyword == "illum") {
+            } else if (is("illum")) {
                 double model = material->illumination;
                 value(keyword, words, model, 0, 10);
                 material->illumination = static_cast<int>(model);
-            } else if (keyword == "map_Kd") {
+            } else if (is("map_Kd")) {
                 picture(words);
+            } else if (is("map_d") || is("map_Ke")) {
+                note(keyword, "is not used.");
             }
         });
         finish();
@@ -179,7 +201,7 @@ struct MaterialLibraries {
         Words words{names};
         for (std::string_view name = words.next(); !name.empty(); name = words.next())
             if (name.size() == names.size() ||
-                !add_file(file_named(file, std::string(name)), report))
+                !add_file(file_named(file, Words{name}.name()), report))
                 report.add(ObjTrouble::no_library, line);
     }
 

@@ -85,6 +85,7 @@ struct ObjReader {
     std::vector<ObjFacesT<T>> parts{};
     std::string material{};                   // that faces have from here on
     std::optional<std::size_t> part{};        // of that material, once it has a face
+    bool in_smooth_group = false;             // whether s is neither off nor 0
     std::vector<ObjCorner> face_corners{};    // of the face that is read
     std::vector<glm::dvec3> face_positions{}; // of these
 
@@ -108,6 +109,8 @@ struct ObjReader {
                 face(words);
             else if (keyword == "usemtl")
                 use(words.name());
+            else if (keyword == "s")
+                smoothing(words.next());
             else if (keyword == "o")
                 ++report.content.objects;
             else if (keyword == "g")
@@ -140,6 +143,9 @@ struct ObjReader {
     }
     static bool has_place(const Vec2T<T>& uv) {
         return std::isfinite(uv.x) && std::isfinite(uv.y);
+    }
+    void smoothing(std::string_view group) {
+        in_smooth_group = !group.empty() && group != "off" && group != "0";
     }
     void use(const std::string& name) {
         const bool known = libraries.materials.contains(name);
@@ -188,6 +194,9 @@ struct ObjReader {
         ++all.faces;
         all.polygons += face_corners.size() > 3 ? 1 : 0;
         all.flat_faces += face_corners[0].normal ? 0 : 1;
+        if (in_smooth_group && !face_corners[0].normal &&
+            settings.normals == ObjNormals::file)
+            report.add(ObjTrouble::not_smooth, line);
         all.no_uv_faces += face_corners[0].uv ? 0 : 1;
     }
     // Normals and texture coordinates that are not good at every corner of a face are

@@ -72,22 +72,35 @@ struct Words {
         rest.remove_prefix(end);
         return word;
     }
-    // All that is left: a name, which may have blanks in it, and a # that no blank
-    // follows.
+    // All that is left: a name, which may have blanks in it, a # that no blank follows,
+    // and quotation marks around it.
     [[nodiscard]] std::string name() const {
-        return std::string(trimmed(rest.substr(0, rest.find(" # "))));
+        std::string_view text = trimmed(rest.substr(0, rest.find(" # ")));
+        if (text.size() > 2 && text[0] == '"' && text.find('"', 1) == text.size() - 1)
+            text = text.substr(1, text.size() - 2);
+        return std::string(text);
     }
 };
 
-// The number that a word is; NaN for anything else.
+// Whether two words are the same in small letters: programs write map_Kd and map_kd.
+inline bool same_word(std::string_view a, std::string_view b) {
+    const auto small = [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [&](char c, char d) { return small(c) == small(d); });
+}
+
+// The number that a word is, 0 if it is too small for double; NaN for anything else.
 inline double number_of(std::string_view word) {
     if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
     double value = 0;
     const char* const end = word.data() + word.size();
     const auto [stop, error] = std::from_chars(word.data(), end, value);
-    return stop == end && error == std::errc{}
-               ? value
-               : std::numeric_limits<double>::quiet_NaN();
+    if (stop == end && error == std::errc{}) return value;
+    const bool tiny = stop == end && error == std::errc::result_out_of_range &&
+                      word.find_first_of("eE") + 1 == word.find('-', 1);
+    return tiny ? 0 : std::numeric_limits<double>::quiet_NaN();
 }
 
 // The next three numbers of a line.
@@ -97,7 +110,8 @@ inline glm::dvec3 three_numbers(Words& words) {
 }
 
 // A corner of a face as it is written, "1/2/3", "1//3" or "-1": which vertex, texture
-// coordinate and normal, counted from 1 or, if negative, from the end. 0 for none.
+// coordinate and normal, counted from 1 or, if negative, from the end. 0 for none, and
+// the largest number, which no list has, for a 0 that is written.
 struct ObjIndices {
     long long position = 0, uv = 0, normal = 0;
 };
@@ -109,8 +123,8 @@ inline std::optional<ObjIndices> indices_of(std::string_view word) {
         const std::size_t end = std::min(word.find('/'), word.size());
         const char* const last = word.data() + end;
         const auto [stop, error] = std::from_chars(word.data(), last, *number);
-        if (end > 0 && (stop != last || error != std::errc{} || *number == 0))
-            return std::nullopt;
+        if (end > 0 && (stop != last || error != std::errc{})) return std::nullopt;
+        if (end > 0 && *number == 0) *number = std::numeric_limits<long long>::max();
         word.remove_prefix(end);
         if (word.empty()) break;
         word.remove_prefix(1);

@@ -1,13 +1,14 @@
 #pragma once
 
 /// \file ljus/io/detail/picture_damage.hpp
-/// \brief Finds damage in PNG and JPEG files that stb_image does not test for.
+/// \brief What stb_image does not test for or does not read in PNG and JPEG files.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include "ljus/io/file.hpp"
 
@@ -50,6 +51,11 @@ inline const char* png_trouble(const Bytes& file) {
     return "it ends before its last chunk";
 }
 
+// A byte of a file; 0 behind its end, as in stb_image.
+inline std::size_t byte_at(const Bytes& file, std::size_t at) {
+    return at < file.size() ? std::size_t(file[at]) : std::size_t(0);
+}
+
 // The exponent 1/gamma of a PNG file with a gAMA chunk; 0 if it has none, or an sRGB or
 // iCCP chunk as well. png_trouble() must have found nothing.
 inline double png_gamma(const Bytes& file) {
@@ -66,9 +72,54 @@ inline double png_gamma(const Bytes& file) {
     return std::abs(gamma - 0.45455) < 0.005 ? 0 : gamma;
 }
 
-// A byte of a file; 0 behind its end, as in stb_image.
-inline std::size_t byte_at(const Bytes& file, std::size_t at) {
-    return at < file.size() ? std::size_t(file[at]) : std::size_t(0);
+// A PNG file whose palette is filled up with black to 256 colours; empty if it has no
+// palette, or a full one. stb_image takes colours behind the end of a palette from
+// memory that nobody has set. png_trouble() must have found nothing.
+inline Bytes with_whole_palette(const Bytes& file) {
+    constexpr std::size_t full = 3 * 256;
+    Bytes whole;
+    for (std::size_t at = 8; file.size() - at >= 12;
+         at += 12 + std::size_t(png_number(file, at))) {
+        const std::size_t size = png_number(file, at);
+        if (png_number(file, at + 4) != 0x504c5445u || size >= full || size % 3 != 0)
+            continue; // not PLTE, or full
+        whole = file;
+        whole.insert(whole.begin() + static_cast<std::ptrdiff_t>(at + 8 + size),
+                     full - size, 0);
+        whole[at + 2] = full / 256;
+        whole[at + 3] = full % 256;
+        break;
+    }
+    return whole;
+}
+
+// The orientation, 1 to 8, in EXIF data, which are a TIFF file within a file: byte
+// order, offset of the first list of fields, fields of 12 bytes. 1 if it is not said.
+inline int tiff_orientation(const Bytes& file, std::size_t tiff) {
+    const bool low_first = byte_at(file, tiff) == 'I';
+    const auto number = [&](std::size_t i, std::size_t bytes) {
+        std::size_t value = 0;
+        for (std::size_t k = 0; k < bytes; ++k)
+            value = value * 256 + byte_at(file, i + (low_first ? bytes - 1 - k : k));
+        return value;
+    };
+    const std::size_t fields = tiff + number(tiff + 4, 4);
+    for (std::size_t i = 0; i < number(fields, 2); ++i)
+        if (const std::size_t field = fields + 2 + 12 * i; number(field, 2) == 0x112)
+            return static_cast<int>(number(field + 8, 2));
+    return 1;
+}
+
+// The orientation in the eXIf chunk of a PNG file, which comes before its pixels; 1
+// without one. png_trouble() must have found nothing.
+inline int png_orientation(const Bytes& file) {
+    for (std::size_t at = 8; file.size() - at >= 12;
+         at += 12 + std::size_t(png_number(file, at))) {
+        const std::uint32_t name = png_number(file, at + 4);
+        if (name == 0x65584966u) return tiff_orientation(file, at + 8); // eXIf
+        if (name == 0x49444154u) break;                                 // IDAT
+    }
+    return 1;
 }
 
 // True if stb_image can read the tables of a JPEG segment whose length is at `at`: it
@@ -124,34 +175,59 @@ inline bool too_many_scans(int scans, bool in_parts) {
     return scans > (in_parts ? 64 : 4);
 }
 
-// The orientation in the EXIF segment of a JPEG file, 1 to 8; 1 without one. The
-// segment is a TIFF file: byte order, offset of the first list of fields, fields of 12
-// bytes.
-inline int jpeg_orientation(const Bytes& file) {
-    constexpr unsigned char exif = 0xe1, scan = 0xda;
-    for (std::size_t at = 2; at + 4 <= file.size() && file[at] == 0xff;
-         at += 2 + std::size_t(file[at + 2]) * 256 + file[at + 3]) {
-        if (file[at + 1] == scan) break;
-        constexpr std::array<unsigned char, 6> name{'E', 'x', 'i', 'f', 0, 0};
-        const std::size_t tiff = at + 10;
-        if (file[at + 1] != exif || tiff + 8 > file.size() ||
-            !std::equal(name.begin(), name.end(), file.data() + at + 4))
+// Calls use(kind, at) for the segments of a JPEG file before its pixels, with the index
+// behind the length of each, until it returns true.
+template <typename Use>
+void find_jpeg_segment(const Bytes& file, Use use) {
+    constexpr unsigned char padding = 0xff, scan = 0xda;
+    for (std::size_t at = 2; at + 4 <= file.size() && file[at] == 0xff;) {
+        const unsigned char kind = file[at + 1];
+        if (kind == padding) {
+            ++at;
             continue;
-        const bool low_first = file[tiff] == 'I';
-        const auto number = [&](std::size_t i, std::size_t bytes) {
-            std::size_t value = 0;
-            for (std::size_t k = 0; k < bytes; ++k)
-                value =
-                    value * 256 + byte_at(file, i + (low_first ? bytes - 1 - k : k));
-            return value;
-        };
-        const std::size_t fields = tiff + number(tiff + 4, 4);
-        for (std::size_t i = 0; i < number(fields, 2); ++i)
-            if (const std::size_t field = fields + 2 + 12 * i;
-                number(field, 2) == 0x112)
-                return static_cast<int>(number(field + 8, 2));
+        }
+        if (kind == scan || use(kind, at + 4)) return;
+        at += 2 + std::size_t(file[at + 2]) * 256 + file[at + 3];
     }
-    return 1;
+}
+
+// Whether a text stands at an index of a file.
+inline bool stands_at(const Bytes& file, std::size_t at, std::string_view text) {
+    return at + text.size() <= file.size() &&
+           std::equal(text.begin(), text.end(), file.data() + at);
+}
+
+// The orientation in the EXIF segment of a JPEG file; 1 without one.
+inline int jpeg_orientation(const Bytes& file) {
+    int orientation = 1;
+    find_jpeg_segment(file, [&](unsigned char kind, std::size_t at) {
+        const bool found = kind == 0xe1 && stands_at(file, at, {"Exif\0\0", 6});
+        if (found) orientation = tiff_orientation(file, at + 6);
+        return found;
+    });
+    return orientation;
+}
+
+// What a JPEG file is that stb_image does not read, or reads in other colours; null if
+// there is nothing.
+inline const char* jpeg_kind_unread(const Bytes& file) {
+    const char* why = nullptr;
+    bool adobe = false; // says what four channels mean
+    find_jpeg_segment(file, [&](unsigned char kind, std::size_t at) {
+        adobe = adobe || (kind == 0xee && stands_at(file, at, "Adobe"));
+        const bool frame = kind >= 0xc0 && kind <= 0xcf && kind != 0xc4 &&
+                           kind != 0xc8 && kind != 0xcc;
+        if (!frame || at + 6 > file.size()) return false;
+        if (kind > 0xc2)
+            why = "that is lossless, in layers or coded arithmetically; save it as "
+                  "baseline JPEG or PNG";
+        else if (file[at] != 8)
+            why = "of more than 8 bits per channel; save it with 8 bits";
+        else if (file[at + 5] == 4 && !adobe)
+            why = "of four channels that does not say what they mean; save it as RGB";
+        return why != nullptr;
+    });
+    return why;
 }
 
 // The damage of a JPEG file, or null, segment by segment: stb_image trusts its tables,
