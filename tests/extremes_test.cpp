@@ -119,10 +119,10 @@ TEST_CASE("extremes: far from the origin float says that it does not hold, and d
     CHECK(lost.remarks.find("use double, or move the scene towards the origin") !=
           std::string::npos);
     const Plan plan = survey(examples::extreme_room<float>(at(1e6)).world, {});
-    REQUIRE(plan.remarks.size() == 1);
-    CHECK(lost.remarks == plan.remarks.front() + "\n");
+    for (const std::string& remark : plan.remarks)
+        CHECK(lost.remarks.find(remark + "\n") != std::string::npos);
     const auto gone = survey(examples::extreme_room<float>(at(1e12)).world, {});
-    REQUIRE(gone.remarks.size() == 1);
+    REQUIRE(!gone.remarks.empty());
     CHECK(gone.remarks.front() ==
           "an object is so small or so far away that float keeps nothing of its size; "
           "use double, or move the scene towards the origin");
