@@ -96,8 +96,8 @@ ljus_break_it(NAME obj-map-alone HEADER io/detail/obj_material.hpp TEST load_obj
 
 # What one material says, the next one has.
 ljus_break_it(NAME obj-next-material HEADER io/detail/obj_material.hpp TEST load_obj
-    FROM "has_diffuse = has_dissolve = false;\n    }"
-    TO   "}"
+    FROM "has_diffuse = has_dissolve = false;"
+    TO   ";"
     CASES "load_obj: files of other programs")
 
 # Options before the name of a picture are a part of it.
