@@ -26,6 +26,7 @@ Sphere ball_at(int place) {
 /// Calls f(index, material) for each ball.
 /// \param white  Whether to make materials white, where that is possible (not for
 ///               gold).
+/// \param f      Called with the index and a material of any type.
 template <typename F>
 void for_each_ball(bool white, F f) {
     const auto color = [&](const Rgb& usual) { return white ? Rgb{1} : usual; };

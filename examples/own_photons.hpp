@@ -41,7 +41,11 @@ struct OwnMap {
 
 // [irradiance]
 /// The irradiance at a point by the photons with a number of bounces, in W/m^2.
-/// \param normal  Of the side that is lit; photons travel against it.
+/// \param map      The photons.
+/// \param x        The point.
+/// \param normal   Of the side that is lit; photons travel against it.
+/// \param radius   Of the disc of photons, in scene units.
+/// \param bounces  Only photons with this number count.
 inline ljus::Rgb irradiance(const OwnMap& map, const ljus::Vec3& x,
                             const ljus::Vec3& normal, float radius, int bounces) {
     ljus::Rgb sum{0};

@@ -1,5 +1,5 @@
 # Runs Doxygen in FOLDER and shows its warnings, which it also leaves in warnings.txt;
-# with GATE they are errors. What a test or benchmark has for itself needs no documentation.
+# with GATE they are errors. What a program has for itself needs no documentation.
 cmake_minimum_required(VERSION 3.22)
 file(REMOVE "${FOLDER}/warnings.txt")
 # The pages' numbers: Doxygen's filter pulls them from the tables of this folder.
@@ -21,7 +21,7 @@ endif()
 set(warnings)
 if(EXISTS "${FOLDER}/warnings.txt")
     file(READ "${FOLDER}/warnings.txt" warnings)
-    string(REGEX REPLACE "[^\n]*/(tests|benchmarks)/[^\n]* is not documented\\.\n?" "" warnings "${warnings}")
+    string(REGEX REPLACE "[^\n]*/(tests|benchmarks|examples|chapters)/[^\n]* is not documented\\.\n?" "" warnings "${warnings}")
     string(STRIP "${warnings}" warnings)
 endif()
 if(NOT lost EQUAL 0)

@@ -170,6 +170,8 @@ decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f
 
 /// Whether a vertex lies on an object that is nearly_specular(). This is a property of
 /// the whole object, not of the point, because photons are aimed at whole objects.
+/// \param world     The closed scene.
+/// \param vertex    The vertex.
 /// \param material  The material at the vertex.
 template <AnyWorld W, std::floating_point T, Material M>
 [[nodiscard]] bool nearly_specular_at(const W& world, const VertexT<T>& vertex,

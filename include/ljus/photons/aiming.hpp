@@ -22,6 +22,7 @@ namespace ljus {
 
 /// The objects with specular lobes, in the order of the scene: the targets of aimed
 /// photons.
+/// \param world  The closed scene.
 /// \param gloss  Whether those that are nearly_specular() count as well.
 template <AnyWorld W>
 [[nodiscard]] std::vector<ObjectId> specular_objects(const W& world,

@@ -46,6 +46,7 @@ FirstHitRenderer(const W&, FirstHit) -> FirstHitRenderer<W>;
 /// One sample of the directional albedo of a vertex: the fraction of the light from
 /// `wo` that its material reflects and transmits in all directions. The weight of
 /// sample() has that mean for every material. For a Lambertian surface it has no noise.
+/// \param world   The closed scene.
 /// \param vertex  The vertex.
 /// \param stream  Three numbers are drawn.
 /// \return Per channel, at least 0.

@@ -165,9 +165,9 @@ struct SceneHitT {
     bool shared = false; ///< Whether other objects have surfaces in the same place.
 };
 
-/// A closed scene. It owns shapes, materials and lights, a tree over the shapes \cite
-/// rubin1980, and data derived from the lights. It cannot be changed, so its members
-/// are always consistent.
+/// A closed scene. It owns shapes, materials and lights, a tree over the shapes
+/// \cite rubin1980, and data derived from the lights. It cannot be changed, so its
+/// members are always consistent.
 ///
 ///     const World world(std::move(scene));
 /// \tparam S        A Scene.
