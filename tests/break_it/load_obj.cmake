@@ -124,12 +124,6 @@ ljus_break_it(NAME obj-backslash HEADER io/detail/obj_text.hpp TEST load_obj
     TO   "if (false) {"
     CASES "load_obj: files of other programs")
 
-# A bridge to a hole may be crossed by an ear.
-ljus_break_it(NAME polygon-bridge HEADER geometry/detail/polygon.hpp TEST load_obj
-    FROM "if (turn(p, next, q) > 0 && turn(p, q, last) > 0) return false;"
-    TO   ";"
-    CASES "load_obj: random polygons with holes*")
-
 # A mesh inside out is not remarked.
 ljus_break_it(NAME obj-inside-out HEADER io/obj_report.hpp TEST load_obj
     FROM "if (volume < 0)"
