@@ -24,8 +24,7 @@ Sphere ball_at(int place) {
 }
 
 /// Calls f(index, material) for each ball.
-/// \param white  Whether to make materials white, where that is possible (not for
-///               gold).
+/// \param white  Whether to make materials white, if possible (not gold).
 /// \param f      Called with the index and a material of any type.
 template <typename F>
 void for_each_ball(bool white, F f) {

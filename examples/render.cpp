@@ -42,19 +42,6 @@ using namespace ljus;
 using Request = examples::RenderRequest;
 using examples::RendererName;
 
-/// The pixel of "120,80".
-std::pair<int, int> pixel_of(const Request& r) {
-    const auto pixel = examples::two_numbers(r.pixel, ',');
-    if (!pixel || pixel->first < 0 || pixel->first >= r.picture.width ||
-        pixel->second < 0 || pixel->second >= r.picture.height)
-        throw std::invalid_argument("--explain is " + r.pixel +
-                                    "; it must be X,Y, counted from the upper left "
-                                    "corner, from 0,0 to " +
-                                    std::to_string(r.picture.width - 1) + "," +
-                                    std::to_string(r.picture.height - 1));
-    return *pixel;
-}
-
 /// Renders, or explains one pixel.
 /// \return What was rendered; no image if a pixel was explained.
 template <typename Renderer, std::floating_point T>
@@ -89,10 +76,15 @@ RenderedT<T> run(const Renderer& renderer, const CameraT<T>& camera, const Reque
     return rendered;
 }
 
+/// Prints remarks on the terminal, a line each.
+void tell(const std::vector<std::string>& remarks) {
+    for (const std::string& remark : remarks)
+        std::fprintf(stderr, "%s\n", remark.c_str());
+}
+
 template <typename S>
 RenderedT<typename S::Scalar> path_trace(const Room<S>& room, const Request& r) {
-    for (const auto& remark : path_remarks(room.world))
-        std::fprintf(stderr, "%s\n", remark.c_str());
+    tell(path_remarks(room.world));
     const PathTracer tracer(room.world, r.path);
     return run(tracer, room.camera, r);
 }
@@ -179,12 +171,12 @@ RenderedT<typename S::Scalar> render_passes(const Room<S>& room, Request& r) {
 template <typename S>
 RenderedT<typename S::Scalar> render_promised(const Room<S>& room, Request& r) {
     const examples::StopWatch watch;
-    const auto tell = [&r](const auto& kept) {
+    const auto say = [&r](const auto& kept) {
         if (!r.quiet) std::printf("  %s\n", kept.why.c_str());
         std::fflush(stdout);
     };
     const auto now = [&watch] { return watch.seconds(); };
-    auto kept = keep(room.world, room.camera, r.picture, r.promise, now, r.quiet, tell);
+    auto kept = keep(room.world, room.camera, r.picture, r.promise, now, r.quiet, say);
     r.photon = kept.recipe.settings;
     r.picture.samples = kept.recipe.rays;
     r.preset = static_cast<Preset>(kept.choice.recipe); // one per preset
@@ -215,8 +207,8 @@ RenderedT<typename S::Scalar> draw_photons(const Room<S>& room, const Request& r
     using enum PhotonKind;
     RenderedT<T> drawn{
         scene_drawing(room.world, room.camera, r.picture.width, r.picture.height)};
-    for (const MapType type : {MapType::general, MapType::caustics}) {
-        const bool caustics = type == MapType::caustics;
+    for (const bool caustics : {false, true}) {
+        const MapType type = caustics ? MapType::caustics : MapType::general;
         if (r.photons != "all" && (r.photons == "caustic") != caustics) continue;
         examples::ProgressBar bar(caustics ? "caustics photons" : "general photons",
                                   r.quiet);
@@ -235,9 +227,8 @@ RenderedT<typename S::Scalar> draw_photons(const Room<S>& room, const Request& r
             const PhotonCount found = census(traced.photons)[kind];
             const RgbT<double>&flux = found.flux, &emitted = traced.audit.emitted;
             if (!r.quiet)
-                std::printf("  %-16s %10" PRIu64
-                            " stored, %lld seen; %.4g, %.4g, %.4g W "
-                            "of %.4g, %.4g, %.4g W emitted\n",
+                std::printf("  %-16s %10" PRIu64 " stored, %lld seen; "
+                            "%.4g, %.4g, %.4g W of %.4g, %.4g, %.4g W emitted\n",
                             name_of(kind), found.photons, seen, flux.x, flux.y, flux.z,
                             emitted.x, emitted.y, emitted.z);
         }
@@ -245,8 +236,7 @@ RenderedT<typename S::Scalar> draw_photons(const Room<S>& room, const Request& r
     return drawn;
 }
 
-/// Loads the scene of a request, and lists its files; prints remarks about its meshes on
-/// the terminal.
+/// Loads the scene of a request, lists its files, and prints remarks about its meshes.
 template <std::floating_point T>
 LoadedSceneT<T> load_scene(Request& r) {
     const FilesRead read;
@@ -331,11 +321,9 @@ void print_plan(const W& world, const Request& r) {
         const Plan plan = survey(world, r.photon);
         for (const PlanItem* item : plan.items())
             std::fputs(to_text(*item).c_str(), stdout);
-        for (const std::string& remark : plan.remarks)
-            std::fprintf(stderr, "%s\n", remark.c_str());
+        tell(plan.remarks);
     } else if (r.plan && r.renderer == RendererName::path) {
-        for (const std::string& remark : path_remarks(world))
-            std::fprintf(stderr, "%s\n", remark.c_str());
+        tell(path_remarks(world));
     }
     if (r.hooks)
         for (const std::string& line : survey_hooks(world)) std::puts(line.c_str());

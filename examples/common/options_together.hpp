@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ljus/render/passes.hpp"
@@ -194,6 +195,20 @@ inline void check_options(const CommandLine& line, RenderRequest& r,
         throw std::invalid_argument("--out is " + file +
                                     "; a file NAME.slice is for --slice K/N");
     }
+}
+
+/// The pixel of --explain.
+/// \throws std::invalid_argument  if it does not lie in the picture.
+[[nodiscard]] inline std::pair<int, int> pixel_of(const RenderRequest& r) {
+    const auto pixel = two_numbers(r.pixel, ',');
+    if (!pixel || pixel->first < 0 || pixel->first >= r.picture.width ||
+        pixel->second < 0 || pixel->second >= r.picture.height)
+        throw std::invalid_argument("--explain is " + r.pixel +
+                                    "; it must be X,Y, counted from the upper left "
+                                    "corner, from 0,0 to " +
+                                    std::to_string(r.picture.width - 1) + "," +
+                                    std::to_string(r.picture.height - 1));
+    return *pixel;
 }
 
 /// Says on stderr which options have no effect with the others.

@@ -30,8 +30,8 @@ ljus_break_it(NAME contacts-order HEADER scene/contacts.hpp TEST contacts
 
 # A rug is hidden by the floor on which it lies.
 ljus_break_it(NAME contacts-area HEADER scene/contacts.hpp TEST contacts
-    FROM "key.push_back(area);"
-    TO   "key.push_back(-area);"
+    FROM "key[8] = double(covered"
+    TO   "key[8] = -double(covered"
     CASES "contacts: which of two*")
 
 # Tiles that share an edge are in contact.
@@ -46,10 +46,10 @@ ljus_break_it(NAME contacts-plane HEADER geometry/touching.hpp TEST contacts
     TO   "if (false && !(std::abs(glm::dot(normal, other"
     CASES "contacts: what only shares an edge*")
 
-# The search halves its list and forgets one half.
-ljus_break_it(NAME contacts-half HEADER scene/contacts.hpp TEST contacts
-    FROM "return overlapping_parts(std::move(list), budget, visit);"
-    TO   "return;"
+# The search takes the look of a node's first part for that of all.
+ljus_break_it(NAME contacts-looks HEADER scene/contacts.hpp TEST contacts
+    FROM "looks[i] = several;"
+    TO   ";"
     CASES "contacts: a search among thousands*")
 
 # A path that begins in a stack of bodies skips where one ends on the next.

@@ -6,16 +6,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
-#include <map>
-#include <numeric>
 #include <span>
 #include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "ljus/accel/detail/bvh_build.hpp"
 #include "ljus/function_ref.hpp"
 #include "ljus/geometry/touching.hpp"
 #include "ljus/scene/scene.hpp"
@@ -137,61 +137,44 @@ template <std::floating_point T>
     return within(0) && within(1) && within(2);
 }
 
-/// Visits the pairs of parts of different looks whose boxes overlap, some more than
-/// once. The list is halved across the axis that separates it best, until that helps no
-/// more.
-/// \param budget  Decreases by the number of comparisons; the search ends at 0.
+/// Visits the pairs of parts of different looks whose boxes overlap: each part asks a
+/// tree over all of them.
+/// \param budget  Decreases by the number of nodes visited; the search ends at 0.
 template <std::floating_point T, typename Visit>
-void overlapping_parts(std::vector<ContactPartT<T>> list, long long& budget,
-                       const Visit& visit) {
-    const auto alike = [&](const ContactPartT<T>& part) {
-        return part.look == list[0].look;
+[[gnu::cold]] void overlapping_parts(const std::vector<ContactPartT<T>>& parts,
+                                     long long& budget, const Visit& visit) {
+    std::vector<BoxT<T>> boxes;
+    for (const ContactPartT<T>& part : parts) boxes.push_back(part.box);
+    const BvhNodesT<T> tree = build_bvh<T>(boxes);
+    // The look that all parts below a node have; children come after their parents.
+    constexpr std::uint32_t several = 0xffffffffu;
+    std::vector<std::uint32_t> looks(tree.nodes.size(), several);
+    const auto part_at = [&](std::uint32_t slot) -> const ContactPartT<T>& {
+        return parts[tree.primitive_ids[slot]];
     };
-    if (std::all_of(list.begin(), list.end(), alike)) return;
-    const auto size = list.size();
-    if (size > 16) {
-        Vec3T<T> twice{0};
-        for (const auto& part : list) twice += part.box.low + part.box.high;
-        const Vec3T<T> middle = twice / (T(2) * T(size));
-        std::array<std::size_t, 3> below{}, above{}; // how many reach to each side
-        for (const auto& part : list)
-            for (glm::length_t axis = 0; axis < 3; ++axis) {
-                const auto k = static_cast<std::size_t>(axis);
-                below[k] += part.box.low[axis] <= middle[axis] ? 1 : 0;
-                above[k] += part.box.high[axis] >= middle[axis] ? 1 : 0;
-            }
-        std::size_t k = 0, least = 3 * size;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::size_t both = below[axis] + above[axis];
-            if (5 * std::max(below[axis], above[axis]) > 4 * size || both >= least)
-                continue;
-            k = axis;
-            least = both;
-        }
-        if (4 * least <= 5 * size) {
-            const auto axis = static_cast<glm::length_t>(k);
-            std::vector<ContactPartT<T>> half;
-            half.reserve(below[k]);
-            for (const auto& part : list)
-                if (part.box.low[axis] <= middle[axis]) half.push_back(part);
-            overlapping_parts(std::move(half), budget, visit);
-            std::erase_if(list, [&](const ContactPartT<T>& part) {
-                return !(part.box.high[axis] >= middle[axis]);
-            });
-            return overlapping_parts(std::move(list), budget, visit);
-        }
+    for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+        const auto& [box, first, count] = tree.nodes[i];
+        looks[i] = count == 0 ? looks[first] : part_at(first).look;
+        const std::uint32_t more = count == 0 ? 2 : count;
+        for (std::uint32_t k = 1; k < more; ++k)
+            if ((count == 0 ? looks[first + k] : part_at(first + k).look) != looks[i])
+                looks[i] = several;
     }
-    std::sort(list.begin(), list.end(),
-              [](const auto& a, const auto& b) { return a.look < b.look; });
-    for (auto group = list.begin(); group != list.end();) {
-        const auto next = std::find_if(group, list.end(), [&](const auto& part) {
-            return part.look != group->look;
-        });
-        for (; group != next; ++group)
-            for (auto other = next; other != list.end(); ++other) {
-                if (--budget < 0) return;
-                if (overlap(group->box, other->box)) visit(*group, *other);
-            }
+    std::vector<std::uint32_t> open;
+    for (const ContactPartT<T>& part : parts) {
+        open.assign(1, 0);
+        while (!open.empty()) {
+            if (--budget < 0) return;
+            const std::uint32_t at = open.back();
+            open.pop_back();
+            const auto& [box, first, count] = tree.nodes[at];
+            if (looks[at] == part.look || !overlap(box, part.box)) continue;
+            if (count == 0) open.insert(open.end(), {first, first + 1});
+            for (std::uint32_t slot = first; slot < first + count; ++slot)
+                if (const ContactPartT<T>& other = part_at(slot);
+                    part.look < other.look && overlap(part.box, other.box))
+                    visit(part, other);
+        }
     }
 }
 
@@ -218,7 +201,7 @@ contacts_between(const std::vector<ContactPartT<T>>& parts,
              .alike = area && shared->alike,
              .opposed = area && !shared->alike});
     };
-    long long budget = 100'000'000;
+    long long budget = 1'000'000'000;
     overlapping_parts(parts, budget, visit);
     found.complete = budget >= 0;
     auto& pairs = found.pairs;
@@ -309,13 +292,24 @@ template <Shape G>
             }};
 }
 
+/// What decides between surfaces in one place, in this order: kind, emission, index of
+/// refraction, absorption, area, what is reflected. The smaller list is met.
+using ContactKey = std::array<double, 15>;
+
+/// Writes a colour into a key: the brighter one is smaller.
+template <std::floating_point T>
+void put_color(ContactKey& key, std::size_t at, const RgbT<T>& color) {
+    key[at] = -double(color.x) - double(color.y) - double(color.z);
+    key[at + 1] = -double(color.x);
+    key[at + 2] = -double(color.y);
+}
+
 /// The materials of one type, as ContactShapesT.
 struct ContactMaterials {
     const void* list;                                ///< A vector of materials.
     std::uint32_t count;                             ///< Its size.
     ContactKind (*kind)(const void*, std::uint32_t); ///< Without emission.
-    /// Numbers that tell materials apart: of a body, and of what it reflects.
-    std::array<std::vector<double>, 2> (*key)(const void*, std::uint32_t);
+    void (*put)(const void*, std::uint32_t, ContactKey&);
 };
 
 /// A list of materials for a search.
@@ -324,10 +318,6 @@ template <Material M>
     using T = typename M::Scalar;
     static constexpr auto at = [](const void* all, std::uint32_t i) -> const M& {
         return (*static_cast<const std::vector<M>*>(all))[i];
-    };
-    static constexpr auto add = [](std::vector<double>& key, const RgbT<T>& color) {
-        key.push_back(-double(color.x) - double(color.y) - double(color.z));
-        for (int c = 0; c < 3; ++c) key.push_back(-double(color[c]));
     };
     return {.list = &list,
             .count = static_cast<std::uint32_t>(list.size()),
@@ -344,20 +334,17 @@ template <Material M>
                     else
                         return MayAbsorb<M> ? ContactKind::body : ContactKind::opaque;
                 },
-            .key =
-                [](const void* all, std::uint32_t i) {
+            .put =
+                [](const void* all, std::uint32_t i, ContactKey& key) {
                     const M& m = at(all, i);
-                    std::array<std::vector<double>, 2> key;
-                    if constexpr (Refractive<M>)
-                        key[0].push_back(-double(refractive_index(m)));
-                    if constexpr (MayAbsorb<M>) add(key[0], absorption(m));
+                    if constexpr (Refractive<M>) key[4] = -double(refractive_index(m));
+                    if constexpr (MayAbsorb<M>) put_color(key, 5, absorption(m));
                     const Vec3T<T> wo{T(0.6), T(0), T(0.8)}, up{T(0), T(0), T(1)};
                     const auto& here = material_at(m, Vec3T<T>{T(0)}, Vec2T<T>{T(0.5)});
-                    add(key[1], evaluate(here, wo, up));
-                    const auto next =
-                        sample(here, wo, Vec3T<T>{T(0.5)}, Transport::flux, Lobes::all);
-                    add(key[1], next ? next->weight : RgbT<T>{T(0)});
-                    return key;
+                    put_color(key, 9, evaluate(here, wo, up));
+                    if (const auto next = sample(here, wo, Vec3T<T>{T(0.5)},
+                                                 Transport::flux, Lobes::all))
+                        put_color(key, 12, next->weight);
                 }};
 }
 
@@ -370,7 +357,12 @@ struct ContactSearchT {
     std::vector<ObjectId> ids{};                      ///< All objects.
     std::vector<ContactKind> kinds{};                 ///< What they are.
     std::vector<ContactPartT<T>> whole{};             ///< Their boxes and looks.
+    std::vector<std::uint32_t> before{0}; ///< Number of materials of the types before.
 
+    /// The number of a material.
+    [[nodiscard]] std::uint32_t number(MaterialId material) const {
+        return before[material.type] + material.index;
+    }
     /// The properties of an object.
     [[nodiscard]] const ObjectT<T>& object(ObjectId id) const {
         return objects[id.type][id.index];
@@ -380,9 +372,8 @@ struct ContactSearchT {
 /// Lists the objects of a search.
 template <std::floating_point T>
 void list_objects(ContactSearchT<T>& search) {
-    std::vector<std::uint32_t> before{0}; // materials of the types before
     for (const ContactMaterials& list : search.materials)
-        before.push_back(before.back() + list.count);
+        search.before.push_back(search.before.back() + list.count);
     for (std::uint32_t type = 0; type < search.shapes.size(); ++type)
         for (std::uint32_t i = 0; i < search.objects[type].size(); ++i) {
             const ObjectT<T>& object = search.objects[type][i];
@@ -398,8 +389,8 @@ void list_objects(ContactSearchT<T>& search) {
             search.whole.push_back({.box = widened(box, reach_of(box)),
                                     .object = number,
                                     .look = kind == ContactKind::opaque
-                                                ? before[of] + which
-                                                : before.back() + number});
+                                                ? search.number(object.material)
+                                                : search.before.back() + number});
         }
 }
 
@@ -444,62 +435,61 @@ template <std::floating_point T>
     return parts;
 }
 
+/// The area of each material in a scene, by the material's number, in units of 2^-30 of
+/// the largest area of an object: sums of whole numbers do not depend on an order.
+template <std::floating_point T>
+[[nodiscard, gnu::cold]] std::vector<long long>
+covered_areas(const ContactSearchT<T>& search) {
+    std::vector<long long> covered(search.before.back());
+    double most = 0;
+    const auto area = [&](ObjectId id) {
+        const ContactShapesT<T>& shapes = search.shapes[id.type];
+        return shapes.area(shapes.list, id.index);
+    };
+    for (const ObjectId id : search.ids) most = std::max(most, area(id));
+    for (const ObjectId id : search.ids)
+        if (const double part = area(id) / most; part <= 1) // not where most is 0
+            covered[search.number(search.object(id).material)] +=
+                std::llround(std::ldexp(part, 30));
+    return covered;
+}
+
 /// Completes contacts: the objects that take part, and which of them is met.
 /// \param contacts  Its pairs hold numbers of objects; they become positions.
 template <std::floating_point T>
-void rank_contacts(const ContactSearchT<T>& search, ContactsT<T>& contacts) {
-    using Id = std::pair<std::uint32_t, std::uint32_t>;
-    std::map<Id, std::vector<double>> areas; // by material
-    for (const ObjectId id : search.ids) {
-        const MaterialId material = search.object(id).material;
-        const ContactShapesT<T>& shapes = search.shapes[id.type];
-        areas[{material.type, material.index}].push_back(
-            shapes.area(shapes.list, id.index));
-    }
-    for (auto& [material, list] : areas) { // sorted, so that the order has no effect
-        std::sort(list.begin(), list.end());
-        list = {std::accumulate(list.begin(), list.end(), 0.0)};
-    }
-    for (const ContactT<T>& contact : contacts.pairs)
-        contacts.box = box_union(contacts.box, contact.box);
+[[gnu::cold]] void rank_contacts(const ContactSearchT<T>& search,
+                                 ContactsT<T>& contacts) {
+    const std::vector<long long> covered = covered_areas(search);
     for (const auto& list : search.objects)
         contacts.position.emplace_back(list.size(), 0xffffffffu);
-    std::vector<std::vector<double>> keys; // the smallest is met
-    const auto position = [&](std::uint32_t number) {
-        const ObjectId id = search.ids[number];
-        std::uint32_t& at = contacts.position[id.type][id.index];
-        if (at < contacts.objects.size()) return at;
-        at = static_cast<std::uint32_t>(contacts.objects.size());
-        const ContactKind kind = search.kinds[number];
-        contacts.objects.push_back({.object = id, .kind = kind});
-        const ObjectT<T>& object = search.object(id);
-        const auto [of, which] = object.material;
-        const double area = areas[{of, which}][0];
-        const auto [body, reflected] =
-            search.materials[of].key(search.materials[of].list, which);
-        std::vector<double> key{double(kind)};
-        if (kind == ContactKind::lamp)
-            for (const double less :
-                 {-double(object.emission.x) - double(object.emission.y) -
-                      double(object.emission.z),
-                  -double(object.emission.x), -double(object.emission.y)})
-                key.push_back(less);
-        key.insert(key.end(), body.begin(), body.end());
-        key.push_back(area);
-        key.insert(key.end(), reflected.begin(), reflected.end());
-        keys.push_back(std::move(key));
-        return at;
-    };
+    std::vector<ContactKey> keys;
     for (ContactT<T>& contact : contacts.pairs) {
-        for (std::uint32_t& one : contact.pair) one = position(one);
+        contacts.box = box_union(contacts.box, contact.box);
+        for (std::uint32_t& one : contact.pair) { // becomes a position
+            const ObjectId id = search.ids[one];
+            std::uint32_t& at = contacts.position[id.type][id.index];
+            if (at == 0xffffffffu) {
+                at = static_cast<std::uint32_t>(keys.size());
+                const ContactKind kind = search.kinds[one];
+                contacts.objects.push_back({.object = id, .kind = kind});
+                const ObjectT<T>& object = search.object(id);
+                ContactKey& key = keys.emplace_back();
+                key[0] = double(kind);
+                put_color(key, 1, object.emission);
+                key[8] = double(covered[search.number(object.material)]);
+                const ContactMaterials& list = search.materials[object.material.type];
+                list.put(list.list, object.material.index, key);
+            }
+            one = at;
+        }
         for (std::size_t k = 0; k < 2; ++k)
             contacts.objects[contact.pair[k]].others.emplace_back(contact.pair[1 - k],
                                                                   contact.box);
     }
-    std::vector<std::uint32_t> order(keys.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return keys[a] < keys[b];
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t at = 0; at < keys.size(); ++at) order.push_back(at);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
     });
     for (std::uint32_t rank = 0; rank < order.size(); ++rank)
         contacts.objects[order[rank]].rank = rank;

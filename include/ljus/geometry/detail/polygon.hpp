@@ -127,17 +127,10 @@ private:
                 continue;
             }
             if (after[p] == gone) continue;
-            if (p == a || p == b || p == c) continue;
-            bool shares = false; // coincides with a corner of the ear
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (corners[p] != corners[ear[k]]) continue;
-                shares = true; // then no edge at p may lead into the ear
-                const std::uint32_t next = ear[(k + 1) % 3], last = ear[(k + 2) % 3];
-                for (const std::uint32_t q : {after[p], before[p]})
-                    if (turn(p, next, q) > 0 && turn(p, q, last) > 0) return false;
-            }
-            if (!shares && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 &&
-                turn(c, a, p) >= 0)
+            if (corners[p] == corners[a] || corners[p] == corners[b] ||
+                corners[p] == corners[c])
+                continue; // it shares a corner of a bridge; its edges are not within
+            if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0)
                 return false;
         }
         return true;
