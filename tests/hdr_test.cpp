@@ -388,7 +388,8 @@ TEST_CASE("hdr: a plain row whose first colour begins like a coded one") {
 }
 
 TEST_CASE("hdr: a header whose lines end in CR LF, as some systems have it") {
-    const ljus::Image image = ljus::load_hdr(LJUS_TEST_INPUTS "/crlf.hdr");
+    ljus::Image image;
+    REQUIRE_NOTHROW(image = ljus::load_hdr(LJUS_TEST_INPUTS "/crlf.hdr"));
     REQUIRE(image.width == 8);
     REQUIRE(image.height == 2);
     for (const ljus::Rgb& color : image.pixels)

@@ -403,38 +403,47 @@ TEST_CASE("photon mapping: where a path ends that has gathered, and who shows a 
 TEST_CASE("photon mapping: behind a glossy surface only photons answer for gloss") {
     // A path goes on from a glossy floor, also if a cache has its diffuse light. Where
     // it then meets a glossy ceiling, the general map ends it: photons know where they
-    // come from. Irradiance does not, and there the path asks the lamp, and goes on.
-    Scene<Shapes<Quad>, Materials<Glossy>, Lights<PointLight>> room;
-    const auto gloss = room.add(Glossy{.reflectance = Rgb{0.9f}, .roughness = 0.3f});
-    room.add(Quad{{-9, -1, -9}, {0, 0, 18}, {18, 0, 0}}, gloss);
-    room.add(Quad{{-9, 1, -9}, {18, 0, 0}, {0, 0, 18}}, gloss);
-    room.add(PointLight{.position{0, 0.5f, 0}, .intensity = Rgb{1}});
-    const World world(std::move(room));
-    for (const auto& [indirect, owner] : {std::pair{IndirectLight::rays, "shadow ray"},
-                                          {IndirectLight::map, "general map"},
-                                          {IndirectLight::gather, "shadow ray"},
-                                          {IndirectLight::cache, "shadow ray"}}) {
-        const std::string who = owner; // captured below
-        CAPTURE(who);
-        const auto settings = distinct(indirect, DirectLight::sampled);
-        const PhotonMapper mapper(world, settings, abilities<Gathering>);
-        int seconds = 0, longer = 0;
-        for (std::uint64_t i = 0; i < 50; ++i) {
-            auto stream = random_stream(test_seed(6), Pass::user, 0, i);
-            Counts counts;
-            PathLog log;
-            auto context = context_of(stream, counts, log);
-            (void)radiance(mapper, Ray{.direction{0.2f, -1, 0.1f}}, context);
-            for (const auto& line : log.lines)
-                if (line.what != "vertex" && line.position.y > 0) {
-                    CHECK(line.what == who);
-                    ++seconds;
-                }
-            longer += counts.bounce_rays > 1;
+    // come from. Irradiance does not, and there the path asks the lamp, and goes on. At
+    // a matt ceiling the irradiance points end it, and no further gathering.
+    struct Case {
+        IndirectLight indirect;
+        const char *at_gloss, *at_matt;
+    };
+    for (const Case is :
+         {Case{IndirectLight::rays, "shadow ray", "shadow ray"},
+          Case{IndirectLight::map, "general map", "general map"},
+          Case{IndirectLight::gather, "shadow ray", "irradiance points"},
+          Case{IndirectLight::cache, "shadow ray", "irradiance points"}})
+        for (const bool matt : {false, true}) {
+            Scene<Shapes<Quad>, Materials<Glossy, Lambertian>, Lights<PointLight>> room;
+            const auto gloss =
+                room.add(Glossy{.reflectance = Rgb{0.9f}, .roughness = 0.3f});
+            const auto above = matt ? room.add(Lambertian{}) : gloss;
+            room.add(Quad{{-9, -1, -9}, {0, 0, 18}, {18, 0, 0}}, gloss);
+            room.add(Quad{{-9, 1, -9}, {18, 0, 0}, {0, 0, 18}}, above);
+            room.add(PointLight{.position{0, 0.5f, 0}, .intensity = Rgb{1}});
+            const World world(std::move(room));
+            const std::string who = matt ? is.at_matt : is.at_gloss;
+            CAPTURE(who);
+            const auto settings = distinct(is.indirect, DirectLight::sampled);
+            const PhotonMapper mapper(world, settings, abilities<Gathering>);
+            int seconds = 0, longer = 0;
+            for (std::uint64_t i = 0; i < 50; ++i) {
+                auto stream = random_stream(test_seed(6), Pass::user, 0, i);
+                Counts counts;
+                PathLog log;
+                auto context = context_of(stream, counts, log);
+                (void)radiance(mapper, Ray{.direction{0.2f, -1, 0.1f}}, context);
+                for (const auto& line : log.lines)
+                    if (line.what != "vertex" && line.position.y > 0) {
+                        CHECK(line.what == who);
+                        ++seconds;
+                    }
+                longer += counts.bounce_rays > 1;
+            }
+            CHECK(seconds > 20);
+            CHECK((longer > 10) == (who == "shadow ray"));
         }
-        CHECK(seconds > 20);
-        CHECK((longer > 10) == (indirect != IndirectLight::map));
-    }
 }
 
 TEST_CASE("photon mapping: what the depth cuts off is counted, what is black is not") {
