@@ -14,6 +14,7 @@
 #include "../examples/common/command_line.cpp"
 #include "../examples/common/terminal.hpp"
 #include "scratch_folder.hpp"
+#include "support/little_memory.hpp"
 
 #if __has_include(<sys/resource.h>)
 #include <sys/resource.h>
@@ -387,7 +388,7 @@ TEST_CASE("command_line: all options take numbers by one rule") {
         CHECK(answer({"--seed", seed}) != "accepted");
 }
 
-#if __has_include(<sys/resource.h>)
+#ifdef LJUS_TEST_LITTLE_MEMORY
 TEST_CASE("command_line: threads that cannot be had are asked for before they are "
           "needed") {
     // The root may have any number of threads: memory is what ends.
@@ -406,7 +407,9 @@ TEST_CASE("command_line: threads that cannot be had are asked for before they ar
     CHECK(status == 0);
     CHECK(answer({"--threads", "8"}) == "accepted");
 }
+#endif
 
+#if __has_include(<sys/resource.h>)
 TEST_CASE("command_line: stacks that are too small or too large are told") {
     const auto with = [](const char* size) {
         ::setenv("OMP_STACKSIZE", size, 1);
