@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
                               .columns = {"rays", "report: 1 thread, s", "4 threads, s",
                                           "printed", "is", "1 thread, s",
                                           std::to_string(threads) + " threads, s",
-                                          "ratio", "work of all", "relMSE"}};
+                                          "ratio", "total processor time", "relMSE"}};
         for (const ReportRow& row : {ReportRow{1, 3, 22, 0.14},
                                      {10, 17, 28, 0.61},
                                      {100, 188, 106, 1.79},

@@ -151,7 +151,7 @@ Line save_lines(const Times& measured, const FirstPass& alone, const FirstPass& 
     add("second pass, " + several, fit_line(measured.rays, measured.many), pixels);
     once("photons, 1 thread", alone.emission.wall);
     once("photons, " + several, shared.emission.wall);
-    once("their tree, always 1 thread", alone.tree.wall);
+    once("build the k-d tree, 1 thread", alone.tree.wall);
     save_table(options.path(""), lines);
     return loop;
 }
@@ -492,8 +492,9 @@ template <typename R>
 void oversubscribed(const R& room, const examples::Options& options, int repeats) {
     const PhotonMappingSettings settings = report_settings(0);
     const PhotonMapper mapper(room.world, settings);
-    examples::Table table{.name = "parallel-threads",
-                          .columns = {"threads", "seconds", "speed-up", "work of all"}};
+    examples::Table table{
+        .name = "parallel-threads",
+        .columns = {"threads", "seconds", "speed-up", "total processor time"}};
     const std::array counts{1, 2, 3, 4, 8, 16, 64};
     std::array<std::vector<double>, counts.size()> wall, work;
     for (int repeat = 0; repeat < std::max(3, repeats); ++repeat)
