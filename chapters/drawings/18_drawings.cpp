@@ -1,167 +1,154 @@
 // smoke: --quality draft
 /// \file chapters/drawings/18_drawings.cpp
-/// \brief Chapter 18: a lamp with an area, and a lens with an area.
+/// \brief Chapter 18: the tree of a ray, in the scene and on paper.
 
+#include <cmath>
+#include <optional>
 #include <string>
 
-#include <ljus/scene/lens_camera.hpp>
+#include <ljus/geometry/sphere.hpp>
+#include <ljus/math/frame.hpp>
+#include <ljus/optics/reflection.hpp>
+#include <ljus/optics/refraction.hpp>
 
 #include "common/command_line.hpp"
 #include "common/drawing.hpp"
-#include "drawings/dimension.hpp"
 
 namespace {
 
 using examples::Drawing;
+using examples::flat;
 using examples::Point;
+using Vec = ljus::Vec3T<double>;
 namespace colors = examples::colors;
 
-/// Umbra and penumbra below an object.
-void draw_penumbra(const std::string& folder) {
-    Drawing drawing{.name = "distributed_rays-penumbra",
-                    .description =
-                        "A lamp, an object below it, and the floor: points in "
-                        "the umbra see nothing of the lamp, points in the "
-                        "penumbra a part of it",
-                    .low{-3.6, -0.75},
-                    .high{3.6, 3.35},
-                    .scale = 105};
-    const Point lamp[] = {{-0.7, 3}, {0.7, 3}};
-    const Point object[] = {{-1.0, 1.5}, {1.0, 1.5}};
-    // Where the line from the lamp's end past the object's end meets the floor.
-    const auto floor = [](const Point& from, const Point& past) {
-        const double t = from.y / (from.y - past.y);
-        return Point{from.x + t * (past.x - from.x), 0};
-    };
-    const Point outer[] = {floor(lamp[1], object[0]), floor(lamp[0], object[1])};
-    const Point inner[] = {floor(lamp[0], object[0]), floor(lamp[1], object[1])};
-    draw_area(drawing, {object[0], object[1], inner[1], inner[0]}, "currentColor");
-    for (int side : {0, 1})
-        draw_area(drawing, {object[side], inner[side], outer[side]}, colors::blue);
-    for (int side : {0, 1}) {
-        const examples::Pen thin{.color = colors::orange, .width = 1, .dashed = true};
-        draw_line(drawing, {lamp[1 - side], outer[side]}, thin);
-        draw_line(drawing, {lamp[side], inner[side]}, thin);
-    }
-    draw_line(drawing, {{-3.6, 0}, {3.6, 0}}, {.width = 2});
-    draw_line(drawing, {lamp[0], lamp[1]}, {colors::orange, 6});
-    draw_line(drawing, {object[0], object[1]}, {.width = 5});
-    // One point in the penumbra, with shadow rays to five points of the lamp.
-    const Point x{(inner[1].x + outer[1].x) / 2, 0};
-    for (int i = 0; i < 5; ++i) {
-        const Point y{-0.7 + 1.4 * (i + 0.5) / 5, 3};
-        const double at =
-            x.x + (y.x - x.x) * 0.5; // where it passes the object's height
-        const bool hidden = at < object[1].x;
-        if (hidden)
-            draw_arrow(drawing, x, {at, 1.5}, {colors::red, 1.5});
-        else
-            draw_arrow(drawing, x, y, {colors::green, 1.5});
-    }
-    draw_dot(drawing, x, 4, "currentColor");
-    draw_label(drawing, {0, -0.3}, "umbra");
-    draw_label(drawing, {x.x, -0.3}, "penumbra", colors::blue);
-    draw_label(drawing, {outer[0].x + 0.75, -0.3}, "penumbra", colors::blue);
-    draw_label(drawing, {0, 3.22}, "lamp", colors::orange);
+/// The ray that is refracted at a point of the ball, where there is one.
+std::optional<Vec> refracted(const Vec& d, const Vec& n, double eta) {
+    const auto frame = ljus::frame_around(n);
+    const auto wt = ljus::refract(to_local(frame, -d), eta);
+    if (!wt) return std::nullopt;
+    return to_world(frame, *wt);
+}
+
+constexpr Point lamp_place{5.4, 4.0};
+const ljus::SphereT<double> glass_ball{.center{4.0, 1.5, 0}, .radius = 0.95};
+
+/// The room: a floor, a wall, a ball of glass and a lamp.
+void draw_room(Drawing& drawing) {
+    const auto outline = examples::circle(flat(glass_ball.center), glass_ball.radius);
+    draw_line(drawing, {{0.2, 0}, {7.4, 0}}, {.width = 2.5});
+    draw_line(drawing, {{7.4, 0}, {7.4, 4}}, {.width = 2.5});
+    draw_area(drawing, outline, colors::blue);
+    draw_line(drawing, outline);
+    draw_line(drawing, {{5.0, 4.0}, {5.8, 4.0}}, {.color = colors::orange, .width = 6});
+}
+
+/// A shadow ray from a point to the lamp.
+void draw_shadow_ray(Drawing& drawing, const Vec& from) {
+    draw_line(drawing, {flat(from), lamp_place},
+              {.color = colors::orange, .dashed = true});
+    draw_dot(drawing, flat(from), 4, "currentColor");
+}
+
+/// Where a ray meets the ball.
+Vec on_ball(const Vec& from, const Vec& d, double t_min) {
+    const ljus::RayT<double> ray{.origin = from, .direction = d, .t_min = t_min};
+    return from + intersect(ray, glass_ball).value() * d;
+}
+
+/// The ray that passes through the ball to the floor, and what is reflected within it.
+/// \param hit  Where it enters.
+/// \return Where it leaves.
+Vec draw_through_ball(Drawing& drawing, const Vec& hit, const Vec& d) {
+    const Vec inside = refracted(d, normal(glass_ball, hit), 1 / 1.5).value();
+    const Vec leave = on_ball(hit, inside, 1e-6);
+    const Vec out_normal = normal(glass_ball, leave);
+    draw_arrow(drawing, flat(hit), flat(leave), {colors::blue, 2});
+    const Vec out = refracted(inside, -out_normal, 1.5).value();
+    const Vec end{leave.x - out.x * leave.y / out.y, 0, 0};
+    draw_arrow(drawing, flat(leave), flat(end), {colors::blue, 2});
+    draw_shadow_ray(drawing, end);
+    // What is reflected within the ball leaves it further on.
+    const Vec back = ljus::reflect(inside, out_normal);
+    draw_arrow(drawing, flat(leave), flat(on_ball(leave, back, 1e-6)),
+               {colors::red, 2});
+    return leave;
+}
+
+/// A camera ray at a ball of glass between a diffuse floor and a diffuse wall.
+void draw_tree_in_scene(const std::string& folder) {
+    Drawing drawing{.name = "whitted-scene",
+                    .description = "A camera ray at a ball of glass: one ray is "
+                                   "reflected to a wall, another passes through "
+                                   "the ball to the floor, and from both ends shadow "
+                                   "rays go to the lamp",
+                    .low{-0.2, -0.3},
+                    .high{7.7, 4.3},
+                    .scale = 95};
+    draw_room(drawing);
+    const Vec eye{0.4, 2.7, 0};
+    const Vec d = glm::normalize(Vec{3.85, 2.44, 0} - eye);
+    const Vec hit = on_ball(eye, d, 0);
+    draw_arrow(drawing, flat(eye), flat(hit), {.width = 2.5});
+
+    // Reflected: to the wall.
+    const Vec up = ljus::reflect(d, normal(glass_ball, hit));
+    const Vec high = hit + (7.4 - hit.x) / up.x * up;
+    draw_arrow(drawing, flat(hit), flat(high), {colors::red, 2});
+    draw_shadow_ray(drawing, high);
+
+    const Vec leave = draw_through_ball(drawing, hit, d);
+    for (const Vec& at : {eye, hit, leave})
+        draw_dot(drawing, flat(at), 4, "currentColor");
+    draw_label(drawing, {0.25, 2.95}, "E");
+    draw_label(drawing, {1.6, 2.35}, "camera ray");
+    draw_label(drawing, {4.7, 3.75}, "lamp", colors::orange);
     save_drawing(folder, drawing);
 }
 
-constexpr double lens_radius = 0.8, film_distance = 2, focus_distance = 3.4;
-
-/// The lens at x = 0 with its letters, and the film behind it, around a height.
-void draw_lens_and_film(Drawing& drawing, double height) {
-    const Point film{-film_distance, height};
-    draw_line(drawing, {{0, height - lens_radius}, {0, height + lens_radius}},
-              {colors::blue, 4});
-    draw_line(drawing, {{film.x, film.y - 1.1}, {film.x, film.y + 1.1}}, {.width = 2});
-    draw_line(drawing, {{focus_distance, height - 1.2}, {focus_distance, height + 1.2}},
-              {.width = 1, .dashed = true});
-    draw_dimension(drawing, {film.x, height - 1.35}, {0, height - 1.35}, "d",
-                   "currentColor", -12);
-}
-
-/// Camera rays: all from one point on the film meet in the plane of focus.
-/// \param confusion  The letter c of the chapter for points at the depth `far`.
-void draw_camera_rays(Drawing& drawing, double far, double confusion) {
-    draw_lens_and_film(drawing, 0);
-    // The pixel's ray through the middle is the pinhole's; all others meet it in focus.
-    const Point pixel{-film_distance, -0.2};
-    const double slope = -pixel.y / film_distance;
-    const Point sharp{focus_distance, slope * focus_distance};
-    for (int i = -2; i <= 2; ++i) {
-        const Point lens{0, lens_radius * i / 2};
-        draw_line(drawing, {pixel, lens}, {.color = colors::orange, .width = 1});
-        const double way = (sharp.y - lens.y) / focus_distance;
-        draw_line(drawing, {lens, {far, lens.y + way * far}},
-                  {.color = colors::orange, .width = i == 0 ? 2.2 : 1});
+/// The same as a tree: each node a hit, each branch with its weight.
+void draw_tree_on_paper(const std::string& folder) {
+    Drawing drawing{.name = "whitted-tree",
+                    .description = "The tree of a ray: at each hit on glass it divides "
+                                   "into a reflected and a refracted ray; leaves ask "
+                                   "the lamp",
+                    .low{-0.4, -0.3},
+                    .high{8.4, 3.7},
+                    .scale = 85};
+    // The letters of the chapter: F is reflected, 1 - F goes through.
+    const struct {
+        Point from, to;
+        const char* color;
+        const char* weight;
+        Point label;
+    } branches[] = {{{4, 3.4}, {4, 2.6}, "currentColor", "1", {4.2, 3.1}},
+                    {{4, 2.6}, {1.8, 1.6}, colors::red, "F", {2.8, 2.3}},
+                    {{4, 2.6}, {6.2, 1.6}, colors::blue, "1 − F", {5.45, 2.3}},
+                    {{6.2, 1.6}, {4.9, 0.6}, colors::red, "(1 − F) F", {4.95, 1.25}},
+                    {{6.2, 1.6}, {7.5, 0.6}, colors::blue, "(1 − F)²", {7.25, 1.42}}};
+    for (const auto& branch : branches) {
+        draw_arrow(drawing, branch.from, branch.to, {branch.color, 2});
+        draw_label(drawing, branch.label, branch.weight, branch.color);
     }
-    const double half = confusion * far / 2;
-    draw_line(drawing, {{far, slope * far - half}, {far, slope * far + half}},
-              {colors::red, 4});
-    draw_dot(drawing, pixel, 4, "currentColor");
-    draw_dot(drawing, sharp, 5, colors::green);
-    draw_label(drawing, {pixel.x, 1.3}, "film");
-    draw_label(drawing, {0, 1.05}, "lens", colors::blue);
-    draw_label(drawing, {focus_distance, 1.4}, "plane of focus");
-    draw_label(drawing, {far + 0.3, slope * far}, "c z", colors::red);
-    draw_dimension(drawing, {0, -1.35}, {focus_distance, -1.35}, "s", "currentColor",
-                   -12);
-}
-
-/// The light of a point at the depth z: its tip lies before the film, where a disc is.
-void draw_light_of_point(Drawing& drawing, double z, double confusion) {
-    const double height = -3.6;
-    draw_lens_and_film(drawing, height);
-    // 1/F is 1/s + 1/d, and also 1/z + 1/d'.
-    const double tip = 1 / (1 / focus_distance + 1 / film_distance - 1 / z);
-    const double half = confusion * film_distance / 2;
-    for (const double side : {-1.0, 1.0}) {
-        const Point lens{0, height + side * lens_radius};
-        draw_line(drawing, {{z, height}, lens}, {.color = colors::orange});
-        draw_line(drawing, {lens, {-film_distance, height - side * half}},
-                  {.color = colors::orange});
+    for (const Point& glass : {Point{4, 2.6}, Point{6.2, 1.6}, Point{4.9, 0.6}}) {
+        draw_area(drawing, examples::circle(glass, 0.22), colors::blue);
+        draw_line(drawing, examples::circle(glass, 0.22), {.width = 1.2});
     }
-    draw_area(drawing,
-              {{z, height},
-               {0, height + lens_radius},
-               {-tip, height},
-               {0, height - lens_radius}},
-              colors::orange);
-    draw_line(drawing,
-              {{-film_distance, height - half}, {-film_distance, height + half}},
-              {colors::red, 5});
-    draw_dot(drawing, {z, height}, 5, colors::violet);
-    draw_dot(drawing, {-tip, height}, 4, colors::violet);
-    draw_label(drawing, {-film_distance - 0.3, height}, "c d", colors::red);
-    draw_label(drawing, {z + 0.4, height + 0.25}, "point", colors::violet);
-    draw_dimension(drawing, {-tip, height + 0.95}, {0, height + 0.95}, "d′",
-                   colors::violet);
-    draw_line(drawing, {{-tip, height}, {-tip, height + 1.05}},
-              {.color = colors::violet, .width = 0.8, .dashed = true});
-    draw_dimension(drawing, {0, height - 1.35}, {z, height - 1.35}, "z", colors::violet,
-                   -12);
-    draw_dimension(drawing, {0.2, height - lens_radius}, {0.2, height + lens_radius},
-                   "2R", colors::blue, -18);
-}
-
-/// A thin lens: points in the plane of focus are sharp, others are circles.
-void draw_lens(const std::string& folder) {
-    Drawing drawing{.name = "distributed_rays-thin-lens",
-                    .description =
-                        "Above, rays from one place on the film at the distance d meet "
-                        "in the plane of focus at the distance s, and spread behind "
-                        "it; below, the light of a point at the depth z meets at the "
-                        "distance d′, and covers a disc on the film",
-                    .low{-2.6, -5.3},
-                    .high{6.7, 1.6},
-                    .scale = 80};
-    const double z = 6;
-    // In pixels; of a picture as high as its distance is 1, in scene units.
-    const ljus::LensCameraT<double> camera{
-        .pinhole{.half_height = 0.5}, .radius = lens_radius, .focus = focus_distance};
-    const double confusion = circle_of_confusion(camera, z, 1);
-    draw_camera_rays(drawing, z, confusion);
-    draw_light_of_point(drawing, z, confusion);
+    for (const Point& leaf : {Point{1.8, 1.6}, Point{7.5, 0.6}}) {
+        draw_dot(drawing, leaf, 8, "#808080");
+        const double side = leaf.x < 4 ? -1 : 1; // away from the branch
+        draw_line(drawing, {leaf, {leaf.x + 0.5 * side, leaf.y + 0.75}},
+                  {.color = colors::orange, .width = 1.5, .dashed = true});
+        draw_label(drawing, {leaf.x + 0.6 * side, leaf.y + 0.93}, "lamp",
+                   colors::orange);
+    }
+    draw_line(drawing, {{4.9, 0.38}, {4.5, -0.1}},
+              {.color = colors::red, .dashed = true});
+    draw_line(drawing, {{4.9, 0.38}, {5.3, -0.1}},
+              {.color = colors::blue, .dashed = true});
+    draw_label(drawing, {1.8, 1.25}, "diffuse");
+    draw_label(drawing, {4.65, 2.75}, "glass");
+    draw_label(drawing, {7.5, 0.2}, "diffuse");
     save_drawing(folder, drawing);
 }
 
@@ -170,9 +157,9 @@ void draw_lens(const std::string& folder) {
 /// Makes the chapter's drawings.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 18, distributed rays: drawings.");
+        line.about("Chapter 18, Whitted: drawings.");
         const examples::Options options = line.parse({});
-        draw_penumbra(options.path(""));
-        draw_lens(options.path(""));
+        draw_tree_in_scene(options.path(""));
+        draw_tree_on_paper(options.path(""));
     });
 }

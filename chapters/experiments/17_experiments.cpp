@@ -1,16 +1,18 @@
-// smoke: --quality draft --width 24 --height 16 --rays 1 --photons 1000 --most 4
+// smoke: --quality draft --width 24 --height 24 --rays 1
 /// \file chapters/experiments/17_experiments.cpp
-/// \brief Chapter 17: the experiments behind its tables and plots: how the tree grows,
-/// both branches or one, and what the tree does not carry.
+/// \brief Chapter 17: the experiments behind its table, plots and pictures: the colours
+/// of thin films by a spectrum, a table, three wavelengths, and in closed form.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 
 #include "common/example.hpp"
@@ -18,166 +20,249 @@
 namespace {
 
 using ljus::Image;
-using ljus::Quad;
 using ljus::Rgb;
-using ljus::Sphere;
+using ljus::Vec3;
 
-using TiledFloor = ljus::Textured<ljus::Lambertian, ljus::Checker>;
-using TwoBallsScene = ljus::Scene<
-    ljus::Shapes<Sphere, Quad>,
-    ljus::Materials<ljus::Lambertian, ljus::Glass, ljus::Mirror, TiledFloor>,
-    ljus::Lights<ljus::PointLight>>;
-using TwoBalls = ljus::World<TwoBallsScene>;
+constexpr double water = 1.33;
 
-/// The radiance of the sky, W/(m^2 sr).
-const Rgb sky{0.16f, 0.27f, 0.5f};
+// The colours of a film, by the cosine outside and the thickness in nm.
 
-/// Whitted's well-known picture: a ball of glass before a mirror, over a floor of
-/// red and yellow tiles, under a blue sky.
-TwoBalls two_balls() {
-    TwoBallsScene scene;
-    const auto glass = scene.add(ljus::Glass{.index = 1.5f});
-    const auto mirror = scene.add(ljus::Mirror{.reflectance{0.75f, 0.73f, 0.68f}});
-    const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
-    const auto floor = scene.add(TiledFloor{{.albedo = Rgb{1}},
-                                            {.map{.edge_u{2, 0, 0}, .edge_v{0, 0, 2}},
-                                             .even{0.75f, 0.07f, 0.04f},
-                                             .odd{0.8f, 0.65f, 0.07f}}});
-    scene.add(Sphere{.center{0.5f, 1.5f, 1.2f}, .radius = 1}, glass);
-    scene.add(Sphere{.center{-1.1f, 1.1f, -1.3f}, .radius = 1.1f}, mirror);
-    scene.add(Quad{{-6, 0, 3.5f}, {11, 0, 0}, {0, 0, -16}}, floor);
-    scene.add(Sphere{.radius = 60}, black, sky, true); // its inside
-    scene.add(ljus::PointLight{.position{-3, 7, 5}, .intensity = Rgb{190}});
-    return TwoBalls(std::move(scene));
+glm::dvec3 spectrum(double c, double d) {
+    return ljus::into_gamut(ljus::film_spectral(c, water, d));
 }
-ljus::Camera two_balls_camera() {
-    return ljus::look_at(
-        {.position{0.2f, 2.1f, 8}, .target{-0.1f, 1.1f, 0}, .vfov_degrees = 32});
+glm::dvec3 three(double c, double d) {
+    return ljus::film_three(c, water, d);
+}
+glm::dvec3 beforehand(double c, double d) {
+    return ljus::into_gamut(ljus::film_preintegrated(c, water, d));
 }
 
-/// The sky is seen, but no shadow ray asks for its light. Ambient light takes its
-/// place: the same from everywhere, and no ball shades it.
-ljus::WhittedSettings settings_of(int depth, bool split_glass = true) {
-    return {
-        .max_depth = depth, .split_glass = split_glass, .lamps = false, .ambient = sky};
+/// The mistake: no wave changes its sign, and the sine becomes a cosine.
+glm::dvec3 not_turned(double c, double d) {
+    const double g = std::sqrt(ljus::film_cosine2(c, water));
+    return ljus::into_gamut(ljus::spectrum_color<double>([&](double wavelength) {
+        const double phase = 2 * std::numbers::pi * d * g / wavelength;
+        const double beat = (water * water - 1) * std::cos(phase) / g;
+        return ljus::film_shares(c, water, beat).reflected;
+    }));
 }
 
-/// A picture of the two balls, with a progress bar.
-template <typename Renderer>
-ljus::RenderedT<float> rendered(const std::string& name, const Renderer& renderer,
-                                ljus::RenderSettings picture,
-                                const examples::Options& options) {
-    return examples::rendered(name, renderer, two_balls_camera(), picture, options);
+/// A wedge: the thickness grows to the right, the angle downwards.
+template <typename Color>
+void strip(const examples::Options& options, const std::string& file, Color color) {
+    const int width = options.width * 2, height = options.width / 2;
+    Image image = ljus::make_image(width, height);
+    ljus::parallel_blocks(height, [&](long long y) {
+        for (int x = 0; x < width; ++x) {
+            const double d = 1500.0 * (x + 0.5) / width;
+            const double angle = 80.0 * (double(y) + 0.5) / height;
+            const double c = std::cos(angle * std::numbers::pi / 180);
+            // Divided by the film's mean reflectance, so that colours are left.
+            pixel(image, x, static_cast<int>(y)) =
+                Rgb(color(c, d) * (0.35 / ljus::thick_film(c, water)));
+        }
+    });
+    save_png(image, options.path(file + ".png"));
 }
 
-/// Plot: how many rays the tree of a camera ray has, by its depth.
-void plot_rays(const TwoBalls& world, const examples::Options& options) {
-    const ljus::RenderSettings picture{options.width, options.height, options.samples,
-                                       options.seed};
-    examples::Plot plot{.name = "whitted-rays",
-                        .columns = {"depth", "every ray meets glass: 2^(d+1) - 1",
-                                    "rays that hit one ball of glass: 1 + 2d",
-                                    "the two balls by both branches",
-                                    "the two balls by one branch"},
-                        .y_label = "rays per camera ray, without shadow rays",
-                        .log_y = true,
-                        .more = "set yrange [0.8:200]\nset format y '%g'\n"};
-    const auto rays_of = [](const ljus::Counts& counts) {
-        return double(counts.camera_rays + counts.bounce_rays) /
-               double(counts.camera_rays);
+/// CIE 1976 L*a*b* of a reflectance. White is twice what thick films reflect at the
+/// same angle, about the brightest that a thin one can be.
+glm::dvec3 lab(const glm::dvec3& rgb, double cosine) {
+    const glm::dvec3 c = rgb / (2 * ljus::thick_film(cosine, water));
+    const glm::dvec3 xyz{(0.4124 * c.x + 0.3576 * c.y + 0.1805 * c.z) / 0.9505,
+                         0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z,
+                         (0.0193 * c.x + 0.1192 * c.y + 0.9505 * c.z) / 1.089};
+    const auto f = [](double t) {
+        return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116;
     };
-    for (int depth = 0; depth <= 6; ++depth) {
-        const auto both =
-            rendered("depth " + std::to_string(depth),
-                     ljus::WhittedTracer(world, settings_of(depth)), picture, options);
-        const auto one = rendered("one branch",
-                                  ljus::WhittedTracer(world, settings_of(depth, false)),
-                                  picture, options);
-        plot.rows.push_back({double(depth), std::exp2(depth + 1) - 1, 1.0 + 2 * depth,
-                             rays_of(both.counts), rays_of(one.counts)});
-        if (!options.quiet)
-            std::printf("depth %d: %.3f rays per camera ray by both branches, %.3f by "
-                        "one; %.3f shadow rays\n",
-                        depth, rays_of(both.counts), rays_of(one.counts),
-                        double(both.counts.shadow_rays) /
-                            double(both.counts.camera_rays));
+    return {116 * f(xyz.y) - 16, 500 * (f(xyz.x) - f(xyz.y)),
+            200 * (f(xyz.y) - f(xyz.z))};
+}
+
+/// Nanoseconds per call, over thicknesses and angles; the best of five.
+template <typename Color>
+double nanoseconds(Color color, int calls) {
+    return examples::nanoseconds_a_call(
+        calls,
+        [&] {
+            float sum = 0;
+            for (int i = 0; i < calls; ++i) {
+                const float c = 0.3f + 0.7f * float(i % 97) / 97;
+                sum += color(c, 1500 * float(i % 1009) / 1009).y;
+            }
+            return sum;
+        },
+        5);
+}
+
+/// A bubble before a black background, among four windows. Each ray is split at the
+/// film, so that the picture has no noise.
+struct Studio {
+    using Room = ljus::Scene<ljus::Shapes<ljus::Sphere, ljus::Quad>,
+                             ljus::Materials<ljus::Lambertian, ljus::SoapFilm>>;
+    ljus::SoapFilm film{
+        .thickness = 900, .scale = 0.75f, .level{0, -1, 0}, .up{0, 1, 0}};
+    ljus::World<Room> world{room(film)};
+
+    static Room room(const ljus::SoapFilm& film) {
+        Room scene;
+        const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
+        scene.add(ljus::Sphere{}, scene.add(film));
+        const auto window = [&](const Vec3& corner, const Vec3& u, const Vec3& v) {
+            scene.add(ljus::Quad{corner, u, v}, black, Rgb{8});
+        };
+        window({-7, -3, -2}, {0, 8, 0}, {3, 0, 10}); // left
+        window({7, -1, -2}, {-3, 0, 10}, {0, 5, 0}); // right
+        window({-4, 7, -3}, {8, 0, 0}, {0, 0, 8});   // above
+        window({-6, -4, 12}, {0, 9, 0}, {12, 0, 0}); // behind the camera
+        return scene;
     }
-    save_plot(options.path(""), plot);
-}
 
-/// The root mean square error over the pixels of the glass ball.
-double error_on_glass(const Image& image, const Image& truth) {
-    double sum = 0, count = 0;
-    const ljus::Camera camera = two_balls_camera();
-    const Sphere ball{.center{0.5f, 1.5f, 1.2f}, .radius = 1};
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) {
-            const ljus::Vec2 middle{float(x) + 0.5f, float(y) + 0.5f};
-            if (!intersect(primary_ray(camera, middle, image.width, image.height),
-                           ball))
-                continue;
-            const Rgb d = pixel(image, x, y) - pixel(truth, x, y);
-            sum += double(glm::dot(d, d)) / 3;
-            count += 1;
+    /// The light along a ray, with the film's colour by any method.
+    template <typename Color>
+    glm::dvec3 light(const ljus::Ray& ray, Color color, int depth) const {
+        const auto hit = closest_hit(world, ray);
+        if (!hit) return glm::dvec3(0);
+        const auto at = vertex_at(world, ray, *hit);
+        const Vec3 wo = to_local(at.frame, -ray.direction);
+        if (hit->object.type == 1) return wo.z > 0 ? glm::dvec3(8) : glm::dvec3(0);
+        if (depth == 0) return glm::dvec3(0);
+        const glm::dvec3 r = color(std::min(1.0, std::abs(double(wo.z))),
+                                   double(thickness_at(film, at.point.position)));
+        const Vec3 back = to_world(at.frame, ljus::reflect(wo));
+        return r * light(spawn_ray(at.point, back), color, depth - 1) +
+               (1.0 - r) * light(spawn_ray(at.point, ray.direction), color, depth - 1);
+    }
+};
+
+/// The bubble as seen from the front, with side x side rays per pixel.
+template <typename Color>
+Image bubble(int size, int side, Color color) {
+    const Studio studio;
+    const auto camera =
+        ljus::look_at({.position{0, 0, 6}, .target{0, 0, 0}, .vfov_degrees = 22});
+    Image image = ljus::make_image(size, size);
+    ljus::parallel_blocks(size, [&](long long y) {
+        for (int x = 0; x < size; ++x) {
+            glm::dvec3 sum{0};
+            for (int i = 0; i < side * side; ++i)
+                sum += studio.light(
+                    primary_ray(camera,
+                                {(float(x) + (float(i % side) + 0.5f) / float(side)),
+                                 (float(y) + (float(i / side) + 0.5f) / float(side))},
+                                size, size),
+                    color, 5);
+            pixel(image, x, static_cast<int>(y)) = Rgb(sum / double(side * side));
         }
-    return std::sqrt(sum / count);
+    });
+    return image;
 }
 
-/// Plot and table: error against rays, by both branches and by one.
-void branches(const TwoBalls& world, int most, const examples::Options& options) {
-    const int width = options.pick(48, 120, 180), height = width * 2 / 3;
-    const int depth = 8;
-    const Image truth =
-        rendered("reference", ljus::WhittedTracer(world, settings_of(depth)),
-                 {.width = width, .height = height, .samples = 16 * most, .seed = 77},
-                 options)
-            .image;
-    examples::Plot plot{.name = "whitted-cost",
-                        .columns = {"rays per pixel of all kinds", "both branches",
-                                    "one branch by roulette"},
-                        .y_label = "RMS error on the glass ball",
-                        .log_x = true,
+/// The colour by the renderer's table, with the arguments of the other methods.
+auto by_table(const ljus::FilmTable& table) {
+    return [&table](double c, double d) {
+        return glm::dvec3(ljus::look_up(table, float(c), float(d)));
+    };
+}
+
+constexpr std::array method_names{"three wavelengths", "integrated beforehand",
+                                  "table"};
+
+/// How far each method is from the spectrum, as ΔE*ab over angles and thicknesses.
+struct Differences {
+    std::array<double, 3> mean{}, largest{};
+};
+
+/// Plot: how far each method is from the spectrum at each thickness.
+Differences plot_differences(const examples::Options& options,
+                             const ljus::FilmTable& table) {
+    const auto look = by_table(table);
+    const int step = options.pick(20, 5, 2);
+    examples::Plot plot{.name = "soap_film-error",
+                        .columns = {"thickness in nm", "three wavelengths",
+                                    "integrated beforehand", "table"},
+                        .y_label = "difference of colour, ΔE*ab",
                         .log_y = true};
-    examples::Table table{.name = "whitted-cost-table",
-                          .columns = {"camera rays per pixel", "both: all rays",
-                                      "both: RMS error", "one: all rays",
-                                      "one: RMS error"}};
-    const double empty = std::numeric_limits<double>::quiet_NaN();
-    for (int rays = 1; rays <= most; rays *= 4) {
-        const ljus::RenderSettings picture{width, height, rays, options.seed};
-        std::vector<std::string> cells{std::to_string(rays)};
-        for (const bool both : {true, false}) {
-            const auto result = rendered(
-                "branches", ljus::WhittedTracer(world, settings_of(depth, both)),
-                picture, options);
-            const double cost = double(result.counts.rays()) / (width * height);
-            const double error = error_on_glass(result.image, truth);
-            plot.rows.push_back({cost, both ? error : empty, both ? empty : error});
-            cells.push_back(examples::text(cost));
-            cells.push_back(examples::text(error, "%.2g"));
+    Differences found;
+    int count = 0;
+    for (int d = step; d <= 1500; d += step) {
+        examples::Row row{double(d), 0, 0, 0};
+        for (int angle = 0; angle <= 70; angle += 10) {
+            const double c = std::cos(angle * std::numbers::pi / 180);
+            const glm::dvec3 right = lab(spectrum(c, d), c);
+            const glm::dvec3 colors[] = {three(c, d), beforehand(c, d), look(c, d)};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double error = glm::distance(lab(colors[i], c), right);
+                row[i + 1] += error / 8;
+                found.mean[i] += error;
+                found.largest[i] = std::max(found.largest[i], error);
+            }
+            ++count;
         }
-        table.rows.push_back(cells);
+        plot.rows.push_back(row);
     }
     save_plot(options.path(""), plot);
-    save_table(options.path(""), table);
+    for (double& mean : found.mean) mean /= count;
+    return found;
 }
 
-/// Picture: the same scene by photon mapping. The sky lights it, and light passes the
-/// glass.
-void by_photons(const TwoBalls& world, long long photons,
-                const examples::Options& options) {
-    ljus::PhotonMappingSettings settings;
-    settings.caustics = {
-        .photons = photons, .seed = options.seed, .threads = options.threads};
-    settings.caustics_estimate = {.radius = options.pick(0.07f, 0.07f, 0.03f)};
-    settings.max_depth = 8;
-    settings.shadow_rays = 2;
-    const ljus::PhotonMapper mapper(world, settings);
-    const ljus::RenderSettings picture{
-        options.width, options.height,
-        std::max(options.samples, options.pick(16, 64, 256)), options.seed};
-    save_png(rendered("photon map", mapper, picture, options).image,
-             options.path("whitted-photons.png"));
+/// Nanoseconds per colour, by each method.
+std::array<double, 3> times_of(const ljus::FilmTable& table, int calls) {
+    constexpr float n = 1.33f;
+    return {
+        nanoseconds([](float c, float d) { return ljus::film_three(c, n, d); }, calls),
+        nanoseconds(
+            [](float c, float d) {
+                return ljus::into_gamut(ljus::film_preintegrated(c, n, d));
+            },
+            calls),
+        nanoseconds([&](float c, float d) { return ljus::look_up(table, c, d); },
+                    calls)};
+}
+
+/// The error of the picture of the bubble by each method; there is no noise in it.
+std::array<double, 3> errors_of_bubble(const ljus::FilmTable& table, int size) {
+    const Image right = bubble(size, 1, spectrum);
+    return {ljus::rel_mse(bubble(size, 1, three), right),
+            ljus::rel_mse(bubble(size, 1, beforehand), right),
+            ljus::rel_mse(bubble(size, 1, by_table(table)), right)};
+}
+
+/// Table and plot: how far each method is from the spectrum, and what it costs.
+void trade(const examples::Options& options, const ljus::FilmTable& table) {
+    const Differences found = plot_differences(options, table);
+    const auto times = times_of(table, options.pick(20000, 200000, 1000000));
+    const double slow = nanoseconds(
+        [](float c, float d) { return ljus::film_spectral(c, 1.33f, d); }, 200);
+    const auto pictures = errors_of_bubble(table, options.pick(60, 150, 300));
+    examples::Table numbers{
+        .name = "soap_film-trade",
+        .columns = {"colours by", "mean ΔE*ab", "largest ΔE*ab", "relMSE of the bubble",
+                    "ns"},
+        .rows = {{"spectrum", "0", "0", "0", examples::text(slow, "%.0f")}}};
+    for (std::size_t i = 0; i < 3; ++i)
+        numbers.rows.push_back({method_names[i], examples::text(found.mean[i], "%.1f"),
+                                examples::text(found.largest[i], "%.1f"),
+                                examples::text(pictures[i], "%.1e"),
+                                examples::text(times[i], "%.0f")});
+    examples::print_rows(numbers, 24);
+    std::printf("table: %zu colours, %d mixed with grey, the worst had %.3f\n",
+                table.cells.size(), table.greyed, double(table.worst));
+    examples::save_table(options.path(""), numbers);
+}
+
+/// Plot: the reflectance of three wavelengths against the thickness.
+void plot_reflectance(const std::string& folder) {
+    examples::Plot plot{.name = "soap_film-waves",
+                        .columns = {"thickness in nm", "611 nm", "464 nm", "549 nm"},
+                        .y_label = "share that is reflected"};
+    for (int d = 0; d <= 700; d += 5) {
+        const auto at = [&](double wavelength) {
+            return ljus::thin_film(1.0, water, double(d), wavelength).reflected;
+        };
+        plot.rows.push_back({double(d), at(611.4), at(464.3), at(549.1)});
+    }
+    save_plot(folder, plot);
 }
 
 } // namespace
@@ -185,23 +270,26 @@ void by_photons(const TwoBalls& world, long long photons,
 /// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        long long photons = 0;
-        line.about(
-            "Chapter 17, Whitted's ray tracing: the tree of rays, and its cost.");
-        line.add("--photons", photons, "Of the picture to compare with; 0: by quality",
-                 0, 1'000'000'000);
-        int most = 0;
-        line.add("--most", most, "Most rays per pixel in the curves; 0: by quality", 0,
-                 1 << 16);
+        line.about("Chapter 17, the soap bubble: thin films and their colours.");
         const examples::Options options =
-            line.parse({.draft{.width = 300, .height = 200, .samples = 9},
-                        .report{.width = 600, .height = 400, .samples = 36},
-                        .reference{.width = 900, .height = 600, .samples = 144}});
-        if (photons == 0) photons = options.pick(100000LL, 1000000LL, 10000000LL);
-        const TwoBalls world = two_balls();
-        plot_rays(world, options);
-        by_photons(world, photons, options);
-        if (most == 0) most = options.pick(64, 256, 1024);
-        branches(world, most, options);
+            line.parse({.draft{.width = 200, .height = 200, .samples = 4},
+                        .report{.width = 400, .height = 400, .samples = 36},
+                        .reference{.width = 500, .height = 500, .samples = 1000}});
+        const auto table = ljus::bake_film_table(1.33f);
+        const auto look = by_table(table);
+        plot_reflectance(options.path(""));
+        trade(options, table);
+        strip(options, "soap_film-spectrum", spectrum);
+        strip(options, "soap_film-three", three);
+        strip(options, "soap_film-beforehand", beforehand);
+        strip(options, "soap_film-table", look);
+        strip(options, "soap_film-not-turned", not_turned);
+        const auto save = [&](const std::string& name, auto color) {
+            save_png(bubble(options.width, options.pick(2, 3, 4), color),
+                     options.path(name + ".png"));
+        };
+        save("soap_film-bubble", look);
+        save("soap_film-bubble-three", three);
+        save("soap_film-bubble-beforehand", beforehand);
     });
 }

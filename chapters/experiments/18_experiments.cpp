@@ -1,19 +1,16 @@
-// smoke: --quality draft --width 24 --height 16 --rays 4 --most 4
+// smoke: --quality draft --width 24 --height 16 --rays 1 --photons 1000 --most 4
 /// \file chapters/experiments/18_experiments.cpp
-/// \brief Chapter 18: the experiments behind its tables, plots and pictures: edges,
-/// soft shadows, gloss, a lens and motion, and the cost of evenly spread numbers.
+/// \brief Chapter 18: the experiments behind its tables and plots: how the tree grows,
+/// both branches or one, and what the tree does not carry.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 
 #include "common/example.hpp"
@@ -21,390 +18,166 @@
 namespace {
 
 using ljus::Image;
-using ljus::LensCamera;
 using ljus::Quad;
 using ljus::Rgb;
 using ljus::Sphere;
-using ljus::Vec2;
-using ljus::Vec3;
 
-using Tiles = ljus::Textured<ljus::Lambertian, ljus::Checker>;
-using MovingBall = ljus::Moving<Sphere>;
-using Stage =
-    ljus::Scene<ljus::Shapes<Sphere, Quad, MovingBall>,
-                ljus::Materials<ljus::Lambertian, Tiles, ljus::Mirror, ljus::Glossy>,
-                ljus::Lights<ljus::PointLight>>;
+using TiledFloor = ljus::Textured<ljus::Lambertian, ljus::Checker>;
+using TwoBallsScene = ljus::Scene<
+    ljus::Shapes<Sphere, Quad>,
+    ljus::Materials<ljus::Lambertian, ljus::Glass, ljus::Mirror, TiledFloor>,
+    ljus::Lights<ljus::PointLight>>;
+using TwoBalls = ljus::World<TwoBallsScene>;
 
-/// A closed scene and its camera.
-struct Shot {
-    ljus::World<Stage> world;
-    LensCamera camera{};
-    bool pixel = false; ///< Whether the rays are spread over the pixel for its curve.
-};
+/// The radiance of the sky, W/(m^2 sr).
+const Rgb sky{0.16f, 0.27f, 0.5f};
 
-LensCamera pinhole(const ljus::View& view) {
-    return with_lens(look_at(view), 0.0f, 1.0f);
+/// Whitted's well-known picture: a ball of glass before a mirror, over a floor of
+/// red and yellow tiles, under a blue sky.
+TwoBalls two_balls() {
+    TwoBallsScene scene;
+    const auto glass = scene.add(ljus::Glass{.index = 1.5f});
+    const auto mirror = scene.add(ljus::Mirror{.reflectance{0.75f, 0.73f, 0.68f}});
+    const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
+    const auto floor = scene.add(TiledFloor{{.albedo = Rgb{1}},
+                                            {.map{.edge_u{2, 0, 0}, .edge_v{0, 0, 2}},
+                                             .even{0.75f, 0.07f, 0.04f},
+                                             .odd{0.8f, 0.65f, 0.07f}}});
+    scene.add(Sphere{.center{0.5f, 1.5f, 1.2f}, .radius = 1}, glass);
+    scene.add(Sphere{.center{-1.1f, 1.1f, -1.3f}, .radius = 1.1f}, mirror);
+    scene.add(Quad{{-6, 0, 3.5f}, {11, 0, 0}, {0, 0, -16}}, floor);
+    scene.add(Sphere{.radius = 60}, black, sky, true); // its inside
+    scene.add(ljus::PointLight{.position{-3, 7, 5}, .intensity = Rgb{190}});
+    return TwoBalls(std::move(scene));
+}
+ljus::Camera two_balls_camera() {
+    return ljus::look_at(
+        {.position{0.2f, 2.1f, 8}, .target{-0.1f, 1.1f, 0}, .vfov_degrees = 32});
 }
 
-ljus::MaterialId matt(Stage& scene, float r, float g, float b) {
-    return scene.add(ljus::Lambertian{.albedo{r, g, b}});
-}
-
-ljus::MaterialId tiles(Stage& scene, const Rgb& even, const Rgb& odd, float size = 1) {
-    return scene.add(Tiles{{.albedo = Rgb{1}},
-                           {.map{.edge_u{2 * size, 0, 0}, .edge_v{0, 0, 2 * size}},
-                            .even = even,
-                            .odd = odd}});
-}
-
-void add_floor(Stage& scene, ljus::MaterialId material, float size = 60) {
-    scene.add(Quad{{-size, 0, size}, {2 * size, 0, 0}, {0, 0, -2 * size}}, material);
-}
-
-void add_lamp(Stage& scene, const Vec3& middle, float side, float radiance) {
-    const Vec3 corner = middle - Vec3{side / 2, 0, side / 2};
-    scene.add(Quad{corner, {side, 0, 0}, {0, 0, side}}, matt(scene, 0, 0, 0),
-              Rgb{radiance});
-}
-
-/// Tiles to the horizon: edges, and more edges than pixels.
-Shot edges() {
-    Stage scene;
-    add_floor(scene, tiles(scene, Rgb{0.8f}, Rgb{0.08f}), 80);
-    scene.add(Sphere{.center{0.9f, 0.8f, 0}, .radius = 0.8f},
-              scene.add(ljus::Mirror{Rgb{0.9f}}));
-    scene.add(ljus::PointLight{.position{-5, 40, 20}, .intensity = Rgb{4500}});
-    return {ljus::World(std::move(scene)),
-            pinhole({.position{0, 1.6f, 5}, .target{0, 0.9f, 0}}), true};
-}
-
-/// A square lamp above two balls and a wall.
-Shot shadows() {
-    Stage scene;
-    add_floor(scene, matt(scene, 0.7f, 0.68f, 0.62f));
-    scene.add(Sphere{.center{1.2f, 0.7f, 0.3f}, .radius = 0.7f},
-              matt(scene, 0.7f, 0.25f, 0.15f));
-    scene.add(Sphere{.center{-0.4f, 0.35f, 1.2f}, .radius = 0.35f},
-              matt(scene, 0.2f, 0.35f, 0.65f));
-    scene.add(Quad{{-2.4f, 0, -0.6f}, {1.6f, 0, 0.5f}, {0, 2.4f, 0}},
-              matt(scene, 0.6f, 0.6f, 0.5f));
-    add_lamp(scene, {-3.5f, 5, 2.2f}, 2, 26);
-    return {ljus::World(std::move(scene)),
-            pinhole({.position{0, 3.4f, 7}, .target{0, 0.6f, 0}, .vfov_degrees = 36})};
-}
-
-/// Sticks in front of a satin floor: the reflection is sharp only where they stand.
-Shot gloss() {
-    Stage scene;
-    add_floor(scene,
-              scene.add(ljus::Glossy{.reflectance = Rgb{0.75f}, .roughness = 0.4f}));
-    const Rgb colors[] = {{0.8f, 0.15f, 0.1f},
-                          {0.85f, 0.6f, 0.1f},
-                          {0.25f, 0.55f, 0.2f},
-                          {0.15f, 0.35f, 0.7f},
-                          {0.5f, 0.2f, 0.55f}};
-    for (int i = 0; i < 5; ++i) {
-        const auto paint = scene.add(ljus::Lambertian{.albedo = colors[i]});
-        scene.add(Quad{{-2.9f + 1.25f * float(i), 0, 0}, {0.8f, 0, 0}, {0, 2.6f, 0}},
-                  paint);
-    }
-    scene.add(Quad{{-30, 0, -3}, {60, 0, 0}, {0, 20, 0}},
-              matt(scene, 0.25f, 0.27f, 0.3f));
-    scene.add(ljus::PointLight{.position{1, 5, 7}, .intensity = Rgb{230}});
-    return {ljus::World(std::move(scene)),
-            pinhole({.position{0, 2.3f, 7}, .target{0, 0.35f, 0}, .vfov_degrees = 38})};
-}
-
-/// Balls in a row, the third of them in focus.
-Shot focus() {
-    Stage scene;
-    add_floor(scene, tiles(scene, Rgb{0.6f}, Rgb{0.3f}, 0.5f));
-    for (int i = 0; i < 6; ++i) {
-        const float x = -1.6f + 0.75f * float(i), z = 3.2f - 1.9f * float(i);
-        scene.add(Sphere{.center{x, 0.5f, z}, .radius = 0.5f},
-                  matt(scene, 0.75f - 0.1f * float(i), 0.3f, 0.15f + 0.12f * float(i)));
-    }
-    scene.add(ljus::PointLight{.position{-4, 8, 8}, .intensity = Rgb{320}});
-    const ljus::Camera camera = look_at(
-        ljus::View{.position{0, 1.5f, 7}, .target{0, 0.5f, 0}, .vfov_degrees = 34});
-    const Vec3 third{-0.1f, 0.5f, -0.6f};
+/// The sky is seen, but no shadow ray asks for its light. Ambient light takes its
+/// place: the same from everywhere, and no ball shades it.
+ljus::WhittedSettings settings_of(int depth, bool split_glass = true) {
     return {
-        ljus::World(std::move(scene)),
-        with_lens(camera, 0.14f, glm::dot(third - camera.position, camera.forward))};
+        .max_depth = depth, .split_glass = split_glass, .lamps = false, .ambient = sky};
 }
 
-/// Balls that roll on a billiard table while the shutter is open.
-Shot motion() {
-    Stage scene;
-    add_floor(scene, matt(scene, 0.06f, 0.35f, 0.16f));
-    const auto ball = [&](const Vec3& place, const Vec3& way, const Rgb& color) {
-        const auto paint = scene.add(ljus::Lambertian{.albedo = color});
-        scene.add(MovingBall{{.center = place, .radius = 0.5f}, way}, paint);
+/// A picture of the two balls, with a progress bar.
+template <typename Renderer>
+ljus::RenderedT<float> rendered(const std::string& name, const Renderer& renderer,
+                                ljus::RenderSettings picture,
+                                const examples::Options& options) {
+    return examples::rendered(name, renderer, two_balls_camera(), picture, options);
+}
+
+/// Plot: how many rays the tree of a camera ray has, by its depth.
+void plot_rays(const TwoBalls& world, const examples::Options& options) {
+    const ljus::RenderSettings picture{options.width, options.height, options.samples,
+                                       options.seed};
+    examples::Plot plot{.name = "whitted-rays",
+                        .columns = {"depth", "every ray meets glass: 2^(d+1) - 1",
+                                    "rays that hit one ball of glass: 1 + 2d",
+                                    "the two balls by both branches",
+                                    "the two balls by one branch"},
+                        .y_label = "rays per camera ray, without shadow rays",
+                        .log_y = true,
+                        .more = "set yrange [0.8:200]\nset format y '%g'\n"};
+    const auto rays_of = [](const ljus::Counts& counts) {
+        return double(counts.camera_rays + counts.bounce_rays) /
+               double(counts.camera_rays);
     };
-    ball({-1.9f, 0.5f, 0.6f}, {1.1f, 0, -0.5f}, {0.85f, 0.82f, 0.7f});
-    ball({0.6f, 0.5f, -0.3f}, {0, 0, 0}, {0.8f, 0.6f, 0.05f});
-    ball({1.8f, 0.5f, 0.4f}, {0.35f, 0, 0.2f}, {0.65f, 0.08f, 0.07f});
-    ball({0.3f, 0.5f, -2.6f}, {-0.3f, 0, -0.7f}, {0.1f, 0.15f, 0.55f});
-    scene.add(ljus::PointLight{.position{-3, 7, 4}, .intensity = Rgb{260}});
-    return {ljus::World(std::move(scene)), pinhole({.position{0, 3.2f, 6.5f},
-                                                    .target{0, 0.3f, -0.4f},
-                                                    .vfov_degrees = 36})};
-}
-
-/// A picture whose rays draw all their numbers by one pattern.
-/// \param pixel  Whether the rays are spread over the pixel; else they pass its middle.
-Image picture_by(const Shot& shot, int width, int height, int rays,
-                 ljus::Sampling sampling, std::uint64_t seed, bool pixel, int threads) {
-    const ljus::DistributedTracer tracer(shot.world);
-    const ljus::Pattern pattern = ljus::make_pattern(sampling, rays);
-    Image image = ljus::make_image<float>(width, height);
-    const auto row = [&](long long number) {
-        const int y = static_cast<int>(number);
-        ljus::Counts counts;
-        for (int x = 0; x < width; ++x) {
-            glm::dvec3 sum{0};
-            for (int i = 0; i < rays; ++i) {
-                ljus::StratifiedStream stream;
-                start_ray(stream, seed, static_cast<std::uint64_t>(y * width + x), i,
-                          pattern);
-                const Vec2 place = next_2d(stream);
-                const Vec2 at = Vec2{float(x), float(y)} + (pixel ? place : Vec2{0.5f});
-                const auto ray = camera_ray(shot.camera, at, width, height, stream);
-                auto context = ljus::context_of(stream, counts);
-                sum += glm::dvec3(radiance(tracer, ray, context));
-            }
-            ljus::pixel(image, x, y) = Rgb(sum / double(rays));
-        }
-    };
-    (void)ljus::parallel_blocks(height, row, {.threads = threads});
-    examples::stop_if_asked();
-    return image;
-}
-double rms(const Image& image, const Image& truth) {
-    double sum = 0;
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const Rgb d = image.pixels[i] - truth.pixels[i];
-        sum += double(glm::dot(d, d)) / 3;
-    }
-    return std::sqrt(sum / double(image.pixels.size()));
-}
-
-/// The slope of a curve in a plot with two logarithmic axes.
-double slope(const std::vector<double>& x, const std::vector<double>& y) {
-    double mx = 0, my = 0, sxy = 0, sxx = 0;
-    const double n = double(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        mx += std::log(x[i]) / n;
-        my += std::log(y[i]) / n;
-    }
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        sxy += (std::log(x[i]) - mx) * (std::log(y[i]) - my);
-        sxx += (std::log(x[i]) - mx) * (std::log(x[i]) - mx);
-    }
-    return sxy / sxx;
-}
-
-/// Error against rays for each pattern; adds a row to the table of slopes.
-void curves(const std::string& name, const Shot& shot, int most,
-            const examples::Options& options, examples::Table& table) {
-    using ljus::Sampling;
-    const int width = options.pick(30, 48, 72), height = width * 2 / 3;
-    const auto by = [&](Sampling sampling, int rays, std::uint64_t seed) {
-        return picture_by(shot, width, height, rays, sampling, seed, shot.pixel,
-                          options.threads);
-    };
-    const Image truth = by(Sampling::sobol, 16 * most, 99);
-    examples::Plot plot{
-        .name = "distributed_rays-" + name + "-error",
-        .columns = {"rays per pixel", "random", "jittered", "multi-jittered", "Sobol"},
-        .y_label = "RMS error",
-        .log_x = true,
-        .log_y = true};
-    std::vector<double> n, error[4];
-    for (int rays = 1; rays <= most; rays *= 4) {
-        n.push_back(rays);
-        examples::Row row{double(rays)};
-        std::size_t kind = 0;
-        for (const Sampling sampling : {Sampling::random, Sampling::jittered,
-                                        Sampling::multi_jittered, Sampling::sobol}) {
-            row.push_back(rms(by(sampling, rays, options.seed), truth));
-            error[kind++].push_back(row.back());
-        }
-        plot.rows.push_back(row);
+    for (int depth = 0; depth <= 6; ++depth) {
+        const auto both =
+            rendered("depth " + std::to_string(depth),
+                     ljus::WhittedTracer(world, settings_of(depth)), picture, options);
+        const auto one = rendered("one branch",
+                                  ljus::WhittedTracer(world, settings_of(depth, false)),
+                                  picture, options);
+        plot.rows.push_back({double(depth), std::exp2(depth + 1) - 1, 1.0 + 2 * depth,
+                             rays_of(both.counts), rays_of(one.counts)});
+        if (!options.quiet)
+            std::printf("depth %d: %.3f rays per camera ray by both branches, %.3f by "
+                        "one; %.3f shadow rays\n",
+                        depth, rays_of(both.counts), rays_of(one.counts),
+                        double(both.counts.shadow_rays) /
+                            double(both.counts.camera_rays));
     }
     save_plot(options.path(""), plot);
-    std::vector<std::string> cells{name};
-    for (const auto& curve : error)
-        cells.push_back(examples::text(slope(n, curve), "%.2f"));
-    // The number of random rays with the same error as one such ray; error falls as
-    // n^-1/2.
-    const double ratio = error[0].back() / error[2].back();
-    cells.push_back(examples::text(error[2].back(), "%.2g"));
-    cells.push_back(examples::text(ratio * ratio, "%.1f"));
-    table.rows.push_back(cells);
-    if (!options.quiet)
-        std::printf("%s: slopes %s (random), %s (jittered), %s (multi-jittered), "
-                    "%s (Sobol)\n",
-                    name.c_str(), cells[1].c_str(), cells[2].c_str(), cells[3].c_str(),
-                    cells[4].c_str());
 }
 
-/// Pictures with one ray and with many rays per pixel.
-void picture(const std::string& name, const Shot& shot,
-             const examples::Options& options) {
-    for (const int rays : {1, options.samples}) {
-        auto picture = examples::picture_settings(options);
-        picture.samples = rays;
-        const auto result = examples::rendered(
-            name, ljus::DistributedTracer(shot.world), shot.camera, picture, options);
-        save_png(result.image, options.path("distributed_rays-" + name +
-                                            (rays == 1 ? "-few.png" : ".png")));
+/// The root mean square error over the pixels of the glass ball.
+double error_on_glass(const Image& image, const Image& truth) {
+    double sum = 0, count = 0;
+    const ljus::Camera camera = two_balls_camera();
+    const Sphere ball{.center{0.5f, 1.5f, 1.2f}, .radius = 1};
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const ljus::Vec2 middle{float(x) + 0.5f, float(y) + 0.5f};
+            if (!intersect(primary_ray(camera, middle, image.width, image.height),
+                           ball))
+                continue;
+            const Rgb d = pixel(image, x, y) - pixel(truth, x, y);
+            sum += double(glm::dot(d, d)) / 3;
+            count += 1;
+        }
+    return std::sqrt(sum / count);
+}
+
+/// Plot and table: error against rays, by both branches and by one.
+void branches(const TwoBalls& world, int most, const examples::Options& options) {
+    const int width = options.pick(48, 120, 180), height = width * 2 / 3;
+    const int depth = 8;
+    const Image truth =
+        rendered("reference", ljus::WhittedTracer(world, settings_of(depth)),
+                 {.width = width, .height = height, .samples = 16 * most, .seed = 77},
+                 options)
+            .image;
+    examples::Plot plot{.name = "whitted-cost",
+                        .columns = {"rays per pixel of all kinds", "both branches",
+                                    "one branch by roulette"},
+                        .y_label = "RMS error on the glass ball",
+                        .log_x = true,
+                        .log_y = true};
+    examples::Table table{.name = "whitted-cost-table",
+                          .columns = {"camera rays per pixel", "both: all rays",
+                                      "both: RMS error", "one: all rays",
+                                      "one: RMS error"}};
+    const double empty = std::numeric_limits<double>::quiet_NaN();
+    for (int rays = 1; rays <= most; rays *= 4) {
+        const ljus::RenderSettings picture{width, height, rays, options.seed};
+        std::vector<std::string> cells{std::to_string(rays)};
+        for (const bool both : {true, false}) {
+            const auto result = rendered(
+                "branches", ljus::WhittedTracer(world, settings_of(depth, both)),
+                picture, options);
+            const double cost = double(result.counts.rays()) / (width * height);
+            const double error = error_on_glass(result.image, truth);
+            plot.rows.push_back({cost, both ? error : empty, both ? empty : error});
+            cells.push_back(examples::text(cost));
+            cells.push_back(examples::text(error, "%.2g"));
+        }
+        table.rows.push_back(cells);
     }
-}
-
-/// One ray through the middle of each pixel.
-void jagged(const Shot& shot, const examples::Options& options) {
-    save_png(picture_by(shot, options.width, options.height, 1, ljus::Sampling::random,
-                        1, false, options.threads),
-             options.path("distributed_rays-pixel-few.png"));
-}
-
-// The cost of evenly spread numbers.
-
-template <typename Ball>
-using Balls = ljus::Scene<ljus::Shapes<Ball, Quad>, ljus::Materials<ljus::Lambertian>,
-                          ljus::Lights<ljus::PointLight>>;
-
-/// Nine balls on a floor, without a light.
-template <typename Ball>
-Balls<Ball> nine_balls(const Vec3& way = Vec3{0}) {
-    Balls<Ball> scene;
-    const auto grey = scene.add(ljus::Lambertian{.albedo = Rgb{0.6f}});
-    scene.add(Quad{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}}, grey);
-    for (int i = 0; i < 9; ++i) {
-        const Sphere ball{.center{float(2 * (i % 3) - 2), 0.6f, float(2 * (i / 3) - 2)},
-                          .radius = 0.6f};
-        if constexpr (std::is_same_v<Ball, MovingBall>)
-            scene.add(MovingBall{ball, way}, grey);
-        else
-            scene.add(ball, grey);
-    }
-    return scene;
-}
-
-constexpr std::array patterns{ljus::Sampling::random, ljus::Sampling::jittered,
-                              ljus::Sampling::multi_jittered, ljus::Sampling::sobol};
-
-/// A picture, and its processor time.
-struct Timed {
-    Image image;
-    double seconds = 0; ///< Of processor time.
-};
-struct Size {
-    int width = 0, height = 0; ///< In pixels.
-};
-template <ljus::AnyWorld W, typename AnyCamera>
-Timed timed(const W& world, const AnyCamera& camera, ljus::Sampling sampling, int rays,
-            const Size& size, std::uint64_t seed = 1) {
-    const double start = examples::processor_seconds();
-    auto picture = render(ljus::DistributedTracer(world), camera,
-                          {.width = size.width,
-                           .height = size.height,
-                           .samples = rays,
-                           .seed = seed,
-                           .threads = 1,
-                           .sampling = sampling});
-    return {std::move(picture.image), examples::processor_seconds() - start};
-}
-
-/// Table: nanoseconds of a camera ray by each pattern, through a lens, and with balls
-/// that move.
-void tabulate_costs(const Size& size, const examples::Options& options) {
-    const ljus::PointLight light{.position{3, 6, 4}, .intensity = Rgb{100}};
-    const auto lit = [&](auto scene) {
-        scene.add(light);
-        return ljus::World(std::move(scene));
-    };
-    const auto still = lit(nine_balls<Sphere>());
-    const auto resting = lit(nine_balls<MovingBall>());
-    const auto moving = lit(nine_balls<MovingBall>({0.5f, 0, 0}));
-    const ljus::Camera pinhole =
-        look_at(ljus::View{.position{0, 5, 8}, .target{0, 0.4f, 0}});
-    const LensCamera lens = with_lens(pinhole, 0.1f, 9.0f);
-
-    std::array<double, 7> least;
-    least.fill(std::numeric_limits<double>::infinity());
-    for (int round = 0; round < options.pick(7, 15, 31); ++round) {
-        const auto seconds = [&](const auto& world, const auto& camera,
-                                 ljus::Sampling sampling) {
-            return timed(world, camera, sampling, 16, size).seconds;
-        };
-        const std::array now{seconds(still, pinhole, ljus::Sampling::random),
-                             seconds(still, pinhole, ljus::Sampling::jittered),
-                             seconds(still, pinhole, ljus::Sampling::multi_jittered),
-                             seconds(still, pinhole, ljus::Sampling::sobol),
-                             seconds(still, lens, ljus::Sampling::random),
-                             seconds(resting, pinhole, ljus::Sampling::random),
-                             seconds(moving, pinhole, ljus::Sampling::random)};
-        for (std::size_t i = 0; i < now.size(); ++i)
-            least[i] = std::min(least[i], now[i]);
-        examples::stop_if_asked();
-    }
-    const std::array names{"random, a pinhole, nothing moves",
-                           "jittered",
-                           "multi-jittered",
-                           "Sobol",
-                           "random, and a lens",
-                           "random, balls of a moving type that stand still",
-                           "random, balls that move"};
-    examples::Table table{
-        .name = "distributed_rays-costs",
-        .columns = {"camera rays", "ns per camera ray", "over the first row"}};
-    const double rays = 16.0 * size.width * size.height;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        table.rows.push_back({names[i], examples::text(1e9 * least[i] / rays, "%.0f"),
-                              examples::text(least[i] / least[0], "%.2f")});
+    save_plot(options.path(""), plot);
     save_table(options.path(""), table);
 }
 
-/// Plot: the error of a picture with soft shadows against time.
-void plot_trade(const Size& size, int most, const examples::Options& options) {
-    auto scene = nine_balls<Sphere>();
-    scene.add(Quad{{2, 6, 3}, {2, 0, 0}, {0, 0, 2}},
-              scene.add(ljus::Lambertian{.albedo = Rgb{0}}), Rgb{25});
-    const ljus::World world(std::move(scene));
-    const ljus::Camera camera =
-        look_at(ljus::View{.position{0, 5, 8}, .target{0, 0.4f, 0}});
-    const Image truth =
-        timed(world, camera, ljus::Sampling::sobol, 16 * most, size, 99).image;
-
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    examples::Plot plot{.name = "distributed_rays-trade",
-                        .columns = {"microseconds per pixel", "random", "jittered",
-                                    "multi-jittered", "Sobol"},
-                        .y_label = "RMS error of the picture",
-                        .rows = {},
-                        .log_x = true,
-                        .log_y = true};
-    const double pixels = double(size.width) * size.height;
-    for (std::size_t kind = 0; kind < patterns.size(); ++kind)
-        for (int rays = 1; rays <= most; rays *= 4) {
-            double square = 0, seconds = std::numeric_limits<double>::infinity();
-            const int seeds = options.pick(4, 8, 16);
-            for (int seed = 1; seed <= seeds; ++seed) {
-                const Timed one = timed(world, camera, patterns[kind], rays, size,
-                                        std::uint64_t(seed));
-                const double error = double(ljus::rmse(one.image, truth));
-                square += error * error / seeds;
-                seconds = std::min(seconds, one.seconds);
-                examples::stop_if_asked();
-            }
-            examples::Row row(patterns.size() + 1, none);
-            row[0] = 1e6 * seconds / pixels;
-            row[kind + 1] = std::sqrt(square);
-            plot.rows.push_back(row);
-        }
-    save_plot(options.path(""), plot);
+/// Picture: the same scene by photon mapping. The sky lights it, and light passes the
+/// glass.
+void by_photons(const TwoBalls& world, long long photons,
+                const examples::Options& options) {
+    ljus::PhotonMappingSettings settings;
+    settings.caustics = {
+        .photons = photons, .seed = options.seed, .threads = options.threads};
+    settings.caustics_estimate = {.radius = options.pick(0.07f, 0.07f, 0.03f)};
+    settings.max_depth = 8;
+    settings.shadow_rays = 2;
+    const ljus::PhotonMapper mapper(world, settings);
+    const ljus::RenderSettings picture{
+        options.width, options.height,
+        std::max(options.samples, options.pick(16, 64, 256)), options.seed};
+    save_png(rendered("photon map", mapper, picture, options).image,
+             options.path("whitted-photons.png"));
 }
 
 } // namespace
@@ -412,35 +185,23 @@ void plot_trade(const Size& size, int most, const examples::Options& options) {
 /// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        int most = 0;
+        long long photons = 0;
         line.about(
-            "Chapter 18, distributed rays: how fast five blurs become smooth, and "
-            "what it costs.");
+            "Chapter 18, Whitted's ray tracing: the tree of rays, and its cost.");
+        line.add("--photons", photons, "Of the picture to compare with; 0: by quality",
+                 0, 1'000'000'000);
+        int most = 0;
         line.add("--most", most, "Most rays per pixel in the curves; 0: by quality", 0,
                  1 << 16);
         const examples::Options options =
-            line.parse({.draft{.width = 240, .height = 160, .samples = 36},
-                        .report{.width = 600, .height = 400, .samples = 100},
-                        .reference{.width = 900, .height = 600, .samples = 1024}});
+            line.parse({.draft{.width = 300, .height = 200, .samples = 9},
+                        .report{.width = 600, .height = 400, .samples = 36},
+                        .reference{.width = 900, .height = 600, .samples = 144}});
+        if (photons == 0) photons = options.pick(100000LL, 1000000LL, 10000000LL);
+        const TwoBalls world = two_balls();
+        plot_rays(world, options);
+        by_photons(world, photons, options);
         if (most == 0) most = options.pick(64, 256, 1024);
-        examples::Table table{.name = "distributed_rays-slopes",
-                              .columns = {"spread over", "random", "jittered",
-                                          "multi-jittered", "Sobol", "error",
-                                          "random rays for one"}};
-        const auto both = [&](const std::string& name, const Shot& shot) {
-            picture(name, shot, options);
-            curves(name, shot, most, options, table);
-        };
-        both("pixel", edges());
-        jagged(edges(), options);
-        both("light", shadows());
-        both("gloss", gloss());
-        both("lens", focus());
-        both("time", motion());
-        save_table(options.path(""), table);
-        const int width = std::min(options.width, options.pick(48, 72, 96));
-        const Size small{.width = width, .height = 2 * width / 3};
-        tabulate_costs(small, options);
-        plot_trade(small, most, options);
+        branches(world, most, options);
     });
 }

@@ -1,7 +1,7 @@
-// smoke: --quality draft --width 16 --height 16 --rays 1 --most 4 --runs 3 --paths 50
+// smoke: --quality draft --width 24 --height 16 --rays 4 --most 4
 /// \file chapters/experiments/19_experiments.cpp
-/// \brief Chapter 19: the experiments behind its tables, plots and pictures: how paths find
-/// the lamp, roulette, and the light that a fixed depth leaves out.
+/// \brief Chapter 19: the experiments behind its tables, plots and pictures: edges,
+/// soft shadows, gloss, a lens and motion, and the cost of evenly spread numbers.
 
 #include <algorithm>
 #include <array>
@@ -9,556 +9,402 @@
 #include <cstdio>
 #include <limits>
 #include <string>
-#include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
-#include <ljus/scene/camera.hpp>
-#include <ljus/scenes/cornell_box.hpp>
-#include <ljus/scenes/furnaces.hpp>
 
 #include "common/example.hpp"
-#include "experiments/veach_plates.hpp"
 
 namespace {
 
-using examples::rendered;
-using examples::text;
 using ljus::Image;
-using ljus::MisHeuristic;
-using ljus::PathTracingSettings;
+using ljus::LensCamera;
 using ljus::Quad;
 using ljus::Rgb;
 using ljus::Sphere;
+using ljus::Vec2;
 using ljus::Vec3;
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+using Tiles = ljus::Textured<ljus::Lambertian, ljus::Checker>;
+using MovingBall = ljus::Moving<Sphere>;
+using Stage =
+    ljus::Scene<ljus::Shapes<Sphere, Quad, MovingBall>,
+                ljus::Materials<ljus::Lambertian, Tiles, ljus::Mirror, ljus::Glossy>,
+                ljus::Lights<ljus::PointLight>>;
 
-/// The options of this program, besides the common ones.
-struct Sizes {
-    int most = 0;  ///< Most rays per pixel in the curves of noise.
-    int runs = 0;  ///< Of roulette with a constant probability.
-    int paths = 0; ///< Per run.
+/// A closed scene and its camera.
+struct Shot {
+    ljus::World<Stage> world;
+    LensCamera camera{};
+    bool pixel = false; ///< Whether the rays are spread over the pixel for its curve.
 };
 
-// --- Scenes ---------------------------------------------------------------------------
-
-using Matt = ljus::Scene<ljus::Shapes<Quad, Sphere>, ljus::Materials<ljus::Lambertian>>;
-
-/// A room with only diffuse surfaces, its front open.
-ljus::Room<Matt> matt_room() {
-    Matt scene;
-    ljus::add_cornell_walls(scene);
-    const auto grey = scene.add(ljus::Lambertian{.albedo = Rgb{0.75f}});
-    const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
-    scene.add(Sphere{{-0.42f, 0.38f, -0.3f}, 0.38f}, grey);
-    scene.add(Sphere{{0.42f, 0.38f, 0.3f}, 0.38f}, grey);
-    scene.add(Quad{{-0.25f, 1.99f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}}, black,
-              Rgb{17, 13, 8});
-    return {ljus::World(std::move(scene)), ljus::cornell_box().camera};
+LensCamera pinhole(const ljus::View& view) {
+    return with_lens(look_at(view), 0.0f, 1.0f);
 }
 
-/// The camera of all measurements of noise: it does not see the lamp, whose edge is
-/// noisier than everything else.
-ljus::Camera low_camera() {
-    return ljus::look_at(
-        {.position{0, 1, 4.4f}, .target{0, 0.6f, 0}, .vfov_degrees = 22});
+ljus::MaterialId matt(Stage& scene, float r, float g, float b) {
+    return scene.add(ljus::Lambertian{.albedo{r, g, b}});
 }
 
-// --- Noise ----------------------------------------------------------------------------
-
-/// The noise of a renderer, from two pictures with different seeds: it needs no
-/// reference.
-struct Noise {
-    double rms = 0;     ///< Of one picture.
-    double rays = 0;    ///< Of all kinds, per camera ray.
-    double seconds = 0; ///< Of processor time, for both.
-    Image image{};      ///< The first.
-    Image other{};      ///< The second.
-};
-template <typename Renderer>
-Noise noise_of(const Renderer& renderer, const ljus::Camera& camera,
-               ljus::RenderSettings picture, const examples::Options& options) {
-    const double start = examples::processor_seconds();
-    const auto a = rendered("noise", renderer, camera, picture, options);
-    picture.seed += 1000;
-    const auto b = rendered("noise", renderer, camera, picture, options);
-    return {.rms = rmse(a.image, b.image) / std::sqrt(2.0),
-            .rays = double(a.counts.rays()) / double(a.counts.camera_rays),
-            .seconds = examples::processor_seconds() - start,
-            .image = a.image,
-            .other = b.image};
+ljus::MaterialId tiles(Stage& scene, const Rgb& even, const Rgb& odd, float size = 1) {
+    return scene.add(Tiles{{.albedo = Rgb{1}},
+                           {.map{.edge_u{2 * size, 0, 0}, .edge_v{0, 0, 2 * size}},
+                            .even = even,
+                            .odd = odd}});
 }
-double mean_of(const Image& image) {
+
+void add_floor(Stage& scene, ljus::MaterialId material, float size = 60) {
+    scene.add(Quad{{-size, 0, size}, {2 * size, 0, 0}, {0, 0, -2 * size}}, material);
+}
+
+void add_lamp(Stage& scene, const Vec3& middle, float side, float radiance) {
+    const Vec3 corner = middle - Vec3{side / 2, 0, side / 2};
+    scene.add(Quad{corner, {side, 0, 0}, {0, 0, side}}, matt(scene, 0, 0, 0),
+              Rgb{radiance});
+}
+
+/// Tiles to the horizon: edges, and more edges than pixels.
+Shot edges() {
+    Stage scene;
+    add_floor(scene, tiles(scene, Rgb{0.8f}, Rgb{0.08f}), 80);
+    scene.add(Sphere{.center{0.9f, 0.8f, 0}, .radius = 0.8f},
+              scene.add(ljus::Mirror{Rgb{0.9f}}));
+    scene.add(ljus::PointLight{.position{-5, 40, 20}, .intensity = Rgb{4500}});
+    return {ljus::World(std::move(scene)),
+            pinhole({.position{0, 1.6f, 5}, .target{0, 0.9f, 0}}), true};
+}
+
+/// A square lamp above two balls and a wall.
+Shot shadows() {
+    Stage scene;
+    add_floor(scene, matt(scene, 0.7f, 0.68f, 0.62f));
+    scene.add(Sphere{.center{1.2f, 0.7f, 0.3f}, .radius = 0.7f},
+              matt(scene, 0.7f, 0.25f, 0.15f));
+    scene.add(Sphere{.center{-0.4f, 0.35f, 1.2f}, .radius = 0.35f},
+              matt(scene, 0.2f, 0.35f, 0.65f));
+    scene.add(Quad{{-2.4f, 0, -0.6f}, {1.6f, 0, 0.5f}, {0, 2.4f, 0}},
+              matt(scene, 0.6f, 0.6f, 0.5f));
+    add_lamp(scene, {-3.5f, 5, 2.2f}, 2, 26);
+    return {ljus::World(std::move(scene)),
+            pinhole({.position{0, 3.4f, 7}, .target{0, 0.6f, 0}, .vfov_degrees = 36})};
+}
+
+/// Sticks in front of a satin floor: the reflection is sharp only where they stand.
+Shot gloss() {
+    Stage scene;
+    add_floor(scene,
+              scene.add(ljus::Glossy{.reflectance = Rgb{0.75f}, .roughness = 0.4f}));
+    const Rgb colors[] = {{0.8f, 0.15f, 0.1f},
+                          {0.85f, 0.6f, 0.1f},
+                          {0.25f, 0.55f, 0.2f},
+                          {0.15f, 0.35f, 0.7f},
+                          {0.5f, 0.2f, 0.55f}};
+    for (int i = 0; i < 5; ++i) {
+        const auto paint = scene.add(ljus::Lambertian{.albedo = colors[i]});
+        scene.add(Quad{{-2.9f + 1.25f * float(i), 0, 0}, {0.8f, 0, 0}, {0, 2.6f, 0}},
+                  paint);
+    }
+    scene.add(Quad{{-30, 0, -3}, {60, 0, 0}, {0, 20, 0}},
+              matt(scene, 0.25f, 0.27f, 0.3f));
+    scene.add(ljus::PointLight{.position{1, 5, 7}, .intensity = Rgb{230}});
+    return {ljus::World(std::move(scene)),
+            pinhole({.position{0, 2.3f, 7}, .target{0, 0.35f, 0}, .vfov_degrees = 38})};
+}
+
+/// Balls in a row, the third of them in focus.
+Shot focus() {
+    Stage scene;
+    add_floor(scene, tiles(scene, Rgb{0.6f}, Rgb{0.3f}, 0.5f));
+    for (int i = 0; i < 6; ++i) {
+        const float x = -1.6f + 0.75f * float(i), z = 3.2f - 1.9f * float(i);
+        scene.add(Sphere{.center{x, 0.5f, z}, .radius = 0.5f},
+                  matt(scene, 0.75f - 0.1f * float(i), 0.3f, 0.15f + 0.12f * float(i)));
+    }
+    scene.add(ljus::PointLight{.position{-4, 8, 8}, .intensity = Rgb{320}});
+    const ljus::Camera camera = look_at(
+        ljus::View{.position{0, 1.5f, 7}, .target{0, 0.5f, 0}, .vfov_degrees = 34});
+    const Vec3 third{-0.1f, 0.5f, -0.6f};
+    return {
+        ljus::World(std::move(scene)),
+        with_lens(camera, 0.14f, glm::dot(third - camera.position, camera.forward))};
+}
+
+/// Balls that roll on a billiard table while the shutter is open.
+Shot motion() {
+    Stage scene;
+    add_floor(scene, matt(scene, 0.06f, 0.35f, 0.16f));
+    const auto ball = [&](const Vec3& place, const Vec3& way, const Rgb& color) {
+        const auto paint = scene.add(ljus::Lambertian{.albedo = color});
+        scene.add(MovingBall{{.center = place, .radius = 0.5f}, way}, paint);
+    };
+    ball({-1.9f, 0.5f, 0.6f}, {1.1f, 0, -0.5f}, {0.85f, 0.82f, 0.7f});
+    ball({0.6f, 0.5f, -0.3f}, {0, 0, 0}, {0.8f, 0.6f, 0.05f});
+    ball({1.8f, 0.5f, 0.4f}, {0.35f, 0, 0.2f}, {0.65f, 0.08f, 0.07f});
+    ball({0.3f, 0.5f, -2.6f}, {-0.3f, 0, -0.7f}, {0.1f, 0.15f, 0.55f});
+    scene.add(ljus::PointLight{.position{-3, 7, 4}, .intensity = Rgb{260}});
+    return {ljus::World(std::move(scene)), pinhole({.position{0, 3.2f, 6.5f},
+                                                    .target{0, 0.3f, -0.4f},
+                                                    .vfov_degrees = 36})};
+}
+
+/// A picture whose rays draw all their numbers by one pattern.
+/// \param pixel  Whether the rays are spread over the pixel; else they pass its middle.
+Image picture_by(const Shot& shot, int width, int height, int rays,
+                 ljus::Sampling sampling, std::uint64_t seed, bool pixel, int threads) {
+    const ljus::DistributedTracer tracer(shot.world);
+    const ljus::Pattern pattern = ljus::make_pattern(sampling, rays);
+    Image image = ljus::make_image<float>(width, height);
+    const auto row = [&](long long number) {
+        const int y = static_cast<int>(number);
+        ljus::Counts counts;
+        for (int x = 0; x < width; ++x) {
+            glm::dvec3 sum{0};
+            for (int i = 0; i < rays; ++i) {
+                ljus::StratifiedStream stream;
+                start_ray(stream, seed, static_cast<std::uint64_t>(y * width + x), i,
+                          pattern);
+                const Vec2 place = next_2d(stream);
+                const Vec2 at = Vec2{float(x), float(y)} + (pixel ? place : Vec2{0.5f});
+                const auto ray = camera_ray(shot.camera, at, width, height, stream);
+                auto context = ljus::context_of(stream, counts);
+                sum += glm::dvec3(radiance(tracer, ray, context));
+            }
+            ljus::pixel(image, x, y) = Rgb(sum / double(rays));
+        }
+    };
+    (void)ljus::parallel_blocks(height, row, {.threads = threads});
+    examples::stop_if_asked();
+    return image;
+}
+double rms(const Image& image, const Image& truth) {
     double sum = 0;
-    for (const Rgb& c : image.pixels) sum += double(c.x + c.y + c.z) / 3;
-    return sum / double(image.pixels.size());
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const Rgb d = image.pixels[i] - truth.pixels[i];
+        sum += double(glm::dot(d, d)) / 3;
+    }
+    return std::sqrt(sum / double(image.pixels.size()));
 }
 
-void print(const examples::Table& table, const examples::Options& options) {
-    if (options.quiet) return;
-    std::printf("\n%s\n", table.name.c_str());
-    for (const auto& heading : table.columns) std::printf("%s | ", heading.c_str());
-    std::printf("\n");
-    for (const auto& row : table.rows) {
-        for (const auto& cell : row) std::printf("%s | ", cell.c_str());
-        std::printf("\n");
+/// The slope of a curve in a plot with two logarithmic axes.
+double slope(const std::vector<double>& x, const std::vector<double>& y) {
+    double mx = 0, my = 0, sxy = 0, sxx = 0;
+    const double n = double(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        mx += std::log(x[i]) / n;
+        my += std::log(y[i]) / n;
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        sxy += (std::log(x[i]) - mx) * (std::log(y[i]) - my);
+        sxx += (std::log(x[i]) - mx) * (std::log(x[i]) - mx);
+    }
+    return sxy / sxx;
+}
+
+/// Error against rays for each pattern; adds a row to the table of slopes.
+void curves(const std::string& name, const Shot& shot, int most,
+            const examples::Options& options, examples::Table& table) {
+    using ljus::Sampling;
+    const int width = options.pick(30, 48, 72), height = width * 2 / 3;
+    const auto by = [&](Sampling sampling, int rays, std::uint64_t seed) {
+        return picture_by(shot, width, height, rays, sampling, seed, shot.pixel,
+                          options.threads);
+    };
+    const Image truth = by(Sampling::sobol, 16 * most, 99);
+    examples::Plot plot{
+        .name = "distributed_rays-" + name + "-error",
+        .columns = {"rays per pixel", "random", "jittered", "multi-jittered", "Sobol"},
+        .y_label = "RMS error",
+        .log_x = true,
+        .log_y = true};
+    std::vector<double> n, error[4];
+    for (int rays = 1; rays <= most; rays *= 4) {
+        n.push_back(rays);
+        examples::Row row{double(rays)};
+        std::size_t kind = 0;
+        for (const Sampling sampling : {Sampling::random, Sampling::jittered,
+                                        Sampling::multi_jittered, Sampling::sobol}) {
+            row.push_back(rms(by(sampling, rays, options.seed), truth));
+            error[kind++].push_back(row.back());
+        }
+        plot.rows.push_back(row);
+    }
+    save_plot(options.path(""), plot);
+    std::vector<std::string> cells{name};
+    for (const auto& curve : error)
+        cells.push_back(examples::text(slope(n, curve), "%.2f"));
+    // The number of random rays with the same error as one such ray; error falls as
+    // n^-1/2.
+    const double ratio = error[0].back() / error[2].back();
+    cells.push_back(examples::text(error[2].back(), "%.2g"));
+    cells.push_back(examples::text(ratio * ratio, "%.1f"));
+    table.rows.push_back(cells);
+    if (!options.quiet)
+        std::printf("%s: slopes %s (random), %s (jittered), %s (multi-jittered), "
+                    "%s (Sobol)\n",
+                    name.c_str(), cells[1].c_str(), cells[2].c_str(), cells[3].c_str(),
+                    cells[4].c_str());
+}
+
+/// Pictures with one ray and with many rays per pixel.
+void picture(const std::string& name, const Shot& shot,
+             const examples::Options& options) {
+    for (const int rays : {1, options.samples}) {
+        auto picture = examples::picture_settings(options);
+        picture.samples = rays;
+        const auto result = examples::rendered(
+            name, ljus::DistributedTracer(shot.world), shot.camera, picture, options);
+        save_png(result.image, options.path("distributed_rays-" + name +
+                                            (rays == 1 ? "-few.png" : ".png")));
     }
 }
 
-// --- Who finds the lamp ---------------------------------------------------------------
+/// One ray through the middle of each pixel.
+void jagged(const Shot& shot, const examples::Options& options) {
+    save_png(picture_by(shot, options.width, options.height, 1, ljus::Sampling::random,
+                        1, false, options.threads),
+             options.path("distributed_rays-pixel-few.png"));
+}
 
-struct Way {
-    const char *name, *file;
-    PathTracingSettings settings{};
+// The cost of evenly spread numbers.
+
+template <typename Ball>
+using Balls = ljus::Scene<ljus::Shapes<Ball, Quad>, ljus::Materials<ljus::Lambertian>,
+                          ljus::Lights<ljus::PointLight>>;
+
+/// Nine balls on a floor, without a light.
+template <typename Ball>
+Balls<Ball> nine_balls(const Vec3& way = Vec3{0}) {
+    Balls<Ball> scene;
+    const auto grey = scene.add(ljus::Lambertian{.albedo = Rgb{0.6f}});
+    scene.add(Quad{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}}, grey);
+    for (int i = 0; i < 9; ++i) {
+        const Sphere ball{.center{float(2 * (i % 3) - 2), 0.6f, float(2 * (i / 3) - 2)},
+                          .radius = 0.6f};
+        if constexpr (std::is_same_v<Ball, MovingBall>)
+            scene.add(MovingBall{ball, way}, grey);
+        else
+            scene.add(ball, grey);
+    }
+    return scene;
+}
+
+constexpr std::array patterns{ljus::Sampling::random, ljus::Sampling::jittered,
+                              ljus::Sampling::multi_jittered, ljus::Sampling::sobol};
+
+/// A picture, and its processor time.
+struct Timed {
+    Image image;
+    double seconds = 0; ///< Of processor time.
 };
-const std::array ways{
-    Way{"paths alone", "paths", {.sample_lights = false}},
-    Way{"shadow rays alone", "shadow", {.heuristic = MisHeuristic::shadow_rays}},
-    Way{"both by balance", "balance"},
-    Way{"both by power", "power", {.heuristic = MisHeuristic::power}}};
-/// Plot and table: the noise of each way in the diffuse room, against rays.
-void in_the_room(const examples::Options& options, const Sizes& sizes) {
-    const auto room = matt_room();
-    const int side = options.pick(48, 80, 120);
-    examples::Plot plot{.name = "path_tracing-noise",
-                        .columns = {"camera rays per pixel", ways[0].name, ways[1].name,
-                                    ways[2].name, "slope -1/2"},
-                        .y_label = "RMS noise, W/(m^2 sr)",
+struct Size {
+    int width = 0, height = 0; ///< In pixels.
+};
+template <ljus::AnyWorld W, typename AnyCamera>
+Timed timed(const W& world, const AnyCamera& camera, ljus::Sampling sampling, int rays,
+            const Size& size, std::uint64_t seed = 1) {
+    const double start = examples::processor_seconds();
+    auto picture = render(ljus::DistributedTracer(world), camera,
+                          {.width = size.width,
+                           .height = size.height,
+                           .samples = rays,
+                           .seed = seed,
+                           .threads = 1,
+                           .sampling = sampling});
+    return {std::move(picture.image), examples::processor_seconds() - start};
+}
+
+/// Table: nanoseconds of a camera ray by each pattern, through a lens, and with balls
+/// that move.
+void tabulate_costs(const Size& size, const examples::Options& options) {
+    const ljus::PointLight light{.position{3, 6, 4}, .intensity = Rgb{100}};
+    const auto lit = [&](auto scene) {
+        scene.add(light);
+        return ljus::World(std::move(scene));
+    };
+    const auto still = lit(nine_balls<Sphere>());
+    const auto resting = lit(nine_balls<MovingBall>());
+    const auto moving = lit(nine_balls<MovingBall>({0.5f, 0, 0}));
+    const ljus::Camera pinhole =
+        look_at(ljus::View{.position{0, 5, 8}, .target{0, 0.4f, 0}});
+    const LensCamera lens = with_lens(pinhole, 0.1f, 9.0f);
+
+    std::array<double, 7> least;
+    least.fill(std::numeric_limits<double>::infinity());
+    for (int round = 0; round < options.pick(7, 15, 31); ++round) {
+        const auto seconds = [&](const auto& world, const auto& camera,
+                                 ljus::Sampling sampling) {
+            return timed(world, camera, sampling, 16, size).seconds;
+        };
+        const std::array now{seconds(still, pinhole, ljus::Sampling::random),
+                             seconds(still, pinhole, ljus::Sampling::jittered),
+                             seconds(still, pinhole, ljus::Sampling::multi_jittered),
+                             seconds(still, pinhole, ljus::Sampling::sobol),
+                             seconds(still, lens, ljus::Sampling::random),
+                             seconds(resting, pinhole, ljus::Sampling::random),
+                             seconds(moving, pinhole, ljus::Sampling::random)};
+        for (std::size_t i = 0; i < now.size(); ++i)
+            least[i] = std::min(least[i], now[i]);
+        examples::stop_if_asked();
+    }
+    const std::array names{"random, a pinhole, nothing moves",
+                           "jittered",
+                           "multi-jittered",
+                           "Sobol",
+                           "random, and a lens",
+                           "random, balls of a moving type that stand still",
+                           "random, balls that move"};
+    examples::Table table{
+        .name = "distributed_rays-costs",
+        .columns = {"camera rays", "ns per camera ray", "over the first row"}};
+    const double rays = 16.0 * size.width * size.height;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        table.rows.push_back({names[i], examples::text(1e9 * least[i] / rays, "%.0f"),
+                              examples::text(least[i] / least[0], "%.2f")});
+    save_table(options.path(""), table);
+}
+
+/// Plot: the error of a picture with soft shadows against time.
+void plot_trade(const Size& size, int most, const examples::Options& options) {
+    auto scene = nine_balls<Sphere>();
+    scene.add(Quad{{2, 6, 3}, {2, 0, 0}, {0, 0, 2}},
+              scene.add(ljus::Lambertian{.albedo = Rgb{0}}), Rgb{25});
+    const ljus::World world(std::move(scene));
+    const ljus::Camera camera =
+        look_at(ljus::View{.position{0, 5, 8}, .target{0, 0.4f, 0}});
+    const Image truth =
+        timed(world, camera, ljus::Sampling::sobol, 16 * most, size, 99).image;
+
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    examples::Plot plot{.name = "distributed_rays-trade",
+                        .columns = {"microseconds per pixel", "random", "jittered",
+                                    "multi-jittered", "Sobol"},
+                        .y_label = "RMS error of the picture",
+                        .rows = {},
                         .log_x = true,
                         .log_y = true};
-    for (int rays = 1; rays <= sizes.most; rays *= 4)
-        plot.rows.push_back({double(rays), nothing, nothing, nothing, nothing});
-    examples::Table table{.name = "path_tracing-ways",
-                          .columns = {"way", "rays per camera ray", "slope", "noise",
-                                      "efficiency by rays", "by time"}};
-    double first_rms = 0, first_by_rays = 0, first_by_time = 0;
-    for (std::size_t way = 0; way < 3; ++way) {
-        const ljus::PathTracer tracer(room.world, ways[way].settings);
-        Noise last;
-        for (auto& row : plot.rows) {
-            last = noise_of(tracer, low_camera(),
-                            {side, side, int(row[0]), options.seed}, options);
-            row[1 + way] = last.rms;
-        }
-        const auto& rows = plot.rows;
-        const double slope = std::log(rows.back()[1 + way] / rows[0][1 + way]) /
-                             std::log(rows.back()[0] / rows[0][0]);
-        const double variance = last.rms * last.rms;
-        const double by_rays = 1 / (variance * last.rays);
-        const double by_time = 1 / (variance * last.seconds);
-        if (way == 0)
-            first_rms = last.rms, first_by_rays = by_rays, first_by_time = by_time;
-        table.rows.push_back({ways[way].name, text(last.rays, "%.2f"),
-                              text(slope, "%.3f"), text(last.rms / first_rms, "%.4f"),
-                              text(by_rays / first_by_rays, "%.1f"),
-                              text(by_time / first_by_time, "%.1f")});
-    }
-    for (auto& row : plot.rows) row[4] = plot.rows[0][2] / (2 * std::sqrt(row[0]));
-    save_plot(options.path(""), plot);
-    save_table(options.path(""), table);
-    print(table, options);
-}
-
-/// Table and pictures: a box whose walls all shine, so that lamps are infinitely close
-/// to its edges.
-void in_the_box(const examples::Options& options) {
-    const auto room = ljus::box_furnace(Rgb{0.25f}, Rgb{0.5f});
-    examples::Table table{
-        .name = "path_tracing-box",
-        .columns = {"way", "RMS noise", "brightest pixel (all are 0.5)"}};
-    for (std::size_t way = 0; way < 3; ++way) {
-        const ljus::PathTracer tracer(room.world, ways[way].settings);
-        const Noise noise = noise_of(
-            tracer, room.camera,
-            {options.width, options.height, options.samples, options.seed}, options);
-        float brightest = 0;
-        for (const Rgb& c : noise.image.pixels) brightest = std::max(brightest, c.x);
-        table.rows.push_back(
-            {ways[way].name, text(noise.rms, "%.4f"), text(double(brightest), "%.3f")});
-        save_png(noise.image, options.path(std::string("path_tracing-box-") +
-                                           ways[way].file + ".png"));
-    }
-    save_table(options.path(""), table);
-    print(table, options);
-}
-
-/// A path log that sums the light of one owner.
-struct OwnerLog {
-    std::string_view owner;
-    Rgb sum{0};
-    void begin() noexcept {}
-    void vertex(char, const Vec3&, const Rgb&, float) noexcept {}
-    void term(std::string_view who, std::string_view, const Rgb& value) noexcept {
-        if (who == owner) sum += value;
-    }
-};
-
-template <typename Renderer>
-struct OneOwner {
-    using Stream = typename Renderer::Stream;
-    Renderer whole;
-    std::string_view owner;
-};
-
-template <typename Renderer>
-OneOwner<Renderer> part_of(const Renderer& whole, std::string_view owner) {
-    return {whole, owner};
-}
-
-template <typename Renderer>
-Rgb radiance(const OneOwner<Renderer>& one, const ljus::Ray& ray, auto& context) {
-    OwnerLog log{.owner = one.owner};
-    auto told = ljus::context_of(context.stream, context.counts, log);
-    (void)radiance(one.whole, ray, told);
-    return log.sum;
-}
-
-/// The relative noise where the plates mirror the lamps: plate by plate, lamp by lamp.
-template <typename World>
-std::array<std::array<double, 4>, 4>
-noise_on_plates(const World& world, const ljus::Camera& camera, const Noise& noise) {
-    std::array<std::array<double, 4>, 4> squares{}, sums{}, counts{};
-    const Image& image = noise.image;
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) {
-            const auto ray = primary_ray(camera, {float(x) + 0.5f, float(y) + 0.5f},
-                                         image.width, image.height);
-            const auto hit = closest_hit(world, ray);
-            if (!hit || hit->object.type != 0 || hit->object.index >= 4) continue;
-            const float across = ray.origin.x + hit->at.t * ray.direction.x;
-            const auto lamp = std::size_t(std::clamp((across + 4) / 2, 0.0f, 3.0f));
-            const Rgb a = pixel(image, x, y), b = pixel(noise.other, x, y);
-            squares[hit->object.index][lamp] += double(dot(a - b, a - b)) / 6;
-            sums[hit->object.index][lamp] += double(a.x + a.y + a.z) / 3;
-            counts[hit->object.index][lamp] += 1;
-        }
-    for (std::size_t plate = 0; plate < 4; ++plate)
-        for (std::size_t lamp = 0; lamp < 4; ++lamp)
-            squares[plate][lamp] =
-                std::sqrt(squares[plate][lamp] * counts[plate][lamp]) /
-                sums[plate][lamp];
-    return squares;
-}
-
-/// Table and pictures: Veach's plates by each way, and the two parts of the weighted
-/// sum.
-void on_the_plates(const examples::Options& options) {
-    const auto room = examples::veach_plates();
-    const ljus::RenderSettings picture{options.width,
-                                       std::max(1, options.width * 2 / 3),
-                                       options.samples, options.seed};
-    std::array<std::array<std::array<double, 4>, 4>, 4> noise{};
-    for (std::size_t way = 0; way < ways.size(); ++way) {
-        PathTracingSettings settings = ways[way].settings;
-        settings.max_depth = 1;
-        const ljus::PathTracer tracer(room.world, settings);
-        const Noise here = noise_of(tracer, room.camera, picture, options);
-        noise[way] = noise_on_plates(room.world, room.camera, here);
-        const std::string file = std::string("path_tracing-plates-") + ways[way].file;
-        save_png(here.image, options.path(file + ".png"));
-        if (way != 2) continue;
-        for (const auto& [owner, name] : {std::array{"shadow ray", "of-shadow"},
-                                          std::array{"emission", "of-paths"}})
-            save_png(rendered("shares", part_of(tracer, owner), room.camera, picture,
-                              options)
-                         .image,
-                     options.path(std::string("path_tracing-plates-") + name + ".png"));
-    }
-    examples::Table table{.name = "path_tracing-plates",
-                          .columns = {"roughness of the plate", "radius of the lamp",
-                                      "paths", "shadow rays", "balance", "power"}};
-    for (std::size_t plate = 0; plate < 4; ++plate)
-        for (std::size_t lamp = 0; lamp < 4; ++lamp) {
-            table.rows.push_back(
-                {text(double(examples::plate_roughness[plate]), "%.2f"),
-                 text(double(examples::lamp_radius[lamp]), "%.2g")});
-            for (const auto& way : noise)
-                table.rows.back().push_back(text(100 * way[plate][lamp], "%.0f %%"));
-        }
-    save_table(options.path(""), table);
-    print(table, options);
-}
-
-// --- Where paths end ------------------------------------------------------------------
-
-ljus::Ray in_furnace(ljus::RandomStream& stream) {
-    return {.origin{0.1f, 0.2f, -0.1f},
-            .direction = ljus::sample_uniform_sphere(next_2d(stream))};
-}
-
-/// The mean of many paths, and their cost.
-struct Mean {
-    double mean = 0;
-    double variance = 0; ///< Of one path.
-    double surfaces = 0; ///< That a path meets.
-};
-
-/// The radiance in a furnace, by paths.
-Mean furnace_mean(float albedo, const PathTracingSettings& settings, int paths,
-                  std::uint64_t seed) {
-    const auto room = ljus::sphere_furnace(Rgb{1}, Rgb{albedo});
-    const ljus::PathTracer tracer(room.world, settings);
-    ljus::Counts counts;
-    double sum = 0, squares = 0;
-    for (int path = 0; path < paths; ++path) {
-        auto stream = random_stream(seed, ljus::Pass::user, 0, std::uint64_t(path));
-        const auto ray = in_furnace(stream);
-        auto context = ljus::context_of(stream, counts);
-        const double seen = double(radiance(tracer, ray, context).x);
-        sum += seen;
-        squares += seen * seen;
-    }
-    examples::stop_if_asked();
-    const double mean = sum / paths;
-    return {mean, (squares / paths - mean * mean) * paths / std::max(1, paths - 1),
-            1 + double(counts.bounce_rays) / paths};
-}
-
-/// Plot: the light that a fixed depth leaves out, in furnaces and in the room.
-void depths(const examples::Options& options, const Sizes& sizes) {
-    const std::array albedos{0.5f, 0.75f, 0.9f};
-    examples::Plot plot{.name = "path_tracing-depth",
-                        .columns = {"largest depth", "furnace of albedo 0.5",
-                                    "furnace of albedo 0.75", "furnace of albedo 0.9",
-                                    "the diffuse room"},
-                        .y_label = "share of the light that is missing",
-                        .log_y = true,
-                        .more = "set yrange [1e-5:1]\n"};
-    const auto room = matt_room();
-    const int side = options.pick(48, 100, 200);
-    const ljus::RenderSettings picture{side, side, std::max(4, options.samples),
-                                       options.seed};
-    const auto light_at = [&](int depth) {
-        return mean_of(rendered("depth",
-                                ljus::PathTracer(room.world, {.max_depth = depth,
-                                                              .roulette_depth = 1000}),
-                                room.camera, picture, options)
-                           .image);
-    };
-    const double all = light_at(60);
-    double worst = 0;
-    for (const int depth : {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20}) {
-        plot.rows.push_back({double(depth)});
-        for (const float albedo : albedos) {
-            const double rho = double(albedo);
-            const double seen =
-                furnace_mean(albedo, {.max_depth = depth, .roulette_depth = 1000}, 50,
-                             options.seed)
-                    .mean;
-            const double missing = 1 / (1 - rho) - seen;
-            const double right = std::pow(rho, depth + 1) / (1 - rho);
-            worst = std::max(worst, std::abs(missing - right) * (1 - rho));
-            plot.rows.back().push_back(missing * (1 - rho));
-        }
-        plot.rows.back().push_back(depth <= 12 ? 1 - light_at(depth) / all : nothing);
-    }
-    save_plot(options.path(""), plot);
-    if (options.quiet) return;
-    std::printf("\nlight missing at depth 4: furnace 0.75 %.3f, room %.3f; the closed "
-                "form rho^(d+1) is met within %.1e\n",
-                plot.rows[3][2], plot.rows[3][4], worst);
-    for (const float albedo : albedos) {
-        const Mean end =
-            furnace_mean(albedo, {.roulette_depth = 1, .sample_lights = false},
-                         100 * sizes.paths, options.seed);
-        const double error = std::sqrt(end.variance / (100 * sizes.paths));
-        std::printf("roulette, albedo %.2f: %.4f (%.0f), %.2f standard errors off\n",
-                    double(albedo), end.mean, 1 / (1 - double(albedo)),
-                    (end.mean - 1 / (1 - double(albedo))) / error);
-    }
-}
-
-/// The variance of a path in a furnace of emission 1, if it continues with a constant
-/// probability p.
-double furnace_variance(double rho, double p) {
-    const double r = rho / p, s = rho * rho / p, mean = 1 / (1 - rho);
-    if (s > 1 - 1e-6) return nothing;
-    if (std::abs(r - 1) < 1e-9) return p / ((1 - p) * (1 - p));
-    return 1 / (1 - s) + 2 / (r - 1) * (1 / (1 - s) - mean) - mean * mean;
-}
-
-PathTracingSettings constant_chance(double p) {
-    return {.roulette_depth = 1,
-            .sample_lights = false,
-            .roulette_threshold = 1e-30,
-            .roulette_max = p};
-}
-
-/// Plot and table: a constant probability, for which the variance has a closed form or
-/// is infinite.
-void constant_chances(const examples::Options& options, const Sizes& sizes) {
-    examples::Plot plot{.name = "path_tracing-chance",
-                        .columns = {"chance p to go on", "albedo 0.9: closed form",
-                                    "albedo 0.9: measured", "albedo 0.5: closed form",
-                                    "albedo 0.5: measured"},
-                        .y_label = "variance x surfaces per path",
-                        .log_y = true,
-                        .more = "set xrange [0:1]\nset yrange [1:1e7]\n"};
-    for (int i = 1; i < 100; ++i) {
-        const double p = i / 100.0;
-        plot.rows.push_back({p});
-        for (const float albedo : {0.9f, 0.5f}) {
-            plot.rows.back().push_back(furnace_variance(double(albedo), p) / (1 - p));
-            double measured = nothing;
-            if (i % 5 == 0) {
-                const Mean seen = furnace_mean(albedo, constant_chance(p),
-                                               10 * sizes.paths, options.seed);
-                measured = seen.variance * seen.surfaces;
+    const double pixels = double(size.width) * size.height;
+    for (std::size_t kind = 0; kind < patterns.size(); ++kind)
+        for (int rays = 1; rays <= most; rays *= 4) {
+            double square = 0, seconds = std::numeric_limits<double>::infinity();
+            const int seeds = options.pick(4, 8, 16);
+            for (int seed = 1; seed <= seeds; ++seed) {
+                const Timed one = timed(world, camera, patterns[kind], rays, size,
+                                        std::uint64_t(seed));
+                const double error = double(ljus::rmse(one.image, truth));
+                square += error * error / seeds;
+                seconds = std::min(seconds, one.seconds);
+                examples::stop_if_asked();
             }
-            plot.rows.back().push_back(measured);
+            examples::Row row(patterns.size() + 1, none);
+            row[0] = 1e6 * seconds / pixels;
+            row[kind + 1] = std::sqrt(square);
+            plot.rows.push_back(row);
         }
-    }
     save_plot(options.path(""), plot);
-
-    examples::Table table{
-        .name = "path_tracing-catastrophe",
-        .columns = {"chance p", "surfaces per path", "standard deviation of a path",
-                    "median of the runs (truth: 10)", "runs that are too low",
-                    "truth within 2 of a run's own standard errors"}};
-    for (const double p : {0.3, 0.5, 0.7, 0.85, 0.9, 0.95}) {
-        std::vector<double> means;
-        double low = 0, within = 0, surfaces = 0;
-        for (int run = 0; run < sizes.runs; ++run) {
-            const Mean seen =
-                furnace_mean(0.9f, constant_chance(p), sizes.paths,
-                             options.seed + 10 + static_cast<std::uint64_t>(run));
-            means.push_back(seen.mean);
-            low += seen.mean < 10 ? 1 : 0;
-            within +=
-                std::abs(seen.mean - 10) < 2 * std::sqrt(seen.variance / sizes.paths)
-                    ? 1
-                    : 0;
-            surfaces += seen.surfaces / sizes.runs;
-        }
-        std::sort(means.begin(), means.end());
-        const double variance = furnace_variance(0.9, p);
-        table.rows.push_back(
-            {text(p, "%.2f"), text(surfaces, "%.1f"),
-             std::isnan(variance) ? "no end" : text(std::sqrt(variance), "%.1f"),
-             text(means[means.size() / 2], "%.2f"),
-             text(100 * low / sizes.runs, "%.0f %%"),
-             text(100 * within / sizes.runs, "%.0f %%")});
-    }
-    save_table(options.path(""), table);
-    print(table, options);
-}
-
-/// A roulette: the probability of surviving is throughput / threshold, at most `most`.
-struct RouletteCase {
-    std::string name;
-    double threshold, most;
-    int from = 1; ///< The first surface with roulette.
-    [[nodiscard]] PathTracingSettings settings() const {
-        return {.roulette_depth = from,
-                .roulette_threshold = threshold,
-                .roulette_max = most};
-    }
-};
-
-std::vector<RouletteCase> roulette_cases() {
-    std::vector<RouletteCase> cases{{"1: no roulette", 0, 1}};
-    for (const double threshold : {0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 2.0, 4.0, 10.0, 40.0})
-        cases.push_back({"throughput / " + text(threshold), threshold, 1});
-    for (const double most : {0.9, 0.7, 0.5, 0.3, 0.1})
-        cases.push_back({text(most), 1e-30, most});
-    cases.push_back({"throughput from surface 4 on", 1, 1, 4});
-    return cases;
-}
-
-double efficiency_by_rays(const Noise& n) {
-    return 1 / (n.rms * n.rms * n.rays);
-}
-
-double efficiency_by_time(const Noise& n) {
-    return 1 / (n.rms * n.rms * std::max(n.seconds, 1e-6));
-}
-
-/// Plot and table: the efficiency of each roulette.
-/// \param usual  The noise of the threshold 1, with which the others are compared.
-void save_roulettes(const std::vector<RouletteCase>& cases,
-                    const std::vector<Noise>& noises, const Noise& usual,
-                    const examples::Options& options) {
-    examples::Plot plot{.name = "path_tracing-roulette",
-                        .columns = {"threshold", "by rays", "by time", "no roulette"},
-                        .y_label = "efficiency, 1 / (variance x cost); 1: threshold 1",
-                        .log_x = true,
-                        .more = "set yrange [0:*]\n"};
-    examples::Table table{.name = "path_tracing-roulette-table",
-                          .columns = {"chance to go on", "rays per camera ray",
-                                      "RMS noise", "efficiency by rays", "by time"}};
-    const double none = efficiency_by_rays(noises[0]) / efficiency_by_rays(usual);
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-        const double rays = efficiency_by_rays(noises[i]) / efficiency_by_rays(usual);
-        const double time = efficiency_by_time(noises[i]) / efficiency_by_time(usual);
-        table.rows.push_back({cases[i].name, text(noises[i].rays, "%.2f"),
-                              text(noises[i].rms, "%.4f"), text(rays, "%.2f"),
-                              text(time, "%.2f")});
-        if (cases[i].threshold >= 0.05 && cases[i].from == 1)
-            plot.rows.push_back({cases[i].threshold, rays, time, none});
-    }
-    save_plot(options.path(""), plot);
-    save_table(options.path(""), table);
-    print(table, options);
-}
-
-/// Roulette in the room: its efficiency, and two pictures.
-void roulette(const examples::Options& options, const Sizes& sizes) {
-    const auto room = matt_room();
-    const int side = options.pick(48, 80, 120);
-    const std::vector<RouletteCase> cases = roulette_cases();
-    std::vector<Noise> noises;
-    for (const RouletteCase& c : cases)
-        noises.push_back(noise_of(ljus::PathTracer(room.world, c.settings()),
-                                  low_camera(), {side, side, sizes.most, options.seed},
-                                  options));
-    const Noise& usual = noises[6];                // threshold 1
-    const Noise& rash = noises[noises.size() - 2]; // a probability of 0.1
-    save_roulettes(cases, noises, usual, options);
-
-    // Both pictures take the same number of rays of all kinds.
-    const double rays = usual.rays / rash.rays * options.samples;
-    const auto save = [&](const char* file, const PathTracingSettings& settings,
-                          int count) {
-        save_png(rendered("roulette", ljus::PathTracer(room.world, settings),
-                          room.camera,
-                          {options.width, options.height, count, options.seed}, options)
-                     .image,
-                 options.path(file));
-    };
-    save("path_tracing-roulette-usual.png", {.roulette_depth = 1}, options.samples);
-    save("path_tracing-roulette-rash.png",
-         {.roulette_depth = 1, .roulette_threshold = 1e-30, .roulette_max = 0.1},
-         std::max(1, int(std::lround(rays))));
-}
-
-/// Table: rays per second, by one thread and by two.
-void speed(const examples::Options& options) {
-    const auto matt = matt_room();
-    const auto cornell = ljus::cornell_box();
-    examples::Table table{.name = "path_tracing-speed",
-                          .columns = {"room", "threads", "million rays per second",
-                                      "million paths per second"}};
-    const auto measure = [&](const char* name, const auto& room, int threads) {
-        const ljus::PathTracer tracer(room.world);
-        const examples::StopWatch watch;
-        const auto seen = rendered(
-            "speed", tracer, room.camera,
-            {options.width, options.height, options.samples, options.seed, threads},
-            options);
-        const double seconds = 1e6 * std::max(watch.seconds(), 1e-6);
-        table.rows.push_back({name, std::to_string(threads),
-                              text(double(seen.counts.rays()) / seconds, "%.2f"),
-                              text(double(seen.counts.camera_rays) / seconds, "%.2f")});
-    };
-    for (const int threads : {1, 2}) {
-        measure("diffuse", matt, threads);
-        measure("with mirror and glass", cornell, threads);
-    }
-    save_table(options.path(""), table);
-    print(table, options);
 }
 
 } // namespace
@@ -566,27 +412,35 @@ void speed(const examples::Options& options) {
 /// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        Sizes sizes;
+        int most = 0;
         line.about(
-            "Chapter 19, path tracing: who finds the lamp, and where paths end.");
-        line.add("--most", sizes.most, "Most rays per pixel in a curve; 0: by quality",
-                 0, 1 << 16);
-        line.add("--runs", sizes.runs, "Runs per constant chance; 0: by quality", 0,
-                 10000);
-        line.add("--paths", sizes.paths, "Paths per run; 0: by quality", 0, 10000000);
+            "Chapter 19, distributed rays: how fast five blurs become smooth, and "
+            "what it costs.");
+        line.add("--most", most, "Most rays per pixel in the curves; 0: by quality", 0,
+                 1 << 16);
         const examples::Options options =
-            line.parse({.draft{.width = 120, .height = 120, .samples = 9},
-                        .report{.width = 400, .height = 400, .samples = 64},
-                        .reference{.width = 480, .height = 480, .samples = 1024}});
-        if (sizes.most == 0) sizes.most = options.pick(16, 256, 1024);
-        if (sizes.runs == 0) sizes.runs = options.pick(21, 101, 1001);
-        if (sizes.paths == 0) sizes.paths = options.pick(1000, 10000, 10000);
-        in_the_room(options, sizes);
-        in_the_box(options);
-        on_the_plates(options);
-        depths(options, sizes);
-        constant_chances(options, sizes);
-        roulette(options, sizes);
-        speed(options);
+            line.parse({.draft{.width = 240, .height = 160, .samples = 36},
+                        .report{.width = 600, .height = 400, .samples = 100},
+                        .reference{.width = 900, .height = 600, .samples = 1024}});
+        if (most == 0) most = options.pick(64, 256, 1024);
+        examples::Table table{.name = "distributed_rays-slopes",
+                              .columns = {"spread over", "random", "jittered",
+                                          "multi-jittered", "Sobol", "error",
+                                          "random rays for one"}};
+        const auto both = [&](const std::string& name, const Shot& shot) {
+            picture(name, shot, options);
+            curves(name, shot, most, options, table);
+        };
+        both("pixel", edges());
+        jagged(edges(), options);
+        both("light", shadows());
+        both("gloss", gloss());
+        both("lens", focus());
+        both("time", motion());
+        save_table(options.path(""), table);
+        const int width = std::min(options.width, options.pick(48, 72, 96));
+        const Size small{.width = width, .height = 2 * width / 3};
+        tabulate_costs(small, options);
+        plot_trade(small, most, options);
     });
 }

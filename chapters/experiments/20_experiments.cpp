@@ -1,577 +1,564 @@
-// smoke: --quality draft --width 16 --height 16 --rays 1 --size 0.9 --steps 2
+// smoke: --quality draft --width 16 --height 16 --rays 1 --most 4 --runs 3 --paths 50
 /// \file chapters/experiments/20_experiments.cpp
-/// \brief Chapter 20: the experiments behind its tables, plots and pictures: form
-/// factors, solvers, the size of patches, leaks, and a light map seen from many sides.
+/// \brief Chapter 20: the experiments behind its tables, plots and pictures: how paths find
+/// the lamp, roulette, and the light that a fixed depth leaves out.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
+#include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <ljus/inspect/metrics.hpp>
-#include <ljus/io/light_map_file.hpp>
 #include <ljus/ljus.hpp>
-#include <ljus/math/sum.hpp>
-#include <ljus/radiosity/exchange_area.hpp>
-#include <ljus/radiosity/form_factor_matrix.hpp>
-#include <ljus/radiosity/light_map.hpp>
-#include <ljus/radiosity/patch_grid.hpp>
-#include <ljus/radiosity/patches.hpp>
-#include <ljus/radiosity/radiosity.hpp>
-#include <ljus/radiosity/radiosity_solve.hpp>
+#include <ljus/scene/camera.hpp>
 #include <ljus/scenes/cornell_box.hpp>
+#include <ljus/scenes/furnaces.hpp>
 
 #include "common/example.hpp"
-
-using namespace ljus;
+#include "experiments/veach_plates.hpp"
 
 namespace {
 
-using Color = RgbT<double>;
+using examples::rendered;
+using examples::text;
+using ljus::Image;
+using ljus::MisHeuristic;
+using ljus::PathTracingSettings;
+using ljus::Quad;
+using ljus::Rgb;
+using ljus::Sphere;
+using ljus::Vec3;
 
-constexpr double pi = std::numbers::pi;
-using Stage = Scene<Shapes<Quad>, Materials<Lambertian>>;
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// The options of this program, besides the common ones.
 struct Sizes {
-    double patch = 0; ///< Side of the finest patches of the room.
-    int steps = 0;    ///< How many sizes of patches.
+    int most = 0;  ///< Most rays per pixel in the curves of noise.
+    int runs = 0;  ///< Of roulette with a constant probability.
+    int paths = 0; ///< Per run.
 };
 
-/// A picture, with a bar while it is made.
+// --- Scenes ---------------------------------------------------------------------------
+
+using Matt = ljus::Scene<ljus::Shapes<Quad, Sphere>, ljus::Materials<ljus::Lambertian>>;
+
+/// A room with only diffuse surfaces, its front open.
+ljus::Room<Matt> matt_room() {
+    Matt scene;
+    ljus::add_cornell_walls(scene);
+    const auto grey = scene.add(ljus::Lambertian{.albedo = Rgb{0.75f}});
+    const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
+    scene.add(Sphere{{-0.42f, 0.38f, -0.3f}, 0.38f}, grey);
+    scene.add(Sphere{{0.42f, 0.38f, 0.3f}, 0.38f}, grey);
+    scene.add(Quad{{-0.25f, 1.99f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}}, black,
+              Rgb{17, 13, 8});
+    return {ljus::World(std::move(scene)), ljus::cornell_box().camera};
+}
+
+/// The camera of all measurements of noise: it does not see the lamp, whose edge is
+/// noisier than everything else.
+ljus::Camera low_camera() {
+    return ljus::look_at(
+        {.position{0, 1, 4.4f}, .target{0, 0.6f, 0}, .vfov_degrees = 22});
+}
+
+// --- Noise ----------------------------------------------------------------------------
+
+/// The noise of a renderer, from two pictures with different seeds: it needs no
+/// reference.
+struct Noise {
+    double rms = 0;     ///< Of one picture.
+    double rays = 0;    ///< Of all kinds, per camera ray.
+    double seconds = 0; ///< Of processor time, for both.
+    Image image{};      ///< The first.
+    Image other{};      ///< The second.
+};
 template <typename Renderer>
-Image rendered(const std::string& name, const Renderer& renderer, const Camera& camera,
-               const examples::Options& options, int rays = 0, bool wide = false) {
-    RenderSettings picture = examples::picture_settings(options);
-    if (wide) picture.height = std::max(1, options.height / 2);
-    if (rays > 0) picture.samples = rays;
-    return examples::rendered(name, renderer, camera, picture, options).image;
+Noise noise_of(const Renderer& renderer, const ljus::Camera& camera,
+               ljus::RenderSettings picture, const examples::Options& options) {
+    const double start = examples::processor_seconds();
+    const auto a = rendered("noise", renderer, camera, picture, options);
+    picture.seed += 1000;
+    const auto b = rendered("noise", renderer, camera, picture, options);
+    return {.rms = rmse(a.image, b.image) / std::sqrt(2.0),
+            .rays = double(a.counts.rays()) / double(a.counts.camera_rays),
+            .seconds = examples::processor_seconds() - start,
+            .image = a.image,
+            .other = b.image};
+}
+double mean_of(const Image& image) {
+    double sum = 0;
+    for (const Rgb& c : image.pixels) sum += double(c.x + c.y + c.z) / 3;
+    return sum / double(image.pixels.size());
 }
 
-/// Seconds of processor time since the last call.
-struct Lap {
-    double start = examples::processor_seconds();
-    double operator()() {
-        const double now = examples::processor_seconds();
-        const double spent = now - start;
-        start = now;
-        return spent;
+void print(const examples::Table& table, const examples::Options& options) {
+    if (options.quiet) return;
+    std::printf("\n%s\n", table.name.c_str());
+    for (const auto& heading : table.columns) std::printf("%s | ", heading.c_str());
+    std::printf("\n");
+    for (const auto& row : table.rows) {
+        for (const auto& cell : row) std::printf("%s | ", cell.c_str());
+        std::printf("\n");
     }
+}
+
+// --- Who finds the lamp ---------------------------------------------------------------
+
+struct Way {
+    const char *name, *file;
+    PathTracingSettings settings{};
 };
-
-// --- The rooms ------------------------------------------------------------------------
-
-/// A block on the floor, rotated about its centre.
-void add_block(Stage& scene, MaterialId matt, const Vec3& middle, const Vec3& size,
-               double degrees) {
-    const auto angle = float(degrees * pi / 180);
-    const Vec3 x = size.x * Vec3{std::cos(angle), 0, std::sin(angle)};
-    const Vec3 z = size.z * Vec3{-std::sin(angle), 0, std::cos(angle)};
-    const Vec3 y{0, size.y, 0};
-    const Vec3 low = middle - (x + z) / 2.0f;
-    scene.add(Quad{low + y, z, x}, matt);
-    scene.add(Quad{low, y, x}, matt);
-    scene.add(Quad{low + z, x, y}, matt);
-    scene.add(Quad{low, z, y}, matt);
-    scene.add(Quad{low + x, y, z}, matt);
-}
-
-/// The Cornell box with two diffuse blocks.
-Room<Stage> block_room() {
-    Stage scene;
-    add_cornell_walls(scene);
-    const auto white = scene.add(Lambertian{.albedo = Rgb{0.75f}});
-    add_block(scene, white, {-0.35f, 0, -0.3f}, {0.6f, 1.2f, 0.6f}, -17);
-    add_block(scene, white, {0.4f, 0, 0.3f}, {0.55f, 0.6f, 0.55f}, 20);
-    scene.add(Quad{{-0.3f, 1.999f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}},
-              scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{12, 10, 7});
-    return {World(std::move(scene)), cornell_box().camera};
-}
-/// Two rooms; the lamp is in the left one. The front, where the camera stands, is open.
-Room<Stage> two_rooms(double wall) {
-    Stage scene;
-    const auto white = scene.add(Lambertian{.albedo = Rgb{0.7f}});
-    const auto blue = scene.add(Lambertian{.albedo{0.3f, 0.4f, 0.7f}});
-    const Vec3 x{4, 0, 0}, y{0, 2, 0}, z{0, 0, 2}, o{-2, 0, -1};
-    scene.add(Quad{o, z, x}, white);
-    scene.add(Quad{o + y, x, z}, white);
-    scene.add(Quad{o, x, y}, white);
-    scene.add(Quad{o, y, z}, blue);
-    scene.add(Quad{o + x, z, y}, blue);
-    scene.add(Quad{{float(wall), 0, -1}, y, z}, white);
-    scene.add(Quad{{-1.2f, 1.99f, -0.2f}, {0.4f, 0, 0}, {0, 0, 0.4f}},
-              scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{60, 54, 45});
-    const Camera camera = look_at(View{
-        .position{0, 1, 4.6f}, .target{0, 1, 0}, .up{0, 1, 0}, .vfov_degrees = 32});
-    return {World(std::move(scene)), camera};
-}
-
-/// A closed cube whose ceiling emits: there are no shadows, and all form factors have a
-/// closed form.
-auto shining_cube() {
-    Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>>> cube;
-    using V = Vec3T<double>;
-    const V x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, o{0};
-    const auto paint = [&](double albedo) {
-        return cube.add(LambertianT<double>{.albedo = Color(albedo)});
-    };
-    cube.add(QuadT<double>{o, x, y}, paint(0.8));
-    cube.add(QuadT<double>{z, y, x}, paint(0.5), Color(1));
-    cube.add(QuadT<double>{o, y, z}, paint(0.7));
-    cube.add(QuadT<double>{x, z, y}, paint(0.3));
-    cube.add(QuadT<double>{o, z, x}, paint(0.6));
-    cube.add(QuadT<double>{y, x, z}, paint(0.8));
-    return World(std::move(cube));
-}
-
-// --- Form factors ---------------------------------------------------------------------
-
-/// Table: the form factor of two unit squares on a common edge, by random points of
-/// both, and by rays drawn by the cosine.
-void factors_by_chance(const examples::Options& options) {
-    const int count = options.pick(1000000, 2000000, 10000000);
-    examples::Table table{.name = "radiosity-chance",
-                          .columns = {"seed", "points of both", "rays by the cosine"}};
-    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-        double points = 0, rays = 0;
-        for (int i = 0; i < count; ++i) {
-            auto stream = random_stream(options.seed + seed, Pass::user, 0,
-                                        static_cast<std::uint64_t>(i));
-            const auto a = next_2d<double>(stream), b = next_2d<double>(stream);
-            // Floor (x, y, 0) and wall (0, y, z).
-            const Vec3T<double> way{-a.x, b.x - a.y, b.y};
-            const double r2 = glm::dot(way, way);
-            points += a.x * b.y / (pi * r2 * r2);
-            const auto d = sample_cosine_hemisphere(next_2d<double>(stream));
-            const double t = d.x < 0 ? a.x / -d.x : 1e9;
-            const double side = a.y + t * d.y;
-            rays += t * d.z <= 1 && side >= 0 && side <= 1 ? 1 : 0;
-        }
-        table.rows.push_back({std::to_string(seed),
-                              examples::text(points / count, "%.5f"),
-                              examples::text(rays / count, "%.5f")});
-    }
-    table.rows.push_back({"exact", examples::text(form_factor_corner(1, 1, 1), "%.5f"),
-                          examples::text(form_factor_corner(1, 1, 1), "%.5f")});
-    save_table(options.out, table);
-}
-
-// --- Solvers --------------------------------------------------------------------------
-
-/// Plot: the flux that is still unsent after each sweep, by each solver.
-void residuals(const examples::Options& options, const Sizes& sizes) {
-    const auto room = block_room();
-    const auto all = make_radiosity(room.world, {.patches = {.size = 3 * sizes.patch}});
-    const auto solve = [&](RadiositySolver solver) {
-        return solve_radiosity(all->factors, all->patches.patches,
-                               {.solver = solver, .tolerance = 1e-14})
-            .residual;
-    };
-    const auto jacobi = solve(RadiositySolver::jacobi);
-    const auto seidel = solve(RadiositySolver::gauss_seidel);
-    const auto shooting = solve(RadiositySolver::shooting);
-    examples::Plot plot{.name = "radiosity-residual",
-                        .columns = {"sweeps: as many steps as there are patches",
-                                    "shooting", "Gauss-Seidel", "Jacobi",
-                                    "largest albedo ^ sweeps"},
-                        .y_label = "unsent flux over emitted flux",
-                        .log_y = true,
-                        .more = "set yrange [1e-14:1.5]\n"};
-    const double nothing = std::numeric_limits<double>::quiet_NaN();
-    const auto at = [&](const std::vector<double>& list, std::size_t i) {
-        return i < list.size() ? list[i] : nothing;
-    };
-    for (std::size_t i = 0; i < jacobi.size(); ++i)
-        plot.rows.push_back({double(i), at(shooting, i), at(seidel, i), jacobi[i],
-                             std::pow(0.75, double(i))});
-    save_plot(options.out, plot);
-    if (!options.quiet)
-        std::printf("sweeps to 1e-14: jacobi %zu, gauss_seidel %zu, shooting %zu, "
-                    "bound %.0f (%zu patches)\n",
-                    jacobi.size() - 1, seidel.size() - 1, shooting.size() - 1,
-                    std::log(1e-14) / std::log(0.75), all->factors.size());
-}
-
-/// Pictures: the room after a few shots.
-void progress(const examples::Options& options) {
-    const auto room = block_room();
-    // The lamp has four patches in every quality, so that four shots give the direct
-    // light.
-    const Patches patches = make_patches(room.world, {.size = 0.31});
-    const auto factors = make_form_factors(
-        room.world, patches,
-        {.analytic = false, .rays = 1024, .threads = options.threads});
-    std::vector<Color> radiosity(factors->size(), Color(0)), unsent;
-    for (const Patch& patch : patches.patches) unsent.push_back(patch.emitted);
-    int shot = 0;
-    for (const int shots : {4, 30, 100, 1000}) {
-        for (; shot < shots; ++shot)
-            relax_patch(*factors, patches.patches, brightest_patch(*factors, unsent),
-                        radiosity, unsent);
-        const auto map = make_light_map(room.world, patches, *factors, radiosity);
-        save_png(rendered("shots", LightMapView(room.world, map), room.camera, options),
-                 options.path("radiosity-shots-" + std::to_string(shots) + ".png"));
-    }
-}
-
-// --- The size of patches --------------------------------------------------------------
-
-/// Plot: the error of the light on the floor against the size of patches.
-void error_of_size(const examples::Options& options, const Sizes& sizes) {
-    const auto cube = shining_cube();
-    const auto solved = [&](int n) {
-        return *make_radiosity(cube, {.patches = {.size = 1.0 / n}});
-    };
-    // The light that all patches send to a point, by Lambert's formula.
-    const auto gathered = [](const Radiosity& all, const glm::dvec3& at) {
-        double sum = 0;
-        for (std::size_t i = 0; i < all.patches.patches.size(); ++i)
-            sum += all.solution.radiosity[i].x *
-                   form_factor_at(at, {0, 0, 1}, all.patches.patches[i].facet);
-        return sum;
-    };
-    const Radiosity fine = solved(options.pick(12, 24, 32));
-    std::vector<glm::dvec3> points;
-    std::vector<double> truth;
-    for (int i = 0; i < 19; ++i)
-        for (int k = 0; k < 19; ++k) {
-            points.push_back({(i + 0.37) / 19, (k + 0.61) / 19, 0});
-            truth.push_back(gathered(fine, points.back()));
-        }
-    examples::Plot plot{.name = "radiosity-error",
-                        .columns = {"side of a patch", "flat patches", "Gouraud",
-                                    "gathered at the point"},
-                        .y_label = "RMS error of the light on the floor",
+const std::array ways{
+    Way{"paths alone", "paths", {.sample_lights = false}},
+    Way{"shadow rays alone", "shadow", {.heuristic = MisHeuristic::shadow_rays}},
+    Way{"both by balance", "balance"},
+    Way{"both by power", "power", {.heuristic = MisHeuristic::power}}};
+/// Plot and table: the noise of each way in the diffuse room, against rays.
+void in_the_room(const examples::Options& options, const Sizes& sizes) {
+    const auto room = matt_room();
+    const int side = options.pick(48, 80, 120);
+    examples::Plot plot{.name = "path_tracing-noise",
+                        .columns = {"camera rays per pixel", ways[0].name, ways[1].name,
+                                    ways[2].name, "slope -1/2"},
+                        .y_label = "RMS noise, W/(m^2 sr)",
                         .log_x = true,
                         .log_y = true};
-    for (const int n : {1, 2, 3, 4, 6, 8}) {
-        if (n > 1 << sizes.steps) break;
-        const Radiosity all = solved(n);
-        const PatchGrid& floor = all.map.grids[0];
-        const auto vertices = vertex_light(
-            floor, std::span(all.map.irradiance).subspan(floor.first, floor.size()));
-        std::array<double, 3> squares{};
-        double level = 0;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const glm::dvec2 at(points[i]);
-            const std::array found{all.map.irradiance[cell_of(floor, at)].x,
-                                   blended_light(floor, at, vertices).x,
-                                   gathered(all, points[i])};
-            for (std::size_t k = 0; k < 3; ++k)
-                squares[k] += std::pow(found[k] - truth[i], 2);
-            level += truth[i] * truth[i];
+    for (int rays = 1; rays <= sizes.most; rays *= 4)
+        plot.rows.push_back({double(rays), nothing, nothing, nothing, nothing});
+    examples::Table table{.name = "path_tracing-ways",
+                          .columns = {"way", "rays per camera ray", "slope", "noise",
+                                      "efficiency by rays", "by time"}};
+    double first_rms = 0, first_by_rays = 0, first_by_time = 0;
+    for (std::size_t way = 0; way < 3; ++way) {
+        const ljus::PathTracer tracer(room.world, ways[way].settings);
+        Noise last;
+        for (auto& row : plot.rows) {
+            last = noise_of(tracer, low_camera(),
+                            {side, side, int(row[0]), options.seed}, options);
+            row[1 + way] = last.rms;
         }
-        plot.rows.push_back({1.0 / n, std::sqrt(squares[0] / level),
-                             std::sqrt(squares[1] / level),
-                             std::sqrt(squares[2] / level)});
+        const auto& rows = plot.rows;
+        const double slope = std::log(rows.back()[1 + way] / rows[0][1 + way]) /
+                             std::log(rows.back()[0] / rows[0][0]);
+        const double variance = last.rms * last.rms;
+        const double by_rays = 1 / (variance * last.rays);
+        const double by_time = 1 / (variance * last.seconds);
+        if (way == 0)
+            first_rms = last.rms, first_by_rays = by_rays, first_by_time = by_time;
+        table.rows.push_back({ways[way].name, text(last.rays, "%.2f"),
+                              text(slope, "%.3f"), text(last.rms / first_rms, "%.4f"),
+                              text(by_rays / first_by_rays, "%.1f"),
+                              text(by_time / first_by_time, "%.1f")});
     }
-    save_plot(options.out, plot);
-    if (!options.quiet)
-        for (const auto& row : plot.rows)
-            std::printf("side %.3f: flat %.5f, Gouraud %.5f, gathered %.6f\n", row[0],
-                        row[1], row[2], row[3]);
+    for (auto& row : plot.rows) row[4] = plot.rows[0][2] / (2 * std::sqrt(row[0]));
+    save_plot(options.path(""), plot);
+    save_table(options.path(""), table);
+    print(table, options);
 }
 
-// --- The room -------------------------------------------------------------------------
-
-/// The relative error of the means of blocks of pixels, in percent.
-std::string error_text(const Image& image, const Image& truth) {
-    return examples::text(100 * std::sqrt(block_error(image, truth)), "%.1f %%");
-}
-
-/// The room by patches of one size: a row of the table, and two pictures.
-/// \param file  Name of the pictures; empty: none are saved.
-std::vector<std::string> by_patches(const Room<Stage>& room, double size, bool analytic,
-                                    const Image& truth, const std::string& file,
-                                    const examples::Options& options) {
-    examples::ProgressBar bar("form factors", options.quiet);
-    Lap lap;
-    const Patches patches = make_patches(room.world, {.size = size});
-    const auto factors = make_form_factors(room.world, patches,
-                                           {.analytic = analytic,
-                                            .rays = 1024,
-                                            .seed = options.seed,
-                                            .threads = options.threads,
-                                            .progress = bar});
-    examples::stop_if_asked();
-    const double factor_time = lap();
-    const auto solution = solve_radiosity(*factors, patches.patches, {});
-    const double solve_time = lap();
-    const auto map = make_light_map(room.world, patches, *factors, solution.radiosity);
-    const LightMapView view(room.world, map);
-    (void)lap();
-    const Image smooth = rendered("view", view, room.camera, options);
-    const double view_time = lap();
-    if (!file.empty()) {
-        save_png(smooth, options.path(file + "-smooth.png"));
-        save_png(rendered("view", LightMapView(room.world, map, {.smooth = false}),
-                          room.camera, options),
-                 options.path(file + "-flat.png"));
-    }
-    return {analytic ? "closed forms" : "1024 rays per patch",
-            std::to_string(factors->size()),
-            examples::text(factor_time, "%.2f"),
-            examples::text(solve_time, "%.2f"),
-            examples::text(view_time, "%.2f"),
-            error_text(smooth, truth)};
-}
-
-/// Table and pictures: the room by patches of several sizes, and by path tracing.
-void room_pictures(const examples::Options& options, const Sizes& sizes) {
-    const auto room = block_room();
-    const PathTracer tracer(room.world);
-    const int many = options.pick(32, 128, 4096);
-    const Image truth =
-        rendered("reference", tracer, room.camera, options, options.samples * 4 + many);
-    save_png(truth, options.path("radiosity-path.png"));
+/// Table and pictures: a box whose walls all shine, so that lamps are infinitely close
+/// to its edges.
+void in_the_box(const examples::Options& options) {
+    const auto room = ljus::box_furnace(Rgb{0.25f}, Rgb{0.5f});
     examples::Table table{
-        .name = "radiosity-trade",
-        .columns = {"way", "patches", "factors, s", "solve, s", "view, s", "error"}};
-    for (int step = sizes.steps - 1; step >= 0; --step)
-        for (const bool analytic : {true, false})
-            table.rows.push_back(by_patches(
-                room, sizes.patch * (1 << step), analytic, truth,
-                analytic ? "radiosity-room-" + std::to_string(step) : std::string(),
-                options));
-    for (const int rays : {1, 4, 16}) {
-        Lap lap;
-        RenderSettings other{options.width, options.height, rays, options.seed + 77};
-        other.threads = options.threads;
-        const Image image = render(tracer, room.camera, other).image;
-        table.rows.push_back({"path tracing, " + std::to_string(rays) + " per pixel",
-                              "", "", "", examples::text(lap(), "%.2f"),
-                              error_text(image, truth)});
+        .name = "path_tracing-box",
+        .columns = {"way", "RMS noise", "brightest pixel (all are 0.5)"}};
+    for (std::size_t way = 0; way < 3; ++way) {
+        const ljus::PathTracer tracer(room.world, ways[way].settings);
+        const Noise noise = noise_of(
+            tracer, room.camera,
+            {options.width, options.height, options.samples, options.seed}, options);
+        float brightest = 0;
+        for (const Rgb& c : noise.image.pixels) brightest = std::max(brightest, c.x);
+        table.rows.push_back(
+            {ways[way].name, text(noise.rms, "%.4f"), text(double(brightest), "%.3f")});
+        save_png(noise.image, options.path(std::string("path_tracing-box-") +
+                                           ways[way].file + ".png"));
     }
-    save_table(options.out, table);
-    if (!options.quiet) examples::print_rows(table, 18);
+    save_table(options.path(""), table);
+    print(table, options);
 }
 
-/// A mean over paths.
-struct Estimate {
-    double mean = 0;  ///< Irradiance over pi.
-    double error = 0; ///< Its standard error.
+/// A path log that sums the light of one owner.
+struct OwnerLog {
+    std::string_view owner;
+    Rgb sum{0};
+    void begin() noexcept {}
+    void vertex(char, const Vec3&, const Rgb&, float) noexcept {}
+    void term(std::string_view who, std::string_view, const Rgb& value) noexcept {
+        if (who == owner) sum += value;
+    }
 };
 
-constexpr std::uint32_t wall_count = 5; ///< Of the room, before its blocks.
+template <typename Renderer>
+struct OneOwner {
+    using Stream = typename Renderer::Stream;
+    Renderer whole;
+    std::string_view owner;
+};
 
-/// One number for each quarter of each wall.
-template <typename Value>
-using Quarters = std::array<std::array<Value, 4>, wall_count>;
+template <typename Renderer>
+OneOwner<Renderer> part_of(const Renderer& whole, std::string_view owner) {
+    return {whole, owner};
+}
 
-/// The light on a quarter of a wall, by paths that start there.
-template <typename Tracer>
-Estimate traced_light(const Tracer& tracer, std::uint32_t wall, std::uint32_t quarter,
-                      int paths, std::uint64_t seed) {
-    constexpr std::array albedo{0.75, 0.75, 0.75, 0.06, 0.45}; // of the green channel
-    Counts counts;
+template <typename Renderer>
+Rgb radiance(const OneOwner<Renderer>& one, const ljus::Ray& ray, auto& context) {
+    OwnerLog log{.owner = one.owner};
+    auto told = ljus::context_of(context.stream, context.counts, log);
+    (void)radiance(one.whole, ray, told);
+    return log.sum;
+}
+
+/// The relative noise where the plates mirror the lamps: plate by plate, lamp by lamp.
+template <typename World>
+std::array<std::array<double, 4>, 4>
+noise_on_plates(const World& world, const ljus::Camera& camera, const Noise& noise) {
+    std::array<std::array<double, 4>, 4> squares{}, sums{}, counts{};
+    const Image& image = noise.image;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const auto ray = primary_ray(camera, {float(x) + 0.5f, float(y) + 0.5f},
+                                         image.width, image.height);
+            const auto hit = closest_hit(world, ray);
+            if (!hit || hit->object.type != 0 || hit->object.index >= 4) continue;
+            const float across = ray.origin.x + hit->at.t * ray.direction.x;
+            const auto lamp = std::size_t(std::clamp((across + 4) / 2, 0.0f, 3.0f));
+            const Rgb a = pixel(image, x, y), b = pixel(noise.other, x, y);
+            squares[hit->object.index][lamp] += double(dot(a - b, a - b)) / 6;
+            sums[hit->object.index][lamp] += double(a.x + a.y + a.z) / 3;
+            counts[hit->object.index][lamp] += 1;
+        }
+    for (std::size_t plate = 0; plate < 4; ++plate)
+        for (std::size_t lamp = 0; lamp < 4; ++lamp)
+            squares[plate][lamp] =
+                std::sqrt(squares[plate][lamp] * counts[plate][lamp]) /
+                sums[plate][lamp];
+    return squares;
+}
+
+/// Table and pictures: Veach's plates by each way, and the two parts of the weighted
+/// sum.
+void on_the_plates(const examples::Options& options) {
+    const auto room = examples::veach_plates();
+    const ljus::RenderSettings picture{options.width,
+                                       std::max(1, options.width * 2 / 3),
+                                       options.samples, options.seed};
+    std::array<std::array<std::array<double, 4>, 4>, 4> noise{};
+    for (std::size_t way = 0; way < ways.size(); ++way) {
+        PathTracingSettings settings = ways[way].settings;
+        settings.max_depth = 1;
+        const ljus::PathTracer tracer(room.world, settings);
+        const Noise here = noise_of(tracer, room.camera, picture, options);
+        noise[way] = noise_on_plates(room.world, room.camera, here);
+        const std::string file = std::string("path_tracing-plates-") + ways[way].file;
+        save_png(here.image, options.path(file + ".png"));
+        if (way != 2) continue;
+        for (const auto& [owner, name] : {std::array{"shadow ray", "of-shadow"},
+                                          std::array{"emission", "of-paths"}})
+            save_png(rendered("shares", part_of(tracer, owner), room.camera, picture,
+                              options)
+                         .image,
+                     options.path(std::string("path_tracing-plates-") + name + ".png"));
+    }
+    examples::Table table{.name = "path_tracing-plates",
+                          .columns = {"roughness of the plate", "radius of the lamp",
+                                      "paths", "shadow rays", "balance", "power"}};
+    for (std::size_t plate = 0; plate < 4; ++plate)
+        for (std::size_t lamp = 0; lamp < 4; ++lamp) {
+            table.rows.push_back(
+                {text(double(examples::plate_roughness[plate]), "%.2f"),
+                 text(double(examples::lamp_radius[lamp]), "%.2g")});
+            for (const auto& way : noise)
+                table.rows.back().push_back(text(100 * way[plate][lamp], "%.0f %%"));
+        }
+    save_table(options.path(""), table);
+    print(table, options);
+}
+
+// --- Where paths end ------------------------------------------------------------------
+
+ljus::Ray in_furnace(ljus::RandomStream& stream) {
+    return {.origin{0.1f, 0.2f, -0.1f},
+            .direction = ljus::sample_uniform_sphere(next_2d(stream))};
+}
+
+/// The mean of many paths, and their cost.
+struct Mean {
+    double mean = 0;
+    double variance = 0; ///< Of one path.
+    double surfaces = 0; ///< That a path meets.
+};
+
+/// The radiance in a furnace, by paths.
+Mean furnace_mean(float albedo, const PathTracingSettings& settings, int paths,
+                  std::uint64_t seed) {
+    const auto room = ljus::sphere_furnace(Rgb{1}, Rgb{albedo});
+    const ljus::PathTracer tracer(room.world, settings);
+    ljus::Counts counts;
     double sum = 0, squares = 0;
     for (int path = 0; path < paths; ++path) {
-        auto stream = random_stream(seed, Pass::user, 4 * wall + quarter,
-                                    static_cast<std::uint64_t>(path));
-        const Vec2 u = next_2d(stream);
-        const auto at =
-            point_at(std::get<0>(tracer.world().shapes())[wall],
-                     (float(quarter % 2) + u.x) / 2, (float(quarter / 2) + u.y) / 2);
-        // Seen from close by: albedo / pi of the light on the wall.
-        const Ray look{.origin = at.position + 0.0002f * at.normal,
-                       .direction = -at.normal};
-        auto context = context_of(stream, counts);
-        const double light = double(radiance(tracer, look, context).y) / albedo[wall];
-        sum += light;
-        squares += light * light;
+        auto stream = random_stream(seed, ljus::Pass::user, 0, std::uint64_t(path));
+        const auto ray = in_furnace(stream);
+        auto context = ljus::context_of(stream, counts);
+        const double seen = double(radiance(tracer, ray, context).x);
+        sum += seen;
+        squares += seen * seen;
     }
     examples::stop_if_asked();
     const double mean = sum / paths;
-    return {mean, std::sqrt((squares / paths - mean * mean) / paths)};
+    return {mean, (squares / paths - mean * mean) * paths / std::max(1, paths - 1),
+            1 + double(counts.bounce_rays) / paths};
 }
 
-/// The mean irradiance that a solution gives to each quarter of a wall.
-std::array<double, 4> quarters_of(const LightMap& map, std::uint32_t wall) {
-    // The fraction of a row or column of patches in one half of the wall; a row
-    // across the middle belongs to both halves.
-    const auto part = [](std::uint32_t i, std::uint32_t n, bool high) {
-        const double from = high ? 0.5 : 0, to = from + 0.5;
-        return std::max(0.0,
-                        std::min(to, (i + 1.0) / n) - std::max(from, double(i) / n));
+/// Plot: the light that a fixed depth leaves out, in furnaces and in the room.
+void depths(const examples::Options& options, const Sizes& sizes) {
+    const std::array albedos{0.5f, 0.75f, 0.9f};
+    examples::Plot plot{.name = "path_tracing-depth",
+                        .columns = {"largest depth", "furnace of albedo 0.5",
+                                    "furnace of albedo 0.75", "furnace of albedo 0.9",
+                                    "the diffuse room"},
+                        .y_label = "share of the light that is missing",
+                        .log_y = true,
+                        .more = "set yrange [1e-5:1]\n"};
+    const auto room = matt_room();
+    const int side = options.pick(48, 100, 200);
+    const ljus::RenderSettings picture{side, side, std::max(4, options.samples),
+                                       options.seed};
+    const auto light_at = [&](int depth) {
+        return mean_of(rendered("depth",
+                                ljus::PathTracer(room.world, {.max_depth = depth,
+                                                              .roulette_depth = 1000}),
+                                room.camera, picture, options)
+                           .image);
     };
-    const PatchGrid& grid = map.grids[wall];
-    std::array<double, 4> mean{};
-    for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
-        const CellPlace place = place_of(grid, cell);
-        for (std::size_t quarter = 0; quarter < 4; ++quarter)
-            mean[quarter] += 4 * part(place.column, grid.columns, quarter % 2 == 1) *
-                             part(place.row, grid.rows, quarter / 2 == 1) *
-                             map.irradiance[grid.first + cell].y;
+    const double all = light_at(60);
+    double worst = 0;
+    for (const int depth : {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20}) {
+        plot.rows.push_back({double(depth)});
+        for (const float albedo : albedos) {
+            const double rho = double(albedo);
+            const double seen =
+                furnace_mean(albedo, {.max_depth = depth, .roulette_depth = 1000}, 50,
+                             options.seed)
+                    .mean;
+            const double missing = 1 / (1 - rho) - seen;
+            const double right = std::pow(rho, depth + 1) / (1 - rho);
+            worst = std::max(worst, std::abs(missing - right) * (1 - rho));
+            plot.rows.back().push_back(missing * (1 - rho));
+        }
+        plot.rows.back().push_back(depth <= 12 ? 1 - light_at(depth) / all : nothing);
     }
-    return mean;
+    save_plot(options.path(""), plot);
+    if (options.quiet) return;
+    std::printf("\nlight missing at depth 4: furnace 0.75 %.3f, room %.3f; the closed "
+                "form rho^(d+1) is met within %.1e\n",
+                plot.rows[3][2], plot.rows[3][4], worst);
+    for (const float albedo : albedos) {
+        const Mean end =
+            furnace_mean(albedo, {.roulette_depth = 1, .sample_lights = false},
+                         100 * sizes.paths, options.seed);
+        const double error = std::sqrt(end.variance / (100 * sizes.paths));
+        std::printf("roulette, albedo %.2f: %.4f (%.0f), %.2f standard errors off\n",
+                    double(albedo), end.mean, 1 / (1 - double(albedo)),
+                    (end.mean - 1 / (1 - double(albedo))) / error);
+    }
 }
 
-/// How far a solution is from the paths: mean squares over all quarters.
-struct Difference {
-    double relative = 0; ///< Of the light.
-    double error = 0;    ///< The paths' own relative standard error.
-    double over = 0;     ///< The difference over that standard error.
+/// The variance of a path in a furnace of emission 1, if it continues with a constant
+/// probability p.
+double furnace_variance(double rho, double p) {
+    const double r = rho / p, s = rho * rho / p, mean = 1 / (1 - rho);
+    if (s > 1 - 1e-6) return nothing;
+    if (std::abs(r - 1) < 1e-9) return p / ((1 - p) * (1 - p));
+    return 1 / (1 - s) + 2 / (r - 1) * (1 / (1 - s) - mean) - mean * mean;
+}
+
+PathTracingSettings constant_chance(double p) {
+    return {.roulette_depth = 1,
+            .sample_lights = false,
+            .roulette_threshold = 1e-30,
+            .roulette_max = p};
+}
+
+/// Plot and table: a constant probability, for which the variance has a closed form or
+/// is infinite.
+void constant_chances(const examples::Options& options, const Sizes& sizes) {
+    examples::Plot plot{.name = "path_tracing-chance",
+                        .columns = {"chance p to go on", "albedo 0.9: closed form",
+                                    "albedo 0.9: measured", "albedo 0.5: closed form",
+                                    "albedo 0.5: measured"},
+                        .y_label = "variance x surfaces per path",
+                        .log_y = true,
+                        .more = "set xrange [0:1]\nset yrange [1:1e7]\n"};
+    for (int i = 1; i < 100; ++i) {
+        const double p = i / 100.0;
+        plot.rows.push_back({p});
+        for (const float albedo : {0.9f, 0.5f}) {
+            plot.rows.back().push_back(furnace_variance(double(albedo), p) / (1 - p));
+            double measured = nothing;
+            if (i % 5 == 0) {
+                const Mean seen = furnace_mean(albedo, constant_chance(p),
+                                               10 * sizes.paths, options.seed);
+                measured = seen.variance * seen.surfaces;
+            }
+            plot.rows.back().push_back(measured);
+        }
+    }
+    save_plot(options.path(""), plot);
+
+    examples::Table table{
+        .name = "path_tracing-catastrophe",
+        .columns = {"chance p", "surfaces per path", "standard deviation of a path",
+                    "median of the runs (truth: 10)", "runs that are too low",
+                    "truth within 2 of a run's own standard errors"}};
+    for (const double p : {0.3, 0.5, 0.7, 0.85, 0.9, 0.95}) {
+        std::vector<double> means;
+        double low = 0, within = 0, surfaces = 0;
+        for (int run = 0; run < sizes.runs; ++run) {
+            const Mean seen =
+                furnace_mean(0.9f, constant_chance(p), sizes.paths,
+                             options.seed + 10 + static_cast<std::uint64_t>(run));
+            means.push_back(seen.mean);
+            low += seen.mean < 10 ? 1 : 0;
+            within +=
+                std::abs(seen.mean - 10) < 2 * std::sqrt(seen.variance / sizes.paths)
+                    ? 1
+                    : 0;
+            surfaces += seen.surfaces / sizes.runs;
+        }
+        std::sort(means.begin(), means.end());
+        const double variance = furnace_variance(0.9, p);
+        table.rows.push_back(
+            {text(p, "%.2f"), text(surfaces, "%.1f"),
+             std::isnan(variance) ? "no end" : text(std::sqrt(variance), "%.1f"),
+             text(means[means.size() / 2], "%.2f"),
+             text(100 * low / sizes.runs, "%.0f %%"),
+             text(100 * within / sizes.runs, "%.0f %%")});
+    }
+    save_table(options.path(""), table);
+    print(table, options);
+}
+
+/// A roulette: the probability of surviving is throughput / threshold, at most `most`.
+struct RouletteCase {
+    std::string name;
+    double threshold, most;
+    int from = 1; ///< The first surface with roulette.
+    [[nodiscard]] PathTracingSettings settings() const {
+        return {.roulette_depth = from,
+                .roulette_threshold = threshold,
+                .roulette_max = most};
+    }
 };
 
-Difference difference(const LightMap& map, const Quarters<Estimate>& traced) {
-    Difference found;
-    for (std::uint32_t wall = 0; wall < wall_count; ++wall) {
-        const auto mean = quarters_of(map, wall);
-        for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-            const Estimate& right = traced[wall][quarter];
-            const double off = mean[quarter] / pi - right.mean;
-            found.relative += off * off / (right.mean * right.mean) / 20;
-            found.error += right.error * right.error / (right.mean * right.mean) / 20;
-            found.over += off * off / (right.error * right.error) / 20;
-        }
-    }
-    return found;
+std::vector<RouletteCase> roulette_cases() {
+    std::vector<RouletteCase> cases{{"1: no roulette", 0, 1}};
+    for (const double threshold : {0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 2.0, 4.0, 10.0, 40.0})
+        cases.push_back({"throughput / " + text(threshold), threshold, 1});
+    for (const double most : {0.9, 0.7, 0.5, 0.3, 0.1})
+        cases.push_back({text(most), 1e-30, most});
+    cases.push_back({"throughput from surface 4 on", 1, 1, 4});
+    return cases;
 }
 
-/// Table: the light on each quarter of each wall, by radiosity beside path tracing.
-void agreement(const examples::Options& options, const Sizes& sizes) {
-    const auto room = block_room();
-    const PathTracer tracer(room.world);
-    const int paths = options.pick(4000, 40000, 1000000);
-    Quarters<Estimate> traced{};
-    for (std::uint32_t wall = 0; wall < wall_count; ++wall)
-        for (std::uint32_t quarter = 0; quarter < 4; ++quarter)
-            traced[wall][quarter] =
-                traced_light(tracer, wall, quarter, paths, options.seed);
-    examples::Table table{.name = "radiosity-agreement",
-                          .columns = {"side of a patch", "patches", "difference",
-                                      "standard error of the paths",
-                                      "difference in standard errors"}};
-    for (int step = sizes.steps - 1; step >= options.pick(-1, 0, 0); --step) {
-        const double size = std::ldexp(sizes.patch, step);
-        const auto all = make_radiosity(
-            room.world,
-            {.patches = {.size = size},
-             .factors = {.analytic = false, .rays = options.pick(1024, 4096, 4096)}});
-        const Difference found = difference(all->map, traced);
-        table.rows.push_back(
-            {examples::text(size), std::to_string(all->factors.size()),
-             examples::text(100 * std::sqrt(found.relative), "%.2f %%"),
-             examples::text(100 * std::sqrt(found.error), "%.2f %%"),
-             examples::text(std::sqrt(found.over), "%.2f")});
-    }
-    save_table(options.out, table);
-    if (!options.quiet)
-        for (const auto& row : table.rows)
-            std::printf("agreement: side %s, %s patches: %s, paths %s, ratio %s\n",
-                        row[0].c_str(), row[1].c_str(), row[2].c_str(), row[3].c_str(),
-                        row[4].c_str());
+double efficiency_by_rays(const Noise& n) {
+    return 1 / (n.rms * n.rms * n.rays);
 }
 
-/// Table and pictures: one solution, seen from five sides, and read from a file.
-void views(const examples::Options& options, const Sizes& sizes) {
-    const auto room = block_room();
-    Lap lap;
-    const RadiositySettings settings{.patches = {.size = sizes.patch},
-                                     .factors = {.analytic = false, .rays = 1024}};
-    const auto all = make_radiosity(room.world, settings);
-    const LightMapView view(room.world, all->map);
-    const double solved = lap();
-    constexpr int count = 5;
-    double seen = 0;
-    for (int i = 0; i < count; ++i) {
-        const auto x = float(-0.8 + 1.6 * i / (count - 1));
-        const Camera camera = look_at(View{.position{x, 1.0f + x / 2, 4.4f - x * x},
-                                           .target{0, 1, 0},
-                                           .up{0, 1, 0},
-                                           .vfov_degrees = 33});
-        (void)lap();
-        const Image image = rendered("view", view, camera, options);
-        seen += lap() / count;
-        save_png(image, options.path("radiosity-view-" + std::to_string(i) + ".png"));
+double efficiency_by_time(const Noise& n) {
+    return 1 / (n.rms * n.rms * std::max(n.seconds, 1e-6));
+}
+
+/// Plot and table: the efficiency of each roulette.
+/// \param usual  The noise of the threshold 1, with which the others are compared.
+void save_roulettes(const std::vector<RouletteCase>& cases,
+                    const std::vector<Noise>& noises, const Noise& usual,
+                    const examples::Options& options) {
+    examples::Plot plot{.name = "path_tracing-roulette",
+                        .columns = {"threshold", "by rays", "by time", "no roulette"},
+                        .y_label = "efficiency, 1 / (variance x cost); 1: threshold 1",
+                        .log_x = true,
+                        .more = "set yrange [0:*]\n"};
+    examples::Table table{.name = "path_tracing-roulette-table",
+                          .columns = {"chance to go on", "rays per camera ray",
+                                      "RMS noise", "efficiency by rays", "by time"}};
+    const double none = efficiency_by_rays(noises[0]) / efficiency_by_rays(usual);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const double rays = efficiency_by_rays(noises[i]) / efficiency_by_rays(usual);
+        const double time = efficiency_by_time(noises[i]) / efficiency_by_time(usual);
+        table.rows.push_back({cases[i].name, text(noises[i].rays, "%.2f"),
+                              text(noises[i].rms, "%.4f"), text(rays, "%.2f"),
+                              text(time, "%.2f")});
+        if (cases[i].threshold >= 0.05 && cases[i].from == 1)
+            plot.rows.push_back({cases[i].threshold, rays, time, none});
     }
-    const std::string file = options.path("radiosity.light");
-    save_light_map(file, all->map);
-    (void)lap();
-    const LightMap map = load_light_map(file, light_map_key(room.world, settings));
-    const double loaded = lap();
-    const LightMapView again(room.world, map);
-    const bool same = rendered("again", again, room.camera, options).pixels ==
-                      rendered("again", view, room.camera, options).pixels;
-    (void)lap();
-    (void)rendered("paths", PathTracer(room.world), room.camera, options);
-    const double traced = lap();
-    examples::Table table{.name = "radiosity-views",
-                          .columns = {"", "s", "of the first view"}};
-    const auto add = [&](const std::string& what, double seconds) {
-        table.rows.push_back(
-            {what, examples::text(seconds, "%.3f"),
-             examples::text(100 * seconds / (solved + seen), "%.2f %%")});
+    save_plot(options.path(""), plot);
+    save_table(options.path(""), table);
+    print(table, options);
+}
+
+/// Roulette in the room: its efficiency, and two pictures.
+void roulette(const examples::Options& options, const Sizes& sizes) {
+    const auto room = matt_room();
+    const int side = options.pick(48, 80, 120);
+    const std::vector<RouletteCase> cases = roulette_cases();
+    std::vector<Noise> noises;
+    for (const RouletteCase& c : cases)
+        noises.push_back(noise_of(ljus::PathTracer(room.world, c.settings()),
+                                  low_camera(), {side, side, sizes.most, options.seed},
+                                  options));
+    const Noise& usual = noises[6];                // threshold 1
+    const Noise& rash = noises[noises.size() - 2]; // a probability of 0.1
+    save_roulettes(cases, noises, usual, options);
+
+    // Both pictures take the same number of rays of all kinds.
+    const double rays = usual.rays / rash.rays * options.samples;
+    const auto save = [&](const char* file, const PathTracingSettings& settings,
+                          int count) {
+        save_png(rendered("roulette", ljus::PathTracer(room.world, settings),
+                          room.camera,
+                          {options.width, options.height, count, options.seed}, options)
+                     .image,
+                 options.path(file));
     };
-    add("first view, with " + std::to_string(all->factors.size()) + " patches to solve",
-        solved + seen);
-    add("each further view", seen);
-    add("light map from its file, " +
-            std::to_string(map.irradiance.size() * 24 / 1000) + " kB, " +
-            (same ? "the same picture" : "ANOTHER PICTURE"),
-        loaded);
-    add("path tracing, each view, " + std::to_string(options.samples) +
-            " paths per pixel",
-        traced);
-    save_table(options.out, table);
-    if (!options.quiet)
-        for (const auto& row : table.rows)
-            std::printf("%-50s %8s %s\n", row[0].c_str(), row[1].c_str(),
-                        row[2].c_str());
+    save("path_tracing-roulette-usual.png", {.roulette_depth = 1}, options.samples);
+    save("path_tracing-roulette-rash.png",
+         {.roulette_depth = 1, .roulette_threshold = 1e-30, .roulette_max = 0.1},
+         std::max(1, int(std::lround(rays))));
 }
 
-// --- Leaks ----------------------------------------------------------------------------
-
-/// Table and pictures: two rooms and one lamp; light leaks through patches that lie
-/// under the wall.
-void leaks(const examples::Options& options, const Sizes& sizes) {
-    examples::Table table{.name = "radiosity-leaks",
-                          .columns = {"side of a patch", "wall across patches: flat",
-                                      "Gouraud", "wall on their border: flat",
-                                      "Gouraud "}};
-    for (int step = 0; step < sizes.steps; ++step) {
-        const double size = 1.0 / (1 << step);
-        std::vector<std::string> row{examples::text(size)};
-        for (const double wall : {0.11, 0.0}) {
-            const auto room = two_rooms(wall);
-            const auto all = make_radiosity(room.world, {.patches = {.size = size}});
-            for (const bool smooth : {false, true}) {
-                const LightMapView view(room.world, all->map, {.smooth = smooth});
-                // The floor next to the wall, on its dark or on its lit side.
-                RandomStream none;
-                Counts counts;
-                auto context = context_of(none, counts);
-                const auto near = [&](double side) {
-                    double sum = 0;
-                    for (int i = 0; i < 100; ++i) {
-                        const auto x = float(wall + side * 0.3 * (i + 0.5) / 100);
-                        const Ray down{.origin{x, 0.5f, 0.013f}, .direction{0, -1, 0}};
-                        sum += double(radiance(view, down, context).x);
-                    }
-                    return sum;
-                };
-                row.push_back(examples::text(100 * near(1) / near(-1), "%.2f %%"));
-                if (wall > 0)
-                    save_png(rendered("leak", view, room.camera, options, 0, true),
-                             options.path("radiosity-leak-" + std::to_string(step) +
-                                          (smooth ? "-smooth.png" : "-flat.png")));
-            }
-        }
-        table.rows.push_back(row);
+/// Table: rays per second, by one thread and by two.
+void speed(const examples::Options& options) {
+    const auto matt = matt_room();
+    const auto cornell = ljus::cornell_box();
+    examples::Table table{.name = "path_tracing-speed",
+                          .columns = {"room", "threads", "million rays per second",
+                                      "million paths per second"}};
+    const auto measure = [&](const char* name, const auto& room, int threads) {
+        const ljus::PathTracer tracer(room.world);
+        const examples::StopWatch watch;
+        const auto seen = rendered(
+            "speed", tracer, room.camera,
+            {options.width, options.height, options.samples, options.seed, threads},
+            options);
+        const double seconds = 1e6 * std::max(watch.seconds(), 1e-6);
+        table.rows.push_back({name, std::to_string(threads),
+                              text(double(seen.counts.rays()) / seconds, "%.2f"),
+                              text(double(seen.counts.camera_rays) / seconds, "%.2f")});
+    };
+    for (const int threads : {1, 2}) {
+        measure("diffuse", matt, threads);
+        measure("with mirror and glass", cornell, threads);
     }
-    save_table(options.out, table);
-    const auto room = two_rooms(0.11);
-    save_png(rendered("leak paths", PathTracer(room.world), room.camera, options,
-                      8 * options.samples, true),
-             options.path("radiosity-leak-path.png"));
-    if (!options.quiet)
-        for (const auto& row : table.rows)
-            std::printf("leak %s: %s %s | %s %s\n", row[0].c_str(), row[1].c_str(),
-                        row[2].c_str(), row[3].c_str(), row[4].c_str());
+    save_table(options.path(""), table);
+    print(table, options);
 }
 
 } // namespace
@@ -580,24 +567,26 @@ void leaks(const examples::Options& options, const Sizes& sizes) {
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 20, radiosity: form factors, solvers, patches, leaks.");
-        line.add("--size", sizes.patch, "Side of the finest patches of the room", 0.01,
-                 10.0);
-        line.add("--steps", sizes.steps,
-                 "How many sizes of patches, each half as large", 1, 6);
+        line.about(
+            "Chapter 20, path tracing: who finds the lamp, and where paths end.");
+        line.add("--most", sizes.most, "Most rays per pixel in a curve; 0: by quality",
+                 0, 1 << 16);
+        line.add("--runs", sizes.runs, "Runs per constant chance; 0: by quality", 0,
+                 10000);
+        line.add("--paths", sizes.paths, "Paths per run; 0: by quality", 0, 10000000);
         const examples::Options options =
-            line.parse({.draft{.width = 200, .height = 200, .samples = 4},
-                        .report{.width = 400, .height = 400, .samples = 16},
-                        .reference{.width = 400, .height = 400, .samples = 64}});
-        if (!line.given("--size")) sizes.patch = options.pick(0.2, 0.1, 0.0625);
-        if (!line.given("--steps")) sizes.steps = options.pick(3, 4, 5);
-        factors_by_chance(options);
-        residuals(options, sizes);
-        progress(options);
-        error_of_size(options, sizes);
-        room_pictures(options, sizes);
-        agreement(options, sizes);
-        views(options, sizes);
-        leaks(options, sizes);
+            line.parse({.draft{.width = 120, .height = 120, .samples = 9},
+                        .report{.width = 400, .height = 400, .samples = 64},
+                        .reference{.width = 480, .height = 480, .samples = 1024}});
+        if (sizes.most == 0) sizes.most = options.pick(16, 256, 1024);
+        if (sizes.runs == 0) sizes.runs = options.pick(21, 101, 1001);
+        if (sizes.paths == 0) sizes.paths = options.pick(1000, 10000, 10000);
+        in_the_room(options, sizes);
+        in_the_box(options);
+        on_the_plates(options);
+        depths(options, sizes);
+        constant_chances(options, sizes);
+        roulette(options, sizes);
+        speed(options);
     });
 }

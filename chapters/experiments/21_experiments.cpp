@@ -1,74 +1,56 @@
-// smoke: --quality draft --width 16 --height 16 --rungs 2 --seeds 2 --truth 16
+// smoke: --quality draft --width 16 --height 16 --rays 1 --size 0.9 --steps 2
 /// \file chapters/experiments/21_experiments.cpp
-/// \brief Chapter 21: two rooms by all renderers: error against time, the same time,
-/// the same error, bias and noise, and which light paths each carries.
+/// \brief Chapter 21: the experiments behind its tables, plots and pictures: form
+/// factors, solvers, the size of patches, leaks, and a light map seen from many sides.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <functional>
-#include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <ljus/image/flip.hpp>
-#include <ljus/inspect/class_means.hpp>
+#include <ljus/inspect/metrics.hpp>
+#include <ljus/io/light_map_file.hpp>
 #include <ljus/ljus.hpp>
-#include <ljus/path/light_path_expression.hpp>
+#include <ljus/math/sum.hpp>
+#include <ljus/radiosity/exchange_area.hpp>
+#include <ljus/radiosity/form_factor_matrix.hpp>
 #include <ljus/radiosity/light_map.hpp>
+#include <ljus/radiosity/patch_grid.hpp>
 #include <ljus/radiosity/patches.hpp>
 #include <ljus/radiosity/radiosity.hpp>
-#include <ljus/scene/camera.hpp>
+#include <ljus/radiosity/radiosity_solve.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
-#include "common/convergence.hpp"
-#include "common/plot.hpp"
-#include "common/terminal.hpp"
-#include "experiments/show_table.hpp"
+#include "common/example.hpp"
 
 using namespace ljus;
 
 namespace {
 
-using Cornell = World<CornellSceneT<float>>;
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+using Color = RgbT<double>;
+
+constexpr double pi = std::numbers::pi;
+using Stage = Scene<Shapes<Quad>, Materials<Lambertian>>;
 
 /// The options of this program, besides the common ones.
 struct Sizes {
-    int rungs = 0; ///< Efforts tried, each four times the one before.
-    int seeds = 0; ///< Runs of each.
-    int truth = 0; ///< Rays per pixel of the reference.
+    double patch = 0; ///< Side of the finest patches of the room.
+    int steps = 0;    ///< How many sizes of patches.
 };
 
-// --- The renderers --------------------------------------------------------------------
-
-/// One picture, and what it took.
-struct Shot {
-    Image image{};           ///< The picture.
-    Counts counts{};         ///< Rays of the view.
-    double solution = 0;     ///< Seconds for what does not depend on the camera.
-    double view = 0;         ///< Seconds for the picture.
-    std::size_t memory = 0;  ///< Bytes kept for other views.
-    std::size_t working = 0; ///< Peak bytes while it is made.
-    long long photons = 0;   ///< How many were emitted.
-
-    [[nodiscard]] double seconds() const { return solution + view; }
-};
-
-/// A renderer whose rays, photons and radius, or patches, follow from an effort.
-struct Method {
-    std::string name; ///< As in plots.
-    std::string file; ///< As in names of files.
-    /// Renders a room. `effort` is a number of rays per pixel, or as much work;
-    /// cameras: one picture each from one solution.
-    std::function<std::vector<Shot>(const Cornell&, const std::vector<Camera>&,
-                                    double effort, std::uint64_t seed)>
-        shoot{};
-};
+/// A picture, with a bar while it is made.
+template <typename Renderer>
+Image rendered(const std::string& name, const Renderer& renderer, const Camera& camera,
+               const examples::Options& options, int rays = 0, bool wide = false) {
+    RenderSettings picture = examples::picture_settings(options);
+    if (wide) picture.height = std::max(1, options.height / 2);
+    if (rays > 0) picture.samples = rays;
+    return examples::rendered(name, renderer, camera, picture, options).image;
+}
 
 /// Seconds of processor time since the last call.
 struct Lap {
@@ -77,703 +59,545 @@ struct Lap {
         const double now = examples::processor_seconds();
         const double spent = now - start;
         start = now;
-        return std::max(spent, 1e-6);
+        return spent;
     }
 };
 
-/// Pictures from all cameras by a renderer that is ready.
-template <typename Renderer>
-std::vector<Shot> views_of(const Renderer& renderer, const std::vector<Camera>& cameras,
-                           const examples::Options& options, double rays,
-                           std::uint64_t seed, const Shot& made = {}) {
-    std::vector<Shot> shots;
-    for (const Camera& camera : cameras) {
-        Lap lap;
-        const auto seen = render(renderer, camera,
-                                 {.width = options.width,
-                                  .height = options.height,
-                                  .samples = std::max(1, int(std::lround(rays))),
-                                  .seed = seed,
-                                  .threads = options.threads});
-        shots.push_back(made);
-        shots.back().view = lap();
-        shots.back().image = seen.image;
-        shots.back().counts = seen.counts;
-        examples::stop_if_asked();
-    }
-    return shots;
+// --- The rooms ------------------------------------------------------------------------
+
+/// A block on the floor, rotated about its centre.
+void add_block(Stage& scene, MaterialId matt, const Vec3& middle, const Vec3& size,
+               double degrees) {
+    const auto angle = float(degrees * pi / 180);
+    const Vec3 x = size.x * Vec3{std::cos(angle), 0, std::sin(angle)};
+    const Vec3 z = size.z * Vec3{-std::sin(angle), 0, std::cos(angle)};
+    const Vec3 y{0, size.y, 0};
+    const Vec3 low = middle - (x + z) / 2.0f;
+    scene.add(Quad{low + y, z, x}, matt);
+    scene.add(Quad{low, y, x}, matt);
+    scene.add(Quad{low + z, x, y}, matt);
+    scene.add(Quad{low, z, y}, matt);
+    scene.add(Quad{low + x, y, z}, matt);
 }
 
-/// The bytes of a photon map.
-std::size_t bytes_of(const PhotonMap& map) {
-    return map.tree.bytes() + map.records.bytes();
+/// The Cornell box with two diffuse blocks.
+Room<Stage> block_room() {
+    Stage scene;
+    add_cornell_walls(scene);
+    const auto white = scene.add(Lambertian{.albedo = Rgb{0.75f}});
+    add_block(scene, white, {-0.35f, 0, -0.3f}, {0.6f, 1.2f, 0.6f}, -17);
+    add_block(scene, white, {0.4f, 0, 0.3f}, {0.55f, 0.6f, 0.55f}, 20);
+    scene.add(Quad{{-0.3f, 1.999f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}},
+              scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{12, 10, 7});
+    return {World(std::move(scene)), cornell_box().camera};
+}
+/// Two rooms; the lamp is in the left one. The front, where the camera stands, is open.
+Room<Stage> two_rooms(double wall) {
+    Stage scene;
+    const auto white = scene.add(Lambertian{.albedo = Rgb{0.7f}});
+    const auto blue = scene.add(Lambertian{.albedo{0.3f, 0.4f, 0.7f}});
+    const Vec3 x{4, 0, 0}, y{0, 2, 0}, z{0, 0, 2}, o{-2, 0, -1};
+    scene.add(Quad{o, z, x}, white);
+    scene.add(Quad{o + y, x, z}, white);
+    scene.add(Quad{o, x, y}, white);
+    scene.add(Quad{o, y, z}, blue);
+    scene.add(Quad{o + x, z, y}, blue);
+    scene.add(Quad{{float(wall), 0, -1}, y, z}, white);
+    scene.add(Quad{{-1.2f, 1.99f, -0.2f}, {0.4f, 0, 0}, {0, 0, 0.4f}},
+              scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{60, 54, 45});
+    const Camera camera = look_at(View{
+        .position{0, 1, 4.6f}, .target{0, 1, 0}, .up{0, 1, 0}, .vfov_degrees = 32});
+    return {World(std::move(scene)), camera};
 }
 
-/// The photon maps' efforts: photons in proportion to the rays, and
-/// a radius that shrinks with their sixth root, so that bias and noise fall together.
-// [photon effort]
-PhotonMappingSettings photon_settings(IndirectLight indirect, double effort,
-                                      std::uint64_t seed) {
-    const bool direct = indirect == IndirectLight::photons;
-    const auto many = std::llround((direct ? 4000 : 500) * effort);
-    const auto smaller = float(std::pow(effort, -1.0 / 6));
-    return {.shadow_rays = direct ? 4 : 1,
-            .indirect = indirect,
-            .caustics{.photons = many, .seed = seed},
-            .general{.photons = many, .seed = seed, .shadow_photons = false},
-            .caustics_estimate{.radius = 0.15f * smaller},
-            .general_estimate{.radius = (direct ? 0.35f : 0.5f) * smaller}};
-}
-// [photon effort]
-
-using Cameras = std::vector<Camera>;
-
-/// A method whose renderer needs only the scene.
-template <typename Make>
-Method by_rays(const std::string& name, const std::string& file, Make make,
-               const examples::Options& options) {
-    return {name, file,
-            [&options, make](const Cornell& world, const Cameras& cameras,
-                             double effort, std::uint64_t seed) {
-                return views_of(make(world), cameras, options, effort, seed);
-            }};
-}
-
-/// Radiosity: patches that shrink as the effort grows.
-Method by_radiosity(const examples::Options& options) {
-    return {"radiosity", "radiosity",
-            [&options](const Cornell& world, const Cameras& cameras, double effort,
-                       std::uint64_t seed) {
-                Lap lap;
-                const auto solved = make_radiosity(
-                    world,
-                    {.patches = {.size = std::max(0.8 / std::sqrt(effort), 0.07)},
-                     .factors = {.analytic = false,
-                                 .rays = 512,
-                                 .seed = seed,
-                                 .threads = options.threads}});
-                const LightMapView view(world, solved->map);
-                const std::size_t kept =
-                    solved->map.irradiance.size() * sizeof(RgbT<double>);
-                return views_of(view, cameras, options, std::max(effort / 4, 4.0), seed,
-                                {.solution = lap(),
-                                 .memory = kept,
-                                 .working = kept + solved->factors.exchange.size() *
-                                                       sizeof(double)});
-            }};
-}
-
-/// Photon mapping: the general map where an indirect ray ends, or where the camera
-/// looks.
-Method by_photons(IndirectLight indirect, const examples::Options& options) {
-    const bool direct = indirect == IndirectLight::photons;
-    return {direct ? "photon map seen" : "two passes", direct ? "seen" : "photons",
-            [&options, indirect, direct](const Cornell& world, const Cameras& cameras,
-                                         double effort, std::uint64_t seed) {
-                const auto settings = photon_settings(indirect, effort, seed);
-                Lap lap;
-                const PhotonMapper mapper(world, settings);
-                const auto& maps = mapper.maps();
-                const std::size_t kept =
-                    bytes_of(maps.general) + bytes_of(maps.caustics);
-                const long long passes = maps.caustics.empty() ? 1 : 2;
-                return views_of(mapper, cameras, options, direct ? effort / 4 : effort,
-                                seed,
-                                {.solution = lap(),
-                                 .memory = kept,
-                                 .working = kept,
-                                 .photons = passes * settings.general.photons});
-            }};
-}
-
-/// All renderers of the book so far, and two ways to use photons.
-std::vector<Method> methods(const examples::Options& options) {
-    return {by_rays(
-                "Whitted", "whitted",
-                [](const Cornell& world) { return WhittedTracer(world); }, options),
-            by_rays(
-                "distributed rays", "distributed",
-                [](const Cornell& world) { return DistributedTracer(world); }, options),
-            by_rays(
-                "path tracing", "paths",
-                [](const Cornell& world) { return PathTracer(world); }, options),
-            by_radiosity(options),
-            by_photons(IndirectLight::map, options),
-            by_photons(IndirectLight::photons, options)};
-}
-
-// --- Error against time ---------------------------------------------------------------
-
-/// The result of one method with one effort.
-struct Rung {
-    double effort = 0;     ///< The effort.
-    double seconds = 0;    ///< Median over the seeds.
-    double rays = 0;       ///< Of the view.
-    double photons = 0;    ///< Emitted.
-    BiasVariance pixels{}; ///< The two parts of relMSE.
-    BiasVariance blocks{}; ///< The same for means of 10 x 10 pixels.
-    Image image{};         ///< Of the first seed.
-
-    [[nodiscard]] double error(bool block) const {
-        const BiasVariance& parts = block ? blocks : pixels;
-        return parts.bias_squared + parts.variance;
-    }
-};
-
-/// A room, its reference, and the results of all methods.
-struct Study {
-    std::string name;                      ///< Of the room.
-    Room<CornellSceneT<float>> room;       ///< The room.
-    ImageT<double> truth{};                ///< By another renderer, with other seeds.
-    double noise = 0;                      ///< Of the truth, as relMSE.
-    double block_noise = 0;                ///< The same of its blocks.
-    std::vector<std::vector<Rung>> runs{}; ///< One list per method.
-};
-
-/// A path tracer for the reference: at every surface the random numbers of a pixel's
-/// rays are stratified, and caustics come from photons.
-struct Judge {
-    using Stream = StratifiedStream; ///< The random stream that render() passes to it.
-    const Cornell& world;            ///< Of a room.
-    const PhotonMap& caustics;       ///< Empty in the matt room.
-    DensityEstimateSettings gather;  ///< In discs smaller than a pixel.
-};
-
-/// What a matt surface reflects of the light of all lamps and of the caustics map.
-template <typename Material>
-Rgb lamps_and_caustics(const Judge& judge, const VertexT<float>& at,
-                       const Material& material, auto& context) {
-    const Rgb lamps = sample_all_lights(judge.world, at, material, {}, context);
-    return lamps + estimate_radiance(judge.caustics, at, material, at.wo, judge.gather,
-                                     light_kinds, context.counts.map_photons);
-}
-
-// [judge]
-Rgb radiance(const Judge& judge, const Ray& ray, auto& context) {
-    Rgb sum{0};
-    PathState path{.ray = ray};
-    while (path.depth < 1000) {
-        const auto vertex = next_vertex(judge.world, path, context.stream);
-        if (!vertex) break;
-        if (vertex->emits() && !path.met_diffuse)
-            sum += path.throughput * vertex->object.emission;
-        const auto at_material = [&](const auto& matter) {
-            if (has(lobes(matter), Lobes::non_specular))
-                sum += path.throughput *
-                       lamps_and_caustics(judge, *vertex, matter, context);
-            return continue_path(path, *vertex, matter, Transport::radiance, Lobes::all,
-                                 context.stream);
-        };
-        if (!visit_material_at(judge.world, *vertex, at_material)) break;
-        if (path.depth >= 4 &&
-            !survives(path.throughput, path.eta_scale, next_1d(context.stream), 0.4f))
-            break;
-    }
-    return sum;
-}
-// [judge]
-
-/// A room by the renderer of the reference.
-/// \param photons  Of the caustics map.
-/// \param radius   Of its discs, m.
-/// \param options  Its size, and the number of threads.
-Image judged(const Room<CornellSceneT<float>>& room, int rays, long long photons,
-             float radius, std::uint64_t seed, const examples::Options& options) {
-    const PhotonMappingSettings settings{.indirect = IndirectLight::rays,
-                                         .caustics{.photons = photons, .seed = seed},
-                                         .caustics_estimate{.radius = radius}};
-    const PhotonMapper mapper(room.world, settings);
-    examples::ProgressBar bar("reference", options.quiet);
-    const Judge judge{.world = room.world,
-                      .caustics = mapper.maps().caustics,
-                      .gather = settings.caustics_estimate};
-    auto rendered = render(judge, room.camera,
-                           {.width = options.width,
-                            .height = options.height,
-                            .samples = rays,
-                            .seed = seed,
-                            .threads = options.threads,
-                            .progress = bar});
-    examples::stop_if_asked();
-    return std::move(rendered.image);
-}
-
-/// The reference: the mean of eight pictures, whose scatter gives its error.
-/// \param panels  As options, but with the size of what is shown.
-void find_truth(Study& study, int rays, const examples::Options& options,
-                const examples::Options& panels) {
-    constexpr int parts = 8;
-    const int part = std::max(1, rays / parts);
-    const float radius = 0.6f / float(options.width);
-    std::vector<Image> runs;
-    for (std::uint64_t number = 0; number < parts; ++number)
-        runs.push_back(judged(study.room, part, 400LL * part, radius,
-                              options.seed + 1000 + number, options));
-    study.truth = {options.width, options.height,
-                   std::vector<RgbT<double>>(runs[0].pixels.size())};
-    for (const Image& run : runs)
-        for (std::size_t i = 0; i < run.pixels.size(); ++i)
-            study.truth.pixels[i] += RgbT<double>(run.pixels[i]) / double(parts);
-    study.noise = examples::relative_split(runs, study.truth).variance / parts;
-    study.block_noise =
-        examples::relative_split(runs, study.truth, 0, 10).variance / parts;
-    save_png(judged(study.room, part, 400LL * rays, radius, options.seed + 900, panels),
-             options.path("side_by_side-" + study.name + "-truth.png"));
-}
-
-/// Runs all methods, rung by rung.
-void climb(Study& study, const std::vector<Method>& all,
-           const examples::Options& options, const Sizes& sizes) {
-    for (const Method& method : all) {
-        study.runs.emplace_back();
-        for (int rung = 0; rung < sizes.rungs; ++rung) {
-            Rung result{.effort = std::pow(4.0, rung)};
-            std::vector<Image> images;
-            std::vector<double> seconds;
-            for (int seed = 0; seed < sizes.seeds; ++seed) {
-                // A processor clock may tick only a hundred times a second.
-                Shot shot;
-                Lap lap;
-                double spent = 0;
-                int repeats = 0;
-                for (; spent < options.pick(0.01, 0.06, 0.06);
-                     ++repeats, spent += lap())
-                    shot = method.shoot(study.room.world, {study.room.camera},
-                                        result.effort,
-                                        options.seed + std::uint64_t(seed))[0];
-                images.push_back(shot.image);
-                seconds.push_back(spent / repeats);
-                result.rays += double(shot.counts.rays()) / sizes.seeds;
-                result.photons = double(shot.photons);
-            }
-            std::sort(seconds.begin(), seconds.end());
-            result.seconds = seconds[seconds.size() / 2];
-            result.pixels = examples::relative_split(images, study.truth, study.noise);
-            result.blocks =
-                examples::relative_split(images, study.truth, study.block_noise, 10);
-            result.image = images[0];
-            if (!options.quiet)
-                std::printf("%s, %s, effort %.0f: %.3f s, %.0f rays, %.0f photons, "
-                            "relMSE %.5f (bias^2 %.5f), blocks %.6f (bias^2 %.6f)\n",
-                            study.name.c_str(), method.name.c_str(), result.effort,
-                            result.seconds, result.rays, result.photons,
-                            result.error(false), result.pixels.bias_squared,
-                            result.error(true), result.blocks.bias_squared);
-            study.runs.back().push_back(std::move(result));
-        }
-    }
-}
-
-/// One column of a list of rungs.
-template <typename Value>
-std::vector<double> column(const std::vector<Rung>& rungs, Value value) {
-    std::vector<double> list;
-    for (const Rung& rung : rungs) list.push_back(value(rung));
-    return list;
-}
-std::vector<double> times(const std::vector<Rung>& rungs) {
-    return column(rungs, [](const Rung& rung) { return rung.seconds; });
-}
-std::vector<double> errors(const std::vector<Rung>& rungs, bool block) {
-    return column(rungs, [&](const Rung& rung) { return rung.error(block); });
-}
-
-/// Two plots: relMSE of pixels and of blocks, against time.
-void plots(const Study& study, const std::vector<Method>& all,
-           const examples::Options& options) {
-    for (const bool block : {false, true}) {
-        examples::Plot plot{.name = "side_by_side-" + study.name +
-                                    (block ? "-blocks" : "-pixels"),
-                            .columns = {"seconds of processor time"},
-                            .y_label = block ? "relMSE of 10 x 10 blocks" : "relMSE",
-                            .log_x = true,
-                            .log_y = true};
-        for (std::size_t k = 0; k < all.size(); ++k) {
-            plot.columns.push_back(all[k].name);
-            for (const Rung& rung : study.runs[k]) {
-                examples::Row row(all.size() + 1, nothing);
-                row[0] = rung.seconds;
-                row[k + 1] = std::max(rung.error(block), 1e-9);
-                plot.rows.push_back(row);
-            }
-        }
-        save_plot(options.out, plot);
-    }
-}
-
-/// Slopes, and the bias in the best run's error.
-void split_table(const Study& study, const std::vector<Method>& all,
-                 const examples::Options& options) {
-    examples::Table table{.name = "side_by_side-" + study.name + "-split",
-                          .columns = {"", "slope of relMSE against time",
-                                      "of the best: bias²", "noise", "blocks: bias²",
-                                      "noise "}};
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const auto law =
-            examples::fit_power(times(study.runs[k]), errors(study.runs[k], false));
-        const Rung& best = study.runs[k].back();
-        table.rows.push_back({all[k].name,
-                              examples::text(law.slope, "%.2f") + " ± " +
-                                  examples::text(law.error, "%.2f"),
-                              examples::text(best.pixels.bias_squared, "%.5f"),
-                              examples::text(best.pixels.variance, "%.5f"),
-                              examples::text(best.blocks.bias_squared, "%.6f"),
-                              examples::text(best.blocks.variance, "%.6f")});
-    }
-    examples::show_table(options, table);
-    // Every point, to draw other plots from.
-    examples::Table points{.name = "side_by_side-" + study.name + "-points",
-                           .columns = {"renderer", "effort", "seconds", "rays",
-                                       "photons", "bias2", "variance", "block bias2",
-                                       "block variance"}};
-    double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < all.size(); ++k)
-        for (const Rung& r : study.runs[k]) {
-            std::vector<std::string> row{all[k].name};
-            for (const double value :
-                 {r.effort, r.seconds, r.rays, r.photons, r.pixels.bias_squared,
-                  r.pixels.variance, r.blocks.bias_squared, r.blocks.variance})
-                row.push_back(examples::text(value, "%.6g"));
-            points.rows.push_back(row);
-            smallest = std::min(smallest, r.error(false));
-        }
-    save_table(options.out, points);
-    if (!options.quiet)
-        std::printf("%s: the reference's standard error is %.4f; the smallest error "
-                    "reported (root of relMSE) is %.4f, %.1f times as much\n",
-                    study.name.c_str(), std::sqrt(study.noise), std::sqrt(smallest),
-                    std::sqrt(smallest / study.noise));
-}
-
-// --- The same time, the same error ----------------------------------------------------
-
-/// A picture of a method for a panel.
-Shot panel(const Study& study, const Method& method, double effort,
-           const examples::Options& options) {
-    return method.shoot(study.room.world, {study.room.camera}, effort,
-                        options.seed + 77)[0];
-}
-
-/// The effort that takes a time: between rungs a straight line, beyond them the power
-/// law of the last two, or in proportion if that is less. At least 1 ray per pixel.
-double effort_for(const std::vector<Rung>& rungs, double seconds) {
-    const Rung &last = rungs.back(), &before = rungs[rungs.size() - 2];
-    if (seconds >= last.seconds) {
-        const double power = std::log(last.seconds / before.seconds) /
-                             std::log(last.effort / before.effort);
-        return last.effort * std::pow(seconds / last.seconds, 1 / std::max(power, 1.0));
-    }
-    for (std::size_t i = 1; i < rungs.size(); ++i)
-        if (seconds <= rungs[i].seconds && rungs[i].seconds > rungs[i - 1].seconds) {
-            const double t = (seconds - rungs[i - 1].seconds) /
-                             (rungs[i].seconds - rungs[i - 1].seconds);
-            return std::max(1.0, rungs[i - 1].effort +
-                                     t * (rungs[i].effort - rungs[i - 1].effort));
-        }
-    return 1;
-}
-
-/// All renderers at the same time; `larger`: also the pictures of
-/// the first of the times, in more pixels by the same effort.
-void equal_time(const Study& study, const std::vector<Method>& all,
-                const std::vector<Method>& larger, const examples::Options& options) {
-    examples::Table table{
-        .name = "side_by_side-" + study.name + "-time",
-        .columns = {"", "budget, s", "taken, s", "rays per pixel", "photons", "relMSE",
-                    "times the reference's error", "of 10 x 10 blocks", "FLIP"}};
-    const std::vector<double> budgets =
-        options.pick<std::vector<double>>({0.1}, {1, 10}, {1, 10, 100});
-    for (std::size_t b = 0; b < budgets.size(); ++b)
-        for (std::size_t k = 0; k < all.size(); ++k) {
-            const double effort = std::min(effort_for(study.runs[k], budgets[b]), 1e6);
-            const Shot shot = panel(study, all[k], effort, options);
-            // The example of the chapter makes those of the matt room.
-            if (b == 0 && study.name == "glass")
-                save_png(panel(study, larger[k], effort, options).image,
-                         options.path("side_by_side-" + study.name + "-time-" +
-                                      all[k].file + ".png"));
-            const double pixels = double(options.width) * options.height;
-            const double error = rel_mse(shot.image, study.truth) - study.noise;
-            table.rows.push_back(
-                {all[k].name, examples::text(budgets[b]),
-                 examples::text(shot.seconds(), "%.2f"),
-                 examples::text(double(shot.counts.camera_rays) / pixels),
-                 std::to_string(shot.photons), examples::text(error, "%.5f"),
-                 examples::text(std::sqrt(std::max(error, 0.0) / study.noise), "%.0f"),
-                 examples::text(
-                     block_error(shot.image, study.truth) - study.block_noise, "%.6f"),
-                 examples::text(flip(shot.image, study.truth), "%.3f")});
-        }
-    examples::show_table(options, table);
-}
-
-/// Time and rays that each needs for an error, and pictures by the effort for one of
-/// them.
-void equal_error(const Study& study, const std::vector<Method>& all,
-                 const std::vector<Method>& larger, const examples::Options& options) {
-    examples::Table table{.name = "side_by_side-" + study.name + "-error",
-                          .columns = {""}};
-    struct Target {
-        bool block;
-        double error;
+/// A closed cube whose ceiling emits: there are no shadows, and all form factors have a
+/// closed form.
+auto shining_cube() {
+    Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>>> cube;
+    using V = Vec3T<double>;
+    const V x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, o{0};
+    const auto paint = [&](double albedo) {
+        return cube.add(LambertianT<double>{.albedo = Color(albedo)});
     };
-    const std::array targets{Target{false, 0.1}, Target{false, 0.03},
-                             Target{true, 0.003}, Target{true, 0.001}};
-    for (const Target& target : targets)
-        table.columns.push_back((target.block ? std::string("blocks ") : "relMSE ") +
-                                examples::text(target.error));
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const auto& rungs = study.runs[k];
-        std::vector<std::string> row{all[k].name};
-        for (const Target& target : targets) {
-            const auto error = errors(rungs, target.block);
-            const double seconds = examples::reach(times(rungs), error, target.error);
-            const double rays =
-                examples::reach(column(rungs, [](const Rung& r) { return r.rays; }),
-                                error, target.error);
-            row.push_back(std::isnan(seconds)
-                              ? "not by " +
-                                    examples::text(rungs.back().seconds, "%.2f") +
-                                    " s: " + examples::text(error.back(), "%.2g")
-                              : examples::text(seconds, "%.3f") + " s, " +
-                                    examples::text(rays / 1000, "%.0f") + "k rays");
+    cube.add(QuadT<double>{o, x, y}, paint(0.8));
+    cube.add(QuadT<double>{z, y, x}, paint(0.5), Color(1));
+    cube.add(QuadT<double>{o, y, z}, paint(0.7));
+    cube.add(QuadT<double>{x, z, y}, paint(0.3));
+    cube.add(QuadT<double>{o, z, x}, paint(0.6));
+    cube.add(QuadT<double>{y, x, z}, paint(0.8));
+    return World(std::move(cube));
+}
+
+// --- Form factors ---------------------------------------------------------------------
+
+/// Table: the form factor of two unit squares on a common edge, by random points of
+/// both, and by rays drawn by the cosine.
+void factors_by_chance(const examples::Options& options) {
+    const int count = options.pick(1000000, 2000000, 10000000);
+    examples::Table table{.name = "radiosity-chance",
+                          .columns = {"seed", "points of both", "rays by the cosine"}};
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        double points = 0, rays = 0;
+        for (int i = 0; i < count; ++i) {
+            auto stream = random_stream(options.seed + seed, Pass::user, 0,
+                                        static_cast<std::uint64_t>(i));
+            const auto a = next_2d<double>(stream), b = next_2d<double>(stream);
+            // Floor (x, y, 0) and wall (0, y, z).
+            const Vec3T<double> way{-a.x, b.x - a.y, b.y};
+            const double r2 = glm::dot(way, way);
+            points += a.x * b.y / (pi * r2 * r2);
+            const auto d = sample_cosine_hemisphere(next_2d<double>(stream));
+            const double t = d.x < 0 ? a.x / -d.x : 1e9;
+            const double side = a.y + t * d.y;
+            rays += t * d.z <= 1 && side >= 0 && side <= 1 ? 1 : 0;
         }
-        table.rows.push_back(row);
-        if (study.name != "matt") continue;
-        // The panel: the run with the first error, or the closest one.
-        const double effort =
-            examples::reach(column(rungs, [](const Rung& r) { return r.effort; }),
-                            errors(rungs, targets[1].block), targets[1].error);
-        const Shot shot =
-            panel(study, larger[k], std::isnan(effort) ? rungs.back().effort : effort,
-                  options);
-        save_png(shot.image, options.path("side_by_side-" + study.name + "-error-" +
-                                          all[k].file + ".png"));
+        table.rows.push_back({std::to_string(seed),
+                              examples::text(points / count, "%.5f"),
+                              examples::text(rays / count, "%.5f")});
     }
-    examples::show_table(options, table);
+    table.rows.push_back({"exact", examples::text(form_factor_corner(1, 1, 1), "%.5f"),
+                          examples::text(form_factor_corner(1, 1, 1), "%.5f")});
+    save_table(options.out, table);
 }
 
-// --- Who carries what -----------------------------------------------------------------
+// --- Solvers --------------------------------------------------------------------------
 
-/// The classes of paths that are distinguished.
-constexpr std::array class_names{"EL",      "ES+L",       "EDL", "ES+DL",
-                                 "ES*DS+L", "E.*D.*D.*L", "E.*L"};
+/// Plot: the flux that is still unsent after each sweep, by each solver.
+void residuals(const examples::Options& options, const Sizes& sizes) {
+    const auto room = block_room();
+    const auto all = make_radiosity(room.world, {.patches = {.size = 3 * sizes.patch}});
+    const auto solve = [&](RadiositySolver solver) {
+        return solve_radiosity(all->factors, all->patches.patches,
+                               {.solver = solver, .tolerance = 1e-14})
+            .residual;
+    };
+    const auto jacobi = solve(RadiositySolver::jacobi);
+    const auto seidel = solve(RadiositySolver::gauss_seidel);
+    const auto shooting = solve(RadiositySolver::shooting);
+    examples::Plot plot{.name = "radiosity-residual",
+                        .columns = {"sweeps: as many steps as there are patches",
+                                    "shooting", "Gauss-Seidel", "Jacobi",
+                                    "largest albedo ^ sweeps"},
+                        .y_label = "unsent flux over emitted flux",
+                        .log_y = true,
+                        .more = "set yrange [1e-14:1.5]\n"};
+    const double nothing = std::numeric_limits<double>::quiet_NaN();
+    const auto at = [&](const std::vector<double>& list, std::size_t i) {
+        return i < list.size() ? list[i] : nothing;
+    };
+    for (std::size_t i = 0; i < jacobi.size(); ++i)
+        plot.rows.push_back({double(i), at(shooting, i), at(seidel, i), jacobi[i],
+                             std::pow(0.75, double(i))});
+    save_plot(options.out, plot);
+    if (!options.quiet)
+        std::printf("sweeps to 1e-14: jacobi %zu, gauss_seidel %zu, shooting %zu, "
+                    "bound %.0f (%zu patches)\n",
+                    jacobi.size() - 1, seidel.size() - 1, shooting.size() - 1,
+                    std::log(1e-14) / std::log(0.75), all->factors.size());
+}
 
-/// How much light of one class a renderer finds, over several seeds.
-struct ClassSum {
-    double mean = 0, squares = 0;
-
-    /// The relative standard error of the mean.
-    [[nodiscard]] double error(int seeds) const {
-        const double spread = std::max(squares - mean * mean, 0.0);
-        return mean > 0 ? std::sqrt(spread / (seeds - 1)) / mean : 0;
+/// Pictures: the room after a few shots.
+void progress(const examples::Options& options) {
+    const auto room = block_room();
+    // The lamp has four patches in every quality, so that four shots give the direct
+    // light.
+    const Patches patches = make_patches(room.world, {.size = 0.31});
+    const auto factors = make_form_factors(
+        room.world, patches,
+        {.analytic = false, .rays = 1024, .threads = options.threads});
+    std::vector<Color> radiosity(factors->size(), Color(0)), unsent;
+    for (const Patch& patch : patches.patches) unsent.push_back(patch.emitted);
+    int shot = 0;
+    for (const int shots : {4, 30, 100, 1000}) {
+        for (; shot < shots; ++shot)
+            relax_patch(*factors, patches.patches, brightest_patch(*factors, unsent),
+                        radiosity, unsent);
+        const auto map = make_light_map(room.world, patches, *factors, radiosity);
+        save_png(rendered("shots", LightMapView(room.world, map), room.camera, options),
+                 options.path("radiosity-shots-" + std::to_string(shots) + ".png"));
     }
-};
-using ClassSums = std::array<ClassSum, class_names.size()>;
+}
 
-/// Settings common to all renderers when their classes are measured.
-struct ClassStudy {
-    const Study& study;
-    const examples::Options& options;
-    int seeds;
-    std::vector<LightPathExpression> classes{};
+// --- The size of patches --------------------------------------------------------------
+
+/// Plot: the error of the light on the floor against the size of patches.
+void error_of_size(const examples::Options& options, const Sizes& sizes) {
+    const auto cube = shining_cube();
+    const auto solved = [&](int n) {
+        return *make_radiosity(cube, {.patches = {.size = 1.0 / n}});
+    };
+    // The light that all patches send to a point, by Lambert's formula.
+    const auto gathered = [](const Radiosity& all, const glm::dvec3& at) {
+        double sum = 0;
+        for (std::size_t i = 0; i < all.patches.patches.size(); ++i)
+            sum += all.solution.radiosity[i].x *
+                   form_factor_at(at, {0, 0, 1}, all.patches.patches[i].facet);
+        return sum;
+    };
+    const Radiosity fine = solved(options.pick(12, 24, 32));
+    std::vector<glm::dvec3> points;
+    std::vector<double> truth;
+    for (int i = 0; i < 19; ++i)
+        for (int k = 0; k < 19; ++k) {
+            points.push_back({(i + 0.37) / 19, (k + 0.61) / 19, 0});
+            truth.push_back(gathered(fine, points.back()));
+        }
+    examples::Plot plot{.name = "radiosity-error",
+                        .columns = {"side of a patch", "flat patches", "Gouraud",
+                                    "gathered at the point"},
+                        .y_label = "RMS error of the light on the floor",
+                        .log_x = true,
+                        .log_y = true};
+    for (const int n : {1, 2, 3, 4, 6, 8}) {
+        if (n > 1 << sizes.steps) break;
+        const Radiosity all = solved(n);
+        const PatchGrid& floor = all.map.grids[0];
+        const auto vertices = vertex_light(
+            floor, std::span(all.map.irradiance).subspan(floor.first, floor.size()));
+        std::array<double, 3> squares{};
+        double level = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const glm::dvec2 at(points[i]);
+            const std::array found{all.map.irradiance[cell_of(floor, at)].x,
+                                   blended_light(floor, at, vertices).x,
+                                   gathered(all, points[i])};
+            for (std::size_t k = 0; k < 3; ++k)
+                squares[k] += std::pow(found[k] - truth[i], 2);
+            level += truth[i] * truth[i];
+        }
+        plot.rows.push_back({1.0 / n, std::sqrt(squares[0] / level),
+                             std::sqrt(squares[1] / level),
+                             std::sqrt(squares[2] / level)});
+    }
+    save_plot(options.out, plot);
+    if (!options.quiet)
+        for (const auto& row : plot.rows)
+            std::printf("side %.3f: flat %.5f, Gouraud %.5f, gathered %.6f\n", row[0],
+                        row[1], row[2], row[3]);
+}
+
+// --- The room -------------------------------------------------------------------------
+
+/// The relative error of the means of blocks of pixels, in percent.
+std::string error_text(const Image& image, const Image& truth) {
+    return examples::text(100 * std::sqrt(block_error(image, truth)), "%.1f %%");
+}
+
+/// The room by patches of one size: a row of the table, and two pictures.
+/// \param file  Name of the pictures; empty: none are saved.
+std::vector<std::string> by_patches(const Room<Stage>& room, double size, bool analytic,
+                                    const Image& truth, const std::string& file,
+                                    const examples::Options& options) {
+    examples::ProgressBar bar("form factors", options.quiet);
+    Lap lap;
+    const Patches patches = make_patches(room.world, {.size = size});
+    const auto factors = make_form_factors(room.world, patches,
+                                           {.analytic = analytic,
+                                            .rays = 1024,
+                                            .seed = options.seed,
+                                            .threads = options.threads,
+                                            .progress = bar});
+    examples::stop_if_asked();
+    const double factor_time = lap();
+    const auto solution = solve_radiosity(*factors, patches.patches, {});
+    const double solve_time = lap();
+    const auto map = make_light_map(room.world, patches, *factors, solution.radiosity);
+    const LightMapView view(room.world, map);
+    (void)lap();
+    const Image smooth = rendered("view", view, room.camera, options);
+    const double view_time = lap();
+    if (!file.empty()) {
+        save_png(smooth, options.path(file + "-smooth.png"));
+        save_png(rendered("view", LightMapView(room.world, map, {.smooth = false}),
+                          room.camera, options),
+                 options.path(file + "-flat.png"));
+    }
+    return {analytic ? "closed forms" : "1024 rays per patch",
+            std::to_string(factors->size()),
+            examples::text(factor_time, "%.2f"),
+            examples::text(solve_time, "%.2f"),
+            examples::text(view_time, "%.2f"),
+            error_text(smooth, truth)};
+}
+
+/// Table and pictures: the room by patches of several sizes, and by path tracing.
+void room_pictures(const examples::Options& options, const Sizes& sizes) {
+    const auto room = block_room();
+    const PathTracer tracer(room.world);
+    const int many = options.pick(32, 128, 4096);
+    const Image truth =
+        rendered("reference", tracer, room.camera, options, options.samples * 4 + many);
+    save_png(truth, options.path("radiosity-path.png"));
+    examples::Table table{
+        .name = "radiosity-trade",
+        .columns = {"way", "patches", "factors, s", "solve, s", "view, s", "error"}};
+    for (int step = sizes.steps - 1; step >= 0; --step)
+        for (const bool analytic : {true, false})
+            table.rows.push_back(by_patches(
+                room, sizes.patch * (1 << step), analytic, truth,
+                analytic ? "radiosity-room-" + std::to_string(step) : std::string(),
+                options));
+    for (const int rays : {1, 4, 16}) {
+        Lap lap;
+        RenderSettings other{options.width, options.height, rays, options.seed + 77};
+        other.threads = options.threads;
+        const Image image = render(tracer, room.camera, other).image;
+        table.rows.push_back({"path tracing, " + std::to_string(rays) + " per pixel",
+                              "", "", "", examples::text(lap(), "%.2f"),
+                              error_text(image, truth)});
+    }
+    save_table(options.out, table);
+    if (!options.quiet) examples::print_rows(table, 18);
+}
+
+/// A mean over paths.
+struct Estimate {
+    double mean = 0;  ///< Irradiance over pi.
+    double error = 0; ///< Its standard error.
 };
 
-/// The means over the seeds of the results of `make`.
-template <typename Make>
-ClassSums over_seeds(const ClassStudy& of, Make make) {
-    ClassSums sums{};
-    for (int seed = 1; seed <= of.seeds; ++seed) {
-        const std::vector<RgbT<double>> means =
-            make({.width = of.options.width,
-                  .height = of.options.height,
-                  .samples = of.options.pick(2, 16, 64),
-                  .seed = of.options.seed + 5000 + std::uint64_t(seed),
-                  .threads = of.options.threads});
-        examples::stop_if_asked();
-        for (std::size_t k = 0; k < means.size(); ++k) {
-            const double value = (means[k].x + means[k].y + means[k].z) / 3;
-            sums[k].mean += value / of.seeds;
-            sums[k].squares += value * value / of.seeds;
+constexpr std::uint32_t wall_count = 5; ///< Of the room, before its blocks.
+
+/// One number for each quarter of each wall.
+template <typename Value>
+using Quarters = std::array<std::array<Value, 4>, wall_count>;
+
+/// The light on a quarter of a wall, by paths that start there.
+template <typename Tracer>
+Estimate traced_light(const Tracer& tracer, std::uint32_t wall, std::uint32_t quarter,
+                      int paths, std::uint64_t seed) {
+    constexpr std::array albedo{0.75, 0.75, 0.75, 0.06, 0.45}; // of the green channel
+    Counts counts;
+    double sum = 0, squares = 0;
+    for (int path = 0; path < paths; ++path) {
+        auto stream = random_stream(seed, Pass::user, 4 * wall + quarter,
+                                    static_cast<std::uint64_t>(path));
+        const Vec2 u = next_2d(stream);
+        const auto at =
+            point_at(std::get<0>(tracer.world().shapes())[wall],
+                     (float(quarter % 2) + u.x) / 2, (float(quarter / 2) + u.y) / 2);
+        // Seen from close by: albedo / pi of the light on the wall.
+        const Ray look{.origin = at.position + 0.0002f * at.normal,
+                       .direction = -at.normal};
+        auto context = context_of(stream, counts);
+        const double light = double(radiance(tracer, look, context).y) / albedo[wall];
+        sum += light;
+        squares += light * light;
+    }
+    examples::stop_if_asked();
+    const double mean = sum / paths;
+    return {mean, std::sqrt((squares / paths - mean * mean) / paths)};
+}
+
+/// The mean irradiance that a solution gives to each quarter of a wall.
+std::array<double, 4> quarters_of(const LightMap& map, std::uint32_t wall) {
+    // The fraction of a row or column of patches in one half of the wall; a row
+    // across the middle belongs to both halves.
+    const auto part = [](std::uint32_t i, std::uint32_t n, bool high) {
+        const double from = high ? 0.5 : 0, to = from + 0.5;
+        return std::max(0.0,
+                        std::min(to, (i + 1.0) / n) - std::max(from, double(i) / n));
+    };
+    const PatchGrid& grid = map.grids[wall];
+    std::array<double, 4> mean{};
+    for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
+        const CellPlace place = place_of(grid, cell);
+        for (std::size_t quarter = 0; quarter < 4; ++quarter)
+            mean[quarter] += 4 * part(place.column, grid.columns, quarter % 2 == 1) *
+                             part(place.row, grid.rows, quarter / 2 == 1) *
+                             map.irradiance[grid.first + cell].y;
+    }
+    return mean;
+}
+
+/// How far a solution is from the paths: mean squares over all quarters.
+struct Difference {
+    double relative = 0; ///< Of the light.
+    double error = 0;    ///< The paths' own relative standard error.
+    double over = 0;     ///< The difference over that standard error.
+};
+
+Difference difference(const LightMap& map, const Quarters<Estimate>& traced) {
+    Difference found;
+    for (std::uint32_t wall = 0; wall < wall_count; ++wall) {
+        const auto mean = quarters_of(map, wall);
+        for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+            const Estimate& right = traced[wall][quarter];
+            const double off = mean[quarter] / pi - right.mean;
+            found.relative += off * off / (right.mean * right.mean) / 20;
+            found.error += right.error * right.error / (right.mean * right.mean) / 20;
+            found.over += off * off / (right.error * right.error) / 20;
         }
     }
-    return sums;
+    return found;
 }
 
-/// The classes of a renderer that is ready.
-template <typename Renderer>
-ClassSums classes_of(const ClassStudy& of, const Renderer& renderer) {
-    return over_seeds(of, [&](const RenderSettings& picture) {
-        return class_means(renderer, of.study.room.camera, picture, of.classes);
-    });
-}
-
-/// The classes of photon mapping, with maps of its own for each seed.
-ClassSums classes_of_photons(const ClassStudy& of, IndirectLight indirect) {
-    const Cornell& world = of.study.room.world;
-    return over_seeds(of, [&](const RenderSettings& picture) {
-        const auto settings =
-            photon_settings(indirect, of.options.pick(16.0, 64.0, 256.0), picture.seed);
-        return class_means(PhotonMapper(world, settings), of.study.room.camera, picture,
-                           of.classes);
-    });
-}
-
-/// The classes of radiosity, which answers for E D+ L at once. What its lamps' patches
-/// send out, and no others, is E D L; the rest is E D+ D L.
-ClassSums classes_of_radiosity(const ClassStudy& of) {
-    const Cornell& world = of.study.room.world;
-    return over_seeds(of, [&](const RenderSettings& picture) {
+/// Table: the light on each quarter of each wall, by radiosity beside path tracing.
+void agreement(const examples::Options& options, const Sizes& sizes) {
+    const auto room = block_room();
+    const PathTracer tracer(room.world);
+    const int paths = options.pick(4000, 40000, 1000000);
+    Quarters<Estimate> traced{};
+    for (std::uint32_t wall = 0; wall < wall_count; ++wall)
+        for (std::uint32_t quarter = 0; quarter < 4; ++quarter)
+            traced[wall][quarter] =
+                traced_light(tracer, wall, quarter, paths, options.seed);
+    examples::Table table{.name = "radiosity-agreement",
+                          .columns = {"side of a patch", "patches", "difference",
+                                      "standard error of the paths",
+                                      "difference in standard errors"}};
+    for (int step = sizes.steps - 1; step >= options.pick(-1, 0, 0); --step) {
+        const double size = std::ldexp(sizes.patch, step);
         const auto all = make_radiosity(
-            world, {.patches = {.size = of.options.pick(0.4, 0.2, 0.1)},
-                    .factors = {.analytic = false, .rays = 512, .seed = picture.seed}});
-        std::vector<RgbT<double>> lamp;
-        for (const Patch& patch : all->patches.patches) lamp.push_back(patch.emitted);
-        const auto view = [&](const LightMap& map) {
-            return class_means(LightMapView(world, map), of.study.room.camera, picture,
-                               of.classes);
-        };
-        auto whole = view(all->map);
-        const auto direct =
-            view(make_light_map(world, all->patches, all->factors, lamp));
-        whole[5] = whole[2] - direct[2];
-        whole[2] = direct[2];
-        return whole;
-    });
-}
-
-/// "0.998(3)": a class over the true one, and the standard error of its last digit.
-/// Empty if the room has no such light.
-std::string class_ratio(const ClassSum& its, const ClassSum& right, int seeds) {
-    if (!(right.mean > 0)) return its.mean > 0 ? "?" : "";
-    // The difference of two light maps may leave a rest by rounding.
-    if (!(its.mean > 1e-6 * right.mean)) return "0";
-    const double ratio = its.mean / right.mean;
-    const double error = ratio * std::hypot(its.error(seeds), right.error(seeds));
-    return examples::text(ratio, "%.3f(") + std::to_string(std::lround(1000 * error)) +
-           ")";
-}
-
-/// For each class of paths, the light that a renderer finds over that of path tracing.
-void class_table(const Study& study, const examples::Options& options,
-                 const Sizes& sizes) {
-    const Cornell& world = study.room.world;
-    ClassStudy of{study, options, std::max(sizes.seeds, 4)};
-    for (const char* name : class_names)
-        of.classes.push_back(light_path_expression(name));
-    const ClassSums truth = classes_of(of, PathTracer(world));
-    const std::array<std::pair<const char*, ClassSums>, 6> renderers{
-        {{"Whitted", classes_of(of, WhittedTracer(world))},
-         {"distributed rays", classes_of(of, DistributedTracer(world))},
-         {"path tracing", truth},
-         {"radiosity", classes_of_radiosity(of)},
-         {"two passes", classes_of_photons(of, IndirectLight::map)},
-         {"photon map seen", classes_of_photons(of, IndirectLight::photons)}}};
-
-    examples::Table table{.name = "side_by_side-" + study.name + "-classes",
-                          .columns = {""}};
-    table.columns.insert(table.columns.end(), class_names.begin(), class_names.end());
-    std::vector<std::string> share{"share of the light"};
-    for (const ClassSum& sum : truth)
-        share.push_back(examples::text(100 * sum.mean / truth.back().mean, "%.1f %%"));
-    table.rows.push_back(share);
-    for (const auto& [name, sums] : renderers) {
-        std::vector<std::string> row{name};
-        for (std::size_t k = 0; k < sums.size(); ++k)
-            row.push_back(class_ratio(sums[k], truth[k], of.seeds));
-        table.rows.push_back(row);
+            room.world,
+            {.patches = {.size = size},
+             .factors = {.analytic = false, .rays = options.pick(1024, 4096, 4096)}});
+        const Difference found = difference(all->map, traced);
+        table.rows.push_back(
+            {examples::text(size), std::to_string(all->factors.size()),
+             examples::text(100 * std::sqrt(found.relative), "%.2f %%"),
+             examples::text(100 * std::sqrt(found.error), "%.2f %%"),
+             examples::text(std::sqrt(found.over), "%.2f")});
     }
-    examples::show_table(options, table);
+    save_table(options.out, table);
+    if (!options.quiet)
+        for (const auto& row : table.rows)
+            std::printf("agreement: side %s, %s patches: %s, paths %s, ratio %s\n",
+                        row[0].c_str(), row[1].c_str(), row[2].c_str(), row[3].c_str(),
+                        row[4].c_str());
 }
 
-// --- One solution, many views ---------------------------------------------------------
-
-/// The cost of the first view and of each further one, and the memory kept.
-void views(const Study& study, const std::vector<Method>& all,
-           const std::vector<Method>& larger, const examples::Options& options,
-           const Sizes& sizes) {
+/// Table and pictures: one solution, seen from five sides, and read from a file.
+void views(const examples::Options& options, const Sizes& sizes) {
+    const auto room = block_room();
+    Lap lap;
+    const RadiositySettings settings{.patches = {.size = sizes.patch},
+                                     .factors = {.analytic = false, .rays = 1024}};
+    const auto all = make_radiosity(room.world, settings);
+    const LightMapView view(room.world, all->map);
+    const double solved = lap();
     constexpr int count = 5;
-    std::vector<Camera> cameras;
+    double seen = 0;
     for (int i = 0; i < count; ++i) {
         const auto x = float(-0.8 + 1.6 * i / (count - 1));
-        cameras.push_back(look_at(View{.position{x, 1.0f + x / 2, 4.4f - x * x},
-                                       .target{0, 1, 0},
-                                       .up{0, 1, 0},
-                                       .vfov_degrees = 33}));
+        const Camera camera = look_at(View{.position{x, 1.0f + x / 2, 4.4f - x * x},
+                                           .target{0, 1, 0},
+                                           .up{0, 1, 0},
+                                           .vfov_degrees = 33});
+        (void)lap();
+        const Image image = rendered("view", view, camera, options);
+        seen += lap() / count;
+        save_png(image, options.path("radiosity-view-" + std::to_string(i) + ".png"));
     }
-    examples::Table table{.name = "side_by_side-" + study.name + "-views",
-                          .columns = {"", "solution, s", "per view, s",
-                                      "a further view over the first", "kept",
-                                      "while it is made"}};
-    const double effort = std::pow(4.0, sizes.rungs - 1);
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const Method& method = all[k];
-        if (method.file == "whitted" || method.file == "distributed") continue;
-        const auto shots =
-            method.shoot(study.room.world, cameras, effort, options.seed);
-        const double solution = shots[0].solution;
-        double view = 0;
-        for (const Shot& shot : shots) view += shot.view / count;
-        const auto size = [](std::size_t bytes) {
-            return bytes == 0 ? std::string("nothing")
-                              : examples::text(double(bytes) / 1e6, "%.2f MB");
-        };
-        const bool keeps = shots[0].memory > 0;
-        table.rows.push_back({method.name,
-                              keeps ? examples::text(solution, "%.3f") : "none",
-                              examples::text(view, "%.3f"),
-                              examples::text(view / (solution + view), "%.2f"),
-                              size(shots[0].memory), size(shots[0].working)});
-        if (method.file == "seen" || method.file == "radiosity") {
-            const auto shown =
-                larger[k].shoot(study.room.world, cameras, effort, options.seed);
-            for (int i = 0; i < count; i += 2)
-                save_png(shown[std::size_t(i)].image,
-                         options.path("side_by_side-" + study.name + "-view-" +
-                                      method.file + "-" + std::to_string(i) + ".png"));
+    const std::string file = options.path("radiosity.light");
+    save_light_map(file, all->map);
+    (void)lap();
+    const LightMap map = load_light_map(file, light_map_key(room.world, settings));
+    const double loaded = lap();
+    const LightMapView again(room.world, map);
+    const bool same = rendered("again", again, room.camera, options).pixels ==
+                      rendered("again", view, room.camera, options).pixels;
+    (void)lap();
+    (void)rendered("paths", PathTracer(room.world), room.camera, options);
+    const double traced = lap();
+    examples::Table table{.name = "radiosity-views",
+                          .columns = {"", "s", "of the first view"}};
+    const auto add = [&](const std::string& what, double seconds) {
+        table.rows.push_back(
+            {what, examples::text(seconds, "%.3f"),
+             examples::text(100 * seconds / (solved + seen), "%.2f %%")});
+    };
+    add("first view, with " + std::to_string(all->factors.size()) + " patches to solve",
+        solved + seen);
+    add("each further view", seen);
+    add("light map from its file, " +
+            std::to_string(map.irradiance.size() * 24 / 1000) + " kB, " +
+            (same ? "the same picture" : "ANOTHER PICTURE"),
+        loaded);
+    add("path tracing, each view, " + std::to_string(options.samples) +
+            " paths per pixel",
+        traced);
+    save_table(options.out, table);
+    if (!options.quiet)
+        for (const auto& row : table.rows)
+            std::printf("%-50s %8s %s\n", row[0].c_str(), row[1].c_str(),
+                        row[2].c_str());
+}
+
+// --- Leaks ----------------------------------------------------------------------------
+
+/// Table and pictures: two rooms and one lamp; light leaks through patches that lie
+/// under the wall.
+void leaks(const examples::Options& options, const Sizes& sizes) {
+    examples::Table table{.name = "radiosity-leaks",
+                          .columns = {"side of a patch", "wall across patches: flat",
+                                      "Gouraud", "wall on their border: flat",
+                                      "Gouraud "}};
+    for (int step = 0; step < sizes.steps; ++step) {
+        const double size = 1.0 / (1 << step);
+        std::vector<std::string> row{examples::text(size)};
+        for (const double wall : {0.11, 0.0}) {
+            const auto room = two_rooms(wall);
+            const auto all = make_radiosity(room.world, {.patches = {.size = size}});
+            for (const bool smooth : {false, true}) {
+                const LightMapView view(room.world, all->map, {.smooth = smooth});
+                // The floor next to the wall, on its dark or on its lit side.
+                RandomStream none;
+                Counts counts;
+                auto context = context_of(none, counts);
+                const auto near = [&](double side) {
+                    double sum = 0;
+                    for (int i = 0; i < 100; ++i) {
+                        const auto x = float(wall + side * 0.3 * (i + 0.5) / 100);
+                        const Ray down{.origin{x, 0.5f, 0.013f}, .direction{0, -1, 0}};
+                        sum += double(radiance(view, down, context).x);
+                    }
+                    return sum;
+                };
+                row.push_back(examples::text(100 * near(1) / near(-1), "%.2f %%"));
+                if (wall > 0)
+                    save_png(rendered("leak", view, room.camera, options, 0, true),
+                             options.path("radiosity-leak-" + std::to_string(step) +
+                                          (smooth ? "-smooth.png" : "-flat.png")));
+            }
         }
+        table.rows.push_back(row);
     }
-    examples::show_table(options, table);
+    save_table(options.out, table);
+    const auto room = two_rooms(0.11);
+    save_png(rendered("leak paths", PathTracer(room.world), room.camera, options,
+                      8 * options.samples, true),
+             options.path("radiosity-leak-path.png"));
+    if (!options.quiet)
+        for (const auto& row : table.rows)
+            std::printf("leak %s: %s %s | %s %s\n", row[0].c_str(), row[1].c_str(),
+                        row[2].c_str(), row[3].c_str(), row[4].c_str());
 }
 
 } // namespace
 
-/// Makes the plots, tables and further pictures of chapter 21.
-/// \param argc  Number of arguments.
-/// \param argv  The command line; `--help` explains it.
-/// \return 0; after an exception 2, with one sentence on stderr.
+/// Makes the files of the experiments.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 21, side by side: the experiments in two rooms.");
-        line.add("--rungs", sizes.rungs,
-                 "Efforts tried, each four times the one before", 2, 8);
-        line.add("--seeds", sizes.seeds, "Runs of each effort", 2, 1000);
-        line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8,
-                 10000000);
+        line.about("Chapter 21, radiosity: form factors, solvers, patches, leaks.");
+        line.add("--size", sizes.patch, "Side of the finest patches of the room", 0.01,
+                 10.0);
+        line.add("--steps", sizes.steps,
+                 "How many sizes of patches, each half as large", 1, 6);
         const examples::Options options =
-            line.parse({.draft{.width = 40, .height = 40, .samples = 1},
-                        .report{.width = 100, .height = 100, .samples = 1},
-                        .reference{.width = 200, .height = 200, .samples = 1}});
-        if (!line.given("--rungs")) sizes.rungs = options.pick(3, 4, 5);
-        if (!line.given("--seeds")) sizes.seeds = options.pick(3, 6, 12);
-        if (!line.given("--truth")) sizes.truth = options.pick(1000, 8000, 100000);
-
-        examples::Options panels = options; // the size of what is shown
-        panels.width *= options.pick(1, 4, 2);
-        panels.height *= options.pick(1, 4, 2);
-        const auto all = methods(options), larger = methods(panels);
-        for (const bool matt : {true, false}) {
-            Study study{.name = matt ? "matt" : "glass",
-                        .room = matt ? matt_cornell_box() : cornell_box()};
-            find_truth(study, sizes.truth, options, panels);
-            climb(study, all, options, sizes);
-            plots(study, all, options);
-            split_table(study, all, options);
-            equal_time(study, all, larger, options);
-            equal_error(study, all, larger, options);
-            class_table(study, options, sizes);
-            if (matt) views(study, all, larger, options, sizes);
-        }
+            line.parse({.draft{.width = 200, .height = 200, .samples = 4},
+                        .report{.width = 400, .height = 400, .samples = 16},
+                        .reference{.width = 400, .height = 400, .samples = 64}});
+        if (!line.given("--size")) sizes.patch = options.pick(0.2, 0.1, 0.0625);
+        if (!line.given("--steps")) sizes.steps = options.pick(3, 4, 5);
+        factors_by_chance(options);
+        residuals(options, sizes);
+        progress(options);
+        error_of_size(options, sizes);
+        room_pictures(options, sizes);
+        agreement(options, sizes);
+        views(options, sizes);
+        leaks(options, sizes);
     });
 }

@@ -1,280 +1,513 @@
-// smoke: --quality draft --points 3000 --photons 500 --width 60
+// smoke: --quality draft --photons 2000 --maps 2 --quiet
 /// \file chapters/experiments/23_experiments.cpp
-/// \brief Chapter 23: the boxes of a k-d tree, and the cost of a search beside other
-/// structures.
+/// \brief Chapter 23: the experiments behind its drawings, plots and tables: what the
+/// laws of Flatland say and what is counted, the bias at a wall, and the error over k.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <string>
 #include <vector>
 
-#include "../benchmarks/point_structures.hpp"
+#include "flatland/density_estimate.hpp"
+#include "flatland/path_tracing.hpp"
+#include "flatland/room.hpp"
+
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
-#include "common/plot.hpp"
-#include "experiments/show_table.hpp"
-#include "ljus/accel/kd_tree.hpp"
-#include "ljus/accel/kd_tree8.hpp"
-#include "ljus/io/png.hpp"
-#include "ljus/math/random.hpp"
-#include "ljus/photons/tracing.hpp"
-#include "ljus/scenes/report_rooms.hpp"
-
-using namespace ljus;
+#include "common/drawing.hpp"
 
 namespace {
 
-// --- Pictures: photons of the floor, seen from above ----------------------------------
+using namespace flatland;
+using examples::Drawing, examples::flat, examples::Point, examples::text;
+using ljus::Kernel, ljus::PhotonKind;
 
-/// The positions of photons on the floor of the report's room, with those behind its
-/// glass ball included.
-std::vector<Vec3> on_floor(const examples::Options& options, long long photons) {
-    const auto room = final_room<float>();
-    std::vector<Vec3> points;
-    for (const MapType law : {MapType::general, MapType::caustics}) {
-        const auto traced =
-            trace_photons(room.world, law,
-                          {.photons = law == MapType::general ? photons : 2 * photons,
-                           .seed = options.seed,
-                           .shadow_photons = false});
-        for (const Photon& photon : traced.photons)
-            if (photon.normal.z > 120) points.push_back(photon.position);
-    }
-    float floor = 1e30f;
-    for (const Vec3& p : points) floor = std::min(floor, p.z);
-    std::erase_if(points, [&](const Vec3& p) { return p.z > floor + 1e-3f; });
-    return points;
+constexpr double pi = std::numbers::pi;
+
+/// The colour of a photon of each kind.
+std::string color_of(PhotonKind kind) {
+    if (kind == PhotonKind::direct) return examples::colors::blue;
+    return kind == PhotonKind::caustic ? examples::colors::orange
+                                       : examples::colors::green;
 }
 
-/// A map of the floor.
-struct Plan {
-    Image image; ///< What is drawn.
-    Vec3 low{0}; ///< The corner of the floor.
-    float scale; ///< Pixels a unit.
+/// A point of the floor, seen from above.
+SurfacePoint on_floor(double x) {
+    return {.position{x, 0}, .normal{0, 1}};
+}
 
-    Plan(const std::vector<Vec3>& points, int width) {
-        Vec3 high = low = points.empty() ? Vec3{0} : points[0];
-        for (const Vec3& p : points) low = glm::min(low, p), high = glm::max(high, p);
-        scale = float(width - 1) / std::max(high.x - low.x, 1e-6f);
-        image = make_image(width, int(scale * (high.y - low.y)) + 1);
+/// A stream of numbers for one path of one experiment.
+ljus::RandomStream stream_of(std::uint64_t seed, int path) {
+    return ljus::random_stream(seed, ljus::Pass::camera, 0,
+                               static_cast<std::uint64_t>(path));
+}
+
+// --- Drawings ------------------------------------------------------------------------
+
+/// Rays in even steps of the angle, and two screens of one length: how many arrive.
+void draw_falloff(const std::string& folder) {
+    Drawing figure{.name = "flatland-falloff",
+                   .description = "A fan of even rays; a screen at twice the distance "
+                                  "catches half as many",
+                   .low{-2.2, -0.62},
+                   .high{1.4, 0.62},
+                   .scale = 200};
+    const Scene scene{{{Segment{.from{1, -0.3}, .to{1, 0.3}}},
+                       {Segment{.from{-2, 0.3}, .to{-2, -0.3}}}}};
+    int arrived[2] = {0, 0};
+    constexpr int rays = 120;
+    for (int i = 0; i < rays; ++i) {
+        const double angle = 2 * pi * (i + 0.5) / rays;
+        const Ray ray{.direction{std::cos(angle), std::sin(angle)}};
+        const auto hit = closest_hit(scene, ray);
+        if (hit) ++arrived[hit->id];
+        const double end = hit ? hit->t : 0.55;
+        draw_line(figure, {{0, 0}, flat(end * ray.direction)},
+                  {hit ? examples::colors::orange : "currentColor", hit ? 1.2 : 0.4});
     }
-    int x_of(float x) const {
-        return std::clamp(int(scale * (x - low.x)), 0, image.width - 1);
+    for (const Object& object : scene.objects) {
+        const auto& screen = std::get<Segment>(object.shape);
+        draw_line(figure, {flat(screen.from), flat(screen.to)}, {.width = 4});
     }
-    int y_of(float y) const {
-        return std::clamp(int(scale * (y - low.y)), 0, image.height - 1);
+    draw_dot(figure, {0, 0}, 6, examples::colors::orange);
+    draw_label(figure, {1.2, 0}, std::to_string(arrived[0]));
+    draw_label(figure, {-2.1, 0}, std::to_string(arrived[1]));
+    draw_label(figure, {0.62, -0.5}, "r");
+    draw_label(figure, {-1.2, -0.5}, "2r");
+    save_drawing(folder, figure);
+}
+
+/// Directions by the cosine: even feet on the diameter, lifted to the half circle.
+void draw_lambert(const std::string& folder) {
+    Drawing figure{.name = "flatland-lambert",
+                   .description =
+                       "Even points of a diameter, lifted to the half circle",
+                   .low{-1.3, -0.28},
+                   .high{1.3, 1.1},
+                   .scale = 240};
+    draw_line(figure, {{-1.3, 0}, {1.3, 0}}, {.width = 2});
+    draw_arc(figure, {0, 0}, 1, 0, pi);
+    constexpr int count = 16;
+    for (int i = 0; i < count; ++i) {
+        const Vec2 d = sample_cosine_half_circle((i + 0.5) / count);
+        draw_line(figure, {{d.x, 0}, flat(d)}, {.width = 0.8, .dashed = true});
+        draw_arrow(figure, {0, 0}, flat(d), {examples::colors::orange, 1.2});
+        draw_dot(figure, {d.x, 0}, 3, examples::colors::blue);
     }
-    void dot(const Vec3& p, const Rgb& color) {
-        const int x = x_of(p.x), y = y_of(p.y);
-        pixel(image, x, y) = color;
-        pixel(image, std::min(x + 1, image.width - 1), y) = color;
-        pixel(image, x, std::min(y + 1, image.height - 1)) = color;
+    draw_label(figure, {-1, -0.14}, "−1");
+    draw_label(figure, {1, -0.14}, "1");
+    draw_label(figure, {0, -0.14}, "2u − 1");
+    save_drawing(folder, figure);
+}
+
+/// Light from everywhere, in even steps of the sine, and how glass squeezes it.
+void draw_squeeze(const std::string& folder) {
+    Drawing figure{.name = "flatland-squeeze",
+                   .description = "Rays from a half circle of air fill a narrow wedge "
+                                  "of glass",
+                   .low{-1.3, -1.05},
+                   .high{1.3, 1.05},
+                   .scale = 220};
+    draw_area(figure, {{-1.3, 0}, {1.3, 0}, {1.3, -1.05}, {-1.3, -1.05}},
+              examples::colors::blue);
+    draw_line(figure, {{-1.3, 0}, {1.3, 0}});
+    constexpr int count = 16;
+    for (int i = 0; i < count; ++i) {
+        const Vec2 wo = sample_cosine_half_circle((i + 0.5) / count);
+        const auto in = sample(Glass{1.5}, wo, 0.999999, ljus::Transport::flux);
+        draw_line(figure, {flat(wo), {0, 0}}, {examples::colors::orange, 1.2});
+        draw_line(figure, {{0, 0}, flat(in->wi)}, {examples::colors::orange, 1.2});
     }
-    void box(const Vec3& a, const Vec3& b, const Rgb& color) {
-        const int x0 = x_of(a.x), x1 = x_of(b.x), y0 = y_of(a.y), y1 = y_of(b.y);
-        for (int x = x0; x <= x1; ++x)
-            pixel(image, x, y0) = pixel(image, x, y1) = color;
-        for (int y = y0; y <= y1; ++y)
-            pixel(image, x0, y) = pixel(image, x1, y) = color;
+    draw_label(figure, {-1.05, 0.12}, "n_1 = 1");
+    draw_label(figure, {-1.05, -0.13}, "n_2 = 1.5");
+    save_drawing(folder, figure);
+}
+
+/// The disc at one point, for three k.
+void draw_disc(const std::string& folder, const PhotonMap& map) {
+    const double x = 0.5;
+    Drawing figure{.name = "flatland-disc",
+                   .description = "Three discs around a point of the floor, which hold "
+                                  "5, 20 and 60 photons",
+                   .low{x - 0.13, -0.065},
+                   .high{x + 0.13, 0.075},
+                   .scale = 2700};
+    draw_line(figure, {{x - 0.13, 0}, {x + 0.13, 0}}, {.width = 2});
+    for (const Photon& photon : map) {
+        const Point at = flat(photon.position);
+        if (photon.normal.y < 0.5 || std::abs(at.x - x) > 0.128) continue;
+        const Vec2 from = photon.position - 0.012 * photon.direction;
+        draw_line(figure, {flat(from), at}, {color_of(photon.kind), 0.8});
+        draw_dot(figure, at, 3, color_of(photon.kind));
+    }
+    double below = -0.015;
+    for (const std::size_t k : {5u, 20u, 60u}) {
+        const Estimate found =
+            estimate_irradiance(map, on_floor(x), {.radius = 1, .nearest = k});
+        const double r = found.radius;
+        draw_arc(figure, {x, 0}, r, 0, pi, {examples::colors::red, 1.5});
+        draw_line(figure, {{x - r, below}, {x + r, below}}, {examples::colors::red, 3});
+        draw_label(figure, {x + r + 0.016, below}, "k = " + std::to_string(k),
+                   examples::colors::red);
+        below -= 0.018;
+    }
+    draw_dot(figure, {x, 0}, 5, "currentColor");
+    save_drawing(folder, figure);
+}
+
+/// Discs of one k at four points: small in the caustic, half outside at the wall.
+void draw_places(const std::string& folder, const PhotonMap& map) {
+    Drawing figure{.name = "flatland-places",
+                   .description = "Discs that hold 40 photons at four places of the "
+                                  "floor",
+                   .low{-1.2, -0.24},
+                   .high{1.15, 0.22},
+                   .scale = 310};
+    draw_line(figure, {{-1, 0.22}, {-1, 0}, {1, 0}, {1, 0.22}}, {.width = 2});
+    for (const Photon& photon : map)
+        if (photon.normal.y > 0.5)
+            draw_dot(figure, flat(photon.position), 2, color_of(photon.kind));
+    struct Place {
+        double x;
+        const char* name;
+    };
+    for (const Place& place : {Place{-1, "wall"}, Place{-0.45, "lamp above"},
+                               Place{0.16, "shadow"}, Place{0.58, "caustic"}}) {
+        const Estimate found =
+            estimate_irradiance(map, on_floor(place.x), {.radius = 1, .nearest = 40});
+        draw_arc(figure, {place.x, 0}, found.radius, 0, 2 * pi,
+                 {examples::colors::red, 1.5});
+        draw_label(figure, {place.x, -0.2}, place.name);
+    }
+    save_drawing(folder, figure);
+}
+
+// --- The laws ------------------------------------------------------------------------
+
+/// A mean and its standard error.
+struct Mean {
+    double sum = 0, squares = 0, count = 0;
+    void add(double x) {
+        sum += x;
+        squares += x * x;
+        count += 1;
+    }
+    [[nodiscard]] double mean() const { return sum / count; }
+    [[nodiscard]] double error() const {
+        const double variance = squares / count - mean() * mean();
+        return std::sqrt(std::max(0.0, variance) / (count - 1));
     }
 };
 
-/// The boxes of all ranges after some halvings, over the photons.
-void draw_boxes(const examples::Options& options, const std::vector<Vec3>& points) {
-    const KdTree8 tree{std::span<const Vec3>(points)};
-    for (const int depth : {2, 4, 6, 8, 99}) {
-        Plan plan(points, options.width);
-        for (const Vec3& p : points) plan.dot(p, Rgb{0.5f});
-        const int halvings = std::min(depth, tree.halvings());
-        for (std::uint64_t i = 0; i < 1ull << halvings; ++i) {
-            const auto first = tree.first_point(halvings, i);
-            const auto last = tree.first_point(halvings, i + 1);
-            Vec3 low = tree.point(first), high = low;
-            for (auto j = first; j < last; ++j) {
-                low = glm::min(low, tree.point(j));
-                high = glm::max(high, tree.point(j));
+/// The walls of a square of side 1, their normals inwards.
+Scene furnace(double albedo, double emission) {
+    const Lambertian wall{albedo};
+    const Vec2 a{0, 0}, b{1, 0}, c{1, 1}, d{0, 1};
+    return {{{Segment{a, b}, wall, emission},
+             {Segment{b, c}, wall, emission},
+             {Segment{c, d}, wall, emission},
+             {Segment{d, a}, wall, emission},
+             {Circle{.center{0.6, 0.5}, .radius = 0.2}, Glass{1.5}},
+             {Segment{.from{0.1, 0.3}, .to{0.3, 0.2}}, Mirror{1}}}};
+}
+
+/// The mean radiance along a ray.
+Mean mean_radiance(const Scene& scene, const Ray& ray, int paths) {
+    Mean mean;
+    for (int i = 0; i < paths; ++i) {
+        auto stream = stream_of(2, i);
+        mean.add(radiance(scene, ray, stream));
+    }
+    return mean;
+}
+
+/// The fraction of a lamp's photons that hit a segment.
+Mean caught(const Segment& wall, const Object& lamp, int photons,
+            std::uint64_t seed = 3) {
+    const Scene scene{{{wall, Lambertian{0}}, lamp}};
+    Mean mean;
+    for (int i = 0; i < photons; ++i) {
+        auto stream = stream_of(seed, i);
+        PathState photon = emit_photon(scene, 1, stream);
+        const auto vertex = next_vertex(scene, photon, stream);
+        mean.add(vertex && vertex->id == 0 ? 1 : 0);
+    }
+    return mean;
+}
+
+/// Table: what the laws of the plane say, and what rays count.
+void tabulate_laws(const std::string& folder, int paths) {
+    examples::Table table{
+        .name = "flatland-laws",
+        .columns = {"", "by formula", "counted", "error of the mean"}};
+    const auto add = [&](const std::string& what, double right, const Mean& mean) {
+        table.rows.push_back(
+            {what, text(right), text(mean.mean()), text(mean.error(), "%.1g")});
+    };
+    const Circle lamp{.center{0, 0}, .radius = 0.02};
+    for (const double r : {1.0, 2.0, 4.0}) { // a screen that faces the lamp
+        const Segment screen{.from{-0.1, -r}, .to{0.1, -r}};
+        Mean mean = caught(screen, {lamp, Lambertian{0}, radiance_of(lamp, 1)},
+                           10 * paths, static_cast<std::uint64_t>(10 * r));
+        mean.sum /= 0.2; // flux to irradiance
+        mean.squares /= 0.04;
+        add("irradiance at " + text(r) + " m from a lamp of 1 W, W/m",
+            std::atan(0.1 / r) / pi / 0.2, mean);
+    }
+    const Segment floor{.from{0, 0}, .to{1, 0}}, ceiling{.from{1, 1}, .to{0, 1}};
+    add("form factor of two sides of a square", std::numbers::sqrt2 - 1,
+        caught(floor, {ceiling, Lambertian{0}, 1.0}, paths));
+    const Scene closed = furnace(0.6, 0.5);
+    const Vec2 across = glm::normalize(Vec2{1, 0.1});
+    add("radiance in a furnace, W/(m rad)", 0.5 / 0.4,
+        mean_radiance(closed, {.origin{0.2, 0.6}, .direction = -across}, paths));
+    add("the same, seen through a disc of glass", 0.5 / 0.4,
+        mean_radiance(closed, {.origin{0.2, 0.5}, .direction = across}, paths));
+    add("the same, inside the glass", 1.5 * 0.5 / 0.4,
+        mean_radiance(closed, {.origin{0.6, 0.5}, .direction = across}, paths));
+    examples::save_table(folder, table);
+}
+
+// --- Along the floor -----------------------------------------------------------------
+
+constexpr int bins = 200;
+
+/// The irradiance along the floor of the room, by counting many photons in bins.
+std::vector<double> count_floor(const Scene& scene, long long photons) {
+    std::vector<double> irradiance(bins);
+    const double each = flux(scene) / double(photons) / (2.0 / bins);
+    for (long long i = 0; i < photons; ++i) {
+        auto stream = ljus::random_stream(77, ljus::Pass::general_photons, 0,
+                                          static_cast<std::uint64_t>(i));
+        trace_photon(scene, emit_photon(scene, each, stream), stream, 1000,
+                     [&](const PathState& path, const Vertex& vertex) {
+                         if (vertex.id != 0) return;
+                         const double at = (vertex.point.position.x + 1) / 2 * bins;
+                         irradiance[std::size_t(std::clamp(int(at), 0, bins - 1))] +=
+                             path.throughput;
+                     });
+    }
+    return irradiance;
+}
+
+/// Plots: one map, and the mean over many maps, beside the truth. Table: where the mean
+/// is wrong.
+void plot_floor(const std::string& folder, const Scene& scene,
+                const std::vector<double>& truth, int photons, int maps) {
+    examples::Plot one{.name = "flatland-floor",
+                       .columns = {"x, m", "many photons counted in parts of 1 cm",
+                                   "one map by k = 40", "one map by the radius 0.05 m"},
+                       .y_label = "irradiance, W/m"};
+    examples::Plot bias{.name = "flatland-bias",
+                        .columns = {"x, m", "many photons counted in parts of 1 cm",
+                                    "mean of many maps by k = 40",
+                                    "mean of many maps by k = 400"},
+                        .y_label = "irradiance, W/m"};
+    bias.notes = {std::to_string(photons) + " photons per map, " +
+                  std::to_string(maps) + " maps."};
+    const auto by = [](const PhotonMap& map, double x, double radius, std::size_t k) {
+        return estimate_irradiance(map, on_floor(x), {.radius = radius, .nearest = k})
+            .irradiance;
+    };
+    const auto place = [](int i) { return -1 + 2 * (i + 0.5) / bins; };
+    std::vector<std::array<double, 2>> mean(bins);
+    std::array<double, 2> at_wall{};
+    for (int m = 0; m < maps; ++m) {
+        examples::stop_if_asked();
+        const PhotonMap map = trace_photons(
+            scene, {.photons = photons, .seed = 100 + static_cast<std::uint64_t>(m)});
+        for (int i = 0; i < bins; ++i) {
+            const double x = place(i), sharp = by(map, x, 0.5, 40);
+            mean[std::size_t(i)][0] += sharp / maps;
+            mean[std::size_t(i)][1] += by(map, x, 0.5, 400) / maps;
+            if (m == 0)
+                one.rows.push_back(
+                    {x, truth[std::size_t(i)], sharp, by(map, x, 0.05, 0)});
+        }
+        at_wall[0] += by(map, -1, 0.5, 40) / maps;
+        at_wall[1] += by(map, -1, 0.5, 400) / maps;
+    }
+    for (int i = 0; i < bins; ++i)
+        bias.rows.push_back({place(i), truth[std::size_t(i)], mean[std::size_t(i)][0],
+                             mean[std::size_t(i)][1]});
+    save_plot(folder, one);
+    save_plot(folder, bias);
+
+    examples::Table table{
+        .name = "flatland-bias-table",
+        .columns = {"place", "x, m", "truth, W/m", "k = 40", "k = 400"}};
+    const auto add = [&](const std::string& name, double x, double right,
+                         const std::array<double, 2>& found) {
+        table.rows.push_back({name, text(x), text(right, "%.3g"),
+                              text(100 * found[0] / right, "%.0f %%"),
+                              text(100 * found[1] / right, "%.0f %%")});
+    };
+    add("at the wall", -1, truth[0], at_wall);
+    add("under the lamp", place(55), truth[55], mean[55]);
+    const auto brightest =
+        std::size_t(std::max_element(truth.begin(), truth.end()) - truth.begin());
+    add("brightest of the caustic", place(int(brightest)), truth[brightest],
+        mean[brightest]);
+    save_table(folder, table);
+}
+
+// --- The trade -----------------------------------------------------------------------
+
+/// A lamp at height 1 above a black floor: E = h / (2 pi (x^2 + h^2)) for 1 W.
+double irradiance_under(double x) {
+    return 1 / (2 * pi * (x * x + 1));
+}
+
+/// The best of some k.
+struct Best {
+    double k = 0;     ///< Which.
+    double error = 0; ///< Relative.
+};
+
+/// The error over k, for several numbers of photons: points within half a metre of the
+/// middle, many maps. Relative, root mean square.
+/// \return The best k and its error for the first and the last number.
+std::array<Best, 2> plot_trade(const std::string& folder,
+                               const std::vector<int>& counts, int maps) {
+    const Circle lamp{.center{0, 1}, .radius = 0.02};
+    const Scene scene{{{Segment{.from{-3, 0}, .to{3, 0}}, Lambertian{0}},
+                       {lamp, Lambertian{0}, radiance_of(lamp, 1)}}};
+    examples::Plot plot{.name = "flatland-trade",
+                        .columns = {"k"},
+                        .y_label = "relative error of the irradiance",
+                        .log_x = true,
+                        .log_y = true};
+    examples::Table table{
+        .name = "flatland-trade-table",
+        .columns = {"photons", "best k", "error", "emission, ms", "one estimate, µs"}};
+    std::array<Best, 2> ends{};
+    std::vector<std::size_t> ks;
+    for (double k = 4; k < 40000; k *= 1.5) ks.push_back(std::size_t(k));
+    for (const std::size_t k : ks) plot.rows.push_back({double(k)});
+    for (const int photons : counts) {
+        plot.columns.push_back(std::to_string(photons) + " photons");
+        std::vector<double> squares(ks.size());
+        double least_ms = 1e9, least_us = 1e9;
+        constexpr int points = 11;
+        for (int m = 0; m < maps; ++m) {
+            examples::stop_if_asked();
+            const examples::StopWatch emission;
+            const PhotonMap map = trace_photons(
+                scene, {.photons = photons, .seed = 7 + static_cast<std::uint64_t>(m)});
+            least_ms = std::min(least_ms, 1e3 * emission.seconds());
+            for (std::size_t i = 0; i < ks.size(); ++i) {
+                const examples::StopWatch estimate;
+                for (int p = 0; p < points; ++p) {
+                    const double x = -0.5 + double(p) / (points - 1);
+                    const double e =
+                        estimate_irradiance(map, on_floor(x),
+                                            {.radius = 3, .nearest = ks[i]})
+                            .irradiance;
+                    const double part = e / irradiance_under(x) - 1;
+                    squares[i] += part * part / (points * maps);
+                }
+                least_us = std::min(least_us, 1e6 * estimate.seconds() / points);
             }
-            plan.box(low, high, Rgb{0.9f, 0.35f, 0.05f});
         }
-        const std::string name =
-            depth == 99 ? std::string("leaves") : std::to_string(depth);
-        save_png(plan.image, options.path("kd_tree-boxes-" + name + ".png"));
-    }
-    if (!options.quiet)
-        std::printf("%zu photons on the floor, %d halvings\n", points.size(),
-                    tree.halvings());
-}
-
-// --- Times ----------------------------------------------------------------------------
-
-/// The median time of a call, in nanoseconds, over three rounds of some calls.
-template <typename Call>
-double time_of(int calls, Call&& call) {
-    std::array<double, 3> rounds{};
-    for (double& round : rounds) {
-        const double start = examples::processor_seconds();
-        for (int i = 0; i < calls; ++i) call(i);
-        round = (examples::processor_seconds() - start) * 1e9 / calls;
-    }
-    std::sort(rounds.begin(), rounds.end());
-    return rounds[1];
-}
-
-/// All points in turn.
-struct BruteForce {
-    std::vector<Vec3> points;
-    template <typename Visit>
-    void visit_within(const Vec3& center, float radius, Visit visit) const {
-        const double limit2 = double(radius) * double(radius);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const double d2 = distance2(points[i], center);
-            if (d2 <= limit2) visit(static_cast<std::uint32_t>(i), d2);
+        std::size_t best = 0;
+        for (std::size_t i = 0; i < ks.size(); ++i) {
+            // A third of the photons come to the floor near the lamp.
+            const bool enough = 4 * ks[i] < std::size_t(photons);
+            plot.rows[i].push_back(enough ? std::sqrt(squares[i]) : std::nan(""));
+            if (enough && squares[i] < squares[best]) best = i;
         }
+        const Best here{double(ks[best]), std::sqrt(squares[best])};
+        if (photons == counts.front()) ends[0] = here;
+        if (photons == counts.back()) ends[1] = here;
+        table.rows.push_back({std::to_string(photons), std::to_string(ks[best]),
+                              text(here.error, "%.2g"), text(least_ms, "%.2g"),
+                              text(least_us, "%.2g")});
     }
-    std::size_t bytes() const { return points.size() * sizeof(Vec3); }
-};
-
-/// The radius that holds 50 points, as the median over centres.
-float radius_of_50(const KdTree8& tree, const std::vector<Vec3>& centers) {
-    std::vector<double> radii;
-    std::array<Neighbor, 50> room;
-    for (const Vec3& center : centers) {
-        (void)tree.nearest(center, 1e30f, std::span(room));
-        radii.push_back(std::sqrt(room[0].distance2));
-    }
-    std::nth_element(radii.begin(), radii.begin() + std::ptrdiff_t(radii.size() / 2),
-                     radii.end());
-    return float(radii[radii.size() / 2]);
+    save_plot(folder, plot);
+    save_table(folder, table);
+    return ends;
 }
 
-double sink = 0; // sum of the results, so that no search is optimised away
-
-/// Times of one structure: building, all within a ball, the 50 nearest.
-template <typename Make>
-examples::Row measure(const std::vector<Vec3>& centers, float radius, int calls,
-                      Make make) {
-    const double start = examples::processor_seconds();
-    const auto structure = make();
-    const double build = examples::processor_seconds() - start;
-    const auto center = [&](int i) { return centers[std::size_t(i) % centers.size()]; };
-    const double ball = time_of(calls, [&](int i) {
-        structure.visit_within(center(i), radius,
-                               [&](std::uint32_t, double d2) { sink += d2; });
-    });
-    std::array<Neighbor, 50> room;
-    const double nearest = time_of(calls, [&](int i) {
-        if constexpr (requires { structure.nearest(Vec3{}, 1.0f, std::span(room)); })
-            sink += double(structure.nearest(center(i), 1e30f, std::span(room)));
-        else
-            sink += double(
-                structures::nearest_by_balls(structure, center(i), radius, room));
-    });
-    double bytes = 0;
-    if constexpr (requires { structure.bytes(); })
-        bytes = double(structure.bytes());
-    else // the plain tree: points, order, and a box for each range
-        bytes = double(structure.size()) * 16 +
-                24 * 2 * std::exp2(std::ceil(std::log2(double(structure.size()) / 16)));
-    return {build, ball, nearest, bytes};
+/// Table: the error with more photons, by theory in both worlds, and as measured.
+void tabulate_slope(const std::string& folder, const std::vector<int>& counts,
+                    const std::array<Best, 2>& ends) {
+    const double ratio = double(counts.back()) / counts.front();
+    const auto power = [&](double exponent) {
+        return text(std::pow(ratio, exponent), "%.1f");
+    };
+    examples::Table table{.name = "flatland-slope",
+                          .columns = {"", "in space", "in Flatland", "measured"}};
+    table.rows = {
+        {"best radius", "N^(-1/6)", "N^(-1/5)", ""},
+        {"best k", "N^(2/3)", "N^(4/5)", ""},
+        {"error", "N^(-1/3)", "N^(-2/5)", ""},
+        {"best k with " + text(ratio) + " times the photons", power(2.0 / 3) + " times",
+         power(0.8) + " times", text(ends[1].k / ends[0].k, "%.1f") + " times"},
+        {"error with " + text(ratio) + " times the photons", "1/" + power(1.0 / 3),
+         "1/" + power(0.4), "1/" + text(ends[0].error / ends[1].error, "%.1f")},
+        {"photons for half the error", "8 times",
+         text(std::pow(2, 2.5), "%.1f") + " times", ""}};
+    save_table(folder, table);
 }
 
-/// The table of structures, for photons on walls and in caustics.
-void compare_structures(const examples::Options& options, int count) {
-    RandomStream stream = random_stream(options.seed, Pass::user, 0, 0);
-    const auto unit = [&] { return next_1d(stream); };
-    for (const bool walls : {true, false}) {
-        const auto points = walls ? structures::on_walls(std::size_t(count), unit)
-                                  : structures::in_caustics(std::size_t(count), unit);
-        std::vector<Vec3> centers;
-        for (std::size_t i = 0; i < 500; ++i)
-            centers.push_back(points[i * 7919 % points.size()]);
-        const KdTree8 reference{std::span<const Vec3>(points)};
-        const float radius = radius_of_50(reference, centers);
-        const int calls = options.pick(1000, 10000, 100000);
-        examples::Table table{.name = walls ? "kd_tree-walls" : "kd_tree-caustics",
-                              .columns = {"", "build, ns per point", "ball of 50, ns",
-                                          "50 nearest, ns", "bytes per point"},
-                              .rows = {}};
-        const auto add = [&](const char* name, int times, auto make) {
-            const auto row = measure(centers, radius, times, make);
-            const double n = double(points.size());
-            table.rows.push_back({name, examples::text(1e9 * row[0] / n, "%.0f"),
-                                  examples::text(row[1], "%.0f"),
-                                  examples::text(row[2], "%.0f"),
-                                  examples::text(row[3] / n, "%.1f")});
-        };
-        add("all in turn", std::max(3, calls / 1000),
-            [&] { return BruteForce{points}; });
-        add("hash grid", calls, [&] { return structures::HashGrid(points, radius); });
-        add("Morton order", calls, [&] { return structures::MortonOrder(points); });
-        add("octree", calls, [&] { return structures::Octree(points); });
-        add("plain k-d tree", calls,
-            [&] { return KdTree{std::span<const Vec3>(points)}; });
-        add("wide k-d tree", calls, [&] { return KdTree8(points, 1); });
-        examples::show_table(options, table);
+/// Plot: the floor under a lamp, as four mistakes have it.
+void plot_mistakes(const std::string& folder, int photons) {
+    const double height = 0.5, radius = 0.25;
+    const Circle lamp{.center{0, height}, .radius = 0.02};
+    const Scene scene{{{Segment{.from{-3, 0}, .to{3, 0}}, Lambertian{0}},
+                       {lamp, Lambertian{0}, radiance_of(lamp, 1)}}};
+    const PhotonMap map = trace_photons(scene, {.photons = photons});
+    examples::Plot plot{.name = "flatland-mistakes",
+                        .columns = {"x, m", "right", "with the square of the distance",
+                                    "with a second cosine",
+                                    "over the area of the disc"},
+                        .y_label = "irradiance, W/m"};
+    for (int i = -50; i <= 50; ++i) {
+        const double x = i / 50.0, r = std::hypot(x, height);
+        const double right = height / r / (2 * pi * r);
+        const double found =
+            estimate_irradiance(map, on_floor(x), {.radius = radius}).irradiance;
+        plot.rows.push_back({x, right, right / r, right * height / r,
+                             found * 2 * radius / (pi * radius * radius)});
     }
-}
-
-/// Time of a search against the number of points.
-void plot_time(const examples::Options& options) {
-    examples::Plot plot{
-        .name = "kd_tree-time",
-        .columns = {"photons", "all in turn", "plain k-d tree", "wide k-d tree"},
-        .y_label = "ns for all within a ball of 50",
-        .rows = {},
-        .log_x = true,
-        .log_y = true};
-    RandomStream stream = random_stream(options.seed, Pass::user, 1, 0);
-    const auto unit = [&] { return next_1d(stream); };
-    const int last = options.pick(10, 12, 13);
-    for (int step = 4; step <= last; ++step) {
-        const auto count = std::size_t(std::pow(10.0, step / 2.0));
-        const auto points = structures::on_walls(count, unit);
-        std::vector<Vec3> centers;
-        for (std::size_t i = 0; i < 300; ++i)
-            centers.push_back(points[i * 7919 % count]);
-        const KdTree8 wide{std::span<const Vec3>(points)};
-        const KdTree plain{std::span<const Vec3>(points)};
-        const BruteForce brute{points};
-        const float radius = radius_of_50(wide, centers);
-        const auto time = [&](const auto& structure, int calls) {
-            return time_of(calls, [&](int i) {
-                structure.visit_within(centers[std::size_t(i) % 300], radius,
-                                       [&](std::uint32_t, double d2) { sink += d2; });
-            });
-        };
-        const int calls = options.pick(3000, 10000, 100000);
-        plot.rows.push_back({double(count),
-                             time(brute, std::max(3, int(1000000 / count))),
-                             time(plain, calls), time(wide, calls)});
-    }
-    examples::save_plot(options.out, plot);
+    save_plot(folder, plot);
 }
 
 } // namespace
 
-/// Makes the pictures of boxes, the plot and the tables of chapter 23.
+/// Makes the chapter's figures.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        long long points = 0, photons = 0;
-        line.about("Chapter 23, the k-d tree: its boxes, and the time of searches.");
-        line.add("--points", points, "Points of the tables", 100, 100000000);
-        line.add("--photons", photons, "Photons emitted for the pictures", 1,
-                 100000000);
-        const examples::Options options =
-            line.parse({.draft{.width = 480, .height = 480, .samples = 1}});
-        if (!line.given("--points"))
-            points = options.pick(100000LL, 1000000LL, 4000000LL);
-        if (!line.given("--photons")) photons = options.pick(6000LL, 12000LL, 20000LL);
-        const auto floor = on_floor(options, photons);
-        if (!floor.empty()) draw_boxes(options, floor);
-        compare_structures(options, int(points));
-        plot_time(options);
-        if (std::isnan(sink)) std::printf("no number\n");
+        long long reference = 0;
+        int maps = 0;
+        line.about("Chapter 23, Flatland: its drawings, plots and tables.");
+        line.add("--photons", reference, "Photons of the reference along the floor",
+                 1000, 1000000000);
+        line.add("--maps", maps, "Photon maps of which the mean is taken", 1, 10000);
+        line.without({"--width", "--height", "--rays", "--seed", "--threads"});
+        const examples::Options options = line.parse();
+        if (!line.given("--photons"))
+            reference = options.pick(300000, 20000000, 100000000);
+        if (!line.given("--maps")) maps = options.pick(10, 100, 400);
+        const std::string& folder = options.out;
+
+        const Scene scene = make_room();
+        draw_falloff(folder);
+        draw_lambert(folder);
+        draw_squeeze(folder);
+        const PhotonMap small = trace_photons(scene, {.photons = 800});
+        draw_disc(folder, trace_photons(scene, {.photons = 3000}));
+        draw_places(folder, small);
+        tabulate_laws(folder, options.pick(5000, 100000, 1000000));
+        plot_floor(folder, scene, count_floor(scene, reference), 3000, maps);
+        const std::vector<int> counts{1000, 10000, 100000};
+        tabulate_slope(folder, counts, plot_trade(folder, counts, maps));
+        plot_mistakes(folder, 100000);
     });
 }

@@ -1,559 +1,121 @@
-// smoke: --quality draft --width 16 --height 16 --rays 4 --photons 2000 --seeds 2
+// smoke: --quality draft --width 24 --height 24 --rays 1 --photons 1000
 /// \file chapters/experiments/28_experiments.cpp
-/// \brief Chapter 28: estimates at edges and at photons; error against time for photons
-/// seen directly, gathered, and precomputed.
+/// \brief Chapter 28: figure 1 taken apart, and error against time for photons and
+/// paths.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
+#include <limits>
 #include <string>
-#include <utility>
-#include <vector>
+#include <string_view>
 
-#include <ljus/image/flip.hpp>
+#include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
-#include <ljus/render/gathering.hpp>
-#include <ljus/scenes/cornell_box.hpp>
+#include <ljus/path/light_transport.hpp>
+#include <ljus/scenes/report_rooms.hpp>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
-#include "common/convergence.hpp"
-#include "common/oracle.hpp"
 #include "common/plot.hpp"
+#include "common/rendered.hpp"
 #include "experiments/show_table.hpp"
-
-using namespace ljus;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using examples::rendered;
+using ljus::Image;
+using ljus::PhotonMappingSettings;
+using ljus::RenderSettings;
 
-/// The options of this program, besides the common ones.
-struct Sizes {
-    long long photons = 0; ///< The largest number of photons.
-    int seeds = 0;         ///< Runs behind each bias and variance.
-    int truth = 0;         ///< Rays per pixel of the reference.
-};
-
-// --- Where a surface ends ------------------------------------------------------------
-
-using Flat = World<Scene<Shapes<Quad>, Materials<Lambertian>>>;
-
-/// A unit square at z = 0.
-Flat unit_square() {
-    Scene<Shapes<Quad>, Materials<Lambertian>> scene;
-    scene.add(Quad{.corner{0, 0, 0}, .edge_u{1, 0, 0}, .edge_v{0, 1, 0}},
-              scene.add(Lambertian{.albedo = Rgb{0.5f}}));
-    return Flat(std::move(scene));
+/// Figure 1 taken apart: the three parts whose sum it is.
+template <typename Scene>
+void parts(const ljus::Room<Scene>& room, const PhotonMappingSettings& settings,
+           const examples::Options& options) {
+    const ljus::PhotonMapper mapper(room.world, settings);
+    const RenderSettings picture{options.width, options.height, options.samples,
+                                 options.seed};
+    // [parts]
+    const auto save = [&](std::string_view paths, const char* name) {
+        const ljus::OnlyPaths one(mapper, paths);
+        const auto result = rendered(name, one, room.camera, picture, options);
+        save_png(result.image, options.path(std::string(name) + ".png"));
+    };
+    save("ES*D?L", "fig-1-direct");       // lamps, and direct light
+    save("ES*DS+L", "fig-1-caustics");    // the caustics map
+    save("E.*D.*D.*L", "fig-1-indirect"); // all longer paths
+    // [parts]
 }
 
-Vertex square_vertex(const Flat& square, float x, float y) {
-    const Ray ray{.origin{x, y, 0.1f}, .direction{0, 0, -1}};
-    return vertex_at(square, ray, closest_hit(square, ray).value());
-}
+/// The trade: error against time for the photon mapper and the path tracer.
+template <typename Scene>
+void trade(const ljus::Room<Scene>& room, const PhotonMappingSettings& settings,
+           const examples::Options& options) {
+    const int size = options.pick(24, 80, 120);
+    const int most = options.pick(16, 256, 1024);
+    const ljus::PathTracer tracer(room.world);
+    // Another seed, and sixteen times the rays of the best row.
+    const Image truth =
+        rendered("reference", tracer, room.camera,
+                 {.width = size, .height = size, .samples = 16 * most, .seed = 77},
+                 options)
+            .image;
 
-/// Indirect photons, evenly on the unit square: 1 W in all, so that E is 1 W/m^2.
-PhotonMap even_photons(int count, std::uint64_t seed) {
-    auto stream = random_stream(seed, Pass::user, 0, 0);
-    std::vector<Photon> photons;
-    for (int i = 0; i < count; ++i)
-        photons.push_back({.position = Vec3(next_2d(stream), 0),
-                           .direction{0, 0, -1},
-                           .flux = Rgb{1 / float(count)},
-                           .kind = PhotonKind::indirect,
-                           .normal = small_normal(Vec3{0, 0, 1})});
-    return make_photon_map(photons);
-}
-
-/// Lets every photon count, for estimate_irradiance().
-constexpr auto all_photons = [](std::uint32_t) { return true; };
-
-/// A mean, and its standard error.
-struct Mean {
-    double count = 0, sum = 0, squares = 0;
-
-    void add(double x) { ++count, sum += x, squares += x * x; }
-    double mean() const { return sum / count; }
-    double error() const {
-        return std::sqrt(std::max(0.0, squares / count - mean() * mean()) /
-                         std::max(1.0, count - 1));
-    }
-    std::string text() const {
-        return examples::text(mean(), "%.3f") + " +- " +
-               examples::text(error(), "%.3f");
-    }
-};
-
-/// The fraction of Epanechnikov's kernel in a corner whose edges lie at s and t, over
-/// the radius, by the midpoint rule.
-double corner_by_rule(double s, double t) {
-    constexpr int n = 200;
-    double sum = 0;
-    for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) {
-            const double x = 2 * (i + 0.5) / n - 1, y = 2 * (j + 0.5) / n - 1;
-            if (x * x + y * y < 1 && x < s && y < t)
-                sum += 2 / pi * (1 - x * x - y * y) * 4 / (double(n) * n);
-        }
-    return sum;
-}
-
-constexpr float border_radius = 0.1f; ///< Of the disc that photons are counted in.
-constexpr int border_steps = 24;      ///< From the edge to the distance of the radius.
-
-/// A point on the square, and the estimates there.
-struct Place {
-    const char* name;
-    float x, y;
-    const char* part; ///< Of the disc, as the table has it.
-    Mean plain{}, corrected{};
-};
-
-/// The estimates by several maps under an even light.
-struct Borders {
-    std::vector<Mean> with, without; ///< The correction, step by step from an edge.
-    std::vector<Place> places{{"in the middle", 0.5f, 0.5f, "1"},
-                              {"at an edge", 0.5f, 1e-4f, "1/2"},
-                              {"in a corner", 1e-4f, 1e-4f, "1/4"}};
-};
-
-Borders measure_borders(int maps, std::uint64_t seed) {
-    const Flat square = unit_square();
-    const Vec3 up{0, 0, 1};
-    IrradiancePointSettings corrected{.nearest = 512, .radius = border_radius};
-    IrradiancePointSettings plain = corrected;
-    plain.edges = false;
-    Borders found{.with = std::vector<Mean>(border_steps + 1),
-                  .without = std::vector<Mean>(border_steps + 1)};
-    for (int m = 0; m < maps; ++m) {
-        const PhotonMap map = even_photons(6000, seed + std::uint64_t(m));
-        const auto estimate = [&](float x, float y, const auto& how) {
-            return double(estimate_irradiance(square, map, square_vertex(square, x, y),
-                                              up, how, border_radius, all_photons)
-                              .x);
-        };
-        for (int i = 0; i <= border_steps; ++i)
-            for (const float x : {0.2f, 0.4f, 0.6f, 0.8f}) {
-                const float y =
-                    std::max(1e-4f, 1.2f * border_radius * float(i) / border_steps);
-                found.with[std::size_t(i)].add(estimate(x, y, corrected));
-                found.without[std::size_t(i)].add(estimate(x, y, plain));
-            }
-        for (Place& place : found.places) {
-            place.plain.add(estimate(place.x, place.y, plain));
-            place.corrected.add(estimate(place.x, place.y, corrected));
-        }
-    }
-    return found;
-}
-
-/// The estimates from an edge inwards, beside the fraction of the kernel that lies
-/// inside.
-void plot_edge(const Borders& found, const examples::Options& options) {
-    examples::Plot plot{
-        .name = "final-gathering-edge",
-        .columns = {"distance from the edge over the radius", "part of the kernel",
-                    "photons as they are", "divided by the part"},
-        .y_label = "estimate over the truth",
-        .more = "set yrange [0:1.3]\nset key inside bottom right vertical\n"};
-    for (int i = 0; i <= border_steps; ++i) {
-        const double s = 1.2 * double(i) / border_steps;
-        const auto k = std::size_t(i);
-        plot.rows.push_back(
-            {s, kernel_part(s), found.without[k].mean(), found.with[k].mean()});
-    }
-    save_plot(options.out, plot);
-}
-
-/// The largest error of the product of two edges' fractions as that of a corner.
-double worst_product() {
-    double worst = 0;
-    for (double s = 0; s < 1; s += 0.1)
-        for (double t = 0; t < 1; t += 0.1)
-            worst = std::max(
-                worst,
-                std::abs(kernel_part(s) * kernel_part(t) / corner_by_rule(s, t) - 1));
-    return worst;
-}
-
-/// The estimates under an even light near an edge and in a corner.
-void borders(const examples::Options& options) {
-    const Borders found = measure_borders(options.pick(32, 128, 512), options.seed);
-    plot_edge(found, options);
-    examples::Table table{
-        .name = "final-gathering-corner",
-        .columns = {"where", "part of the disc", "photons, uncorrected", "corrected"}};
-    for (const Place& place : found.places)
-        table.rows.push_back(
-            {place.name, place.part, place.plain.text(), place.corrected.text()});
-    table.rows.push_back(
-        {"near a corner, at worst", "product of two", "",
-         "off by " + examples::text(100 * worst_product(), "%.1f %%")});
-    examples::show_table(options, table);
-}
-
-/// By how many percent the points of one map are too bright under an even light.
-struct Deviation {
-    double at_points = 0; ///< The mean over the points.
-    double over_surface =
-        0; ///< The mean over the surface, each place taking its point's.
-};
-
-/// Finds the deviation of points that are chosen in one of three ways.
-/// \param map     Photons of an even light of 1 W/m^2.
-/// \param how     How many photons an estimate takes.
-/// \param chosen  Whether the photon of a record becomes a point.
-/// \param wanted  Whether the second record's photon counts at the first one's point.
-/// \param share   The fraction of all photons that counts.
-template <typename Chosen, typename Wanted>
-Deviation deviation(const PhotonMap& map, const IrradiancePointSettings& how,
-                    const Chosen& chosen, const Wanted& wanted, double share) {
-    const Flat square = unit_square();
-    const Vec3 up{0, 0, 1};
-    std::vector<Vec3> places;
-    std::vector<double> known;
-    for (std::uint32_t i = 0; i < map.records.size(); ++i) {
-        const Vec3 p = map.tree.point(i);
-        if (!chosen(i) || std::max(std::abs(p.x - 0.5f), std::abs(p.y - 0.5f)) > 0.4f)
-            continue;
-        places.push_back(p);
-        known.push_back(
-            double(estimate_irradiance(square, map, square_vertex(square, p.x, p.y), up,
-                                       how, 0.15f,
-                                       [&](std::uint32_t k) { return wanted(i, k); })
-                       .x) /
-            share);
-    }
-    Deviation result;
-    for (const double e : known)
-        result.at_points += 100 * (e - 1) / double(known.size());
-    const KdTree8 tree(places);
-    constexpr int side = 60; // of the lookups
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) {
-            const auto nearest = tree.nearest(
-                Vec3{0.2f + 0.01f * float(x), 0.2f + 0.01f * float(y), 0}, 1.0f);
-            const double e = known[tree.point_ids()[nearest->index]];
-            result.over_surface += 100 * (e - 1) / (side * side);
-        }
-    return result;
-}
-
-/// What estimates at photons find, with those photons counted and without.
-void own_photon(const examples::Options& options) {
-    const int maps = options.pick(16, 64, 256);
-    constexpr std::size_t every = 8;
-    examples::Table table{.name = "final-gathering-own",
-                          .columns = {"k", "2 / (k - 2)", "all photons: at the points",
-                                      "own left out: at the points",
-                                      "own left out: over the surface",
-                                      "all points' left out: over the surface"}};
-    for (const std::size_t k : {16u, 64u, 256u}) {
-        const IrradiancePointSettings how{.nearest = k};
-        Mean counted, own, own_surface, free_surface;
-        for (int m = 0; m < maps; ++m) {
-            const PhotonMap map = even_photons(20000, options.seed + std::uint64_t(m));
-            const auto& ids = map.tree.point_ids();
-            const auto in_order = [](std::uint32_t i) { return i % every == 0; };
-            const auto by_chance = [&](std::uint32_t i) { return ids[i] % every == 0; };
-            counted.add(deviation(
-                            map, how, in_order, [](auto, auto) { return true; }, 1)
-                            .at_points);
-            const Deviation without = deviation(
-                map, how, in_order, [](auto i, auto other) { return other != i; }, 1);
-            own.add(without.at_points);
-            own_surface.add(without.over_surface);
-            free_surface.add(deviation(
-                                 map, how, by_chance,
-                                 [&](auto, auto other) { return !by_chance(other); },
-                                 1 - 1.0 / every)
-                                 .over_surface);
-        }
-        const auto percent = [](const Mean& m) {
-            return examples::text(m.mean(), "%.1f") + " +- " +
-                   examples::text(m.error(), "%.1f") + " %";
-        };
-        table.rows.push_back({std::to_string(k),
-                              examples::text(200 / (double(k) - 2), "%.1f %%"),
-                              percent(counted), percent(own), percent(own_surface),
-                              percent(free_surface)});
-    }
-    examples::show_table(options, table);
-}
-
-// --- The trade -----------------------------------------------------------------------
-
-/// The settings that all pictures share.
-PhotonMappingSettings gather_settings(IndirectLight indirect, long long photons,
-                                      std::uint64_t seed,
-                                      const examples::Options& options) {
-    PhotonMappingSettings settings{
-        .direct = DirectLight::analytic, .split_glass = true, .indirect = indirect};
-    settings.caustics.photons = photons;
-    settings.general.photons = photons;
-    settings.general.shadow_photons = false;
-    settings.caustics.seed = settings.general.seed = seed;
-    settings.caustics.threads = settings.general.threads = options.threads;
-    settings.caustics_estimate.radius = settings.general_estimate.radius = 0;
-    return settings;
-}
-
-/// The pictures of all seeds, and what one of them costs.
-struct Runs {
-    std::vector<Image> images{};
-    std::vector<double> first{}, second{}; ///< Processor seconds of either pass.
-};
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
-
-/// Ways that alternate seed by seed, so that a busy machine affects all of them.
-template <typename Room>
-std::vector<Runs> compare(const Room& room,
-                          const std::vector<PhotonMappingSettings>& ways, int samples,
-                          int seeds, const examples::Options& options) {
-    std::vector<Runs> runs(ways.size());
-    for (int seed = 1; seed <= seeds; ++seed)
-        for (std::size_t w = 0; w < ways.size(); ++w) {
-            auto settings = ways[w];
-            settings.caustics.seed = settings.general.seed = std::uint64_t(seed);
-            const double begin = examples::processor_seconds();
-            const PhotonMapper mapper(room.world, settings, abilities<Gathering>);
-            const double middle = examples::processor_seconds();
-            runs[w].images.push_back(render(mapper, room.camera,
-                                            {.width = options.width,
-                                             .height = options.height,
-                                             .samples = samples,
-                                             .seed = std::uint64_t(seed),
-                                             .threads = options.threads})
-                                         .image);
-            runs[w].first.push_back(middle - begin);
-            runs[w].second.push_back(examples::processor_seconds() - middle);
-            examples::stop_if_asked();
-        }
-    return runs;
-}
-
-/// The result of one way to gather, for some number of photons and of rays.
-struct Setting {
-    std::size_t way;             ///< 0: photons, 1: map, 2: gather.
-    double seconds, error, seen; ///< Processor seconds, relMSE, FLIP.
-};
-
-/// For each way the settings that no faster one of the same way beats, or comes near.
-template <typename Error>
-examples::Plot frontier(const std::string& name, const std::string& label,
-                        const std::vector<Setting>& by_time, const Error& error) {
-    examples::Plot plot{.name = name,
-                        .columns = {"processor seconds", "photons", "map", "gather"},
-                        .y_label = label,
+    examples::Plot plot{.name = "two_pass-trade",
+                        .columns = {"seconds", "photon mapping", "path tracing",
+                                    "photon mapping (blocks)", "path tracing (blocks)"},
+                        .y_label = "relMSE",
                         .log_x = true,
                         .log_y = true};
-    std::array best{1e300, 1e300, 1e300};
-    for (const Setting& setting : by_time) {
-        if (error(setting) > 0.95 * best[setting.way]) continue;
-        best[setting.way] = error(setting);
-        examples::Row row{setting.seconds, std::nan(""), std::nan(""), std::nan("")};
-        row[setting.way + 1] = error(setting);
-        plot.rows.push_back(row);
-    }
-    return plot;
-}
-
-constexpr std::array way_names{"photons", "map", "gather"};
-constexpr std::array way_kinds{IndirectLight::photons, IndirectLight::map,
-                               IndirectLight::gather};
-
-/// All settings that were tried, as the plots and the table show them.
-struct Trade {
-    examples::Plot split{.name = "final-gathering-split",
-                         .columns = {"photons", "photons: squared bias",
-                                     "photons: variance", "map: squared bias",
-                                     "map: variance", "gather: squared bias",
-                                     "gather: variance"},
-                         .y_label = "part of relMSE, most rays",
-                         .log_x = true,
-                         .log_y = true};
-    examples::Table table{.name = "final-gathering-table",
-                          .columns = {"photons", "rays per pixel", "way",
-                                      "first pass, s", "second pass, s", "relMSE",
-                                      "squared bias", "variance", "FLIP"}};
-    std::vector<Setting> tried{};
-};
-
-/// Adds the result of one way with some photons and rays.
-/// \return Its bias and variance.
-BiasVariance add_way(Trade& trade, std::size_t way, long long photons, int samples,
-                     const Runs& runs, const examples::Oracle& oracle) {
-    const auto split =
-        examples::relative_split(runs.images, oracle.truth, oracle.noise);
-    double seen = 0;
-    for (const Image& image : runs.images)
-        seen += flip(image, oracle.truth) / double(runs.images.size());
-    const double first = median(runs.first), second = median(runs.second);
-    const double error = split.bias_squared + split.variance;
-    trade.tried.push_back({way, first + second, error, seen});
-    trade.table.rows.push_back(
-        {std::to_string(photons), std::to_string(samples), way_names[way],
-         examples::text(first, "%.2f"), examples::text(second, "%.2f"),
-         examples::text(error, "%.2g"), examples::text(split.bias_squared, "%.2g"),
-         examples::text(split.variance, "%.2g"), examples::text(seen, "%.3f")});
-    return split;
-}
-
-/// Tries the three ways with each number of photons and of rays.
-template <typename Room>
-Trade try_settings(const Room& room, const examples::Oracle& oracle,
-                   const examples::Options& options, const Sizes& sizes) {
-    Trade trade;
-    for (const long long part : {100, 32, 10, 3, 1})
-        for (int samples = 1; samples <= options.samples; samples *= 4) {
-            const long long photons = std::max(1000LL, sizes.photons / part);
-            std::vector<PhotonMappingSettings> ways;
-            for (const IndirectLight kind : way_kinds)
-                ways.push_back(gather_settings(kind, photons, 1, options));
-            const auto runs = compare(room, ways, samples, sizes.seeds, options);
-            examples::Row row{double(photons)};
-            for (std::size_t w = 0; w < ways.size(); ++w) {
-                const auto split = add_way(trade, w, photons, samples, runs[w], oracle);
-                row.push_back(split.bias_squared > 0 ? split.bias_squared
-                                                     : std::nan(""));
-                row.push_back(split.variance);
-            }
-            const bool most = 4LL * samples > options.samples;
-            if (most) trade.split.rows.push_back(row);
-        }
-    return trade;
-}
-
-/// Error against time: three ways, photons and rays.
-void trade(const examples::Options& options, const Sizes& sizes) {
-    const auto room = matt_cornell_box();
-    const auto oracle = examples::find_oracle("matt-cornell", room, options.width,
-                                              sizes.truth, options);
-    auto [split, table, tried] = try_settings(room, oracle, options, sizes);
-    std::sort(tried.begin(), tried.end(),
-              [](const Setting& a, const Setting& b) { return a.seconds < b.seconds; });
-    save_plot(options.out, frontier("final-gathering-trade", "relMSE", tried,
-                                    [](const Setting& s) { return s.error; }));
-    save_plot(options.out, frontier("final-gathering-flip", "FLIP", tried,
-                                    [](const Setting& s) { return s.seen; }));
-    save_plot(options.out, split);
-    examples::show_table(options, table);
-}
-
-/// Processor seconds in which the points of precomputed irradiance are made.
-template <typename Room>
-double seconds_of_points(const Room& room, const PhotonMappingSettings& gather,
-                         int threads) {
-    const PhotonMapper mapper(room.world, gather, abilities<Gathering>);
-    const double begin = examples::processor_seconds();
-    (void)make_irradiance_points(room.world, mapper.maps().general,
-                                 mapper.maps().caustics, gather.irradiance, 1, threads);
-    return examples::processor_seconds() - begin;
-}
-
-/// What a lookup saves: the general map and precomputed irradiance at equal settings.
-template <typename Room>
-void table_of_ratios(const Room& room, const examples::Oracle& oracle,
-                     const examples::Options& options, const Sizes& sizes) {
-    const int rays = options.pick(16, 100, 100);
-    const int seeds = std::min(sizes.seeds, options.pick(2, 3, 16));
-    examples::Table table{.name = "final-gathering-ratio",
-                          .columns = {"photons per estimate", "map, s", "gather, s",
-                                      "ratio", "points, s", "share of the time saved",
-                                      "relMSE: map", "gather"}};
-    for (const std::size_t k : {0u, 32u, 64u, 128u, 256u}) {
-        auto map = gather_settings(IndirectLight::map, sizes.photons, 1, options);
-        if (k > 0) map.general_estimate = {.radius = 1, .nearest = k};
-        auto gather = map;
-        gather.indirect = IndirectLight::gather;
-        gather.irradiance.nearest = k > 0 ? k : 64;
-        const auto runs = compare(room, {map, gather}, rays, seeds, options);
-        const double slow = median(runs[0].second), fast = median(runs[1].second);
-        const double extra = seconds_of_points(room, gather, options.threads);
-        const auto error = [&](const Runs& r) {
-            const auto split =
-                examples::relative_split(r.images, oracle.truth, oracle.noise);
-            return examples::text(split.bias_squared + split.variance, "%.2g");
-        };
+    examples::Table table{.name = "two_pass-trade-table",
+                          .columns = {"rays per pixel", "method", "seconds", "relMSE",
+                                      "10x10-block error", "99 % trimmed relMSE"}};
+    const double empty = std::numeric_limits<double>::quiet_NaN();
+    const auto row = [&](int rays, const char* method, double seconds,
+                         const Image& image) {
+        const double error = ljus::rel_mse(image, truth);
+        const double blocks = ljus::block_error(image, truth);
+        const bool photons = std::string(method) == "photon mapping";
+        plot.rows.push_back({seconds, photons ? error : empty, photons ? empty : error,
+                             photons ? blocks : empty, photons ? empty : blocks});
         table.rows.push_back(
-            {k > 0 ? "the nearest " + std::to_string(k) : "64 typically",
-             examples::text(slow, "%.2f"), examples::text(fast, "%.2f"),
-             examples::text(slow / fast, "%.1f"), examples::text(extra, "%.2f"),
-             examples::text(100 * extra / (slow - fast), "%.0f %%"), error(runs[0]),
-             error(runs[1])});
+            {std::to_string(rays), method, examples::text(seconds, "%.3g"),
+             examples::text(error, "%.2g"), examples::text(blocks, "%.2g"),
+             examples::text(ljus::trimmed_rel_mse(image, truth), "%.2g")});
+    };
+    // The first pass is the same for each row, and timed once: a curve never runs back.
+    examples::StopWatch watch;
+    const ljus::PhotonMapper mapper(room.world, settings);
+    const double first_pass = watch.seconds();
+    for (int rays = 1; rays <= most; rays *= 4) {
+        const RenderSettings picture{size, size, rays, options.seed};
+        watch.restart();
+        const auto by_photons =
+            rendered("photon mapping", mapper, room.camera, picture, options);
+        const double seconds = watch.seconds();
+        const auto by_paths =
+            rendered("path tracing", tracer, room.camera, picture, options);
+        row(rays, "photon mapping", first_pass + seconds, by_photons.image);
+        row(rays, "path tracing", watch.seconds() - seconds, by_paths.image);
     }
+    save_plot(options.out, plot);
     examples::show_table(options, table);
-}
-
-/// Lookup points at every second photon, every fourth, and so on.
-template <typename Room>
-void table_of_every(const Room& room, const examples::Oracle& oracle,
-                    const examples::Options& options, const Sizes& sizes) {
-    examples::Table every{.name = "final-gathering-every",
-                          .columns = {"photons per point", "points", "first pass, s",
-                                      "second pass, s", "relMSE", "squared bias"}};
-    std::vector<PhotonMappingSettings> ways;
-    for (const int n : {2, 4, 8, 16, 64, 256, 1024}) {
-        ways.push_back(
-            gather_settings(IndirectLight::gather, sizes.photons, 1, options));
-        ways.back().irradiance.every = n;
-    }
-    const int few = std::min(sizes.seeds, 8);
-    const auto runs = compare(room, ways, options.pick(4, 25, 25), few, options);
-    for (std::size_t w = 0; w < ways.size(); ++w) {
-        const auto split =
-            examples::relative_split(runs[w].images, oracle.truth, oracle.noise);
-        const PhotonMapper mapper(room.world, ways[w], abilities<Gathering>);
-        every.rows.push_back(
-            {std::to_string(ways[w].irradiance.every),
-             std::to_string(mapper.template state<Gathering>().points.records.size()),
-             examples::text(median(runs[w].first), "%.2f"),
-             examples::text(median(runs[w].second), "%.2f"),
-             examples::text(split.bias_squared + split.variance, "%.2g"),
-             examples::text(split.bias_squared, "%.2g")});
-    }
-    examples::show_table(options, every);
-}
-
-/// Precomputed irradiance: what it saves, and how many points it takes.
-void ratio(const examples::Options& options, const Sizes& sizes) {
-    const auto room = matt_cornell_box();
-    const auto oracle = examples::find_oracle("matt-cornell", room, options.width,
-                                              sizes.truth, options);
-    table_of_ratios(room, oracle, options, sizes);
-    table_of_every(room, oracle, options, sizes);
 }
 
 } // namespace
 
-/// Makes the plots and tables of chapter 28.
-/// \param argc  Number of arguments.
-/// \param argv  The command line; `--help` explains it.
-/// \return 0; after an exception 2, with one sentence on stderr.
+/// Makes the pictures, the plot and the table of chapter 28 that are not the report's.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        Sizes sizes;
-        line.about("Chapter 28, final gathering: the experiments behind its tables.");
-        line.add("--photons", sizes.photons, "The largest number of photons", 1,
-                 100000000);
-        line.add("--seeds", sizes.seeds, "Runs behind bias and variance", 2, 1000);
-        line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8, 1000000);
+        PhotonMappingSettings settings{.caustics_estimate{.radius = 0.1f}};
+        line.about("Chapter 28, two passes: the experiments behind plot and table.");
+        line.add("--photons", settings.caustics.photons,
+                 "Photons aimed at mirrors and glass", 0, 1'000'000'000);
         const examples::Options options =
-            line.parse({.draft{.width = 32, .height = 32, .samples = 16},
-                        .report{.width = 64, .height = 64, .samples = 64},
-                        .reference{.width = 128, .height = 128, .samples = 256}});
-        if (!line.given("--photons"))
-            sizes.photons = options.pick(20000LL, 200000LL, 1000000LL);
-        if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
-        if (!line.given("--truth")) sizes.truth = options.pick(512, 4096, 65536);
-        borders(options);
-        own_photon(options);
-        trade(options, sizes);
-        ratio(options, sizes);
+            line.parse({.draft{.width = 200, .height = 200, .samples = 16},
+                        .report{.width = 400, .height = 400, .samples = 256},
+                        .reference{.width = 500, .height = 500, .samples = 800}});
+        settings.caustics.seed = options.seed;
+        settings.caustics.threads = options.threads;
+        const auto room = ljus::final_room();
+        parts(room, settings, options);
+        trade(room, settings, options);
     });
 }

@@ -1,597 +1,722 @@
-// smoke: --quality draft --width 24 --height 24 --photons 1000 --seeds 2
+// smoke: --quality draft --width 24 --height 24 --seeds 2 --truth 16
 /// \file chapters/experiments/30_experiments.cpp
-/// \brief Chapter 30: the experiments behind its tables and plots: how many photons
-/// each mirror and each glass should get.
+/// \brief Chapter 30: the cost and the gain of interpolating irradiance.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <numbers>
+#include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <ljus/image/flip.hpp>
-#include <ljus/inspect/bias_variance.hpp>
-#include <ljus/inspect/estimate.hpp>
 #include <ljus/ljus.hpp>
+#include <ljus/math/stratified_stream.hpp>
 #include <ljus/path/light_transport.hpp>
-#include <ljus/render/budgeting.hpp>
-#include <ljus/scenes/report_rooms.hpp>
+#include <ljus/render/adaptive.hpp>
+#include <ljus/render/gathering.hpp>
+#include <ljus/scenes/cornell_box.hpp>
 
+#include "common/clock.hpp"
+#include "common/command_line.hpp"
 #include "common/convergence.hpp"
-#include "common/drawing.hpp"
-#include "common/example.hpp"
+#include "common/oracle.hpp"
+#include "common/plot.hpp"
+#include "experiments/show_table.hpp"
 
 using namespace ljus;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using examples::text;
+using Box = decltype(cornell_box());
+/// The photon mapper of the preset `fast`.
+using Mapper = PhotonMapper<decltype(Box::world), StratifiedStream, Gathering>;
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// The options of this program, besides the common ones.
 struct Sizes {
-    long long photons = 0; ///< Of a caustics map.
-    int seeds = 0;         ///< Maps behind each error.
+    int seeds = 0; ///< Runs behind each bias and variance.
+    int truth = 0; ///< Rays per pixel of the references.
+    int side = 0;  ///< Of the pictures whose errors are measured, in pixels.
 };
 
-constexpr std::array budgets{CausticBudget::as_seen, CausticBudget::equal,
-                             CausticBudget::flux, CausticBudget::area,
-                             CausticBudget::brightness};
-constexpr std::array budget_names{"as seen", "equal", "flux", "area", "brightness"};
+// --- A corner where irradiance is known ----------------------------------------------
 
-// --- Two balls -----------------------------------------------------------------------
+/// The irradiance on a floor at a distance from an endless wall of height 1 whose
+/// radiosity is 1; nothing else emits light.
+double beside_wall(double x) {
+    return 0.5 * (1 - x / std::hypot(x, 1.0));
+}
 
-using Stage =
-    Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass>, Lights<PointLight>>;
-constexpr float floor_albedo = 0.5f;
-const Vec3 lamp{0, 4, 0};
-constexpr float watts = 10; // a steradian
-
-/// Two balls of one size under one light, indices 1.05 and 1.5, on a floor: in the
-/// void, or in a box whose walls have a colour.
-Room<Stage> two_balls(float albedo) {
-    Stage stage;
-    const Vec3 low{-3, 0, -3}, x{6, 0, 0}, y{0, 5, 0}, z{0, 0, 6};
-    stage.add(Quad{low, z, x}, stage.add(Lambertian{.albedo = Rgb{floor_albedo}}));
-    if (albedo > 0) {
-        const auto walls = stage.add(Lambertian{.albedo = Rgb{albedo}});
-        for (const Quad& wall :
-             {Quad{low + y, x, z}, Quad{low, x, y}, Quad{low + z, y, x},
-              Quad{low, y, z}, Quad{low + x, z, y}})
-            stage.add(wall, walls);
+/// The harmonic mean distance there, by rays spread evenly over the cosine; a ray that
+/// misses the wall goes to infinity.
+double sees_as_far(double x) {
+    constexpr int side = 32;
+    double inverse = 0;
+    for (int i = 0; i < side * side; ++i) {
+        const Vec3T<double> d = sample_cosine_hemisphere(
+            Vec2T<double>{(i % side + 0.5) / side, (double(i / side) + 0.5) / side});
+        if (!(d.x < 0)) continue;
+        const double t = x / -d.x;
+        if (t * d.z < 1) inverse += 1 / t / (side * side);
     }
-    for (const auto& [at, index] : {std::pair{-1.0f, 1.05f}, std::pair{1.0f, 1.5f}})
-        stage.add(Sphere{.center{at, 0.8f, 0}, .radius = 0.5f},
-                  stage.add(Glass{.index = index}));
-    stage.add(PointLight{.position = lamp, .intensity = Rgb{watts}});
-    const Camera camera = look_at(View{.position{0, 2.4f, 2.9f},
-                                       .target{0, 0.45f, 0},
-                                       .up{0, 1, 0},
-                                       .vfov_degrees = 55});
-    return {World(std::move(stage)), camera};
+    return inverse > 0 ? 1 / inverse : std::numeric_limits<double>::infinity();
 }
 
-/// The part of the floor in view.
-struct Grid {
-    int width = 96, height = 72;
-    [[nodiscard]] Vec3 at(int x, int y) const {
-        return {4 * (float(x) + 0.5f) / float(width) - 2, 0,
-                3 * (float(y) + 0.5f) / float(height) - 1.5f};
+constexpr double corner_step = 0.1;               ///< Side of a square of the floor.
+constexpr int corner_places = 40;                 ///< Where it is asked.
+constexpr std::array reaches{0.1, 0.3, 1.0, 4.0}; ///< Of the records.
+
+/// The distance of a point from the wall: from 0.01 to 1.5 of its height.
+double corner_place(int i) {
+    return 0.01 * std::pow(150.0, double(i) / (corner_places - 1));
+}
+
+/// Records with the exact irradiance beside the wall: one for each square of the floor,
+/// anywhere in it.
+IrradianceCacheT<double> exact_cache(int run, std::uint64_t seed) {
+    constexpr int columns = 22, rows = 9;
+    auto stream =
+        random_stream(seed, Pass::gathering, 0, static_cast<std::uint64_t>(run));
+    std::vector<Vec3T<double>> positions;
+    std::vector<GatheredT<double>> records;
+    for (int i = 0; i < columns * rows; ++i) {
+        const auto u = next_2d<double>(stream);
+        const Vec3T<double> p{corner_step * (i % columns + u.x),
+                              corner_step * (double(i / columns) - rows * 0.5 + u.y),
+                              0};
+        positions.push_back(p);
+        records.push_back({.irradiance = RgbT<double>{beside_wall(p.x)},
+                           .distance = sees_as_far(p.x)});
     }
+    return make_irradiance_cache(positions, records, GatherSettings{}, 1);
+}
+
+/// The errors of interpolation with one reach at all points, as means over the runs.
+struct AtCorner {
+    std::array<double, corner_places> squares{};  ///< Of the relative error.
+    std::array<double, corner_places> gathered{}; ///< Lookups without a near point.
 };
 
-/// The radiance that the photons of a map make on the floor.
-Image floor_light(const PhotonMap& map, const Grid& grid, float radius,
-                  PhotonKinds kinds) {
-    Image image = make_image(grid.width, grid.height);
-    const Lambertian material{.albedo = Rgb{floor_albedo}};
-    const DensityEstimateSettings gather{.radius = radius};
-    for (int y = 0; y < grid.height; ++y)
-        for (int x = 0; x < grid.width; ++x) {
-            VertexT<float> floor{.point{.position = grid.at(x, y), .normal{0, 1, 0}}};
-            floor.frame = frame_around(floor.point.normal);
-            std::uint64_t gathered = 0;
-            pixel(image, x, y) = estimate_radiance(map, floor, material, Vec3{0, 0, 1},
-                                                   gather, kinds, gathered);
+/// Adds the errors of one cache, which is one of `runs`.
+void add_run(AtCorner& corner, const IrradianceCacheT<double>& cache, double reach,
+             int runs) {
+    for (int i = 0; i < corner_places; ++i) {
+        const auto slot = static_cast<std::size_t>(i);
+        const double exact = beside_wall(corner_place(i));
+        const auto found = interpolate(cache, Vec3T<double>{corner_place(i), 0, 0},
+                                       Vec3T<double>{0, 0, 1}, reach);
+        if (!found) {
+            corner.gathered[slot] += 1.0 / runs; // exact
+            continue;
         }
-    return image;
-}
-
-/// The direct light on the floor in closed form; the balls cast shadows.
-Image direct_light(const Grid& grid) {
-    Image image = make_image(grid.width, grid.height);
-    for (int y = 0; y < grid.height; ++y)
-        for (int x = 0; x < grid.width; ++x) {
-            const Vec3 way = lamp - grid.at(x, y);
-            const float d = glm::length(way);
-            bool lit = true;
-            for (const float ball : {-1.0f, 1.0f}) {
-                const Vec3 to = Vec3{ball, 0.8f, 0} - grid.at(x, y);
-                lit = lit && glm::length(glm::cross(to, way / d)) > 0.5f;
-            }
-            if (lit)
-                pixel(image, x, y) =
-                    Rgb{float(double(floor_albedo) / pi) * watts * way.y / (d * d * d)};
-        }
-    return image;
-}
-
-Image operator+(const Image& a, const Image& b) {
-    Image sum = a;
-    for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += b.pixels[i];
-    return sum;
-}
-
-PhotonMap caustics_of(const World<Stage>& stage, long long photons, std::uint64_t seed,
-                      const std::vector<double>& shares,
-                      const examples::Options& options) {
-    return make_photon_map(trace_photons(stage, MapType::caustics,
-                                         {.photons = photons,
-                                          .seed = seed,
-                                          .shares = shares,
-                                          .threads = options.threads})
-                               .photons);
-}
-
-/// Errors of a way to divide photons: bias and variance, absolute, relative to all
-/// light and relative to the mean light of the caustic on that half of the floor.
-struct Errors {
-    BiasVariance absolute, relative, own;
-    double flip = 0;
-};
-
-/// A room and its references.
-struct Known {
-    std::string name;
-    Room<Stage> room;
-    Image rest{};    ///< All light but the caustics.
-    Image truth{};   ///< All light.
-    double gain = 1; ///< Exposure for FLIP.
-    std::vector<CausticPilot> pilots = {};
-};
-
-Known known_room(const std::string& name, float albedo, const Grid& grid, float radius,
-                 const Sizes& sizes, const examples::Options& options) {
-    Known known{.name = name, .room = two_balls(albedo), .rest = direct_light(grid)};
-    const long long many = options.pick(50, 300, 1000) * sizes.photons;
-    const auto general = trace_photons(known.room.world, MapType::general,
-                                       {.photons = std::min(many, 2000000LL),
-                                        .seed = 91,
-                                        .shadow_photons = false,
-                                        .threads = options.threads})
-                             .photons;
-    known.rest = known.rest + floor_light(make_photon_map(general), grid, 0.2f,
-                                          one_kind(PhotonKind::indirect));
-    known.truth =
-        known.rest + floor_light(caustics_of(known.room.world, many, 92, {}, options),
-                                 grid, 0.5f * radius, all_kinds);
-    double mean = 0;
-    for (const Rgb& c : known.truth.pixels)
-        mean += double(c.x) / double(known.truth.pixels.size());
-    known.gain = 1 / mean; // the epsilon of relative errors assumes that
-    known.pilots = pilot_caustics(known.room.world,
-                                  PhotonPassSettings{.photons = sizes.photons,
-                                                     .seed = options.seed,
-                                                     .threads = options.threads},
-                                  radius, general, 0.3f);
-    return known;
-}
-
-Errors errors_of(const Known& known, const std::vector<double>& shares,
-                 const Grid& grid, float radius, const Sizes& sizes,
-                 const examples::Options& options) {
-    std::vector<Image> runs;
-    Errors errors;
-    const auto scaled = [&](Image image, double gain) {
-        for (Rgb& c : image.pixels) c *= float(gain);
-        return image;
-    };
-    const auto shown = [&](const Image& image) {
-        return scaled(image, 0.3 * known.gain);
-    };
-    const Image truth = shown(known.truth);
-    for (int seed = 1; seed <= sizes.seeds; ++seed) {
-        const auto map = caustics_of(known.room.world, sizes.photons,
-                                     std::uint64_t(seed), shares, options);
-        runs.push_back(known.rest + floor_light(map, grid, radius, all_kinds));
-        if (seed <= 4)
-            errors.flip += flip(shown(runs.back()), truth) / std::min(4, sizes.seeds);
-        examples::stop_if_asked();
+        const double e = found->x / exact - 1;
+        corner.squares[slot] += e * e / runs;
     }
-    errors.absolute = bias_variance(runs, known.truth);
-    const auto by_own = [&](Image image) {
-        for (int y = 0; y < image.height; ++y)
-            for (int x = 0; x < image.width; ++x) {
-                const CausticPilot& ball = known.pilots[2 * x < image.width ? 0 : 1];
-                pixel(image, x, y) *=
-                    float(ball.area / ball.flux * pi / double(floor_albedo));
-            }
-        return image;
-    };
-    std::vector<Image> owns;
-    for (const Image& run : runs) owns.push_back(by_own(run));
-    errors.own = bias_variance(owns, by_own(known.truth));
-    for (Image& run : runs) run = scaled(run, known.gain);
-    errors.relative =
-        examples::relative_split(runs, block_means(scaled(known.truth, known.gain), 1));
-    return errors;
 }
 
-/// The table of all budgets in both rooms.
-void two_rooms(const std::vector<Known>& rooms, const Grid& grid, float radius,
-               const Sizes& sizes, const examples::Options& options) {
-    examples::Table table{.name = "budget-two-balls",
-                          .columns = {"room", "budget", "photons for index 1.05",
-                                      "for index 1.5", "squared bias", "variance",
-                                      "variance relative to own caustic",
-                                      "variance relative to all light",
-                                      "squared bias relative to all light", "FLIP"}};
-    for (const Known& known : rooms)
-        for (std::size_t b = 0; b < budgets.size(); ++b) {
-            const auto shares = caustic_shares(budgets[b], known.pilots);
-            const auto found = errors_of(known, shares, grid, radius, sizes, options);
-            const double left = shares.empty() ? 0.5 : shares[0];
-            table.rows.push_back({known.name, budget_names[b],
-                                  examples::text(100 * left, "%.0f %%"),
-                                  examples::text(100 - 100 * left, "%.0f %%"),
-                                  examples::text(found.absolute.bias_squared, "%.3g"),
-                                  examples::text(found.absolute.variance, "%.3g"),
-                                  examples::text(found.own.variance, "%.3g"),
-                                  examples::text(found.relative.variance, "%.3g"),
-                                  examples::text(found.relative.bias_squared, "%.3g"),
-                                  examples::text(found.flip, "%.4f")});
-            if (!options.quiet) {
-                examples::print_row(table.rows.back(), 11);
-            }
-        }
-    save_table(options.out, table);
+/// One for each reach.
+using Corner = std::array<AtCorner, reaches.size()>;
 
-    examples::Table found{.name = "budget-pilot",
-                          .columns = {"room", "index", "photons stored in the pilot",
-                                      "flux, W", "area, m²", "a for flux", "a for area",
-                                      "a for brightness"}};
-    for (const Known& known : rooms)
-        for (std::size_t k = 0; k < known.pilots.size(); ++k) {
-            const CausticPilot& p = known.pilots[k];
-            found.rows.push_back(
-                {known.name, k == 0 ? "1.05" : "1.5", std::to_string(p.stored),
-                 examples::text(p.flux, "%.3f"), examples::text(p.area, "%.2f"),
-                 examples::text(p.absolute, "%.3f"), examples::text(p.relative, "%.2f"),
-                 examples::text(p.visible, "%.2f")});
+void plot_corner(const Corner& corner, const examples::Options& options) {
+    examples::Plot plot{.name = "irradiance_cache-corner",
+                        .columns = {"distance from the wall, over its height",
+                                    "reach 0.1", "reach 0.3", "reach 1", "reach 4"},
+                        .y_label = "relative error, root mean square",
+                        .log_x = true,
+                        .log_y = true};
+    for (int i = 0; i < corner_places; ++i) {
+        examples::Row row{corner_place(i)};
+        for (const AtCorner& at : corner) {
+            const double e = std::sqrt(at.squares[static_cast<std::size_t>(i)]);
+            row.push_back(e > 0 ? e : nothing);
         }
-    save_table(options.out, found);
-}
-
-/// Variance in the dark against the fraction of the light glass, beside theory.
-void by_share(const std::vector<Known>& rooms, const Grid& grid, float radius,
-              const Sizes& sizes, const examples::Options& options) {
-    examples::Plot plot{
-        .name = "budget-shares",
-        .columns = {"share of the ball of index 1.05", "in W/m²", "predicted in W/m²",
-                    "relative to own caustic", "predicted relative to own caustic",
-                    "relative to all light", "predicted relative to all light"},
-        .y_label = "variance over that of equal shares",
-        .more = "set yrange [0:3]\n"};
-    const auto law = [](double a, double b, double share) {
-        return (a * a / share + b * b / (1 - share)) / (2 * a * a + 2 * b * b);
-    };
-    const auto variances = [&](double share) {
-        const auto errors =
-            errors_of(rooms[0], {share, 1 - share}, grid, radius, sizes, options);
-        return std::array{errors.absolute.variance, errors.own.variance,
-                          errors.relative.variance};
-    };
-    const auto half = variances(0.5);
-    const CausticPilot &l = rooms[0].pilots[0], &r = rooms[0].pilots[1];
-    for (const double share : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95}) {
-        const auto found = variances(share);
-        plot.rows.push_back({share, found[0] / half[0],
-                             law(l.absolute, r.absolute, share), found[1] / half[1],
-                             law(l.relative, r.relative, share), found[2] / half[2],
-                             law(l.visible, r.visible, share)});
+        plot.rows.push_back(row);
     }
     save_plot(options.out, plot);
 }
 
-/// The pictures of the lit room: few photons, divided as lights see the objects, and by
-/// area.
-void pictures(const examples::Options& options) {
-    for (const auto& [how, budget] : {std::pair{"seen", CausticBudget::as_seen},
-                                      std::pair{"area", CausticBudget::area}}) {
-        const auto room = two_balls(0.8f);
-        PhotonMappingSettings settings{.split_glass = true,
-                                       .indirect = IndirectLight::photons,
-                                       .caustic_budget = budget};
-        settings.caustics = {
-            .photons = 3000, .seed = options.seed, .threads = options.threads};
-        settings.general = {.photons = options.pick(100000LL, 400000LL, 1000000LL),
-                            .shadow_photons = false,
-                            .threads = options.threads};
-        settings.caustics_estimate.radius = 0.06f;
-        settings.general_estimate.radius = 0.3f;
-        const PhotonMapper mapper(room.world, settings, abilities<Budgeting>);
-        auto image = render(mapper, room.camera,
-                            {.width = options.width,
-                             .height = options.height * 3 / 4,
-                             .samples = options.samples,
-                             .threads = options.threads})
-                         .image;
-        for (Rgb& c : image.pixels) c *= 0.8f;
-        save_png(image, options.path(std::string("budget-lit-") + how + ".png"));
-        examples::stop_if_asked();
-    }
-}
-
-/// Rays through balls of two indices by Snell's law, and where they land.
-void draw_rays(const examples::Options& options) {
-    examples::Drawing figure{.name = "budget-rays",
-                             .description = "The same light through two balls: index "
-                                            "1.05 spreads it, 1.5 gathers it",
-                             .low{-1.5, -1.05},
-                             .high{4.5, 1.75},
-                             .scale = 115};
-    for (const auto& [middle, index] : {std::pair{0.0, 1.05}, std::pair{3.0, 1.5}}) {
-        const double light = 3.2, radius = 0.5, floor = 0.8;
-        draw_line(figure, {{middle - 1.3, -floor}, {middle + 1.3, -floor}});
-        draw_arc(figure, {middle, 0}, radius, 0, 2 * pi);
-        for (int i = -7; i <= 7; ++i) {
-            const double alpha = std::asin(radius / light) * i / 7.4;
-            const double ti = std::asin(std::sin(alpha) * light / radius);
-            const double tt = std::asin(std::sin(ti) / index);
-            const double in = ti - alpha, out = in + pi - 2 * tt, way = out + ti;
-            const examples::Point a{middle + radius * std::sin(in),
-                                    radius * std::cos(in)};
-            const examples::Point b{middle + radius * std::sin(out),
-                                    radius * std::cos(out)};
-            const double x = b.x - (b.y + floor) * std::tan(way);
-            const examples::Point top{a.x - (1.7 - a.y) * std::tan(alpha), 1.7};
-            draw_line(figure, {top, a, b, {x, -floor}},
-                      {examples::colors::orange, 1.2});
+/// The mean errors near the wall and farther away.
+void table_of_corner(const Corner& corner, const examples::Options& options) {
+    examples::Table table{.name = "irradiance_cache-corner-table",
+                          .columns = {"reach", "error within a step of the wall",
+                                      "farther out", "gathered anew within a step",
+                                      "farther out"}};
+    for (std::size_t k = 0; k < reaches.size(); ++k) {
+        std::array<double, 2> error{}, anew{}, count{};
+        for (int i = 0; i < corner_places; ++i) {
+            const std::size_t part = corner_place(i) < corner_step ? 0 : 1;
+            error[part] += corner[k].squares[static_cast<std::size_t>(i)];
+            anew[part] += corner[k].gathered[static_cast<std::size_t>(i)];
+            count[part] += 1;
         }
-        draw_label(figure, {middle, -0.99}, "n = " + examples::text(index));
+        table.rows.push_back({text(reaches[k])});
+        for (const std::size_t part : {0u, 1u})
+            table.rows.back().push_back(
+                text(100 * std::sqrt(error[part] / count[part]), "%.2f %%"));
+        for (const std::size_t part : {0u, 1u})
+            table.rows.back().push_back(
+                text(100 * anew[part] / count[part], "%.1f %%"));
     }
-    save_drawing(options.out, figure);
+    examples::show_table(options, table);
 }
 
-// --- The report's four balls ---------------------------------------------------------
-
-/// The four balls of figure 11, and the settings of their light.
-struct FourBalls {
-    decltype(four_glass_room()) room = four_glass_room();
-    float radius = 0.15f;          ///< Of the estimate.
-    PhotonPassSettings pass{};     ///< Of a caustics map.
-    PhotonPassSettings rest{};     ///< Of a general map.
-    std::vector<Photon> general{}; ///< The light of all but caustics.
-    std::vector<CausticPilot> pilots{};
-    std::array<std::vector<double>, budgets.size()> shares{}; ///< By each budget.
-};
-
-FourBalls known_balls(const examples::Options& options, const Sizes& sizes) {
-    FourBalls balls{.pass = {.photons = sizes.photons,
-                             .seed = options.seed,
-                             .threads = options.threads},
-                    .rest = {.photons = options.pick(50000LL, 400000LL, 1000000LL),
-                             .shadow_photons = false,
-                             .threads = options.threads}};
-    balls.general =
-        trace_photons(balls.room.world, MapType::general, balls.rest).photons;
-    balls.pilots =
-        pilot_caustics(balls.room.world, balls.pass, balls.radius, balls.general, 0.5f);
-    for (std::size_t b = 0; b < budgets.size(); ++b)
-        balls.shares[b] = caustic_shares(budgets[b], balls.pilots);
-    return balls;
-}
-
-/// How often each object of glass is aimed at as lights see it.
-std::vector<double> aimed_as_seen(const FourBalls& balls,
-                                  const std::vector<ObjectId>& targets) {
-    const auto choice = balls.room.world.light_choice();
-    std::vector<double> seen(targets.size());
-    for (std::uint64_t path = 0; path < 20000; ++path) {
-        auto stream = random_stream(7, Pass::caustics_photons, 0, path);
-        const auto aimed = aim(balls.room.world, choice, targets, stream);
-        for (std::size_t k = 0; aimed && k < targets.size(); ++k)
-            if (targets[k] == aimed->target) seen[k] += 1 / 20000.0;
+/// Exact records without noise: the error is that of the interpolation alone.
+void corner(const examples::Options& options) {
+    const int runs = options.pick(32, 400, 2000);
+    Corner found{};
+    for (int run = 0; run < runs; ++run) {
+        const auto cache = exact_cache(run, options.seed);
+        for (std::size_t k = 0; k < reaches.size(); ++k)
+            add_run(found[k], cache, reaches[k], runs);
     }
-    return seen;
+    plot_corner(found, options);
+    table_of_corner(found, options);
 }
 
-/// The pilot's results for each ball, and its fraction by each budget.
-void four_balls_shares(const FourBalls& balls, const examples::Options& options) {
-    examples::Table table{.name = "budget-four-balls",
-                          .columns = {"ball", "index", "flux, W", "area, m²", "as seen",
-                                      "by flux", "by area", "by brightness"}};
-    constexpr std::array names{"large, right", "thin, left", "middle", "yellow, above"};
-    constexpr std::array indices{"1.97", "1", "1.6", "1.7"}; // the report's
-    const auto targets = specular_objects(balls.room.world);
-    const auto seen = aimed_as_seen(balls, targets);
-    const auto percent = [](double x) { return examples::text(100 * x, "%.0f %%"); };
-    for (std::size_t k = 0; k < targets.size(); ++k) {
-        // Glass may come before or after mixtures: the ball is known by its position.
-        const float z = balls.room.world.visit_shape(targets[k], [](const auto& shape) {
-            return bounding_sphere(shape).center.z;
-        });
-        const std::size_t name = z > 0 ? 0 : z == -3.5f ? 1 : z == -2.5f ? 2 : 3;
-        const CausticPilot& pilot = balls.pilots[k];
-        table.rows.push_back({names[name], indices[name],
-                              examples::text(pilot.flux, "%.2f"),
-                              examples::text(pilot.area, "%.2f"), percent(seen[k]),
-                              percent(balls.shares[2][k]), percent(balls.shares[3][k]),
-                              percent(balls.shares[4][k])});
-    }
-    save_table(options.out, table);
+// --- Each knob -----------------------------------------------------------------------
+
+/// The preset `fast` for one seed.
+PhotonMappingSettings fast(int side, std::uint64_t seed, int threads) {
+    auto settings = preset_settings(Preset::fast, side, side);
+    settings.general.seed = settings.caustics.seed = seed;
+    settings.general.threads = settings.caustics.threads = threads;
+    return settings;
 }
 
-/// A picture of the caustics alone.
-Image caustics_seen(const FourBalls& balls, long long photons, std::uint64_t seed,
-                    const std::vector<double>& shares, const RenderSettings& picture) {
-    PhotonMappingSettings settings{.indirect = IndirectLight::none};
-    settings.caustics = balls.pass;
-    settings.caustics.photons = photons;
-    settings.caustics.seed = seed;
-    settings.caustics.shares = shares;
-    settings.caustics_estimate.radius = balls.radius;
-    const PhotonMapper mapper(balls.room.world, settings);
-    auto image = render(OnlyPaths(mapper, "ES*DS+L"), balls.room.camera, picture).image;
+/// Indirect light alone, from a renderer of all light.
+template <typename Renderer>
+Image indirect_light(const Box& room, const Renderer& renderer,
+                     const RenderSettings& picture) {
+    const OnlyPaths indirect(renderer, "E.*D.*D.*L");
+    auto image = render(indirect, room.camera, picture).image;
     examples::stop_if_asked();
     return image;
 }
 
-/// A picture of all light but the caustics, the general map seen.
-Image rest_seen(const FourBalls& balls, const RenderSettings& picture) {
-    PhotonMappingSettings settings{.indirect = IndirectLight::photons,
-                                   .keep_general_map = true};
-    settings.caustics.photons = 0;
-    settings.general = balls.rest;
-    settings.general_estimate.radius = 0.4f;
-    return render(PhotonMapper(balls.room.world, settings), balls.room.camera, picture)
+/// The mean of a picture over that of another, less 1.
+template <typename T, typename U>
+double mean_error(const ImageT<T>& image, const ImageT<U>& truth) {
+    double sum = 0, all = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const RgbT<double> a(image.pixels[i]), b(truth.pixels[i]);
+        sum += a.x + a.y + a.z;
+        all += b.x + b.y + b.z;
+    }
+    return sum / all - 1;
+}
+
+/// A reference from eight independent pictures, whose scatter gives its noise.
+examples::Oracle oracle_of(const std::function<Image(int, std::uint64_t)>& shot,
+                           int rays, int side) {
+    constexpr int pieces = 8;
+    const int part = std::max(1, rays / pieces);
+    examples::Oracle oracle{.truth = make_image<double>(side, side),
+                            .rays = part * pieces};
+    std::vector<Image> runs;
+    for (std::uint64_t piece = 0; piece < pieces; ++piece) {
+        runs.push_back(shot(part, 9000 + piece));
+        for (std::size_t i = 0; i < runs.back().pixels.size(); ++i)
+            oracle.truth.pixels[i] += RgbT<double>(runs.back().pixels[i]) / 8.0;
+    }
+    oracle.noise = examples::relative_split(runs, oracle.truth).variance / pieces;
+    oracle.block_noise =
+        examples::relative_split(runs, oracle.truth, 0, 10).variance / pieces;
+    return oracle;
+}
+
+/// The box as all settings of the cache see it: with the same photons, beside two
+/// references of its indirect light.
+struct Bench {
+    const Box& room;
+    const examples::Options& options;
+    const Sizes& sizes;
+    PhotonMappingSettings settings; ///< The preset `fast`.
+    examples::Oracle twin{};   ///< Gathered at every vertex, from the same photons.
+    examples::Oracle traced{}; ///< By path tracing.
+
+    [[nodiscard]] RenderSettings picture(int samples, std::uint64_t seed) const {
+        return {.width = sizes.side,
+                .height = sizes.side,
+                .samples = samples,
+                .seed = seed,
+                .threads = options.threads};
+    }
+};
+
+/// The references of the bench.
+void add_oracles(Bench& bench) {
+    const int side = bench.sizes.side, truth = bench.sizes.truth;
+    auto one_by_one = bench.settings;
+    one_by_one.indirect = IndirectLight::gather;
+    const Mapper mapper(bench.room.world, one_by_one);
+    bench.twin = oracle_of(
+        [&](int rays, std::uint64_t seed) {
+            return indirect_light(bench.room, mapper, bench.picture(rays, seed));
+        },
+        4 * truth, side);
+    const PathTracer tracer(bench.room.world);
+    bench.traced = oracle_of(
+        [&](int rays, std::uint64_t seed) {
+            return indirect_light(bench.room, tracer, bench.picture(rays, seed));
+        },
+        truth, side);
+}
+
+/// A way to gather, and which curve of the plot it belongs to.
+struct Knob {
+    std::string name;
+    GatherSettings gather{};
+    std::size_t curve = 0; ///< Which column; 0: none.
+    bool cached = true;    ///< Or gathered at every vertex.
+};
+
+/// Each setting of the cache varied, with the others fixed.
+std::vector<Knob> all_knobs() {
+    std::vector<Knob> all{Knob{.name = "tile 3, 25 rays, 6 nearest, reach 1"}};
+    for (const int tile : {2, 3, 4, 6})
+        all.push_back({"tile " + std::to_string(tile), {.tile = tile}, 1});
+    for (const int rays : {9, 16, 25, 49, 100})
+        all.push_back({std::to_string(rays) + " gather rays", {.rays = rays}, 2});
+    for (const std::size_t nearest : {3u, 6u, 10u, 20u})
+        all.push_back({std::to_string(nearest) + " nearest", {.nearest = nearest}, 3});
+    for (const float reach : {0.3f, 0.5f, 1.0f, 2.0f, 4.0f})
+        all.push_back({"reach " + text(double(reach), "%.1f"), {.reach = reach}, 4});
+    all.push_back({"25 rays at every vertex, no cache", {}, 0, false});
+    return all;
+}
+
+/// The result of one setting, over several seeds.
+struct Turned {
+    double seconds = 0, mean = 0, flip = 0;
+    std::size_t points = 0;
+    BiasVariance from_twin{}, from_traced{}, blocks{};
+};
+
+Turned turn(const Bench& bench, const Knob& knob) {
+    auto now = bench.settings;
+    now.gather = knob.gather;
+    Mapper mapper(bench.room.world, now); // the same photons for all
+    Turned found;
+    std::vector<Image> runs;
+    const int seeds = bench.sizes.seeds;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const RenderSettings picture =
+            bench.picture(9, static_cast<std::uint64_t>(seed));
+        const double start = examples::processor_seconds();
+        if (knob.cached) mapper.fill_cache(bench.room.camera, picture);
+        found.points = mapper.state<Gathering>().cache.records.size();
+        runs.push_back(indirect_light(bench.room, mapper, picture));
+        found.seconds += (examples::processor_seconds() - start) / seeds;
+        found.flip += flip(runs.back(), bench.traced.truth) / seeds;
+        found.mean += mean_error(runs.back(), bench.traced.truth) / seeds;
+    }
+    const examples::Oracle &twin = bench.twin, &traced = bench.traced;
+    found.from_twin = examples::relative_split(runs, twin.truth, twin.noise);
+    found.from_traced = examples::relative_split(runs, traced.truth, traced.noise);
+    found.blocks = examples::relative_split(runs, traced.truth, traced.block_noise, 10);
+    return found;
+}
+
+/// The references, and their errors.
+void table_of_oracles(const Bench& bench) {
+    examples::show_table(
+        bench.options,
+        {.name = "irradiance_cache-truth",
+         .columns = {"reference", "rays per pixel", "its own relMSE"},
+         .rows = {{"gathered at every vertex, the same photons",
+                   std::to_string(bench.twin.rays), text(bench.twin.noise, "%.2g")},
+                  {"path tracing", std::to_string(bench.traced.rays),
+                   text(bench.traced.noise, "%.2g")}}});
+}
+
+/// Indirect light alone, one setting after the other.
+void knobs(const examples::Options& options, const Sizes& sizes) {
+    const Box room = cornell_box();
+    const auto settings = fast(sizes.side, options.seed, options.threads);
+    Bench bench{room, options, sizes, settings};
+    add_oracles(bench);
+    examples::Table table{
+        .name = "irradiance_cache-knobs",
+        .columns = {"", "processor seconds", "points", "bias² of interpolating",
+                    "noise", "bias² with the photons'", "blocks", "mean", "FLIP"}};
+    examples::Plot plot{
+        .name = "irradiance_cache-knobs-plot",
+        .columns = {"processor seconds", "tile", "gather rays", "nearest", "reach"},
+        .y_label = "relMSE of indirect light",
+        .rows = {}};
+    for (const Knob& knob : all_knobs()) {
+        const Turned found = turn(bench, knob);
+        const auto& [bias, noise] = found.from_twin;
+        table.rows.push_back(
+            {knob.name, text(found.seconds, "%.3f"), std::to_string(found.points),
+             text(bias, "%.2g"), text(noise, "%.2g"),
+             text(found.from_traced.bias_squared, "%.2g"),
+             text(found.blocks.bias_squared + found.blocks.variance, "%.2g"),
+             text(100 * found.mean, "%+.2f %%"), text(found.flip, "%.3f")});
+        if (knob.curve == 0) continue;
+        examples::Row row(plot.columns.size(), nothing);
+        row[0] = found.seconds;
+        row[knob.curve] = std::max(bias + noise, 1e-9);
+        plot.rows.push_back(row);
+    }
+    examples::show_table(options, table);
+    save_plot(options.out, plot);
+    table_of_oracles(bench);
+}
+
+// --- Whole pictures ------------------------------------------------------------------
+
+/// A way to make a whole picture: rays per pixel and a seed for all.
+struct Method {
+    std::string name;
+    std::function<Image(int, std::uint64_t)> shoot;
+};
+
+/// The result of a method, over several seeds.
+struct Result {
+    double seconds = 0; ///< Of a processor, both passes.
+    BiasVariance pixels{}, blocks{};
+    double mean = 0, flip = 0, trimmed = 0;
+    [[nodiscard]] double error() const { return pixels.bias_squared + pixels.variance; }
+    [[nodiscard]] double block_error() const {
+        return blocks.bias_squared + blocks.variance;
+    }
+};
+
+Result try_method(const Method& method, int rays, const examples::Oracle& oracle,
+                  int seeds) {
+    Result result;
+    std::vector<Image> runs;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const double start = examples::processor_seconds();
+        runs.push_back(method.shoot(rays, static_cast<std::uint64_t>(seed)));
+        result.seconds += (examples::processor_seconds() - start) / seeds;
+        result.flip += flip(runs.back(), oracle.truth) / seeds;
+        result.mean += mean_error(runs.back(), oracle.truth) / seeds;
+        result.trimmed += trimmed_rel_mse(runs.back(), oracle.truth) / seeds;
+        examples::stop_if_asked();
+    }
+    result.pixels = examples::relative_split(runs, oracle.truth, oracle.noise);
+    result.blocks =
+        examples::relative_split(runs, oracle.truth, oracle.block_noise, 10);
+    return result;
+}
+
+/// A picture by photons: both passes.
+template <typename Draws>
+Image by_photons(const Box& room, const PhotonMappingSettings& settings,
+                 const RenderSettings& picture, int more = 0) {
+    // [by_photons]
+    PhotonMapper mapper(room.world, settings, abilities<Draws, Gathering>);
+    mapper.fill_cache(room.camera, picture);
+    if (more == 0) return render(mapper, room.camera, picture).image;
+    RenderSettings most = picture;
+    most.samples += more;
+    return render_adaptive(mapper, room.camera, most,
+                           {.first = picture.samples,
+                            .more = more,
+                            .batches = 1,
+                            .disagreement = PresetRays{}.disagreement})
         .image;
+    // [by_photons]
 }
 
-/// The errors of each budget: caustics of many maps, in a picture whose other light is
-/// always the same.
-void four_balls_errors(const FourBalls& balls, const examples::Options& options,
-                       const Sizes& sizes) {
-    const RenderSettings picture{.width = options.width,
-                                 .height = options.height,
-                                 .samples = 4,
-                                 .threads = options.threads};
-    RenderSettings fine = picture;
-    fine.samples = options.pick(16, 64, 256);
-    const Image expected = caustics_seen(
-        balls, options.pick(20, 100, 200) * sizes.photons, 99, {}, picture);
-    const Image rest = rest_seen(balls, fine);
-    const Image truth = rest + expected;
-    examples::Table table{.name = "budget-four-balls-errors",
-                          .columns = {"budget", "variance", "relative variance", "FLIP",
-                                      "processor seconds"}};
-    for (std::size_t b = 0; b < budgets.size(); ++b) {
-        std::vector<Image> runs;
-        const double begin = examples::processor_seconds();
-        for (int seed = 1; seed <= sizes.seeds; ++seed)
-            runs.push_back(rest + caustics_seen(balls, sizes.photons,
-                                                std::uint64_t(seed), balls.shares[b],
-                                                picture));
-        const double seconds = (examples::processor_seconds() - begin) / sizes.seeds;
-        const std::size_t judged = std::min<std::size_t>(4, runs.size());
-        double seen_error = 0;
-        for (std::size_t i = 0; i < judged; ++i)
-            seen_error += flip(runs[i], truth) / double(judged);
-        const auto split = bias_variance(runs, truth);
-        const auto relative = examples::relative_split(runs, block_means(truth, 1));
-        table.rows.push_back({budget_names[b], examples::text(split.variance, "%.3g"),
-                              examples::text(relative.variance, "%.3g"),
-                              examples::text(seen_error, "%.4f"),
-                              examples::text(seconds, "%.3f")});
-        if (!options.quiet)
-            std::printf("four balls, %s: %.3g, relative %.3g, FLIP %.4f\n",
-                        budget_names[b], split.variance, relative.variance, seen_error);
+void methods(const examples::Options& options, const Sizes& sizes,
+             const examples::Oracle& oracle) {
+    const Box room = cornell_box();
+    const int side = sizes.side;
+    const auto picture = [&](int rays, std::uint64_t seed) {
+        return RenderSettings{.width = side,
+                              .height = side,
+                              .samples = rays,
+                              .seed = seed,
+                              .threads = options.threads};
+    };
+    const auto photons = [&](IndirectLight indirect) {
+        return [&, indirect](int rays, std::uint64_t seed) {
+            auto settings = fast(side, seed, options.threads);
+            settings.indirect = indirect;
+            return by_photons<StratifiedStream>(room, settings, picture(rays, seed));
+        };
+    };
+    const PathTracer tracer(room.world);
+    const std::vector<Method> all{
+        {"cache", photons(IndirectLight::cache)},
+        {"gather", photons(IndirectLight::gather)},
+        {"photons", photons(IndirectLight::photons)},
+        {"rays", photons(IndirectLight::rays)},
+        {"path tracing", [&](int rays, std::uint64_t seed) {
+             return render(tracer, room.camera, picture(rays, seed)).image;
+         }}};
+    std::vector<int> rungs{1, 4, 16};
+    if (options.pick(false, true, true)) rungs.push_back(64);
+    examples::Plot plot{.name = "irradiance_cache-trade",
+                        .columns = {"processor seconds"},
+                        .y_label = "relMSE of the picture",
+                        .log_x = true,
+                        .log_y = true};
+    for (const Method& method : all) plot.columns.push_back(method.name);
+    examples::Table table{.name = "irradiance_cache-trade-table",
+                          .columns = {"indirect light by", "rays per pixel",
+                                      "processor seconds", "bias²", "noise",
+                                      "blocks: bias²", "noise", "mean", "FLIP"}};
+    for (std::size_t m = 0; m < all.size(); ++m)
+        for (const int rays : rungs) {
+            const Result r = try_method(all[m], rays, oracle, sizes.seeds);
+            examples::Row row(all.size() + 1, nothing);
+            row[0] = r.seconds;
+            row[m + 1] = std::max(r.error(), 1e-9);
+            plot.rows.push_back(row);
+            if (rays != 4 && rays != rungs.back()) continue;
+            table.rows.push_back(
+                {all[m].name, std::to_string(rays), text(r.seconds, "%.3f"),
+                 text(r.pixels.bias_squared, "%.2g"), text(r.pixels.variance, "%.2g"),
+                 text(r.blocks.bias_squared, "%.2g"), text(r.blocks.variance, "%.2g"),
+                 text(100 * r.mean, "%+.2f %%"), text(r.flip, "%.3f")});
+        }
+    save_plot(options.out, plot);
+    examples::show_table(options, table);
+}
+
+/// One idea more than the rung before.
+struct Rung {
+    const char* idea;
+    int shadow_rays;
+    DirectLight direct;
+    IndirectLight indirect;
+    bool stratified;
+    int more; ///< Rays where the first ones disagree.
+};
+constexpr std::array ladder_rungs{
+    Rung{"the report's: one shadow ray", 1, DirectLight::sampled, IndirectLight::rays,
+         false, 0},
+    Rung{"+ four shadow rays, stratified", 4, DirectLight::sampled, IndirectLight::rays,
+         false, 0},
+    Rung{"+ a stratified stream", 4, DirectLight::sampled, IndirectLight::rays, true,
+         0},
+    Rung{"+ lamps in closed form", 4, DirectLight::analytic, IndirectLight::rays, true,
+         0},
+    Rung{"+ the cache for indirect rays", 4, DirectLight::analytic,
+         IndirectLight::cache, true, 0},
+    Rung{"+ 8 more rays where 2 disagree", 4, DirectLight::analytic,
+         IndirectLight::cache, true, 8}};
+
+/// The room as a rung of the ladder renders it.
+Image shoot_rung(const Rung& rung, const Box& room, const RenderSettings& picture) {
+    auto settings = fast(picture.width, picture.seed, picture.threads);
+    settings.shadow_rays = rung.shadow_rays;
+    settings.direct = rung.direct;
+    settings.indirect = rung.indirect;
+    return rung.stratified
+               ? by_photons<StratifiedStream>(room, settings, picture, rung.more)
+               : by_photons<RandomStream>(room, settings, picture, rung.more);
+}
+
+/// From the report's photon mapper to the preset `fast`, one idea after the other.
+void ladder(const examples::Options& options, const Sizes& sizes,
+            const examples::Oracle& oracle) {
+    const Box room = cornell_box();
+    examples::Table table{.name = "irradiance_cache-ladder",
+                          .columns = {"", "processor seconds", "relMSE", "trimmed",
+                                      "of blocks", "mean", "FLIP"}};
+    for (const Rung& rung : ladder_rungs) {
+        const Method method{rung.idea, [&](int rays, std::uint64_t seed) {
+                                return shoot_rung(rung, room,
+                                                  {.width = sizes.side,
+                                                   .height = sizes.side,
+                                                   .samples = rays,
+                                                   .seed = seed,
+                                                   .threads = options.threads});
+                            }};
+        const Result r = try_method(method, 2, oracle, sizes.seeds);
+        table.rows.push_back({rung.idea, text(r.seconds, "%.3f"),
+                              text(r.error(), "%.2g"), text(r.trimmed, "%.2g"),
+                              text(r.block_error(), "%.2g"),
+                              text(100 * r.mean, "%+.2f %%"), text(r.flip, "%.3f")});
     }
-    save_table(options.out, table);
+    examples::show_table(options, table);
 }
 
-/// The photons of each ball of figure 11, and their effect on the picture.
-void four_balls(const examples::Options& options, const Sizes& sizes) {
-    const FourBalls balls = known_balls(options, sizes);
-    four_balls_shares(balls, options);
-    four_balls_errors(balls, options, sizes);
+/// What "three seconds" looks like.
+void fast_picture(const examples::Options& options) {
+    const Box room = cornell_box();
+    const double start = examples::processor_seconds();
+    const Image image = by_photons<StratifiedStream>(
+        room, fast(options.width, options.seed, options.threads),
+        {.width = options.width,
+         .height = options.height,
+         .samples = 2,
+         .seed = options.seed,
+         .threads = options.threads},
+        8);
+    examples::show_table(
+        options, {.name = "irradiance_cache-fast-table",
+                  .columns = {"pixels", "processor seconds of both passes"},
+                  .rows = {{std::to_string(options.width) + " x " +
+                                std::to_string(options.height),
+                            text(examples::processor_seconds() - start, "%.2f")}}});
+    save_png(image, options.path("irradiance_cache-fast.png"));
 }
 
-// --- Several lamps -------------------------------------------------------------------
+// --- The closed form in a penumbra ---------------------------------------------------
 
-/// A glass ball under a lamp of 1 W/sr, and other lamps.
-/// \param sealed  Whether each of them is in a black ball of its own.
-World<Stage> ball_and_lamps(const std::vector<PointLight>& others, bool sealed) {
+using Stage = Scene<Shapes<Quad>, Materials<Lambertian>>;
+
+/// A square lamp over a floor.
+struct Lamp {
+    const char* name;
+    float side, height;
+};
+constexpr std::array lamps{Lamp{"side 2, 1 above the floor", 2, 1},
+                           Lamp{"that of the box: side 0.5, 2 above", 0.5f, 2}};
+
+/// A floor, a lamp, and halfway between them half a ceiling whose edge is over x = 0.
+World<Stage> penumbra_stage(const Lamp& lamp) {
     Stage stage;
-    stage.add(Quad{.corner{-50, -1, -50}, .edge_u{0, 0, 100}, .edge_v{100, 0, 0}},
-              stage.add(Lambertian{.albedo = Rgb{floor_albedo}}));
-    stage.add(Sphere{.radius = 0.5f}, stage.add(Glass{}));
+    const auto white = stage.add(Lambertian{.albedo = Rgb{1}});
     const auto black = stage.add(Lambertian{.albedo = Rgb{0}});
-    stage.add(PointLight{.position{0, 2, 0}});
-    for (const PointLight& other : others) {
-        stage.add(other);
-        if (sealed) stage.add(Sphere{.center = other.position, .radius = 0.2f}, black);
-    }
+    const float h = lamp.height, s = lamp.side;
+    stage.add(Quad{.corner{-4, 0, -4}, .edge_u{0, 0, 8}, .edge_v{8, 0, 0}}, white);
+    stage.add(Quad{.corner{-8, h / 2, -8}, .edge_u{8, 0, 0}, .edge_v{0, 0, 16}}, black);
+    stage.add(Quad{.corner{-s / 2, h, -s / 2}, .edge_u{s, 0, 0}, .edge_v{0, 0, s}},
+              black, Rgb{1});
     return World(std::move(stage));
 }
 
-/// The caustic light on half of the floor, by many maps.
-Estimate half_of_floor(const World<Stage>& world, PhotonPassSettings pass, int seeds) {
-    Estimate flux;
-    for (int seed = 1; seed <= seeds; ++seed) {
-        pass.seed = static_cast<std::uint64_t>(seed);
-        double sum = 0;
-        for (const Photon& photon :
-             trace_photons(world, MapType::caustics, pass).photons)
-            if (photon.normal.y > 0 && photon.position.x > 0)
-                sum += double(photon.flux.x);
-        add(flux, sum);
-    }
-    return flux;
+constexpr std::array shadow_rays{1, 2, 4, 9};
+
+/// The light that the closed form finds at one point, as a fraction of the whole
+/// lamp's; one value for each number of shadow rays.
+struct InPenumbra {
+    double x = 0; ///< Position; the penumbra is -1 to 1.
+    std::array<double, shadow_rays.size()> bias{}, noise{}, sampled{};
+};
+
+InPenumbra measure_penumbra(const World<Stage>& stage, const Lamp& lamp, double place,
+                            std::uint64_t number, long long trials,
+                            std::uint64_t seed) {
+    InPenumbra here{.x = place};
+    const float h = lamp.height, s = lamp.side, x = float(place) * s / 2;
+    const Ray down{.origin{x, h / 4, 0}, .direction{0, -1, 0}};
+    const auto vertex = vertex_at(stage, down, *closest_hit(stage, down));
+    const Lambertian white{.albedo = Rgb{1}};
+    // From x the edge hides all of the lamp that is left of -x.
+    const auto from = [&](float left) {
+        const Quad part{
+            .corner{left, h, -s / 2}, .edge_u{s / 2 - left, 0, 0}, .edge_v{0, 0, s}};
+        if (!(left < s / 2)) return 0.0;
+        const auto& at = vertex.point;
+        return double(
+            form_factor_from(at.position, at.normal, part, false).value_or(0));
+    };
+    const double whole = from(-s / 2), exact = from(std::max(-s / 2, -x));
+    for (std::size_t k = 0; k < shadow_rays.size(); ++k)
+        for (const DirectLight how : {DirectLight::analytic, DirectLight::sampled}) {
+            double sum = 0, squares = 0;
+            for (long long t = 0; t < trials; ++t) {
+                auto stream =
+                    random_stream(seed, Pass::gathering, 1 + k,
+                                  number * std::uint64_t(trials) + std::uint64_t(t));
+                Counts counts;
+                auto context = context_of(stream, counts);
+                const double value =
+                    double(sample_all_lights(stage, vertex, white,
+                                             {how, shadow_rays[k]}, context)
+                               .x) /
+                    whole;
+                sum += value / double(trials);
+                squares += value * value / double(trials);
+            }
+            const double spread = std::sqrt(std::max(0.0, squares - sum * sum));
+            if (how == DirectLight::analytic) {
+                here.bias[k] = sum - exact / whole;
+                here.noise[k] = spread;
+            } else {
+                here.sampled[k] = spread;
+            }
+        }
+    return here;
 }
 
-/// Lamps chosen by power, and by what a pilot of each brought.
-void several_lamps(const examples::Options& options, const Sizes& sizes) {
-    examples::Table table{.name = "budget-lamps",
-                          .columns = {"lamps beside the one above the ball",
-                                      "light by power, W", "standard error",
-                                      "by what arrives, W", "standard error",
-                                      "variance falls by"}};
-    const auto row = [&](const char* name, const std::vector<PointLight>& others,
-                         bool sealed) {
-        const World<Stage> world = ball_and_lamps(others, sealed);
-        PhotonPassSettings pass{.photons = sizes.photons, .threads = options.threads};
-        const auto by_power = half_of_floor(world, pass, 4 * sizes.seeds);
-        pass.light_shares = pilot_lights(world, pass);
-        const auto by_share = half_of_floor(world, pass, 4 * sizes.seeds);
-        table.rows.push_back({name, examples::text(by_power.mean),
-                              examples::text(standard_error(by_power), "%.2g"),
-                              examples::text(by_share.mean),
-                              examples::text(standard_error(by_share), "%.2g"),
-                              examples::text(variance(by_power) / variance(by_share))});
-    };
-    std::vector<PointLight> strong, alike;
-    for (int i = 0; i < 50; ++i) {
-        strong.push_back({.position{float(i - 25), 9, 0}, .intensity = Rgb{100}});
-        alike.push_back({.position{float(i - 25) / 25, 9, 0}});
+void penumbra(const examples::Options& options) {
+    const int places = options.pick(10, 24, 24);
+    const long long trials = options.pick(8000, 100000, 1000000);
+    examples::Plot plot{
+        .name = "irradiance_cache-penumbra",
+        .columns = {"place; the penumbra is from -1 to 1", "1 ray", "2", "4", "9"},
+        .y_label = "bias, % of the whole lamp's light"};
+    examples::Table table{.name = "irradiance_cache-penumbra-table",
+                          .columns = {"lamp", "shadow rays", "largest bias",
+                                      "its standard error", "noise, closed form",
+                                      "noise, sampled", "in full light: closed form",
+                                      "sampled"}};
+    const auto percent = [](double share) { return text(100 * share, "%.2f %%"); };
+    for (const Lamp& lamp : lamps) {
+        const World stage = penumbra_stage(lamp);
+        std::vector<InPenumbra> found(static_cast<std::size_t>(places));
+        const auto at_place = [&](long long i) {
+            found[static_cast<std::size_t>(i)] = measure_penumbra(
+                stage, lamp, 1.2 * (2 * (double(i) + 0.5) / places - 1),
+                static_cast<std::uint64_t>(i), trials, options.seed);
+        };
+        (void)parallel_blocks(places, at_place, {.threads = options.threads});
+        examples::stop_if_asked();
+        if (plot.rows.empty())
+            for (const InPenumbra& f : found) {
+                plot.rows.push_back({f.x});
+                for (const double b : f.bias) plot.rows.back().push_back(100 * b);
+            }
+        for (std::size_t k = 0; k < shadow_rays.size(); ++k) {
+            double largest = 0, its = 0, noise = 0, sampled = 0;
+            for (const InPenumbra& f : found) {
+                if (std::abs(f.bias[k]) > std::abs(largest)) {
+                    largest = f.bias[k];
+                    its = f.noise[k] / std::sqrt(double(trials));
+                }
+                noise = std::max(noise, f.noise[k]);
+                sampled = std::max(sampled, f.sampled[k]);
+            }
+            table.rows.push_back({lamp.name, std::to_string(shadow_rays[k]),
+                                  percent(largest), percent(its), percent(noise),
+                                  percent(sampled), percent(found.back().noise[k]),
+                                  percent(found.back().sampled[k])});
+        }
     }
-    row("50 sealed ones, 100 times as strong", strong, true);
-    row("50 of its strength, high above", alike, false);
-    row("one of its strength, beside it", {{.position{-1, 2, 0}}}, false);
-    save_table(options.out, table);
+    save_plot(options.out, plot);
+    examples::show_table(options, table);
 }
 
 } // namespace
 
-/// Makes the figures of chapter 30.
+/// Makes the plots and tables of chapter 30, and the picture by the preset `fast`.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 30: a budget for the photons of caustics.");
-        line.add("--photons", sizes.photons, "Photons per caustics map", 1000,
-                 10000000);
-        line.add("--seeds", sizes.seeds, "Maps behind each error", 2, 1000);
+        line.about("Chapter 30, the irradiance cache: corners, knobs, trades.");
+        line.add("--seeds", sizes.seeds, "Runs behind each error", 2, 1000);
+        line.add("--truth", sizes.truth, "Rays per pixel of the references", 8,
+                 100000000);
         const examples::Options options =
-            line.parse({.draft{.width = 80, .height = 80, .samples = 4},
-                        .report{.width = 400, .height = 400, .samples = 16},
-                        .reference{.width = 500, .height = 500, .samples = 64}});
-        if (!line.given("--photons")) sizes.photons = options.pick(4000, 10000, 10000);
+            line.parse({.draft{.width = 96, .height = 96, .samples = 4},
+                        .report{.width = 400, .height = 400, .samples = 4},
+                        .reference{.width = 400, .height = 400, .samples = 4}});
         if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
-        const float radius = 0.03f;
-        const Grid grid{options.pick(48, 96, 192), options.pick(36, 72, 144)};
-        draw_rays(options);
-        pictures(options);
-        std::vector<Known> rooms;
-        rooms.push_back(known_room("dark", 0, grid, radius, sizes, options));
-        rooms.push_back(known_room("lit", 0.8f, grid, radius, sizes, options));
-        two_rooms(rooms, grid, radius, sizes, options);
-        by_share(rooms, grid, radius, sizes, options);
-        four_balls(options, sizes);
-        several_lamps(options, sizes);
+        if (!line.given("--truth")) sizes.truth = options.pick(256, 1024, 16384);
+        sizes.side = std::min(options.pick(40, 120, 200), options.width);
+        corner(options);
+        penumbra(options);
+        knobs(options, sizes);
+        const auto oracle = examples::find_oracle("cornell", cornell_box(), sizes.side,
+                                                  2 * sizes.truth, options);
+        methods(options, sizes, oracle);
+        ladder(options, sizes, oracle);
+        fast_picture(options);
     });
 }

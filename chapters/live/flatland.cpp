@@ -1,5 +1,5 @@
 /// \file flatland.cpp
-/// \brief The live figure of chapter 38: photons land in Flatland, and a disc grows
+/// \brief The live figure of chapter 23: photons land in Flatland, and a disc grows
 /// until it holds k of them.
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 
 namespace flatland {
 
-// The room of chapter 38, after that of the report's figure 1 (section 4.1).
+// The room of chapter 23, after that of the report's figure 1 (section 4.1).
 
 /// The settings that a reader may change.
 struct RoomSettings {
