@@ -1,6 +1,6 @@
-# gnuplot caustics-radius.gp; scripts/plot does it for a folder.
+# gnuplot density-radius.gp; scripts/plot does it for a folder.
 set terminal svg size 720,400 dynamic font 'sans-serif,14' linewidth 1.6
-set output 'caustics-radius.svg'
+set output 'density-radius.svg'
 set datafile separator ','
 set datafile missing ''
 set border 3
@@ -20,4 +20,4 @@ set format x '10^{%L}'
 set logscale y
 set format y '10^{%L}'
 
-plot 'caustics-radius.csv' using 1:2 with linespoints lt 1 lw 2.5 pt 7 ps 0.35 title columnheader(2), 'caustics-radius.csv' using 1:3 with linespoints lt 2 pt 7 ps 0.35 title columnheader(3), 'caustics-radius.csv' using 1:4 with linespoints lt 3 pt 7 ps 0.35 title columnheader(4), 'caustics-radius.csv' using 1:5 with linespoints lt 4 pt 7 ps 0.35 title columnheader(5)
+plot 'density-radius.csv' using 1:2 with linespoints lt 1 lw 2.5 pt 7 ps 0.35 title columnheader(2), 'density-radius.csv' using 1:3 with linespoints lt 2 pt 7 ps 0.35 title columnheader(3), 'density-radius.csv' using 1:4 with linespoints lt 3 pt 7 ps 0.35 title columnheader(4), 'density-radius.csv' using 1:5 with linespoints lt 4 pt 7 ps 0.35 title columnheader(5)

@@ -1,6 +1,6 @@
-# gnuplot materials-loss.gp; scripts/plot does it for a folder.
+# gnuplot glossy-loss.gp; scripts/plot does it for a folder.
 set terminal svg size 720,400 dynamic font 'sans-serif,14' linewidth 1.6
-set output 'materials-loss.svg'
+set output 'glossy-loss.svg'
 set datafile separator ','
 set datafile missing ''
 set border 3
@@ -18,4 +18,4 @@ set ylabel 'share of a white sky that white returns' noenhanced
 set yrange [0:1.05]
 set key inside left bottom
 
-plot 'materials-loss.csv' using 1:2 with linespoints lt 1 lw 2.5 pt 7 ps 0.35 title columnheader(2), 'materials-loss.csv' using 1:3 with linespoints lt 2 pt 7 ps 0.35 title columnheader(3), 'materials-loss.csv' using 1:4 with linespoints lt 3 pt 7 ps 0.35 title columnheader(4), 'materials-loss.csv' using 1:5 with linespoints lt 4 pt 7 ps 0.35 title columnheader(5)
+plot 'glossy-loss.csv' using 1:2 with linespoints lt 1 lw 2.5 pt 7 ps 0.35 title columnheader(2), 'glossy-loss.csv' using 1:3 with linespoints lt 2 pt 7 ps 0.35 title columnheader(3), 'glossy-loss.csv' using 1:4 with linespoints lt 3 pt 7 ps 0.35 title columnheader(4), 'glossy-loss.csv' using 1:5 with linespoints lt 4 pt 7 ps 0.35 title columnheader(5)

@@ -1,6 +1,6 @@
-# gnuplot materials-error.gp; scripts/plot does it for a folder.
+# gnuplot glossy-sampling.gp; scripts/plot does it for a folder.
 set terminal svg size 720,400 dynamic font 'sans-serif,14' linewidth 1.6
-set output 'materials-error.svg'
+set output 'glossy-sampling.svg'
 set datafile separator ','
 set datafile missing ''
 set border 3
@@ -13,11 +13,10 @@ set linetype 3 lc rgb '#2fa36b'
 set linetype 4 lc rgb '#a06cd5'
 set linetype 5 lc rgb '#d64550'
 set linetype 6 lc rgb '#8c8c3a'
-set xlabel 'processor seconds' noenhanced
-set ylabel 'relMSE of 10 x 10 blocks' noenhanced
-set logscale x
-set format x '10^{%L}'
+set xlabel 'roughness' noenhanced
+set ylabel 'variance of the weight at 60°' noenhanced
 set logscale y
 set format y '10^{%L}'
+set yrange [1e-4:1e5]
 
-plot 'materials-error.csv' using 1:2 with linespoints lt 1 lw 2.5 pt 7 ps 0.35 title columnheader(2), 'materials-error.csv' using 1:3 with linespoints lt 2 pt 7 ps 0.35 title columnheader(3)
+plot 'glossy-sampling.csv' using 1:2 with linespoints lt 1 lw 2.5 pt 7 ps 0.35 title columnheader(2), 'glossy-sampling.csv' using 1:3 with linespoints lt 2 pt 7 ps 0.35 title columnheader(3)
