@@ -1,126 +1,122 @@
 // smoke: --quality draft
 /// \file chapters/drawings/30_drawings.cpp
-/// \brief Chapter 30: the gather rays of two points, how far points count, and which of
-/// them answer.
+/// \brief Chapter 30: the disc of an estimate at the edge of a wall, and gather rays
+/// that look up points.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include <ljus/math/random.hpp>
+#include <ljus/photons/kernel_border.hpp>
+
 #include "common/command_line.hpp"
 #include "common/drawing.hpp"
-#include "flatland/material.hpp"
-#include "flatland/scene.hpp"
+#include "drawings/dimension.hpp"
 
 namespace {
 
 using examples::Drawing;
-using examples::flat;
-using flatland::Vec2;
+using examples::Point;
 namespace colors = examples::colors;
 
-/// A floor, a wall at its left end and a ceiling.
-const flatland::Scene room{{
-    {flatland::Segment{.from{0, 0}, .to{7, 0}}},
-    {flatland::Segment{.from{0, 3}, .to{0, 0}}},
-    {flatland::Segment{.from{7, 3}, .to{0, 3}}},
-}};
-
-/// The gather rays of a point of the floor.
-/// \return The harmonic mean of their lengths; a ray that hits nothing adds 0.
-double draw_gather_rays(Drawing& drawing, double x, int rays, const char* color) {
-    double inverse = 0;
-    for (int k = 0; k < rays; ++k) {
-        const Vec2 d = flatland::sample_cosine_half_circle((k + 0.5) / rays);
-        const flatland::Ray ray{.origin{x, 0}, .direction = d};
-        const auto hit = closest_hit(room, ray);
-        const double shown = hit ? hit->t : 3.0 / d.y; // as far as the ceiling would be
-        if (hit) inverse += 1 / (rays * hit->t);
-        draw_arrow(drawing, {x, 0}, flat(ray.origin + shown * d), {color, 1});
+/// A wall seen from the front, whose lower edge has the height 0 in the drawing, and
+/// the discs of three points: far from the edge, near it and at it.
+void draw_discs_at_edge(const std::string& folder) {
+    Drawing drawing{.name = "final-gathering-disc",
+                    .description =
+                        "Photons lie on a wall only. The disc of a point far "
+                        "from its edge lies on the wall, that of a point at "
+                        "the edge only with its upper half",
+                    .low{-0.2, -1.75},
+                    .high{8.2, 2.75},
+                    .scale = 85};
+    const double wide = 8, high = 2.7;
+    draw_area(drawing, {{0, 0}, {wide, 0}, {wide, high}, {0, high}}, colors::blue);
+    draw_line(drawing, {{0, 0}, {wide, 0}}, {.width = 3});
+    auto stream = ljus::random_stream(28, ljus::Pass::user, 0, 0);
+    for (int i = 0; i < 260; ++i) {
+        const auto u = ljus::next_2d<double>(stream);
+        draw_dot(drawing, {wide * u.x, high * u.y}, 1.8, colors::blue);
     }
-    return 1 / inverse;
-}
 
-/// A point near the wall and one in the open, with their harmonic means.
-void draw_reach(const std::string& folder) {
-    Drawing drawing{.name = "irradiance_cache-reach",
-                    .description = "Gather rays of a point beside a wall and of one in "
-                                   "the open: near the wall some are short, and the "
-                                   "harmonic mean of all is short as well",
-                    .low{-0.35, -1.05},
-                    .high{7.2, 3.25},
-                    .scale = 95};
-    draw_line(drawing, {{7, 0}, {0, 0}, {0, 3}, {7, 3}}, {.width = 3});
-    const struct {
-        double x;
-        const char* color;
-        const char* name;
-        double label;
-    } points[] = {{0.5, colors::orange, "x_1", -0.4}, {4.2, colors::blue, "x_2", -0.4}};
-    for (const auto& point : points) {
-        const double mean = draw_gather_rays(drawing, point.x, 9, point.color);
-        draw_dot(drawing, {point.x, 0}, 6, point.color);
-        draw_label(drawing, {point.x, -0.28}, point.name, point.color);
-        const double y = -0.55;
-        draw_line(drawing, {{point.x - mean / 2, y}, {point.x + mean / 2, y}},
-                  {.color = point.color, .width = 5});
-        draw_label(drawing, {std::max(point.x, 0.65), y - 0.28},
-                   std::string("R_") + point.name[2] + " = " +
-                       examples::text(mean, "%.1f"),
-                   point.color);
+    const double radius = 1.1;
+    const struct { double x, s; } places[] = {{1.4, 1.0}, {4.1, 0.4}, {6.8, 0.0}};
+    for (const auto& [x, s] : places) {
+        const Point middle{x, s * radius};
+        draw_line(drawing, examples::circle(middle, radius),
+                  {.color = colors::orange, .width = 2});
+        // The part of the disc that lies beyond the edge.
+        std::vector<Point> beyond;
+        for (const Point& point : examples::circle(middle, radius))
+            beyond.push_back({point.x, std::min(point.y, 0.0)});
+        draw_area(drawing, beyond, colors::red);
+        draw_dot(drawing, middle, 5, "currentColor");
+        draw_dimension(drawing, middle, {x + radius, middle.y}, "r");
+        draw_label(drawing, {x, -1.5},
+                   "s = " + examples::text(s, "%g") +
+                       ", P = " + examples::text(ljus::kernel_part(s), "%.2f"),
+                   colors::orange);
     }
+    draw_dimension(drawing, {4.1, 0}, {4.1, 0.4 * radius}, "s r", "currentColor", 20);
+    draw_label(drawing, {0.75, 2.5}, "wall", colors::blue);
+    draw_label(drawing, {0.75, -0.3}, "no wall");
     save_drawing(folder, drawing);
 }
 
-/// A room in the plane: how far a point of its floor sees, as a harmonic mean.
-double distance_on_floor(double x, double width, double height) {
-    double inverse = 0;
-    constexpr int rays = 4000;
-    for (int i = 0; i < rays; ++i) {
-        const double along = (2 * i + 1.0) / rays - 1; // the cosine law in the plane
-        const double up = std::sqrt(1 - along * along);
-        const double wall = along < 0 ? x / -along : (width - x) / along;
-        inverse += 1 / std::min(wall, height / up) / rays;
-    }
-    return 1 / inverse;
-}
-
-/// Points on a floor, the reach of each, and a point where irradiance is interpolated.
+/// A room cut open: photons, the points chosen from them, and rays that look those up.
 void draw_idea(const std::string& folder) {
-    constexpr double width = 9, height = 2.4, reach = 0.5;
-    constexpr std::array places{0.12, 0.45, 0.8, 1.35, 1.9, 2.4, 3.0, 3.5, 4.2, 4.75};
-    Drawing figure{.name = "irradiance_cache-idea",
+    Drawing figure{.name = "final-gathering-idea",
                    .description =
-                       "Points on a floor beside a wall; those near the wall count for "
-                       "a short distance",
-                   .low{-0.2, -0.5},
-                   .high{5.3, 1.75},
-                   .scale = 130};
-    draw_area(figure, {{-0.2, -0.1}, {5.3, -0.1}, {5.3, 0}, {-0.2, 0}}, "currentColor");
-    draw_area(figure, {{-0.2, 0}, {0, 0}, {0, 1.75}, {-0.2, 1.75}}, "currentColor");
-    draw_line(figure, {{0, 1.75}, {0, 0}, {5.3, 0}});
-    for (const double x : places) {
-        const double r = reach * distance_on_floor(x, width, height);
-        draw_arc(figure, {x, 0}, r, 0, std::numbers::pi, {colors::blue, 1, true});
+                       "Rays from x end on walls and take what the nearest point knows",
+                   .low{-0.35, -0.35},
+                   .high{4.35, 2.35},
+                   .scale = 150};
+    const double width = 4, height = 2;
+    draw_line(figure, {{0, height}, {0, 0}, {width, 0}, {width, height}, {0, height}});
+    // Along the walls but the floor: a photon every so often, irregularly.
+    struct Dot {
+        Point at, normal;
+    };
+    std::vector<Dot> points;
+    auto stream = ljus::random_stream(1, ljus::Pass::user, 0, 0);
+    const double way = 2 * height + width;
+    int number = 0;
+    for (double s = 0.05; s < way; s += 0.04 + 0.08 * double(next_1d(stream))) {
+        const Dot dot = s < height           ? Dot{{0, s}, {1, 0}}
+                        : s < height + width ? Dot{{s - height, height}, {0, -1}}
+                                             : Dot{{width, way - s}, {-1, 0}};
+        if (number++ % 6 == 3)
+            points.push_back(dot);
+        else
+            draw_dot(figure, dot.at, 2.2, colors::blue);
     }
-    // Six points take part, the nearest says how far they may lie.
-    constexpr double asked = 2.6, around = 1.25;
-    for (const double x : places) {
-        const double share = (x - asked) * (x - asked) / (around * around);
-        const double r = reach * distance_on_floor(x, width, height);
-        if (share < 1 && std::abs(x - asked) < r)
-            draw_line(figure, {{asked, 0.42}, {x, 0}},
-                      {colors::orange, 0.5 + 5 * (1 - share)});
-        draw_dot(figure, {x, 0}, 5, colors::blue);
+    const Point x{1.7, 0};
+    for (int i = 0; i < 9; ++i) {
+        // Evenly over the cosine: seen from the side, the sine has equal steps.
+        const double sine = -1 + 2 * (i + 0.5) / 9, cosine = std::sqrt(1 - sine * sine);
+        double t = height / cosine;
+        if (sine > 0) t = std::min(t, (width - x.x) / sine);
+        if (sine < 0) t = std::min(t, x.x / -sine);
+        const Point end{x.x + t * sine, t * cosine};
+        draw_arrow(figure, x, end, {"currentColor", 1});
+        const auto distance = [&](const Dot& dot) {
+            return std::hypot(dot.at.x - end.x, dot.at.y - end.y);
+        };
+        const Dot& nearest = *std::min_element(
+            points.begin(), points.end(),
+            [&](const Dot& a, const Dot& b) { return distance(a) < distance(b); });
+        draw_line(figure, {end, nearest.at}, {colors::orange, 4});
     }
-    draw_dot(figure, {asked, 0.42}, 6, colors::orange);
-    draw_line(figure, {{asked, 0.42}, {asked, 0}}, {"currentColor", 1, true});
-    draw_label(figure, {asked, 0.62}, "E ?", colors::orange);
-    draw_label(figure, {2.6, -0.3},
-               "points that have gathered, and how far each counts", colors::blue);
+    for (const Dot& dot : points) {
+        draw_arrow(figure, dot.at,
+                   {dot.at.x + 0.22 * dot.normal.x, dot.at.y + 0.22 * dot.normal.y},
+                   {colors::orange, 1.5});
+        draw_dot(figure, dot.at, 5, colors::orange);
+    }
+    draw_dot(figure, x, 5, "currentColor");
+    draw_label(figure, {x.x, -0.18}, "x");
     save_drawing(folder, figure);
 }
 
@@ -129,9 +125,9 @@ void draw_idea(const std::string& folder) {
 /// Makes the chapter's drawings.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 30, the irradiance cache: drawings.");
+        line.about("Chapter 30, final gathering: drawings.");
         const examples::Options options = line.parse({});
-        draw_reach(options.path(""));
+        draw_discs_at_edge(options.path(""));
         draw_idea(options.path(""));
     });
 }

@@ -1,12 +1,10 @@
 // smoke: --quality draft
 /// \file chapters/drawings/32_drawings.cpp
-/// \brief Chapter 32: what the three methods compute in the same room.
+/// \brief Chapter 32: passes that come and go, and what stays.
 
 #include <cmath>
 #include <string>
 #include <vector>
-
-#include <ljus/math/random.hpp>
 
 #include "common/command_line.hpp"
 #include "common/drawing.hpp"
@@ -14,109 +12,42 @@
 namespace {
 
 using examples::Drawing;
-using examples::Pen;
 using examples::Point;
 namespace colors = examples::colors;
 
-constexpr double width = 3, height = 2.2; // of a room in section
-
-/// A room in section at x, with its lamp.
-void draw_room(Drawing& drawing, double x, const char* name) {
-    draw_line(drawing,
-              {{x, height}, {x, 0}, {x + width, 0}, {x + width, height}, {x, height}},
-              {.width = 1.5});
-    draw_line(drawing, {{x + 1.2, height}, {x + 1.8, height}}, {colors::orange, 6});
-    draw_label(drawing, {x + width / 2, -0.35}, name);
-}
-
-/// Radiosity, paths and photons in one room each.
-void draw_methods(const std::string& folder) {
-    Drawing drawing{.name = "side_by_side-methods",
+/// A row of passes: each makes a map and a picture and throws the map away.
+void draw_passes(const std::string& folder) {
+    Drawing drawing{.name = "progressive-passes",
                     .description =
-                        "Three rooms: patches that exchange light; paths from "
-                        "the camera; photons from the lamp with rays from the "
-                        "camera",
-                    .low{-0.2, -0.65},
-                    .high{10.3, 2.45},
+                        "Each pass emits photons into a map, renders a "
+                        "picture with it, adds that to a sum, and forgets the "
+                        "map; the radius shrinks from pass to pass",
+                    .low{-0.2, -0.9},
+                    .high{8.6, 3.2},
                     .scale = 85};
-    draw_room(drawing, 0, "radiosity: patches");
-    for (int i = 0; i <= 8; ++i)
-        for (const double y : {0.0, height})
-            draw_dot(drawing, {width * i / 8, y}, 3, "currentColor");
-    for (int i = 1; i < 6; ++i)
-        for (const double x : {0.0, width})
-            draw_dot(drawing, {x, height * i / 6}, 3, "currentColor");
-    const Point patches[] = {{1.5, height}, {0.95, 0}, {width, 0.9}, {0, 1.3}};
-    for (const Point& a : patches)
-        for (const Point& b : patches)
-            if (a.x < b.x) draw_line(drawing, {a, b}, {colors::blue, 1.2});
-
-    const double second = 3.5;
-    draw_room(drawing, second, "path tracing: camera rays");
-    const Point eye{second + 0.4, 1.6};
-    const std::vector<Point> ways[] = {
-        {eye, {second + 1.1, 0}, {second + 3, 1.1}, {second + 1.5, height}},
-        {eye, {second + 2.1, 0}, {second + 0, 0.8}, {second + 1.4, height}}};
-    for (const auto& way : ways)
-        for (std::size_t i = 0; i + 1 < way.size(); ++i)
-            draw_arrow(drawing, way[i], way[i + 1], {colors::blue, 1.5});
-    draw_dot(drawing, eye, 5, "currentColor");
-
-    const double third = 7;
-    draw_room(drawing, third, "photon mapping: both");
-    auto stream = ljus::random_stream(9, ljus::Pass::user, 0, 0);
-    for (int i = 0; i < 70; ++i) {
-        const ljus::Vec2 u = next_2d(stream);
-        const double x = third + width * double(u.x);
-        const bool wall = i % 3 == 0;
-        draw_dot(drawing,
-                 wall ? Point{i % 2 ? third : third + width, height * double(u.y)}
-                      : Point{x, 0},
-                 2.2, colors::orange);
+    const auto box = [&](const Point& low, double w, double h, const char* color) {
+        const std::vector<Point> corners{
+            low, {low.x + w, low.y}, {low.x + w, low.y + h}, {low.x, low.y + h}, low};
+        draw_area(drawing, corners, color);
+        draw_line(drawing, corners, {color, 1.6});
+    };
+    double radius2 = 0.3 * 0.3;
+    for (int pass = 0; pass < 4; ++pass) {
+        const double x = 0.2 + 2.1 * pass;
+        box({x, 2.1}, 1.4, 0.8, colors::orange);
+        draw_label(drawing, {x + 0.42, 2.5}, "map");
+        draw_line(drawing, examples::circle({x + 1.05, 2.5}, std::sqrt(radius2)),
+                  {colors::red, 2});
+        draw_arrow(drawing, {x + 0.7, 2.1}, {x + 0.7, 1.55}, {.width = 1.5});
+        box({x, 0.95}, 1.4, 0.6, colors::blue);
+        draw_label(drawing, {x + 0.7, 1.25}, "picture");
+        draw_arrow(drawing, {x + 0.7, 0.95}, {x + 0.7, 0.3}, {.width = 1.5});
+        // The radius of the next pass: r^2 (i + alpha) / (i + 1), as in the text.
+        radius2 *= (pass + 1 + 2.0 / 3) / (pass + 2);
     }
-    for (const double x : {0.5, 1.2, 2.3})
-        draw_arrow(drawing, {third + 1.5, height}, {third + x, 0},
-                   {colors::orange, 1.2});
-    const Point other{third + 0.4, 1.6};
-    draw_arrow(drawing, other, {third + 1.6, 0}, {colors::blue, 1.5});
-    draw_line(drawing, examples::circle({third + 1.6, 0}, 0.24), {colors::blue, 1.2});
-    draw_dot(drawing, other, 5, "currentColor");
-    save_drawing(folder, drawing);
-}
-
-/// Bias and noise as shots at a target.
-void draw_target(const std::string& folder) {
-    Drawing drawing{.name = "side_by_side-target",
-                    .description =
-                        "Three targets with hits: far apart around the "
-                        "centre, close together beside it, and close together "
-                        "at the centre",
-                    .low{-1.2, -1.6},
-                    .high{7.2, 1.2},
-                    .scale = 95};
-    const struct {
-        double spread, shift;
-        const char* name;
-    } cases[] = {{0.62, 0, "noise, no bias"},
-                 {0.1, 0.55, "bias, no noise"},
-                 {0.1, 0, "neither"}};
-    double x = 0;
-    auto stream = ljus::random_stream(4, ljus::Pass::user, 0, 0);
-    for (const auto& shots : cases) {
-        for (const double radius : {0.35, 0.7, 1.05})
-            draw_line(drawing, examples::circle({x, 0}, radius), {.width = 1});
-        for (int i = 0; i < 14; ++i) {
-            const ljus::Vec2 u = next_2d(stream), v = next_2d(stream);
-            // The sum of two uniform numbers is nearly normal for the eye.
-            draw_dot(
-                drawing,
-                {x + shots.shift + shots.spread * (double(u.x) + double(v.x) - 1),
-                 0.6 * shots.shift + shots.spread * (double(u.y) + double(v.y) - 1)},
-                3.5, colors::red);
-        }
-        draw_label(drawing, {x, -1.35}, shots.name);
-        x += 3;
-    }
+    box({0.2, -0.3}, 7.7, 0.6, "currentColor");
+    draw_label(drawing, {4.05, 0}, "sum of all pictures so far");
+    draw_label(drawing, {4.05, -0.65}, "time →");
     save_drawing(folder, drawing);
 }
 
@@ -125,9 +56,8 @@ void draw_target(const std::string& folder) {
 /// Makes the chapter's drawings.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 32, side by side: drawings.");
+        line.about("Chapter 32, progressive photons: drawings.");
         const examples::Options options = line.parse({});
-        draw_methods(options.path(""));
-        draw_target(options.path(""));
+        draw_passes(options.path(""));
     });
 }

@@ -1,15 +1,12 @@
 // smoke: --quality draft
 /// \file chapters/drawings/33_drawings.cpp
-/// \brief Chapter 33: a sum of floats by threads, and by blocks.
+/// \brief Chapter 33: what the three methods compute in the same room.
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include <ljus/math/random.hpp>
-#include <ljus/parallel.hpp>
 
 #include "common/command_line.hpp"
 #include "common/drawing.hpp"
@@ -17,115 +14,120 @@
 namespace {
 
 using examples::Drawing;
+using examples::Pen;
+using examples::Point;
 namespace colors = examples::colors;
 
-constexpr const char* thread_colors[] = {colors::blue, colors::orange, colors::green};
+constexpr double width = 3, height = 2.2; // of a room in section
 
-/// A part of the list, the thread that adds it up, and the sum.
-struct Part {
-    std::size_t first, last;
-    int thread;
-};
-
-/// Sums of the parts in float, and of these sums in their order.
-float sum_of(const std::vector<float>& values, const std::vector<Part>& parts) {
-    float all = 0;
-    for (const Part& part : parts) {
-        float sum = 0;
-        for (std::size_t i = part.first; i < part.last; ++i) sum += values[i];
-        all += sum;
-    }
-    return all;
+/// A room in section at x, with its lamp.
+void draw_room(Drawing& drawing, double x, const char* name) {
+    draw_line(drawing,
+              {{x, height}, {x, 0}, {x + width, 0}, {x + width, height}, {x, height}},
+              {.width = 1.5});
+    draw_line(drawing, {{x + 1.2, height}, {x + 1.8, height}}, {colors::orange, 6});
+    draw_label(drawing, {x + width / 2, -0.35}, name);
 }
 
-/// The list as a row of cells in the colours of the threads, with brackets around the
-/// parts, and the sum.
-void draw_row(Drawing& drawing, double y, const char* title,
-              const std::vector<float>& values, const std::vector<Part>& parts) {
-    const double cell = 0.36;
-    draw_label(drawing, {-1.35, y + 0.17}, title);
-    for (const Part& part : parts) {
-        const char* color = thread_colors[part.thread];
-        const double left = double(part.first) * cell + 0.02;
-        const double right = double(part.last) * cell - 0.06;
-        for (std::size_t i = part.first; i < part.last; ++i) {
-            const double x = double(i) * cell;
-            draw_area(drawing,
-                      {{x, y}, {x + 0.3, y}, {x + 0.3, y + 0.32}, {x, y + 0.32}},
-                      color);
-            draw_line(
+/// Radiosity, paths and photons in one room each.
+void draw_methods(const std::string& folder) {
+    Drawing drawing{.name = "side_by_side-methods",
+                    .description =
+                        "Three rooms: patches that exchange light; paths from "
+                        "the camera; photons from the lamp with rays from the "
+                        "camera",
+                    .low{-0.2, -0.65},
+                    .high{10.3, 2.45},
+                    .scale = 85};
+    draw_room(drawing, 0, "radiosity: patches");
+    for (int i = 0; i <= 8; ++i)
+        for (const double y : {0.0, height})
+            draw_dot(drawing, {width * i / 8, y}, 3, "currentColor");
+    for (int i = 1; i < 6; ++i)
+        for (const double x : {0.0, width})
+            draw_dot(drawing, {x, height * i / 6}, 3, "currentColor");
+    const Point patches[] = {{1.5, height}, {0.95, 0}, {width, 0.9}, {0, 1.3}};
+    for (const Point& a : patches)
+        for (const Point& b : patches)
+            if (a.x < b.x) draw_line(drawing, {a, b}, {colors::blue, 1.2});
+
+    const double second = 3.5;
+    draw_room(drawing, second, "path tracing: camera rays");
+    const Point eye{second + 0.4, 1.6};
+    const std::vector<Point> ways[] = {
+        {eye, {second + 1.1, 0}, {second + 3, 1.1}, {second + 1.5, height}},
+        {eye, {second + 2.1, 0}, {second + 0, 0.8}, {second + 1.4, height}}};
+    for (const auto& way : ways)
+        for (std::size_t i = 0; i + 1 < way.size(); ++i)
+            draw_arrow(drawing, way[i], way[i + 1], {colors::blue, 1.5});
+    draw_dot(drawing, eye, 5, "currentColor");
+
+    const double third = 7;
+    draw_room(drawing, third, "photon mapping: both");
+    auto stream = ljus::random_stream(9, ljus::Pass::user, 0, 0);
+    for (int i = 0; i < 70; ++i) {
+        const ljus::Vec2 u = next_2d(stream);
+        const double x = third + width * double(u.x);
+        const bool wall = i % 3 == 0;
+        draw_dot(drawing,
+                 wall ? Point{i % 2 ? third : third + width, height * double(u.y)}
+                      : Point{x, 0},
+                 2.2, colors::orange);
+    }
+    for (const double x : {0.5, 1.2, 2.3})
+        draw_arrow(drawing, {third + 1.5, height}, {third + x, 0},
+                   {colors::orange, 1.2});
+    const Point other{third + 0.4, 1.6};
+    draw_arrow(drawing, other, {third + 1.6, 0}, {colors::blue, 1.5});
+    draw_line(drawing, examples::circle({third + 1.6, 0}, 0.24), {colors::blue, 1.2});
+    draw_dot(drawing, other, 5, "currentColor");
+    save_drawing(folder, drawing);
+}
+
+/// Bias and noise as shots at a target.
+void draw_target(const std::string& folder) {
+    Drawing drawing{.name = "side_by_side-target",
+                    .description =
+                        "Three targets with hits: far apart around the "
+                        "centre, close together beside it, and close together "
+                        "at the centre",
+                    .low{-1.2, -1.6},
+                    .high{7.2, 1.2},
+                    .scale = 95};
+    const struct {
+        double spread, shift;
+        const char* name;
+    } cases[] = {{0.62, 0, "noise, no bias"},
+                 {0.1, 0.55, "bias, no noise"},
+                 {0.1, 0, "neither"}};
+    double x = 0;
+    auto stream = ljus::random_stream(4, ljus::Pass::user, 0, 0);
+    for (const auto& shots : cases) {
+        for (const double radius : {0.35, 0.7, 1.05})
+            draw_line(drawing, examples::circle({x, 0}, radius), {.width = 1});
+        for (int i = 0; i < 14; ++i) {
+            const ljus::Vec2 u = next_2d(stream), v = next_2d(stream);
+            // The sum of two uniform numbers is nearly normal for the eye.
+            draw_dot(
                 drawing,
-                {{x, y}, {x + 0.3, y}, {x + 0.3, y + 0.32}, {x, y + 0.32}, {x, y}},
-                {.color = color, .width = 1});
+                {x + shots.shift + shots.spread * (double(u.x) + double(v.x) - 1),
+                 0.6 * shots.shift + shots.spread * (double(u.y) + double(v.y) - 1)},
+                3.5, colors::red);
         }
-        draw_line(
-            drawing,
-            {{left, y - 0.06}, {left, y - 0.16}, {right, y - 0.16}, {right, y - 0.06}},
-            {.color = color, .width = 2});
-        draw_label(drawing, {(left + right) / 2, y - 0.33}, "+", color);
+        draw_label(drawing, {x, -1.35}, shots.name);
+        x += 3;
     }
-    draw_label(drawing, {double(values.size()) * cell + 0.85, y + 0.17},
-               examples::text(double(sum_of(values, parts)), "%.9g"));
-}
-
-/// The parts of a list: one for each thread.
-std::vector<Part> by_thread(std::size_t count, std::size_t threads) {
-    std::vector<Part> parts;
-    for (std::size_t t = 0; t < threads; ++t)
-        parts.push_back(
-            {count * t / threads, count * (t + 1) / threads, static_cast<int>(t)});
-    return parts;
-}
-
-/// Blocks of three, each taken by the thread that happens to be free.
-std::vector<Part> by_block(std::size_t count, const std::vector<int>& takers) {
-    std::vector<Part> parts;
-    for (std::size_t block = 0; block < takers.size(); ++block)
-        parts.push_back({3 * block, std::min(3 * block + 3, count), takers[block]});
-    return parts;
-}
-
-const std::vector<int> takers_of_two{0, 1, 1, 0}, takers_of_three{2, 0, 1, 0};
-
-/// A list whose sums by two threads, by three threads and by blocks differ, as those of
-/// most long lists do.
-std::vector<float> list_of(std::size_t count) {
-    for (std::uint64_t seed = 1;; ++seed) {
-        auto stream = ljus::random_stream(seed, ljus::Pass::user, 0, 0);
-        std::vector<float> values;
-        for (std::size_t i = 0; i < count; ++i)
-            values.push_back(ljus::next_1d<float>(stream));
-        const float two = sum_of(values, by_thread(count, 2));
-        const float three = sum_of(values, by_thread(count, 3));
-        const float blocks = sum_of(values, by_block(count, takers_of_two));
-        if (two != three && two != blocks && three != blocks) return values;
-    }
-}
-
-/// Twelve numbers, added up by two and by three threads in both ways.
-void draw_sums(const std::string& folder) {
-    Drawing drawing{.name = "parallel-sums",
-                    .description = "Twelve numbers: parts of two and of three threads "
-                                   "have different sums; blocks of three numbers have "
-                                   "the same sum, whichever thread takes them",
-                    .low{-2.75, -0.55},
-                    .high{6.1, 4.2},
-                    .scale = 82};
-    const std::vector<float> values = list_of(12);
-    draw_row(drawing, 3.6, "2 threads, parts", values, by_thread(12, 2));
-    draw_row(drawing, 2.5, "3 threads, parts", values, by_thread(12, 3));
-    draw_row(drawing, 1.2, "2 threads, blocks", values, by_block(12, takers_of_two));
-    draw_row(drawing, 0.1, "3 threads, blocks", values, by_block(12, takers_of_three));
     save_drawing(folder, drawing);
 }
 
 } // namespace
 
-/// Makes the chapter's drawing.
+/// Makes the chapter's drawings.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 33, many threads: a drawing.");
+        line.about("Chapter 33, side by side: drawings.");
         const examples::Options options = line.parse({});
-        draw_sums(options.path(""));
+        draw_methods(options.path(""));
+        draw_target(options.path(""));
     });
 }

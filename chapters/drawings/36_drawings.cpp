@@ -1,9 +1,9 @@
 // smoke: --quality draft
 /// \file chapters/drawings/36_drawings.cpp
-/// \brief Chapter 36: floating-point numbers that are scaled and shifted, and a ball
-/// far from the origin.
+/// \brief Chapter 36: bias and noise of a mean of pictures, and the Pareto front.
 
-#include <cmath>
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -16,90 +16,90 @@ using examples::Drawing;
 using examples::Point;
 namespace colors = examples::colors;
 
-/// The nearest number that has so few bits.
-/// \param x     Any number.
-/// \param bits  Of the integer m in m 2^e; float has 24.
-double rounded(double x, int bits) {
-    int exponent = 0;
-    const double part = std::frexp(x, &exponent);
-    return std::ldexp(std::nearbyint(std::ldexp(part, bits)), exponent - bits);
+/// A bar from one height to another.
+void draw_bar(Drawing& drawing, double x, double low, double high, const char* color) {
+    if (high <= low) return;
+    const std::vector<Point> corners{
+        {x, low}, {x + 0.36, low}, {x + 0.36, high}, {x, high}, {x, low}};
+    draw_area(drawing, corners, color);
+    draw_area(drawing, corners, color);
+    draw_line(drawing, corners, {.color = color, .width = 1.2});
 }
 
-/// All numbers of three bits from 1 to 16, in their order.
-std::vector<double> small_numbers() {
-    std::vector<double> numbers;
-    for (int e = -2; e <= 1; ++e)
-        for (int m = 4; m < 8; ++m) numbers.push_back(std::ldexp(m, e));
-    numbers.push_back(16);
-    return numbers;
-}
-
-/// A line with a tick at each number.
-void draw_number_line(Drawing& drawing, double height,
-                      const std::vector<double>& numbers) {
-    draw_line(drawing, {{0.5, height}, {16.5, height}}, {.width = 1.5});
-    for (const double x : numbers)
-        draw_line(drawing, {{x, height - 0.22}, {x, height + 0.22}}, {.width = 1.5});
-}
-
-/// Where the numbers from 1 to 4 go by a map; red where they must be rounded.
-template <typename Map>
-void draw_map(Drawing& drawing, double height, const char* name, const Map& map) {
-    const std::vector<double> numbers = small_numbers();
-    draw_number_line(drawing, height, numbers);
-    draw_number_line(drawing, height - 2.6, numbers);
-    for (const double x : numbers) {
-        if (x > 4) continue;
-        const double y = map(x);
-        const bool exact = rounded(y, 3) == y;
-        draw_arrow(drawing, {x, height - 0.3}, {y, height - 2.3},
-                   {.color = exact ? colors::blue : colors::red, .width = 1.2});
+/// The error b + v/n of the mean of n pictures, for a method with a bias and for one
+/// without that has more noise.
+void draw_means(const std::string& folder) {
+    Drawing drawing{.name = "trades-means",
+                    .description = "Bars for the means of 1, 2, 4, 8 and 16 pictures: "
+                                   "noise is halved at each step, and the squared bias "
+                                   "stays; from 8 pictures on the method without bias "
+                                   "has the smaller error",
+                    .low{-0.6, -0.75},
+                    .high{7.6, 4.6},
+                    .scale = 85};
+    const double unit = 0.5; // of the drawing for an error of 1
+    const double bias = 1, noise[] = {2, 8};
+    for (int step = 0; step < 5; ++step) {
+        const int n = 1 << step;
+        const double x = 1.4 * step;
+        draw_bar(drawing, x, 0, bias * unit, colors::red);
+        draw_bar(drawing, x, bias * unit, (bias + noise[0] / n) * unit, colors::blue);
+        draw_bar(drawing, x + 0.5, 0, noise[1] / n * unit, colors::orange);
+        draw_label(drawing, {x + 0.43, -0.25}, std::to_string(n));
     }
-    draw_label(drawing, {13, height - 1.2}, name);
-    for (const double x : {1.0, 2.0, 4.0, 8.0, 16.0})
-        draw_label(drawing, {x, height + 0.55}, examples::text(x, "%g"));
-}
-
-/// Numbers of three bits times two and plus eight.
-void draw_scaled_and_shifted(const std::string& folder) {
-    Drawing drawing{.name = "extremes-floats",
-                    .description =
-                        "Numbers of three bits are denser near 0. Times two, "
-                        "each is such a number again; plus eight, some fall "
-                        "between two of them",
-                    .low{0, -6.6},
-                    .high{17, 1.1},
-                    .scale = 43};
-    draw_map(drawing, 0.2, "times 2: exact", [](double x) { return 2 * x; });
-    draw_map(drawing, -3.7, "plus 8: red is rounded", [](double x) { return x + 8; });
+    draw_line(drawing, {{-0.3, 0}, {7.4, 0}}, {.width = 2});
+    draw_line(drawing, {{-0.3, bias * unit}, {7.4, bias * unit}},
+              {.color = colors::red, .width = 1, .dashed = true});
+    draw_label(drawing, {3.4, -0.58}, "pictures in the mean, n");
+    draw_label(drawing, {7.1, bias * unit + 0.2}, "b", colors::red);
+    draw_label(drawing, {0.18, 1.7}, "v/n", colors::blue);
+    draw_label(drawing, {0.68, 4.2}, "v/n", colors::orange);
+    draw_label(drawing, {4.9, 3.9}, "biased: b + v/n", colors::blue);
+    draw_label(drawing, {4.9, 3.4}, "without bias: v/n, with a larger v",
+               colors::orange);
     save_drawing(folder, drawing);
 }
 
-/// Balls at several distances from the origin, their points rounded.
-void draw_displaced_balls(const std::string& folder) {
-    Drawing drawing{.name = "extremes-balls",
-                    .description = "The outline of a ball of radius 1, with its points "
-                                   "rounded to numbers of seven bits: smooth near the "
-                                   "origin, and in steps far away",
-                    .low{-1.5, -1.95},
-                    .high{7.5, 1.3},
-                    .scale = 80};
-    constexpr int bits = 7;
-    const double u = std::ldexp(1.0, -bits);
-    double x = 0;
-    for (const double c : {1.0, 10.0, 50.0}) {
-        std::vector<Point> outline;
-        for (const Point& point : examples::circle({c, c}, 1))
-            outline.push_back(
-                {x + rounded(point.x, bits) - c, rounded(point.y, bits) - c});
-        draw_line(drawing, examples::circle({x, 0}, 1), {.width = 0.8, .dashed = true});
-        draw_area(drawing, outline, colors::orange);
-        draw_line(drawing, outline, {.color = colors::orange, .width = 2});
-        draw_label(drawing, {x, -1.35}, "c = " + examples::text(c, "%g"));
-        draw_label(drawing, {x, -1.7}, "δ = " + examples::text(u * c, "%.2g"),
-                   colors::orange);
-        x += 3;
+/// Settings by time and error: those that no other beats in both, and what a dot is
+/// beaten by.
+void draw_front(const std::string& folder) {
+    Drawing drawing{.name = "trades-pareto",
+                    .description =
+                        "Dots by time and error. The front steps down to the "
+                        "right; every other dot has one of the front to its "
+                        "lower left",
+                    .low{-0.7, -0.7},
+                    .high{7.3, 4.4},
+                    .scale = 85};
+    std::vector<Point> settings{{0.6, 3.7}, {1.1, 2.5}, {1.5, 3.3}, {2.3, 1.7},
+                                {2.9, 2.9}, {3.6, 1.5}, {4.3, 0.8}, {4.6, 2.2},
+                                {5.4, 1.2}, {6.2, 0.5}, {6.4, 3.0}, {3.2, 3.8}};
+    std::sort(settings.begin(), settings.end(),
+              [](const Point& a, const Point& b) { return a.x < b.x; });
+    std::vector<Point> front, others;
+    for (const Point& setting : settings)
+        (front.empty() || setting.y < front.back().y ? front : others)
+            .push_back(setting);
+    std::vector<Point> stairs;
+    for (std::size_t i = 0; i < front.size(); ++i) {
+        if (i > 0) stairs.push_back({front[i].x, front[i - 1].y});
+        stairs.push_back(front[i]);
     }
+    // What is faster and more accurate than one of the others.
+    const Point beaten{4.6, 2.2};
+    draw_area(drawing, {{0, 0}, {beaten.x, 0}, beaten, {0, beaten.y}}, colors::blue);
+    draw_line(drawing, {{0, beaten.y}, beaten, {beaten.x, 0}},
+              {.color = colors::blue, .width = 1, .dashed = true});
+    draw_line(drawing, stairs, {.color = colors::orange, .width = 2});
+    for (const Point& dot : others) draw_dot(drawing, dot, 5, "#808080");
+    for (const Point& dot : front) draw_dot(drawing, dot, 6, colors::orange);
+    draw_dot(drawing, beaten, 6, colors::blue);
+    draw_arrow(drawing, {0, 0}, {7.1, 0});
+    draw_arrow(drawing, {0, 0}, {0, 4.2});
+    draw_label(drawing, {6.8, -0.3}, "time");
+    draw_label(drawing, {0.4, 4.25}, "error");
+    draw_label(drawing, {1.6, 0.5}, "faster and more accurate", colors::blue);
+    draw_label(drawing, {6.7, 0.55}, "front", colors::orange);
     save_drawing(folder, drawing);
 }
 
@@ -108,9 +108,9 @@ void draw_displaced_balls(const std::string& folder) {
 /// Makes the chapter's drawings.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 36, extremes: drawings.");
+        line.about("Chapter 36, trades: drawings.");
         const examples::Options options = line.parse({});
-        draw_scaled_and_shifted(options.path(""));
-        draw_displaced_balls(options.path(""));
+        draw_means(options.path(""));
+        draw_front(options.path(""));
     });
 }

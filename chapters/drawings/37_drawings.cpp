@@ -1,7 +1,9 @@
 // smoke: --quality draft
 /// \file chapters/drawings/37_drawings.cpp
-/// \brief Chapter 37: what can become of a mutant.
+/// \brief Chapter 37: floating-point numbers that are scaled and shifted, and a ball
+/// far from the origin.
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -14,64 +16,101 @@ using examples::Drawing;
 using examples::Point;
 namespace colors = examples::colors;
 
-/// A box with lines of text.
-/// \param middle  Of the box.
-/// \param wide    From side to side.
-void draw_box(Drawing& drawing, const Point& middle, double wide,
-              const std::vector<std::string>& lines,
-              const std::string& color = "currentColor") {
-    const double high = 0.36 * double(lines.size()) + 0.26;
-    const double left = middle.x - wide / 2, low = middle.y - high / 2;
-    const std::vector<Point> corners{{left, low},
-                                     {left + wide, low},
-                                     {left + wide, low + high},
-                                     {left, low + high},
-                                     {left, low}};
-    draw_line(drawing, corners, {.color = color});
-    double y = middle.y + 0.18 * double(lines.size() - 1);
-    for (const std::string& line : lines) {
-        draw_label(drawing, {middle.x, y}, line, color);
-        y -= 0.36;
-    }
+/// The nearest number that has so few bits.
+/// \param x     Any number.
+/// \param bits  Of the integer m in m 2^e; float has 24.
+double rounded(double x, int bits) {
+    int exponent = 0;
+    const double part = std::frexp(x, &exponent);
+    return std::ldexp(std::nearbyint(std::ldexp(part, bits)), exponent - bits);
 }
 
-/// From a header to its mutants, and what their tests say.
-void draw_mutants(const std::string& folder) {
-    Drawing drawing{.name = "break_it-mutants",
-                    .description = "A header becomes many mutants, each with one small "
-                                   "change. A mutant is killed if a test fails. If all "
-                                   "tests pass it is equivalent, or a test is missing, "
-                                   "or the code is not needed",
-                    .low{-0.1, -0.1},
-                    .high{9.3, 4.35},
-                    .scale = 78};
-    draw_box(drawing, {0.85, 2.1}, 1.6, {"a header", "that passes"});
-    const char* changes[] = {"+ → −", "< → <=", "2 → 3"};
-    for (int i = 0; i < 3; ++i) {
-        const double y = 3.4 - 1.3 * i;
-        draw_arrow(drawing, {1.7, 2.1}, {2.55, y});
-        draw_box(drawing, {3.3, y}, 1.4, {"mutant", changes[i]}, colors::violet);
-        draw_arrow(drawing, {4.05, y}, {4.75, 2.1 + 0.25 * (1 - i)});
+/// All numbers of three bits from 1 to 16, in their order.
+std::vector<double> small_numbers() {
+    std::vector<double> numbers;
+    for (int e = -2; e <= 1; ++e)
+        for (int m = 4; m < 8; ++m) numbers.push_back(std::ldexp(m, e));
+    numbers.push_back(16);
+    return numbers;
+}
+
+/// A line with a tick at each number.
+void draw_number_line(Drawing& drawing, double height,
+                      const std::vector<double>& numbers) {
+    draw_line(drawing, {{0.5, height}, {16.5, height}}, {.width = 1.5});
+    for (const double x : numbers)
+        draw_line(drawing, {{x, height - 0.22}, {x, height + 0.22}}, {.width = 1.5});
+}
+
+/// Where the numbers from 1 to 4 go by a map; red where they must be rounded.
+template <typename Map>
+void draw_map(Drawing& drawing, double height, const char* name, const Map& map) {
+    const std::vector<double> numbers = small_numbers();
+    draw_number_line(drawing, height, numbers);
+    draw_number_line(drawing, height - 2.6, numbers);
+    for (const double x : numbers) {
+        if (x > 4) continue;
+        const double y = map(x);
+        const bool exact = rounded(y, 3) == y;
+        draw_arrow(drawing, {x, height - 0.3}, {y, height - 2.3},
+                   {.color = exact ? colors::blue : colors::red, .width = 1.2});
     }
-    draw_box(drawing, {5.4, 2.1}, 1.2, {"its", "tests"});
-    draw_arrow(drawing, {6.05, 2.3}, {6.95, 3.6}, {.color = colors::green});
-    draw_arrow(drawing, {6.05, 2.1}, {6.95, 2.2}, {.color = colors::red});
-    draw_arrow(drawing, {6.05, 1.9}, {6.95, 0.8});
-    draw_box(drawing, {8.1, 3.65}, 2.2, {"a test fails:", "killed"}, colors::green);
-    draw_box(drawing, {8.1, 2.2}, 2.2,
-             {"all pass: a test is", "missing, or code", "is not needed"}, colors::red);
-    draw_box(drawing, {8.1, 0.7}, 2.2,
-             {"all pass, for", "nothing changed:", "equivalent"});
+    draw_label(drawing, {13, height - 1.2}, name);
+    for (const double x : {1.0, 2.0, 4.0, 8.0, 16.0})
+        draw_label(drawing, {x, height + 0.55}, examples::text(x, "%g"));
+}
+
+/// Numbers of three bits times two and plus eight.
+void draw_scaled_and_shifted(const std::string& folder) {
+    Drawing drawing{.name = "extremes-floats",
+                    .description =
+                        "Numbers of three bits are denser near 0. Times two, "
+                        "each is such a number again; plus eight, some fall "
+                        "between two of them",
+                    .low{0, -6.6},
+                    .high{17, 1.1},
+                    .scale = 43};
+    draw_map(drawing, 0.2, "times 2: exact", [](double x) { return 2 * x; });
+    draw_map(drawing, -3.7, "plus 8: red is rounded", [](double x) { return x + 8; });
+    save_drawing(folder, drawing);
+}
+
+/// Balls at several distances from the origin, their points rounded.
+void draw_displaced_balls(const std::string& folder) {
+    Drawing drawing{.name = "extremes-balls",
+                    .description = "The outline of a ball of radius 1, with its points "
+                                   "rounded to numbers of seven bits: smooth near the "
+                                   "origin, and in steps far away",
+                    .low{-1.5, -1.95},
+                    .high{7.5, 1.3},
+                    .scale = 80};
+    constexpr int bits = 7;
+    const double u = std::ldexp(1.0, -bits);
+    double x = 0;
+    for (const double c : {1.0, 10.0, 50.0}) {
+        std::vector<Point> outline;
+        for (const Point& point : examples::circle({c, c}, 1))
+            outline.push_back(
+                {x + rounded(point.x, bits) - c, rounded(point.y, bits) - c});
+        draw_line(drawing, examples::circle({x, 0}, 1), {.width = 0.8, .dashed = true});
+        draw_area(drawing, outline, colors::orange);
+        draw_line(drawing, outline, {.color = colors::orange, .width = 2});
+        draw_label(drawing, {x, -1.35}, "c = " + examples::text(c, "%g"));
+        draw_label(drawing, {x, -1.7}, "δ = " + examples::text(u * c, "%.2g"),
+                   colors::orange);
+        x += 3;
+    }
     save_drawing(folder, drawing);
 }
 
 } // namespace
 
-/// Makes the chapter's drawing.
+/// Makes the chapter's drawings.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 37, break it: a drawing.");
+        line.about("Chapter 37, extremes: drawings.");
         const examples::Options options = line.parse({});
-        draw_mutants(options.path(""));
+        draw_scaled_and_shifted(options.path(""));
+        draw_displaced_balls(options.path(""));
     });
 }

@@ -1,21 +1,18 @@
-// smoke: --quality draft --width 24 --height 24 --seeds 2 --truth 16
+// smoke: --quality draft --width 16 --height 16 --rays 4 --photons 2000 --seeds 2
 /// \file chapters/experiments/30_experiments.cpp
-/// \brief Chapter 30: the cost and the gain of interpolating irradiance.
+/// \brief Chapter 30: estimates at edges and at photons; error against time for photons
+/// seen directly, gathered, and precomputed.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <ljus/image/flip.hpp>
 #include <ljus/ljus.hpp>
-#include <ljus/math/stratified_stream.hpp>
-#include <ljus/path/light_transport.hpp>
-#include <ljus/render/adaptive.hpp>
 #include <ljus/render/gathering.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 
@@ -30,693 +27,533 @@ using namespace ljus;
 
 namespace {
 
-using examples::text;
-using Box = decltype(cornell_box());
-/// The photon mapper of the preset `fast`.
-using Mapper = PhotonMapper<decltype(Box::world), StratifiedStream, Gathering>;
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double pi = std::numbers::pi;
 
 /// The options of this program, besides the common ones.
 struct Sizes {
-    int seeds = 0; ///< Runs behind each bias and variance.
-    int truth = 0; ///< Rays per pixel of the references.
-    int side = 0;  ///< Of the pictures whose errors are measured, in pixels.
+    long long photons = 0; ///< The largest number of photons.
+    int seeds = 0;         ///< Runs behind each bias and variance.
+    int truth = 0;         ///< Rays per pixel of the reference.
 };
 
-// --- A corner where irradiance is known ----------------------------------------------
+// --- Where a surface ends ------------------------------------------------------------
 
-/// The irradiance on a floor at a distance from an endless wall of height 1 whose
-/// radiosity is 1; nothing else emits light.
-double beside_wall(double x) {
-    return 0.5 * (1 - x / std::hypot(x, 1.0));
+using Flat = World<Scene<Shapes<Quad>, Materials<Lambertian>>>;
+
+/// A unit square at z = 0.
+Flat unit_square() {
+    Scene<Shapes<Quad>, Materials<Lambertian>> scene;
+    scene.add(Quad{.corner{0, 0, 0}, .edge_u{1, 0, 0}, .edge_v{0, 1, 0}},
+              scene.add(Lambertian{.albedo = Rgb{0.5f}}));
+    return Flat(std::move(scene));
 }
 
-/// The harmonic mean distance there, by rays spread evenly over the cosine; a ray that
-/// misses the wall goes to infinity.
-double sees_as_far(double x) {
-    constexpr int side = 32;
-    double inverse = 0;
-    for (int i = 0; i < side * side; ++i) {
-        const Vec3T<double> d = sample_cosine_hemisphere(
-            Vec2T<double>{(i % side + 0.5) / side, (double(i / side) + 0.5) / side});
-        if (!(d.x < 0)) continue;
-        const double t = x / -d.x;
-        if (t * d.z < 1) inverse += 1 / t / (side * side);
+Vertex square_vertex(const Flat& square, float x, float y) {
+    const Ray ray{.origin{x, y, 0.1f}, .direction{0, 0, -1}};
+    return vertex_at(square, ray, closest_hit(square, ray).value());
+}
+
+/// Indirect photons, evenly on the unit square: 1 W in all, so that E is 1 W/m^2.
+PhotonMap even_photons(int count, std::uint64_t seed) {
+    auto stream = random_stream(seed, Pass::user, 0, 0);
+    std::vector<Photon> photons;
+    for (int i = 0; i < count; ++i)
+        photons.push_back({.position = Vec3(next_2d(stream), 0),
+                           .direction{0, 0, -1},
+                           .flux = Rgb{1 / float(count)},
+                           .kind = PhotonKind::indirect,
+                           .normal = small_normal(Vec3{0, 0, 1})});
+    return make_photon_map(photons);
+}
+
+/// Lets every photon count, for estimate_irradiance().
+constexpr auto all_photons = [](std::uint32_t) { return true; };
+
+/// A mean, and its standard error.
+struct Mean {
+    double count = 0, sum = 0, squares = 0;
+
+    void add(double x) { ++count, sum += x, squares += x * x; }
+    double mean() const { return sum / count; }
+    double error() const {
+        return std::sqrt(std::max(0.0, squares / count - mean() * mean()) /
+                         std::max(1.0, count - 1));
     }
-    return inverse > 0 ? 1 / inverse : std::numeric_limits<double>::infinity();
-}
-
-constexpr double corner_step = 0.1;               ///< Side of a square of the floor.
-constexpr int corner_places = 40;                 ///< Where it is asked.
-constexpr std::array reaches{0.1, 0.3, 1.0, 4.0}; ///< Of the records.
-
-/// The distance of a point from the wall: from 0.01 to 1.5 of its height.
-double corner_place(int i) {
-    return 0.01 * std::pow(150.0, double(i) / (corner_places - 1));
-}
-
-/// Records with the exact irradiance beside the wall: one for each square of the floor,
-/// anywhere in it.
-IrradianceCacheT<double> exact_cache(int run, std::uint64_t seed) {
-    constexpr int columns = 22, rows = 9;
-    auto stream =
-        random_stream(seed, Pass::gathering, 0, static_cast<std::uint64_t>(run));
-    std::vector<Vec3T<double>> positions;
-    std::vector<GatheredT<double>> records;
-    for (int i = 0; i < columns * rows; ++i) {
-        const auto u = next_2d<double>(stream);
-        const Vec3T<double> p{corner_step * (i % columns + u.x),
-                              corner_step * (double(i / columns) - rows * 0.5 + u.y),
-                              0};
-        positions.push_back(p);
-        records.push_back({.irradiance = RgbT<double>{beside_wall(p.x)},
-                           .distance = sees_as_far(p.x)});
+    std::string text() const {
+        return examples::text(mean(), "%.3f") + " +- " +
+               examples::text(error(), "%.3f");
     }
-    return make_irradiance_cache(positions, records, GatherSettings{}, 1);
-}
-
-/// The errors of interpolation with one reach at all points, as means over the runs.
-struct AtCorner {
-    std::array<double, corner_places> squares{};  ///< Of the relative error.
-    std::array<double, corner_places> gathered{}; ///< Lookups without a near point.
 };
 
-/// Adds the errors of one cache, which is one of `runs`.
-void add_run(AtCorner& corner, const IrradianceCacheT<double>& cache, double reach,
-             int runs) {
-    for (int i = 0; i < corner_places; ++i) {
-        const auto slot = static_cast<std::size_t>(i);
-        const double exact = beside_wall(corner_place(i));
-        const auto found = interpolate(cache, Vec3T<double>{corner_place(i), 0, 0},
-                                       Vec3T<double>{0, 0, 1}, reach);
-        if (!found) {
-            corner.gathered[slot] += 1.0 / runs; // exact
-            continue;
+/// The fraction of Epanechnikov's kernel in a corner whose edges lie at s and t, over
+/// the radius, by the midpoint rule.
+double corner_by_rule(double s, double t) {
+    constexpr int n = 200;
+    double sum = 0;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const double x = 2 * (i + 0.5) / n - 1, y = 2 * (j + 0.5) / n - 1;
+            if (x * x + y * y < 1 && x < s && y < t)
+                sum += 2 / pi * (1 - x * x - y * y) * 4 / (double(n) * n);
         }
-        const double e = found->x / exact - 1;
-        corner.squares[slot] += e * e / runs;
-    }
+    return sum;
 }
 
-/// One for each reach.
-using Corner = std::array<AtCorner, reaches.size()>;
+constexpr float border_radius = 0.1f; ///< Of the disc that photons are counted in.
+constexpr int border_steps = 24;      ///< From the edge to the distance of the radius.
 
-void plot_corner(const Corner& corner, const examples::Options& options) {
-    examples::Plot plot{.name = "irradiance_cache-corner",
-                        .columns = {"distance from the wall, over its height",
-                                    "reach 0.1", "reach 0.3", "reach 1", "reach 4"},
-                        .y_label = "relative error, root mean square",
-                        .log_x = true,
-                        .log_y = true};
-    for (int i = 0; i < corner_places; ++i) {
-        examples::Row row{corner_place(i)};
-        for (const AtCorner& at : corner) {
-            const double e = std::sqrt(at.squares[static_cast<std::size_t>(i)]);
-            row.push_back(e > 0 ? e : nothing);
+/// A point on the square, and the estimates there.
+struct Place {
+    const char* name;
+    float x, y;
+    const char* part; ///< Of the disc, as the table has it.
+    Mean plain{}, corrected{};
+};
+
+/// The estimates by several maps under an even light.
+struct Borders {
+    std::vector<Mean> with, without; ///< The correction, step by step from an edge.
+    std::vector<Place> places{{"in the middle", 0.5f, 0.5f, "1"},
+                              {"at an edge", 0.5f, 1e-4f, "1/2"},
+                              {"in a corner", 1e-4f, 1e-4f, "1/4"}};
+};
+
+Borders measure_borders(int maps, std::uint64_t seed) {
+    const Flat square = unit_square();
+    const Vec3 up{0, 0, 1};
+    IrradiancePointSettings corrected{.nearest = 512, .radius = border_radius};
+    IrradiancePointSettings plain = corrected;
+    plain.edges = false;
+    Borders found{.with = std::vector<Mean>(border_steps + 1),
+                  .without = std::vector<Mean>(border_steps + 1)};
+    for (int m = 0; m < maps; ++m) {
+        const PhotonMap map = even_photons(6000, seed + std::uint64_t(m));
+        const auto estimate = [&](float x, float y, const auto& how) {
+            return double(estimate_irradiance(square, map, square_vertex(square, x, y),
+                                              up, how, border_radius, all_photons)
+                              .x);
+        };
+        for (int i = 0; i <= border_steps; ++i)
+            for (const float x : {0.2f, 0.4f, 0.6f, 0.8f}) {
+                const float y =
+                    std::max(1e-4f, 1.2f * border_radius * float(i) / border_steps);
+                found.with[std::size_t(i)].add(estimate(x, y, corrected));
+                found.without[std::size_t(i)].add(estimate(x, y, plain));
+            }
+        for (Place& place : found.places) {
+            place.plain.add(estimate(place.x, place.y, plain));
+            place.corrected.add(estimate(place.x, place.y, corrected));
         }
-        plot.rows.push_back(row);
     }
-    save_plot(options.out, plot);
-}
-
-/// The mean errors near the wall and farther away.
-void table_of_corner(const Corner& corner, const examples::Options& options) {
-    examples::Table table{.name = "irradiance_cache-corner-table",
-                          .columns = {"reach", "error within a step of the wall",
-                                      "farther out", "gathered anew within a step",
-                                      "farther out"}};
-    for (std::size_t k = 0; k < reaches.size(); ++k) {
-        std::array<double, 2> error{}, anew{}, count{};
-        for (int i = 0; i < corner_places; ++i) {
-            const std::size_t part = corner_place(i) < corner_step ? 0 : 1;
-            error[part] += corner[k].squares[static_cast<std::size_t>(i)];
-            anew[part] += corner[k].gathered[static_cast<std::size_t>(i)];
-            count[part] += 1;
-        }
-        table.rows.push_back({text(reaches[k])});
-        for (const std::size_t part : {0u, 1u})
-            table.rows.back().push_back(
-                text(100 * std::sqrt(error[part] / count[part]), "%.2f %%"));
-        for (const std::size_t part : {0u, 1u})
-            table.rows.back().push_back(
-                text(100 * anew[part] / count[part], "%.1f %%"));
-    }
-    examples::show_table(options, table);
-}
-
-/// Exact records without noise: the error is that of the interpolation alone.
-void corner(const examples::Options& options) {
-    const int runs = options.pick(32, 400, 2000);
-    Corner found{};
-    for (int run = 0; run < runs; ++run) {
-        const auto cache = exact_cache(run, options.seed);
-        for (std::size_t k = 0; k < reaches.size(); ++k)
-            add_run(found[k], cache, reaches[k], runs);
-    }
-    plot_corner(found, options);
-    table_of_corner(found, options);
-}
-
-// --- Each knob -----------------------------------------------------------------------
-
-/// The preset `fast` for one seed.
-PhotonMappingSettings fast(int side, std::uint64_t seed, int threads) {
-    auto settings = preset_settings(Preset::fast, side, side);
-    settings.general.seed = settings.caustics.seed = seed;
-    settings.general.threads = settings.caustics.threads = threads;
-    return settings;
-}
-
-/// Indirect light alone, from a renderer of all light.
-template <typename Renderer>
-Image indirect_light(const Box& room, const Renderer& renderer,
-                     const RenderSettings& picture) {
-    const OnlyPaths indirect(renderer, "E.*D.*D.*L");
-    auto image = render(indirect, room.camera, picture).image;
-    examples::stop_if_asked();
-    return image;
-}
-
-/// The mean of a picture over that of another, less 1.
-template <typename T, typename U>
-double mean_error(const ImageT<T>& image, const ImageT<U>& truth) {
-    double sum = 0, all = 0;
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const RgbT<double> a(image.pixels[i]), b(truth.pixels[i]);
-        sum += a.x + a.y + a.z;
-        all += b.x + b.y + b.z;
-    }
-    return sum / all - 1;
-}
-
-/// A reference from eight independent pictures, whose scatter gives its noise.
-examples::Oracle oracle_of(const std::function<Image(int, std::uint64_t)>& shot,
-                           int rays, int side) {
-    constexpr int pieces = 8;
-    const int part = std::max(1, rays / pieces);
-    examples::Oracle oracle{.truth = make_image<double>(side, side),
-                            .rays = part * pieces};
-    std::vector<Image> runs;
-    for (std::uint64_t piece = 0; piece < pieces; ++piece) {
-        runs.push_back(shot(part, 9000 + piece));
-        for (std::size_t i = 0; i < runs.back().pixels.size(); ++i)
-            oracle.truth.pixels[i] += RgbT<double>(runs.back().pixels[i]) / 8.0;
-    }
-    oracle.noise = examples::relative_split(runs, oracle.truth).variance / pieces;
-    oracle.block_noise =
-        examples::relative_split(runs, oracle.truth, 0, 10).variance / pieces;
-    return oracle;
-}
-
-/// The box as all settings of the cache see it: with the same photons, beside two
-/// references of its indirect light.
-struct Bench {
-    const Box& room;
-    const examples::Options& options;
-    const Sizes& sizes;
-    PhotonMappingSettings settings; ///< The preset `fast`.
-    examples::Oracle twin{};   ///< Gathered at every vertex, from the same photons.
-    examples::Oracle traced{}; ///< By path tracing.
-
-    [[nodiscard]] RenderSettings picture(int samples, std::uint64_t seed) const {
-        return {.width = sizes.side,
-                .height = sizes.side,
-                .samples = samples,
-                .seed = seed,
-                .threads = options.threads};
-    }
-};
-
-/// The references of the bench.
-void add_oracles(Bench& bench) {
-    const int side = bench.sizes.side, truth = bench.sizes.truth;
-    auto one_by_one = bench.settings;
-    one_by_one.indirect = IndirectLight::gather;
-    const Mapper mapper(bench.room.world, one_by_one);
-    bench.twin = oracle_of(
-        [&](int rays, std::uint64_t seed) {
-            return indirect_light(bench.room, mapper, bench.picture(rays, seed));
-        },
-        4 * truth, side);
-    const PathTracer tracer(bench.room.world);
-    bench.traced = oracle_of(
-        [&](int rays, std::uint64_t seed) {
-            return indirect_light(bench.room, tracer, bench.picture(rays, seed));
-        },
-        truth, side);
-}
-
-/// A way to gather, and which curve of the plot it belongs to.
-struct Knob {
-    std::string name;
-    GatherSettings gather{};
-    std::size_t curve = 0; ///< Which column; 0: none.
-    bool cached = true;    ///< Or gathered at every vertex.
-};
-
-/// Each setting of the cache varied, with the others fixed.
-std::vector<Knob> all_knobs() {
-    std::vector<Knob> all{Knob{.name = "tile 3, 25 rays, 6 nearest, reach 1"}};
-    for (const int tile : {2, 3, 4, 6})
-        all.push_back({"tile " + std::to_string(tile), {.tile = tile}, 1});
-    for (const int rays : {9, 16, 25, 49, 100})
-        all.push_back({std::to_string(rays) + " gather rays", {.rays = rays}, 2});
-    for (const std::size_t nearest : {3u, 6u, 10u, 20u})
-        all.push_back({std::to_string(nearest) + " nearest", {.nearest = nearest}, 3});
-    for (const float reach : {0.3f, 0.5f, 1.0f, 2.0f, 4.0f})
-        all.push_back({"reach " + text(double(reach), "%.1f"), {.reach = reach}, 4});
-    all.push_back({"25 rays at every vertex, no cache", {}, 0, false});
-    return all;
-}
-
-/// The result of one setting, over several seeds.
-struct Turned {
-    double seconds = 0, mean = 0, flip = 0;
-    std::size_t points = 0;
-    BiasVariance from_twin{}, from_traced{}, blocks{};
-};
-
-Turned turn(const Bench& bench, const Knob& knob) {
-    auto now = bench.settings;
-    now.gather = knob.gather;
-    Mapper mapper(bench.room.world, now); // the same photons for all
-    Turned found;
-    std::vector<Image> runs;
-    const int seeds = bench.sizes.seeds;
-    for (int seed = 1; seed <= seeds; ++seed) {
-        const RenderSettings picture =
-            bench.picture(9, static_cast<std::uint64_t>(seed));
-        const double start = examples::processor_seconds();
-        if (knob.cached) mapper.fill_cache(bench.room.camera, picture);
-        found.points = mapper.state<Gathering>().cache.records.size();
-        runs.push_back(indirect_light(bench.room, mapper, picture));
-        found.seconds += (examples::processor_seconds() - start) / seeds;
-        found.flip += flip(runs.back(), bench.traced.truth) / seeds;
-        found.mean += mean_error(runs.back(), bench.traced.truth) / seeds;
-    }
-    const examples::Oracle &twin = bench.twin, &traced = bench.traced;
-    found.from_twin = examples::relative_split(runs, twin.truth, twin.noise);
-    found.from_traced = examples::relative_split(runs, traced.truth, traced.noise);
-    found.blocks = examples::relative_split(runs, traced.truth, traced.block_noise, 10);
     return found;
 }
 
-/// The references, and their errors.
-void table_of_oracles(const Bench& bench) {
-    examples::show_table(
-        bench.options,
-        {.name = "irradiance_cache-truth",
-         .columns = {"reference", "rays per pixel", "its own relMSE"},
-         .rows = {{"gathered at every vertex, the same photons",
-                   std::to_string(bench.twin.rays), text(bench.twin.noise, "%.2g")},
-                  {"path tracing", std::to_string(bench.traced.rays),
-                   text(bench.traced.noise, "%.2g")}}});
-}
-
-/// Indirect light alone, one setting after the other.
-void knobs(const examples::Options& options, const Sizes& sizes) {
-    const Box room = cornell_box();
-    const auto settings = fast(sizes.side, options.seed, options.threads);
-    Bench bench{room, options, sizes, settings};
-    add_oracles(bench);
-    examples::Table table{
-        .name = "irradiance_cache-knobs",
-        .columns = {"", "processor seconds", "points", "bias² of interpolating",
-                    "noise", "bias² with the photons'", "blocks", "mean", "FLIP"}};
+/// The estimates from an edge inwards, beside the fraction of the kernel that lies
+/// inside.
+void plot_edge(const Borders& found, const examples::Options& options) {
     examples::Plot plot{
-        .name = "irradiance_cache-knobs-plot",
-        .columns = {"processor seconds", "tile", "gather rays", "nearest", "reach"},
-        .y_label = "relMSE of indirect light",
-        .rows = {}};
-    for (const Knob& knob : all_knobs()) {
-        const Turned found = turn(bench, knob);
-        const auto& [bias, noise] = found.from_twin;
-        table.rows.push_back(
-            {knob.name, text(found.seconds, "%.3f"), std::to_string(found.points),
-             text(bias, "%.2g"), text(noise, "%.2g"),
-             text(found.from_traced.bias_squared, "%.2g"),
-             text(found.blocks.bias_squared + found.blocks.variance, "%.2g"),
-             text(100 * found.mean, "%+.2f %%"), text(found.flip, "%.3f")});
-        if (knob.curve == 0) continue;
-        examples::Row row(plot.columns.size(), nothing);
-        row[0] = found.seconds;
-        row[knob.curve] = std::max(bias + noise, 1e-9);
-        plot.rows.push_back(row);
+        .name = "final-gathering-edge",
+        .columns = {"distance from the edge over the radius", "part of the kernel",
+                    "photons as they are", "divided by the part"},
+        .y_label = "estimate over the truth",
+        .more = "set yrange [0:1.3]\nset key inside bottom right vertical\n"};
+    for (int i = 0; i <= border_steps; ++i) {
+        const double s = 1.2 * double(i) / border_steps;
+        const auto k = std::size_t(i);
+        plot.rows.push_back(
+            {s, kernel_part(s), found.without[k].mean(), found.with[k].mean()});
     }
-    examples::show_table(options, table);
     save_plot(options.out, plot);
-    table_of_oracles(bench);
 }
 
-// --- Whole pictures ------------------------------------------------------------------
+/// The largest error of the product of two edges' fractions as that of a corner.
+double worst_product() {
+    double worst = 0;
+    for (double s = 0; s < 1; s += 0.1)
+        for (double t = 0; t < 1; t += 0.1)
+            worst = std::max(
+                worst,
+                std::abs(kernel_part(s) * kernel_part(t) / corner_by_rule(s, t) - 1));
+    return worst;
+}
 
-/// A way to make a whole picture: rays per pixel and a seed for all.
-struct Method {
-    std::string name;
-    std::function<Image(int, std::uint64_t)> shoot;
+/// The estimates under an even light near an edge and in a corner.
+void borders(const examples::Options& options) {
+    const Borders found = measure_borders(options.pick(32, 128, 512), options.seed);
+    plot_edge(found, options);
+    examples::Table table{
+        .name = "final-gathering-corner",
+        .columns = {"where", "part of the disc", "photons, uncorrected", "corrected"}};
+    for (const Place& place : found.places)
+        table.rows.push_back(
+            {place.name, place.part, place.plain.text(), place.corrected.text()});
+    table.rows.push_back(
+        {"near a corner, at worst", "product of two", "",
+         "off by " + examples::text(100 * worst_product(), "%.1f %%")});
+    examples::show_table(options, table);
+}
+
+/// By how many percent the points of one map are too bright under an even light.
+struct Deviation {
+    double at_points = 0; ///< The mean over the points.
+    double over_surface =
+        0; ///< The mean over the surface, each place taking its point's.
 };
 
-/// The result of a method, over several seeds.
-struct Result {
-    double seconds = 0; ///< Of a processor, both passes.
-    BiasVariance pixels{}, blocks{};
-    double mean = 0, flip = 0, trimmed = 0;
-    [[nodiscard]] double error() const { return pixels.bias_squared + pixels.variance; }
-    [[nodiscard]] double block_error() const {
-        return blocks.bias_squared + blocks.variance;
+/// Finds the deviation of points that are chosen in one of three ways.
+/// \param map     Photons of an even light of 1 W/m^2.
+/// \param how     How many photons an estimate takes.
+/// \param chosen  Whether the photon of a record becomes a point.
+/// \param wanted  Whether the second record's photon counts at the first one's point.
+/// \param share   The fraction of all photons that counts.
+template <typename Chosen, typename Wanted>
+Deviation deviation(const PhotonMap& map, const IrradiancePointSettings& how,
+                    const Chosen& chosen, const Wanted& wanted, double share) {
+    const Flat square = unit_square();
+    const Vec3 up{0, 0, 1};
+    std::vector<Vec3> places;
+    std::vector<double> known;
+    for (std::uint32_t i = 0; i < map.records.size(); ++i) {
+        const Vec3 p = map.tree.point(i);
+        if (!chosen(i) || std::max(std::abs(p.x - 0.5f), std::abs(p.y - 0.5f)) > 0.4f)
+            continue;
+        places.push_back(p);
+        known.push_back(
+            double(estimate_irradiance(square, map, square_vertex(square, p.x, p.y), up,
+                                       how, 0.15f,
+                                       [&](std::uint32_t k) { return wanted(i, k); })
+                       .x) /
+            share);
     }
-};
-
-Result try_method(const Method& method, int rays, const examples::Oracle& oracle,
-                  int seeds) {
-    Result result;
-    std::vector<Image> runs;
-    for (int seed = 1; seed <= seeds; ++seed) {
-        const double start = examples::processor_seconds();
-        runs.push_back(method.shoot(rays, static_cast<std::uint64_t>(seed)));
-        result.seconds += (examples::processor_seconds() - start) / seeds;
-        result.flip += flip(runs.back(), oracle.truth) / seeds;
-        result.mean += mean_error(runs.back(), oracle.truth) / seeds;
-        result.trimmed += trimmed_rel_mse(runs.back(), oracle.truth) / seeds;
-        examples::stop_if_asked();
-    }
-    result.pixels = examples::relative_split(runs, oracle.truth, oracle.noise);
-    result.blocks =
-        examples::relative_split(runs, oracle.truth, oracle.block_noise, 10);
+    Deviation result;
+    for (const double e : known)
+        result.at_points += 100 * (e - 1) / double(known.size());
+    const KdTree8 tree(places);
+    constexpr int side = 60; // of the lookups
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const auto nearest = tree.nearest(
+                Vec3{0.2f + 0.01f * float(x), 0.2f + 0.01f * float(y), 0}, 1.0f);
+            const double e = known[tree.point_ids()[nearest->index]];
+            result.over_surface += 100 * (e - 1) / (side * side);
+        }
     return result;
 }
 
-/// A picture by photons: both passes.
-template <typename Draws>
-Image by_photons(const Box& room, const PhotonMappingSettings& settings,
-                 const RenderSettings& picture, int more = 0) {
-    // [by_photons]
-    PhotonMapper mapper(room.world, settings, abilities<Draws, Gathering>);
-    mapper.fill_cache(room.camera, picture);
-    if (more == 0) return render(mapper, room.camera, picture).image;
-    RenderSettings most = picture;
-    most.samples += more;
-    return render_adaptive(mapper, room.camera, most,
-                           {.first = picture.samples,
-                            .more = more,
-                            .batches = 1,
-                            .disagreement = PresetRays{}.disagreement})
-        .image;
-    // [by_photons]
+/// What estimates at photons find, with those photons counted and without.
+void own_photon(const examples::Options& options) {
+    const int maps = options.pick(16, 64, 256);
+    constexpr std::size_t every = 8;
+    examples::Table table{.name = "final-gathering-own",
+                          .columns = {"k", "2 / (k - 2)", "all photons: at the points",
+                                      "own left out: at the points",
+                                      "own left out: over the surface",
+                                      "all points' left out: over the surface"}};
+    for (const std::size_t k : {16u, 64u, 256u}) {
+        const IrradiancePointSettings how{.nearest = k};
+        Mean counted, own, own_surface, free_surface;
+        for (int m = 0; m < maps; ++m) {
+            const PhotonMap map = even_photons(20000, options.seed + std::uint64_t(m));
+            const auto& ids = map.tree.point_ids();
+            const auto in_order = [](std::uint32_t i) { return i % every == 0; };
+            const auto by_chance = [&](std::uint32_t i) { return ids[i] % every == 0; };
+            counted.add(deviation(
+                            map, how, in_order, [](auto, auto) { return true; }, 1)
+                            .at_points);
+            const Deviation without = deviation(
+                map, how, in_order, [](auto i, auto other) { return other != i; }, 1);
+            own.add(without.at_points);
+            own_surface.add(without.over_surface);
+            free_surface.add(deviation(
+                                 map, how, by_chance,
+                                 [&](auto, auto other) { return !by_chance(other); },
+                                 1 - 1.0 / every)
+                                 .over_surface);
+        }
+        const auto percent = [](const Mean& m) {
+            return examples::text(m.mean(), "%.1f") + " +- " +
+                   examples::text(m.error(), "%.1f") + " %";
+        };
+        table.rows.push_back({std::to_string(k),
+                              examples::text(200 / (double(k) - 2), "%.1f %%"),
+                              percent(counted), percent(own), percent(own_surface),
+                              percent(free_surface)});
+    }
+    examples::show_table(options, table);
 }
 
-void methods(const examples::Options& options, const Sizes& sizes,
-             const examples::Oracle& oracle) {
-    const Box room = cornell_box();
-    const int side = sizes.side;
-    const auto picture = [&](int rays, std::uint64_t seed) {
-        return RenderSettings{.width = side,
-                              .height = side,
-                              .samples = rays,
-                              .seed = seed,
-                              .threads = options.threads};
-    };
-    const auto photons = [&](IndirectLight indirect) {
-        return [&, indirect](int rays, std::uint64_t seed) {
-            auto settings = fast(side, seed, options.threads);
-            settings.indirect = indirect;
-            return by_photons<StratifiedStream>(room, settings, picture(rays, seed));
-        };
-    };
-    const PathTracer tracer(room.world);
-    const std::vector<Method> all{
-        {"cache", photons(IndirectLight::cache)},
-        {"gather", photons(IndirectLight::gather)},
-        {"photons", photons(IndirectLight::photons)},
-        {"rays", photons(IndirectLight::rays)},
-        {"path tracing", [&](int rays, std::uint64_t seed) {
-             return render(tracer, room.camera, picture(rays, seed)).image;
-         }}};
-    std::vector<int> rungs{1, 4, 16};
-    if (options.pick(false, true, true)) rungs.push_back(64);
-    examples::Plot plot{.name = "irradiance_cache-trade",
-                        .columns = {"processor seconds"},
-                        .y_label = "relMSE of the picture",
+// --- The trade -----------------------------------------------------------------------
+
+/// The settings that all pictures share.
+PhotonMappingSettings gather_settings(IndirectLight indirect, long long photons,
+                                      std::uint64_t seed,
+                                      const examples::Options& options) {
+    PhotonMappingSettings settings{
+        .direct = DirectLight::analytic, .split_glass = true, .indirect = indirect};
+    settings.caustics.photons = photons;
+    settings.general.photons = photons;
+    settings.general.shadow_photons = false;
+    settings.caustics.seed = settings.general.seed = seed;
+    settings.caustics.threads = settings.general.threads = options.threads;
+    settings.caustics_estimate.radius = settings.general_estimate.radius = 0;
+    return settings;
+}
+
+/// The pictures of all seeds, and what one of them costs.
+struct Runs {
+    std::vector<Image> images{};
+    std::vector<double> first{}, second{}; ///< Processor seconds of either pass.
+};
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+/// Ways that alternate seed by seed, so that a busy machine affects all of them.
+template <typename Room>
+std::vector<Runs> compare(const Room& room,
+                          const std::vector<PhotonMappingSettings>& ways, int samples,
+                          int seeds, const examples::Options& options) {
+    std::vector<Runs> runs(ways.size());
+    for (int seed = 1; seed <= seeds; ++seed)
+        for (std::size_t w = 0; w < ways.size(); ++w) {
+            auto settings = ways[w];
+            settings.caustics.seed = settings.general.seed = std::uint64_t(seed);
+            const double begin = examples::processor_seconds();
+            const PhotonMapper mapper(room.world, settings, abilities<Gathering>);
+            const double middle = examples::processor_seconds();
+            runs[w].images.push_back(render(mapper, room.camera,
+                                            {.width = options.width,
+                                             .height = options.height,
+                                             .samples = samples,
+                                             .seed = std::uint64_t(seed),
+                                             .threads = options.threads})
+                                         .image);
+            runs[w].first.push_back(middle - begin);
+            runs[w].second.push_back(examples::processor_seconds() - middle);
+            examples::stop_if_asked();
+        }
+    return runs;
+}
+
+/// The result of one way to gather, for some number of photons and of rays.
+struct Setting {
+    std::size_t way;             ///< 0: photons, 1: map, 2: gather.
+    double seconds, error, seen; ///< Processor seconds, relMSE, FLIP.
+};
+
+/// For each way the settings that no faster one of the same way beats, or comes near.
+template <typename Error>
+examples::Plot frontier(const std::string& name, const std::string& label,
+                        const std::vector<Setting>& by_time, const Error& error) {
+    examples::Plot plot{.name = name,
+                        .columns = {"processor seconds", "photons", "map", "gather"},
+                        .y_label = label,
                         .log_x = true,
                         .log_y = true};
-    for (const Method& method : all) plot.columns.push_back(method.name);
-    examples::Table table{.name = "irradiance_cache-trade-table",
-                          .columns = {"indirect light by", "rays per pixel",
-                                      "processor seconds", "bias²", "noise",
-                                      "blocks: bias²", "noise", "mean", "FLIP"}};
-    for (std::size_t m = 0; m < all.size(); ++m)
-        for (const int rays : rungs) {
-            const Result r = try_method(all[m], rays, oracle, sizes.seeds);
-            examples::Row row(all.size() + 1, nothing);
-            row[0] = r.seconds;
-            row[m + 1] = std::max(r.error(), 1e-9);
-            plot.rows.push_back(row);
-            if (rays != 4 && rays != rungs.back()) continue;
-            table.rows.push_back(
-                {all[m].name, std::to_string(rays), text(r.seconds, "%.3f"),
-                 text(r.pixels.bias_squared, "%.2g"), text(r.pixels.variance, "%.2g"),
-                 text(r.blocks.bias_squared, "%.2g"), text(r.blocks.variance, "%.2g"),
-                 text(100 * r.mean, "%+.2f %%"), text(r.flip, "%.3f")});
-        }
-    save_plot(options.out, plot);
-    examples::show_table(options, table);
-}
-
-/// One idea more than the rung before.
-struct Rung {
-    const char* idea;
-    int shadow_rays;
-    DirectLight direct;
-    IndirectLight indirect;
-    bool stratified;
-    int more; ///< Rays where the first ones disagree.
-};
-constexpr std::array ladder_rungs{
-    Rung{"the report's: one shadow ray", 1, DirectLight::sampled, IndirectLight::rays,
-         false, 0},
-    Rung{"+ four shadow rays, stratified", 4, DirectLight::sampled, IndirectLight::rays,
-         false, 0},
-    Rung{"+ a stratified stream", 4, DirectLight::sampled, IndirectLight::rays, true,
-         0},
-    Rung{"+ lamps in closed form", 4, DirectLight::analytic, IndirectLight::rays, true,
-         0},
-    Rung{"+ the cache for indirect rays", 4, DirectLight::analytic,
-         IndirectLight::cache, true, 0},
-    Rung{"+ 8 more rays where 2 disagree", 4, DirectLight::analytic,
-         IndirectLight::cache, true, 8}};
-
-/// The room as a rung of the ladder renders it.
-Image shoot_rung(const Rung& rung, const Box& room, const RenderSettings& picture) {
-    auto settings = fast(picture.width, picture.seed, picture.threads);
-    settings.shadow_rays = rung.shadow_rays;
-    settings.direct = rung.direct;
-    settings.indirect = rung.indirect;
-    return rung.stratified
-               ? by_photons<StratifiedStream>(room, settings, picture, rung.more)
-               : by_photons<RandomStream>(room, settings, picture, rung.more);
-}
-
-/// From the report's photon mapper to the preset `fast`, one idea after the other.
-void ladder(const examples::Options& options, const Sizes& sizes,
-            const examples::Oracle& oracle) {
-    const Box room = cornell_box();
-    examples::Table table{.name = "irradiance_cache-ladder",
-                          .columns = {"", "processor seconds", "relMSE", "trimmed",
-                                      "of blocks", "mean", "FLIP"}};
-    for (const Rung& rung : ladder_rungs) {
-        const Method method{rung.idea, [&](int rays, std::uint64_t seed) {
-                                return shoot_rung(rung, room,
-                                                  {.width = sizes.side,
-                                                   .height = sizes.side,
-                                                   .samples = rays,
-                                                   .seed = seed,
-                                                   .threads = options.threads});
-                            }};
-        const Result r = try_method(method, 2, oracle, sizes.seeds);
-        table.rows.push_back({rung.idea, text(r.seconds, "%.3f"),
-                              text(r.error(), "%.2g"), text(r.trimmed, "%.2g"),
-                              text(r.block_error(), "%.2g"),
-                              text(100 * r.mean, "%+.2f %%"), text(r.flip, "%.3f")});
+    std::array best{1e300, 1e300, 1e300};
+    for (const Setting& setting : by_time) {
+        if (error(setting) > 0.95 * best[setting.way]) continue;
+        best[setting.way] = error(setting);
+        examples::Row row{setting.seconds, std::nan(""), std::nan(""), std::nan("")};
+        row[setting.way + 1] = error(setting);
+        plot.rows.push_back(row);
     }
+    return plot;
+}
+
+constexpr std::array way_names{"photons", "map", "gather"};
+constexpr std::array way_kinds{IndirectLight::photons, IndirectLight::map,
+                               IndirectLight::gather};
+
+/// All settings that were tried, as the plots and the table show them.
+struct Trade {
+    examples::Plot split{.name = "final-gathering-split",
+                         .columns = {"photons", "photons: squared bias",
+                                     "photons: variance", "map: squared bias",
+                                     "map: variance", "gather: squared bias",
+                                     "gather: variance"},
+                         .y_label = "part of relMSE, most rays",
+                         .log_x = true,
+                         .log_y = true};
+    examples::Table table{.name = "final-gathering-table",
+                          .columns = {"photons", "rays per pixel", "way",
+                                      "first pass, s", "second pass, s", "relMSE",
+                                      "squared bias", "variance", "FLIP"}};
+    std::vector<Setting> tried{};
+};
+
+/// Adds the result of one way with some photons and rays.
+/// \return Its bias and variance.
+BiasVariance add_way(Trade& trade, std::size_t way, long long photons, int samples,
+                     const Runs& runs, const examples::Oracle& oracle) {
+    const auto split =
+        examples::relative_split(runs.images, oracle.truth, oracle.noise);
+    double seen = 0;
+    for (const Image& image : runs.images)
+        seen += flip(image, oracle.truth) / double(runs.images.size());
+    const double first = median(runs.first), second = median(runs.second);
+    const double error = split.bias_squared + split.variance;
+    trade.tried.push_back({way, first + second, error, seen});
+    trade.table.rows.push_back(
+        {std::to_string(photons), std::to_string(samples), way_names[way],
+         examples::text(first, "%.2f"), examples::text(second, "%.2f"),
+         examples::text(error, "%.2g"), examples::text(split.bias_squared, "%.2g"),
+         examples::text(split.variance, "%.2g"), examples::text(seen, "%.3f")});
+    return split;
+}
+
+/// Tries the three ways with each number of photons and of rays.
+template <typename Room>
+Trade try_settings(const Room& room, const examples::Oracle& oracle,
+                   const examples::Options& options, const Sizes& sizes) {
+    Trade trade;
+    for (const long long part : {100, 32, 10, 3, 1})
+        for (int samples = 1; samples <= options.samples; samples *= 4) {
+            const long long photons = std::max(1000LL, sizes.photons / part);
+            std::vector<PhotonMappingSettings> ways;
+            for (const IndirectLight kind : way_kinds)
+                ways.push_back(gather_settings(kind, photons, 1, options));
+            const auto runs = compare(room, ways, samples, sizes.seeds, options);
+            examples::Row row{double(photons)};
+            for (std::size_t w = 0; w < ways.size(); ++w) {
+                const auto split = add_way(trade, w, photons, samples, runs[w], oracle);
+                row.push_back(split.bias_squared > 0 ? split.bias_squared
+                                                     : std::nan(""));
+                row.push_back(split.variance);
+            }
+            const bool most = 4LL * samples > options.samples;
+            if (most) trade.split.rows.push_back(row);
+        }
+    return trade;
+}
+
+/// Error against time: three ways, photons and rays.
+void trade(const examples::Options& options, const Sizes& sizes) {
+    const auto room = matt_cornell_box();
+    const auto oracle = examples::find_oracle("matt-cornell", room, options.width,
+                                              sizes.truth, options);
+    auto [split, table, tried] = try_settings(room, oracle, options, sizes);
+    std::sort(tried.begin(), tried.end(),
+              [](const Setting& a, const Setting& b) { return a.seconds < b.seconds; });
+    save_plot(options.out, frontier("final-gathering-trade", "relMSE", tried,
+                                    [](const Setting& s) { return s.error; }));
+    save_plot(options.out, frontier("final-gathering-flip", "FLIP", tried,
+                                    [](const Setting& s) { return s.seen; }));
+    save_plot(options.out, split);
     examples::show_table(options, table);
 }
 
-/// What "three seconds" looks like.
-void fast_picture(const examples::Options& options) {
-    const Box room = cornell_box();
-    const double start = examples::processor_seconds();
-    const Image image = by_photons<StratifiedStream>(
-        room, fast(options.width, options.seed, options.threads),
-        {.width = options.width,
-         .height = options.height,
-         .samples = 2,
-         .seed = options.seed,
-         .threads = options.threads},
-        8);
-    examples::show_table(
-        options, {.name = "irradiance_cache-fast-table",
-                  .columns = {"pixels", "processor seconds of both passes"},
-                  .rows = {{std::to_string(options.width) + " x " +
-                                std::to_string(options.height),
-                            text(examples::processor_seconds() - start, "%.2f")}}});
-    save_png(image, options.path("irradiance_cache-fast.png"));
+/// Processor seconds in which the points of precomputed irradiance are made.
+template <typename Room>
+double seconds_of_points(const Room& room, const PhotonMappingSettings& gather,
+                         int threads) {
+    const PhotonMapper mapper(room.world, gather, abilities<Gathering>);
+    const double begin = examples::processor_seconds();
+    (void)make_irradiance_points(room.world, mapper.maps().general,
+                                 mapper.maps().caustics, gather.irradiance, 1, threads);
+    return examples::processor_seconds() - begin;
 }
 
-// --- The closed form in a penumbra ---------------------------------------------------
-
-using Stage = Scene<Shapes<Quad>, Materials<Lambertian>>;
-
-/// A square lamp over a floor.
-struct Lamp {
-    const char* name;
-    float side, height;
-};
-constexpr std::array lamps{Lamp{"side 2, 1 above the floor", 2, 1},
-                           Lamp{"that of the box: side 0.5, 2 above", 0.5f, 2}};
-
-/// A floor, a lamp, and halfway between them half a ceiling whose edge is over x = 0.
-World<Stage> penumbra_stage(const Lamp& lamp) {
-    Stage stage;
-    const auto white = stage.add(Lambertian{.albedo = Rgb{1}});
-    const auto black = stage.add(Lambertian{.albedo = Rgb{0}});
-    const float h = lamp.height, s = lamp.side;
-    stage.add(Quad{.corner{-4, 0, -4}, .edge_u{0, 0, 8}, .edge_v{8, 0, 0}}, white);
-    stage.add(Quad{.corner{-8, h / 2, -8}, .edge_u{8, 0, 0}, .edge_v{0, 0, 16}}, black);
-    stage.add(Quad{.corner{-s / 2, h, -s / 2}, .edge_u{s, 0, 0}, .edge_v{0, 0, s}},
-              black, Rgb{1});
-    return World(std::move(stage));
-}
-
-constexpr std::array shadow_rays{1, 2, 4, 9};
-
-/// The light that the closed form finds at one point, as a fraction of the whole
-/// lamp's; one value for each number of shadow rays.
-struct InPenumbra {
-    double x = 0; ///< Position; the penumbra is -1 to 1.
-    std::array<double, shadow_rays.size()> bias{}, noise{}, sampled{};
-};
-
-InPenumbra measure_penumbra(const World<Stage>& stage, const Lamp& lamp, double place,
-                            std::uint64_t number, long long trials,
-                            std::uint64_t seed) {
-    InPenumbra here{.x = place};
-    const float h = lamp.height, s = lamp.side, x = float(place) * s / 2;
-    const Ray down{.origin{x, h / 4, 0}, .direction{0, -1, 0}};
-    const auto vertex = vertex_at(stage, down, *closest_hit(stage, down));
-    const Lambertian white{.albedo = Rgb{1}};
-    // From x the edge hides all of the lamp that is left of -x.
-    const auto from = [&](float left) {
-        const Quad part{
-            .corner{left, h, -s / 2}, .edge_u{s / 2 - left, 0, 0}, .edge_v{0, 0, s}};
-        if (!(left < s / 2)) return 0.0;
-        const auto& at = vertex.point;
-        return double(
-            form_factor_from(at.position, at.normal, part, false).value_or(0));
-    };
-    const double whole = from(-s / 2), exact = from(std::max(-s / 2, -x));
-    for (std::size_t k = 0; k < shadow_rays.size(); ++k)
-        for (const DirectLight how : {DirectLight::analytic, DirectLight::sampled}) {
-            double sum = 0, squares = 0;
-            for (long long t = 0; t < trials; ++t) {
-                auto stream =
-                    random_stream(seed, Pass::gathering, 1 + k,
-                                  number * std::uint64_t(trials) + std::uint64_t(t));
-                Counts counts;
-                auto context = context_of(stream, counts);
-                const double value =
-                    double(sample_all_lights(stage, vertex, white,
-                                             {how, shadow_rays[k]}, context)
-                               .x) /
-                    whole;
-                sum += value / double(trials);
-                squares += value * value / double(trials);
-            }
-            const double spread = std::sqrt(std::max(0.0, squares - sum * sum));
-            if (how == DirectLight::analytic) {
-                here.bias[k] = sum - exact / whole;
-                here.noise[k] = spread;
-            } else {
-                here.sampled[k] = spread;
-            }
-        }
-    return here;
-}
-
-void penumbra(const examples::Options& options) {
-    const int places = options.pick(10, 24, 24);
-    const long long trials = options.pick(8000, 100000, 1000000);
-    examples::Plot plot{
-        .name = "irradiance_cache-penumbra",
-        .columns = {"place; the penumbra is from -1 to 1", "1 ray", "2", "4", "9"},
-        .y_label = "bias, % of the whole lamp's light"};
-    examples::Table table{.name = "irradiance_cache-penumbra-table",
-                          .columns = {"lamp", "shadow rays", "largest bias",
-                                      "its standard error", "noise, closed form",
-                                      "noise, sampled", "in full light: closed form",
-                                      "sampled"}};
-    const auto percent = [](double share) { return text(100 * share, "%.2f %%"); };
-    for (const Lamp& lamp : lamps) {
-        const World stage = penumbra_stage(lamp);
-        std::vector<InPenumbra> found(static_cast<std::size_t>(places));
-        const auto at_place = [&](long long i) {
-            found[static_cast<std::size_t>(i)] = measure_penumbra(
-                stage, lamp, 1.2 * (2 * (double(i) + 0.5) / places - 1),
-                static_cast<std::uint64_t>(i), trials, options.seed);
+/// What a lookup saves: the general map and precomputed irradiance at equal settings.
+template <typename Room>
+void table_of_ratios(const Room& room, const examples::Oracle& oracle,
+                     const examples::Options& options, const Sizes& sizes) {
+    const int rays = options.pick(16, 100, 100);
+    const int seeds = std::min(sizes.seeds, options.pick(2, 3, 16));
+    examples::Table table{.name = "final-gathering-ratio",
+                          .columns = {"photons per estimate", "map, s", "gather, s",
+                                      "ratio", "points, s", "share of the time saved",
+                                      "relMSE: map", "gather"}};
+    for (const std::size_t k : {0u, 32u, 64u, 128u, 256u}) {
+        auto map = gather_settings(IndirectLight::map, sizes.photons, 1, options);
+        if (k > 0) map.general_estimate = {.radius = 1, .nearest = k};
+        auto gather = map;
+        gather.indirect = IndirectLight::gather;
+        gather.irradiance.nearest = k > 0 ? k : 64;
+        const auto runs = compare(room, {map, gather}, rays, seeds, options);
+        const double slow = median(runs[0].second), fast = median(runs[1].second);
+        const double extra = seconds_of_points(room, gather, options.threads);
+        const auto error = [&](const Runs& r) {
+            const auto split =
+                examples::relative_split(r.images, oracle.truth, oracle.noise);
+            return examples::text(split.bias_squared + split.variance, "%.2g");
         };
-        (void)parallel_blocks(places, at_place, {.threads = options.threads});
-        examples::stop_if_asked();
-        if (plot.rows.empty())
-            for (const InPenumbra& f : found) {
-                plot.rows.push_back({f.x});
-                for (const double b : f.bias) plot.rows.back().push_back(100 * b);
-            }
-        for (std::size_t k = 0; k < shadow_rays.size(); ++k) {
-            double largest = 0, its = 0, noise = 0, sampled = 0;
-            for (const InPenumbra& f : found) {
-                if (std::abs(f.bias[k]) > std::abs(largest)) {
-                    largest = f.bias[k];
-                    its = f.noise[k] / std::sqrt(double(trials));
-                }
-                noise = std::max(noise, f.noise[k]);
-                sampled = std::max(sampled, f.sampled[k]);
-            }
-            table.rows.push_back({lamp.name, std::to_string(shadow_rays[k]),
-                                  percent(largest), percent(its), percent(noise),
-                                  percent(sampled), percent(found.back().noise[k]),
-                                  percent(found.back().sampled[k])});
-        }
+        table.rows.push_back(
+            {k > 0 ? "the nearest " + std::to_string(k) : "64 typically",
+             examples::text(slow, "%.2f"), examples::text(fast, "%.2f"),
+             examples::text(slow / fast, "%.1f"), examples::text(extra, "%.2f"),
+             examples::text(100 * extra / (slow - fast), "%.0f %%"), error(runs[0]),
+             error(runs[1])});
     }
-    save_plot(options.out, plot);
     examples::show_table(options, table);
+}
+
+/// Lookup points at every second photon, every fourth, and so on.
+template <typename Room>
+void table_of_every(const Room& room, const examples::Oracle& oracle,
+                    const examples::Options& options, const Sizes& sizes) {
+    examples::Table every{.name = "final-gathering-every",
+                          .columns = {"photons per point", "points", "first pass, s",
+                                      "second pass, s", "relMSE", "squared bias"}};
+    std::vector<PhotonMappingSettings> ways;
+    for (const int n : {2, 4, 8, 16, 64, 256, 1024}) {
+        ways.push_back(
+            gather_settings(IndirectLight::gather, sizes.photons, 1, options));
+        ways.back().irradiance.every = n;
+    }
+    const int few = std::min(sizes.seeds, 8);
+    const auto runs = compare(room, ways, options.pick(4, 25, 25), few, options);
+    for (std::size_t w = 0; w < ways.size(); ++w) {
+        const auto split =
+            examples::relative_split(runs[w].images, oracle.truth, oracle.noise);
+        const PhotonMapper mapper(room.world, ways[w], abilities<Gathering>);
+        every.rows.push_back(
+            {std::to_string(ways[w].irradiance.every),
+             std::to_string(mapper.template state<Gathering>().points.records.size()),
+             examples::text(median(runs[w].first), "%.2f"),
+             examples::text(median(runs[w].second), "%.2f"),
+             examples::text(split.bias_squared + split.variance, "%.2g"),
+             examples::text(split.bias_squared, "%.2g")});
+    }
+    examples::show_table(options, every);
+}
+
+/// Precomputed irradiance: what it saves, and how many points it takes.
+void ratio(const examples::Options& options, const Sizes& sizes) {
+    const auto room = matt_cornell_box();
+    const auto oracle = examples::find_oracle("matt-cornell", room, options.width,
+                                              sizes.truth, options);
+    table_of_ratios(room, oracle, options, sizes);
+    table_of_every(room, oracle, options, sizes);
 }
 
 } // namespace
 
-/// Makes the plots and tables of chapter 30, and the picture by the preset `fast`.
+/// Makes the plots and tables of chapter 28.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 30, the irradiance cache: corners, knobs, trades.");
-        line.add("--seeds", sizes.seeds, "Runs behind each error", 2, 1000);
-        line.add("--truth", sizes.truth, "Rays per pixel of the references", 8,
+        line.about("Chapter 30, final gathering: the experiments behind its tables.");
+        line.add("--photons", sizes.photons, "The largest number of photons", 1,
                  100000000);
+        line.add("--seeds", sizes.seeds, "Runs behind bias and variance", 2, 1000);
+        line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8, 1000000);
         const examples::Options options =
-            line.parse({.draft{.width = 96, .height = 96, .samples = 4},
-                        .report{.width = 400, .height = 400, .samples = 4},
-                        .reference{.width = 400, .height = 400, .samples = 4}});
+            line.parse({.draft{.width = 32, .height = 32, .samples = 16},
+                        .report{.width = 64, .height = 64, .samples = 64},
+                        .reference{.width = 128, .height = 128, .samples = 256}});
+        if (!line.given("--photons"))
+            sizes.photons = options.pick(20000LL, 200000LL, 1000000LL);
         if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
-        if (!line.given("--truth")) sizes.truth = options.pick(256, 1024, 16384);
-        sizes.side = std::min(options.pick(40, 120, 200), options.width);
-        corner(options);
-        penumbra(options);
-        knobs(options, sizes);
-        const auto oracle = examples::find_oracle("cornell", cornell_box(), sizes.side,
-                                                  2 * sizes.truth, options);
-        methods(options, sizes, oracle);
-        ladder(options, sizes, oracle);
-        fast_picture(options);
+        if (!line.given("--truth")) sizes.truth = options.pick(512, 4096, 65536);
+        borders(options);
+        own_photon(options);
+        trade(options, sizes);
+        ratio(options, sizes);
     });
 }

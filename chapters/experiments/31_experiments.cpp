@@ -1,650 +1,722 @@
-// smoke: --quality draft --width 24 --height 24 --passes 8 --seeds 2
+// smoke: --quality draft --width 24 --height 24 --seeds 2 --truth 16
 /// \file chapters/experiments/31_experiments.cpp
-/// \brief Chapter 31: the experiments behind its tables and plots: laws, and one map
-/// beside many.
+/// \brief Chapter 31: the cost and the gain of interpolating irradiance.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+#include <functional>
 #include <limits>
-#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ljus/image/flip.hpp>
 #include <ljus/ljus.hpp>
-#include <ljus/render/progressive.hpp>
+#include <ljus/math/stratified_stream.hpp>
+#include <ljus/path/light_transport.hpp>
+#include <ljus/render/adaptive.hpp>
+#include <ljus/render/gathering.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 
+#include "common/clock.hpp"
+#include "common/command_line.hpp"
 #include "common/convergence.hpp"
-#include "common/drawing.hpp"
-#include "common/example.hpp"
-#include "experiments/window.hpp"
-
-#if __has_include(<sys/resource.h>)
-#include <sys/resource.h>
-#endif
+#include "common/oracle.hpp"
+#include "common/plot.hpp"
+#include "experiments/show_table.hpp"
 
 using namespace ljus;
 
 namespace {
 
+using examples::text;
+using Box = decltype(cornell_box());
+/// The photon mapper of the preset `fast`.
+using Mapper = PhotonMapper<decltype(Box::world), StratifiedStream, Gathering>;
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
 /// The options of this program, besides the common ones.
 struct Sizes {
-    long long passes = 0; ///< How many.
-    int seeds = 0;        ///< Runs behind each bias and variance.
+    int seeds = 0; ///< Runs behind each bias and variance.
+    int truth = 0; ///< Rays per pixel of the references.
+    int side = 0;  ///< Of the pictures whose errors are measured, in pixels.
 };
 
-/// The peak memory of this program; NaN if the system does not report it.
-double peak_megabytes() {
-#if __has_include(<sys/resource.h>)
-    struct ::rusage usage = {};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return double(usage.ru_maxrss) / 1024;
-#else
-    return std::nan("");
-#endif
+// --- A corner where irradiance is known ----------------------------------------------
+
+/// The irradiance on a floor at a distance from an endless wall of height 1 whose
+/// radiosity is 1; nothing else emits light.
+double beside_wall(double x) {
+    return 0.5 * (1 - x / std::hypot(x, 1.0));
 }
 
-// --- The laws, where light is known --------------------------------------------------
-
-using examples::Strip;
-using Stage =
-    Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Mirror>, Lights<PointLight>>;
-
-constexpr std::array strips{examples::middle, examples::edge};
-constexpr int places = 48;
-
-Vec3 place(const Strip& strip, int i) {
-    return {float(strip.at(i, places)), 0, 0.5f * std::sin(2.4f * float(i))};
-}
-
-/// A picture one row high: the estimates at the points, relative to the light
-/// in the middle.
-Image read_strip(const PhotonMap& map, const Strip& strip, double radius) {
-    Image row = make_image(places, 1);
-    const Lambertian white{.albedo = Rgb{1}};
-    for (int i = 0; i < places; ++i) {
-        VertexT<float> floor{.point{.position = place(strip, i), .normal{0, 1, 0}}};
-        floor.frame = frame_around(floor.point.normal);
-        std::uint64_t gathered = 0;
-        pixel(row, i, 0) =
-            4 * std::numbers::pi_v<float> *
-            estimate_radiance(map, floor, white, Vec3{0, 0, 1},
-                              DensityEstimateSettings{.radius = float(radius)},
-                              all_kinds, gathered);
+/// The harmonic mean distance there, by rays spread evenly over the cosine; a ray that
+/// misses the wall goes to infinity.
+double sees_as_far(double x) {
+    constexpr int side = 32;
+    double inverse = 0;
+    for (int i = 0; i < side * side; ++i) {
+        const Vec3T<double> d = sample_cosine_hemisphere(
+            Vec2T<double>{(i % side + 0.5) / side, (double(i / side) + 0.5) / side});
+        if (!(d.x < 0)) continue;
+        const double t = x / -d.x;
+        if (t * d.z < 1) inverse += 1 / t / (side * side);
     }
-    return row;
+    return inverse > 0 ? 1 / inverse : std::numeric_limits<double>::infinity();
 }
 
-/// The same, exactly.
-Image exact_strip(const Strip& strip) {
-    Image row = make_image(places, 1);
-    for (int i = 0; i < places; ++i) {
-        const Vec3 at = place(strip, i);
-        pixel(row, i, 0) =
-            Rgb{float(4 * examples::window_light(double(at.x), double(at.z)))};
+constexpr double corner_step = 0.1;               ///< Side of a square of the floor.
+constexpr int corner_places = 40;                 ///< Where it is asked.
+constexpr std::array reaches{0.1, 0.3, 1.0, 4.0}; ///< Of the records.
+
+/// The distance of a point from the wall: from 0.01 to 1.5 of its height.
+double corner_place(int i) {
+    return 0.01 * std::pow(150.0, double(i) / (corner_places - 1));
+}
+
+/// Records with the exact irradiance beside the wall: one for each square of the floor,
+/// anywhere in it.
+IrradianceCacheT<double> exact_cache(int run, std::uint64_t seed) {
+    constexpr int columns = 22, rows = 9;
+    auto stream =
+        random_stream(seed, Pass::gathering, 0, static_cast<std::uint64_t>(run));
+    std::vector<Vec3T<double>> positions;
+    std::vector<GatheredT<double>> records;
+    for (int i = 0; i < columns * rows; ++i) {
+        const auto u = next_2d<double>(stream);
+        const Vec3T<double> p{corner_step * (i % columns + u.x),
+                              corner_step * (double(i / columns) - rows * 0.5 + u.y),
+                              0};
+        positions.push_back(p);
+        records.push_back({.irradiance = RgbT<double>{beside_wall(p.x)},
+                           .distance = sees_as_far(p.x)});
     }
-    return row;
+    return make_irradiance_cache(positions, records, GatherSettings{}, 1);
 }
 
-PhotonMap window_map(const World<Stage>& stage, long long photons, std::uint64_t seed,
-                     long long pass) {
-    return make_photon_map(trace_photons(stage, MapType::caustics,
-                                         {.photons = photons,
-                                          .seed = seed,
-                                          .iteration = std::uint64_t(pass),
-                                          .threads = 1})
-                               .photons);
-}
-
-/// One way to shrink at one strip, and the pictures of each seed after some passes.
-struct Series {
-    Strip strip;
-    double alpha = 0;
-    double radius = 0;                           ///< Of the first pass.
-    std::vector<std::vector<Image>> images = {}; ///< [which passes][seed].
-    std::vector<double> estimates = {}; ///< Mean square of the estimated errors.
+/// The errors of interpolation with one reach at all points, as means over the runs.
+struct AtCorner {
+    std::array<double, corner_places> squares{};  ///< Of the relative error.
+    std::array<double, corner_places> gathered{}; ///< Lookups without a near point.
 };
 
-/// Numbers of passes that are measured: 1, 2, 3, 6, 10, 18, 32, ...
-std::vector<long long> milestones(long long passes) {
-    std::vector<long long> list;
-    for (int i = 0;; ++i) {
-        const long long n = std::llround(std::pow(10.0, i / 4.0));
-        if (n >= passes) break;
-        if (list.empty() || n > list.back()) list.push_back(n);
-    }
-    list.push_back(passes);
-    return list;
-}
-
-/// Runs all series on the same photons, seed by seed.
-void run_series(std::vector<Series>& all, long long photons,
-                const std::vector<long long>& stops, int seeds) {
-    const World stage(examples::window_scene<Stage>());
-    for (Series& series : all) {
-        series.images.assign(stops.size(), {});
-        series.estimates.assign(stops.size(), 0);
-    }
-    for (int seed = 1; seed <= seeds; ++seed) {
-        std::vector<ProgressiveState> states;
-        for (const Series& series : all) states.push_back({.alpha = series.alpha});
-        std::size_t stop = 0;
-        for (long long pass = 1; pass <= stops.back(); ++pass) {
-            const PhotonMap map = window_map(stage, photons, std::uint64_t(seed), pass);
-            for (std::size_t i = 0; i < all.size(); ++i)
-                add_pass(states[i],
-                         read_strip(map, all[i].strip,
-                                    all[i].radius * std::sqrt(states[i].shrink)));
-            if (pass != stops[stop]) continue;
-            for (std::size_t i = 0; i < all.size(); ++i) {
-                all[i].images[stop].push_back(mean_image(states[i]));
-                const double error = estimate_error(states[i]).pixels;
-                all[i].estimates[stop] += error * error / seeds;
-            }
-            ++stop;
-            examples::stop_if_asked();
+/// Adds the errors of one cache, which is one of `runs`.
+void add_run(AtCorner& corner, const IrradianceCacheT<double>& cache, double reach,
+             int runs) {
+    for (int i = 0; i < corner_places; ++i) {
+        const auto slot = static_cast<std::size_t>(i);
+        const double exact = beside_wall(corner_place(i));
+        const auto found = interpolate(cache, Vec3T<double>{corner_place(i), 0, 0},
+                                       Vec3T<double>{0, 0, 1}, reach);
+        if (!found) {
+            corner.gathered[slot] += 1.0 / runs; // exact
+            continue;
         }
+        const double e = found->x / exact - 1;
+        corner.squares[slot] += e * e / runs;
     }
 }
 
-/// Bias and variance of a series after each number of passes.
-std::vector<BiasVariance> split_of(const Series& series) {
-    std::vector<BiasVariance> split;
-    for (const auto& runs : series.images)
-        split.push_back(bias_variance(runs, exact_strip(series.strip)));
-    return split;
-}
+/// One for each reach.
+using Corner = std::array<AtCorner, reaches.size()>;
 
-/// "-0.667 +- 0.010": the slope of a mean square over the passes, after the first ones.
-/// \param square  Of a BiasVariance: what is fitted.
-template <typename Square>
-std::string fitted_slope(const std::vector<BiasVariance>& split,
-                         const std::vector<long long>& stops, Square square) {
-    std::vector<double> n, y;
-    for (std::size_t i = 0; i < stops.size(); ++i) {
-        if (stops[i] * 60 < stops.back()) continue; // where it has settled
-        n.push_back(double(stops[i]));
-        y.push_back(square(split[i]));
-    }
-    const auto fit = examples::fit_power(n, y);
-    return examples::text(fit.slope, "%.3f") + " +- " +
-           examples::text(fit.error, "%.3f");
-}
-
-/// The slopes of one series beside the laws: a row of the table.
-std::vector<std::string> slopes_row(const Series& series,
-                                    const std::vector<BiasVariance>& split,
-                                    const std::vector<long long>& stops, bool quiet) {
-    const double a = series.alpha;
-    const double bias_law = series.strip.first < 0 ? -2 * (1 - a) : -(1 - a) / 2;
-    const std::string variance =
-        fitted_slope(split, stops, [](const auto& at) { return at.variance; });
-    const std::string bias =
-        fitted_slope(split, stops, [](const auto& at) { return at.bias_squared; });
-    const std::string both = fitted_slope(
-        split, stops, [](const auto& at) { return at.variance + at.bias_squared; });
-    if (!quiet)
-        std::printf("%s alpha %.2f: variance %s (law %.3f), bias^2 %s (law %.3f)\n",
-                    series.strip.name, a, variance.c_str(), -a, bias.c_str(), bias_law);
-    return {series.strip.name,
-            a < 0.5 ? "1/3" : "2/3",
-            examples::text(-a, "%.3f"),
-            variance,
-            examples::text(bias_law, "%.3f"),
-            bias,
-            examples::text(std::max(-a, bias_law), "%.3f"),
-            both};
-}
-
-/// Bias and variance against the passes, for alpha = 2/3: in the middle of the light,
-/// with the variance as the passes estimate it, and across its edge.
-void plot_laws(const Series& middle, const Series& edge,
-               const std::vector<long long>& stops, const examples::Options& options) {
-    examples::Plot plot{.name = "progressive-laws",
-                        .columns = {"passes", "variance in the middle",
-                                    "squared bias in the middle", "estimated variance",
-                                    "squared bias across the edge", "n^(-2/3)"},
-                        .y_label = "mean square over the places",
+void plot_corner(const Corner& corner, const examples::Options& options) {
+    examples::Plot plot{.name = "irradiance_cache-corner",
+                        .columns = {"distance from the wall, over its height",
+                                    "reach 0.1", "reach 0.3", "reach 1", "reach 4"},
+                        .y_label = "relative error, root mean square",
                         .log_x = true,
                         .log_y = true};
-    const auto inside = split_of(middle), across = split_of(edge);
-    const double last = inside.back().variance;
-    for (std::size_t i = 0; i < stops.size(); ++i)
-        plot.rows.push_back(
-            {double(stops[i]), inside[i].variance, inside[i].bias_squared,
-             stops[i] > 1 ? middle.estimates[i] : std::nan(""), across[i].bias_squared,
-             2 * last * std::pow(double(stops[i]) / double(stops.back()), -2.0 / 3)});
+    for (int i = 0; i < corner_places; ++i) {
+        examples::Row row{corner_place(i)};
+        for (const AtCorner& at : corner) {
+            const double e = std::sqrt(at.squares[static_cast<std::size_t>(i)]);
+            row.push_back(e > 0 ? e : nothing);
+        }
+        plot.rows.push_back(row);
+    }
     save_plot(options.out, plot);
 }
 
-/// Slopes of bias and variance, and the estimated error beside the true one.
-void laws(const examples::Options& options, const Sizes& sizes) {
-    constexpr long long photons = 500;
-    const auto stops =
-        milestones(options.pick(sizes.passes / 5 + 1, sizes.passes, sizes.passes));
-    std::vector<Series> all;
-    for (const Strip& strip : strips)
-        for (const double alpha : {1.0 / 3, 2.0 / 3})
-            all.push_back({strip, alpha, strip.first < 0 ? 1.2 : 0.6});
-    run_series(all, photons, stops, 4 * sizes.seeds);
-
-    examples::Table table{.name = "progressive-slopes",
-                          .columns = {"where", "alpha", "variance: law", "measured",
-                                      "squared bias: law", "measured", "both: law",
-                                      "measured"}};
-    for (const Series& series : all)
-        table.rows.push_back(
-            slopes_row(series, split_of(series), stops, options.quiet));
-    plot_laws(all[1], all[3], stops, options);
-    save_table(options.out, table);
-}
-
-/// Squared bias and variance of some runs together.
-double error_of(const std::vector<Image>& runs, const Strip& strip) {
-    const auto split = bias_variance(runs, exact_strip(strip));
-    return split.bias_squared + split.variance;
-}
-
-/// The best of several radii, and the mean squared error with it.
-struct BestRadius {
-    double radius = 0;
-    double error = std::numeric_limits<double>::infinity();
-
-    void consider(double other, double its_error) {
-        if (its_error < error) radius = other, error = its_error;
-    }
-};
-
-constexpr std::array radius_steps{-4, -3, -2, -1, 0, 1, 2, 3, 4}; ///< Quarter octaves.
-
-/// All photons in one map, with each of several radii.
-BestRadius best_map(const Strip& strip, long long photons, int seeds) {
-    const World stage(examples::window_scene<Stage>());
-    std::array<std::vector<Image>, radius_steps.size()> runs;
-    std::array<double, radius_steps.size()> radii{};
-    for (std::size_t i = 0; i < radii.size(); ++i)
-        radii[i] = (strip.first < 0 ? 2.4 * std::pow(double(photons), -1.0 / 6)
-                                    : 4.0 * std::pow(double(photons), -1.0 / 3)) *
-                   std::exp2(radius_steps[i] / 4.0);
-    for (int seed = 1; seed <= seeds; ++seed) {
-        const PhotonMap map = window_map(stage, photons, 5000 + std::uint64_t(seed), 0);
-        for (std::size_t i = 0; i < radii.size(); ++i)
-            runs[i].push_back(read_strip(map, strip, radii[i]));
-        examples::stop_if_asked();
-    }
-    BestRadius best;
-    for (std::size_t i = 0; i < radii.size(); ++i)
-        best.consider(radii[i], error_of(runs[i], strip));
-    return best;
-}
-
-/// The best first radius of the passes at a strip.
-/// \param stop  Which of the numbers of passes.
-BestRadius best_passes(const std::vector<Series>& all, const Strip& strip,
-                       std::size_t stop) {
-    BestRadius best;
-    for (const Series& series : all)
-        if (series.strip.first == strip.first)
-            best.consider(series.radius, error_of(series.images[stop], strip));
-    return best;
-}
-
-/// Passes at each strip, with several first radii.
-std::vector<Series> series_of_radii() {
-    std::vector<Series> all;
-    for (const Strip& strip : strips)
-        for (const int step : radius_steps)
-            all.push_back({strip, strip.first < 0 ? 2.0 / 3 : 1.0 / 3,
-                           (strip.first < 0 ? 0.9 : 0.7) * std::exp2(step / 4.0)});
-    return all;
-}
-
-/// The same photons in one map, with the best radius that one map can have, and in
-/// passes, with the best first radius.
-void one_map(const examples::Options& options, const Sizes& sizes) {
-    constexpr long long photons = 500;
-    const int seeds = std::max(2, sizes.seeds / 2);
-    std::vector<long long> stops;
-    for (long long n = 10;
-         n <= options.pick(sizes.passes / 5, sizes.passes, sizes.passes); n *= 10)
-        stops.push_back(n);
-    if (stops.empty()) stops.push_back(sizes.passes);
-    examples::Table table{.name = "progressive-one-map",
-                          .columns = {"where", "photons", "one map: best radius",
-                                      "squared error", "passes of 500", "squared error",
-                                      "ratio"}};
-    std::vector<Series> all = series_of_radii();
-    run_series(all, photons, stops, seeds);
-    for (const Strip& strip : strips)
-        for (std::size_t s = 0; s < stops.size(); ++s) {
-            const long long count = stops[s] * photons;
-            const BestRadius map = best_map(strip, count, seeds);
-            const BestRadius passes = best_passes(all, strip, s);
-            table.rows.push_back({strip.name, std::to_string(count),
-                                  examples::text(map.radius, "%.2f"),
-                                  examples::text(map.error, "%.3g"),
-                                  std::to_string(stops[s]) +
-                                      ", r = " + examples::text(passes.radius, "%.2f"),
-                                  examples::text(passes.error, "%.3g"),
-                                  examples::text(passes.error / map.error, "%.2f")});
-            if (!options.quiet)
-                std::printf(
-                    "%s, %lld photons: one map %.3g (r %.2f), passes %.3g (r %.2f)\n",
-                    strip.name, count, map.error, map.radius, passes.error,
-                    passes.radius);
+/// The mean errors near the wall and farther away.
+void table_of_corner(const Corner& corner, const examples::Options& options) {
+    examples::Table table{.name = "irradiance_cache-corner-table",
+                          .columns = {"reach", "error within a step of the wall",
+                                      "farther out", "gathered anew within a step",
+                                      "farther out"}};
+    for (std::size_t k = 0; k < reaches.size(); ++k) {
+        std::array<double, 2> error{}, anew{}, count{};
+        for (int i = 0; i < corner_places; ++i) {
+            const std::size_t part = corner_place(i) < corner_step ? 0 : 1;
+            error[part] += corner[k].squares[static_cast<std::size_t>(i)];
+            anew[part] += corner[k].gathered[static_cast<std::size_t>(i)];
+            count[part] += 1;
         }
-    save_table(options.out, table);
-}
-
-/// Three passes at a point near the edge of the light: photons of their own, and discs
-/// that shrink.
-void draw_discs(const examples::Options& options) {
-    const World stage(examples::window_scene<Stage>());
-    examples::Drawing figure{.name = "progressive-discs",
-                             .description = "Three passes: each has photons of its own "
-                                            "and a smaller disc than the one before",
-                             .low{-0.1, -0.35},
-                             .high{6.5, 2.1},
-                             .scale = 108};
-    double shrink = 1;
-    int panel = 0;
-    constexpr std::array colors{examples::colors::blue, examples::colors::orange,
-                                examples::colors::green};
-    for (long long pass = 1; pass <= 100; ++pass) {
-        if (pass == 1 || pass == 10 || pass == 100) {
-            const double left = 2.2 * panel;
-            const char* const color = colors[std::size_t(panel)];
-            draw_line(figure,
-                      {{left, 0}, {left + 2, 0}, {left + 2, 2}, {left, 2}, {left, 0}},
-                      {"currentColor", 1});
-            const auto traced = trace_photons(stage, MapType::caustics,
-                                              {.photons = 4000,
-                                               .seed = options.seed,
-                                               .iteration = std::uint64_t(pass)});
-            for (const Photon& photon : traced.photons) { // x from 0.6 to 2.6
-                const double x = double(photon.position.x) - 0.6;
-                const double y = double(photon.position.z) + 1;
-                if (x > 0.02 && x < 1.98 && y > 0.02 && y < 1.98)
-                    draw_dot(figure, {left + x, y}, 1.7, color);
-            }
-            draw_arc(figure, {left + 1, 1}, 0.7 * std::sqrt(shrink), 0,
-                     2 * std::numbers::pi, {"currentColor", 2});
-            draw_label(figure, {left + 1, -0.2},
-                       "pass " + std::to_string(pass) +
-                           ", r = " + examples::text(0.7 * std::sqrt(shrink), "%.2f"));
-            ++panel;
-        }
-        shrink *= (double(pass) + 2.0 / 3) / (double(pass) + 1);
+        table.rows.push_back({text(reaches[k])});
+        for (const std::size_t part : {0u, 1u})
+            table.rows.back().push_back(
+                text(100 * std::sqrt(error[part] / count[part]), "%.2f %%"));
+        for (const std::size_t part : {0u, 1u})
+            table.rows.back().push_back(
+                text(100 * anew[part] / count[part], "%.1f %%"));
     }
-    save_drawing(options.out, figure);
+    examples::show_table(options, table);
 }
 
-// --- The picture ---------------------------------------------------------------------
+/// Exact records without noise: the error is that of the interpolation alone.
+void corner(const examples::Options& options) {
+    const int runs = options.pick(32, 400, 2000);
+    Corner found{};
+    for (int run = 0; run < runs; ++run) {
+        const auto cache = exact_cache(run, options.seed);
+        for (std::size_t k = 0; k < reaches.size(); ++k)
+            add_run(found[k], cache, reaches[k], runs);
+    }
+    plot_corner(found, options);
+    table_of_corner(found, options);
+}
 
-/// The Cornell box.
-using Box = decltype(cornell_box());
+// --- Each knob -----------------------------------------------------------------------
 
-/// How the box is rendered in one pass.
-PhotonMappingSettings pass_settings(const examples::Options& options,
-                                    std::uint64_t seed) {
-    PhotonMappingSettings settings{.split_glass = true,
-                                   .indirect = IndirectLight::photons};
-    settings.caustics = {.photons = 1000, .seed = seed, .threads = options.threads};
-    settings.general = {.photons = 5000,
-                        .seed = seed,
-                        .shadow_photons = false,
-                        .threads = options.threads};
-    settings.caustics_estimate.radius = 0.12f;
-    settings.general_estimate.radius = 0.3f;
+/// The preset `fast` for one seed.
+PhotonMappingSettings fast(int side, std::uint64_t seed, int threads) {
+    auto settings = preset_settings(Preset::fast, side, side);
+    settings.general.seed = settings.caustics.seed = seed;
+    settings.general.threads = settings.caustics.threads = threads;
     return settings;
 }
 
-RenderSettings frame_of(const examples::Options& options, int samples,
-                        std::uint64_t seed) {
-    return {.width = options.width,
-            .height = options.height,
-            .samples = samples,
-            .seed = seed,
-            .threads = options.threads};
+/// Indirect light alone, from a renderer of all light.
+template <typename Renderer>
+Image indirect_light(const Box& room, const Renderer& renderer,
+                     const RenderSettings& picture) {
+    const OnlyPaths indirect(renderer, "E.*D.*D.*L");
+    auto image = render(indirect, room.camera, picture).image;
+    examples::stop_if_asked();
+    return image;
 }
 
-/// The reference of the box, by many paths.
-struct Reference {
-    Image image = {};          ///< The mean of two halves.
-    ImageT<double> exact = {}; ///< The same in double.
-    double noise = 0;          ///< Its variance, as the relMSE that it makes.
+/// The mean of a picture over that of another, less 1.
+template <typename T, typename U>
+double mean_error(const ImageT<T>& image, const ImageT<U>& truth) {
+    double sum = 0, all = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const RgbT<double> a(image.pixels[i]), b(truth.pixels[i]);
+        sum += a.x + a.y + a.z;
+        all += b.x + b.y + b.z;
+    }
+    return sum / all - 1;
+}
+
+/// A reference from eight independent pictures, whose scatter gives its noise.
+examples::Oracle oracle_of(const std::function<Image(int, std::uint64_t)>& shot,
+                           int rays, int side) {
+    constexpr int pieces = 8;
+    const int part = std::max(1, rays / pieces);
+    examples::Oracle oracle{.truth = make_image<double>(side, side),
+                            .rays = part * pieces};
+    std::vector<Image> runs;
+    for (std::uint64_t piece = 0; piece < pieces; ++piece) {
+        runs.push_back(shot(part, 9000 + piece));
+        for (std::size_t i = 0; i < runs.back().pixels.size(); ++i)
+            oracle.truth.pixels[i] += RgbT<double>(runs.back().pixels[i]) / 8.0;
+    }
+    oracle.noise = examples::relative_split(runs, oracle.truth).variance / pieces;
+    oracle.block_noise =
+        examples::relative_split(runs, oracle.truth, 0, 10).variance / pieces;
+    return oracle;
+}
+
+/// The box as all settings of the cache see it: with the same photons, beside two
+/// references of its indirect light.
+struct Bench {
+    const Box& room;
+    const examples::Options& options;
+    const Sizes& sizes;
+    PhotonMappingSettings settings; ///< The preset `fast`.
+    examples::Oracle twin{};   ///< Gathered at every vertex, from the same photons.
+    examples::Oracle traced{}; ///< By path tracing.
+
+    [[nodiscard]] RenderSettings picture(int samples, std::uint64_t seed) const {
+        return {.width = sizes.side,
+                .height = sizes.side,
+                .samples = samples,
+                .seed = seed,
+                .threads = options.threads};
+    }
 };
 
-/// Two halves: their difference gives their own noise.
-Reference reference_of(const Box& box, const examples::Options& options) {
-    const PathTracer tracer(box.world);
-    const int rays = options.pick(256, 4096, 65536);
-    std::array<Image, 2> halves;
-    for (const std::size_t i : {0u, 1u}) {
-        examples::ProgressBar bar("reference", options.quiet);
-        auto picture = frame_of(options, rays, 77 + i);
-        picture.progress = bar;
-        halves[i] = render(tracer, box.camera, picture).image;
-        examples::stop_if_asked();
-    }
-    Reference truth{.image = halves[0]};
-    for (std::size_t p = 0; p < truth.image.pixels.size(); ++p)
-        truth.image.pixels[p] = 0.5f * (halves[0].pixels[p] + halves[1].pixels[p]);
-    truth.exact = block_means(truth.image, 1);
-    for (std::size_t p = 0; p < truth.image.pixels.size(); ++p) {
-        const RgbT<double> d = 0.5 * (RgbT<double>(halves[0].pixels[p]) -
-                                      RgbT<double>(halves[1].pixels[p]));
-        const RgbT<double> r = truth.exact.pixels[p];
-        const RgbT<double> e = d * d / (r * r + default_epsilon);
-        truth.noise += (e.x + e.y + e.z) / 3 / double(truth.image.pixels.size());
-    }
-    return truth;
+/// The references of the bench.
+void add_oracles(Bench& bench) {
+    const int side = bench.sizes.side, truth = bench.sizes.truth;
+    auto one_by_one = bench.settings;
+    one_by_one.indirect = IndirectLight::gather;
+    const Mapper mapper(bench.room.world, one_by_one);
+    bench.twin = oracle_of(
+        [&](int rays, std::uint64_t seed) {
+            return indirect_light(bench.room, mapper, bench.picture(rays, seed));
+        },
+        4 * truth, side);
+    const PathTracer tracer(bench.room.world);
+    bench.traced = oracle_of(
+        [&](int rays, std::uint64_t seed) {
+            return indirect_light(bench.room, tracer, bench.picture(rays, seed));
+        },
+        truth, side);
 }
 
-/// The box after some passes.
-struct Milestone {
-    long long passes = 0;
-    std::vector<Image> runs = {}; ///< One per seed that reached it.
-    double seconds = 0;           ///< Of the first seed.
-    double megabytes = 0;         ///< Peak memory so far.
-    double estimate = 0;          ///< Of its error.
-    double radius = 0;            ///< As a fraction of the first radius.
-    double faster = 0;            ///< relMSE with the exponent that suits edges.
+/// A way to gather, and which curve of the plot it belongs to.
+struct Knob {
+    std::string name;
+    GatherSettings gather{};
+    std::size_t curve = 0; ///< Which column; 0: none.
+    bool cached = true;    ///< Or gathered at every vertex.
 };
 
-/// Runs passes up to the last milestone within a limit, and calls at(milestone, state)
-/// at each.
-template <typename Pass, typename At>
-void run_to(std::vector<Milestone>& milestones, long long limit, ProgressiveState state,
-            Pass pass, examples::ProgressBar bar, At at) {
-    for (Milestone& milestone : milestones) {
-        if (milestone.passes > limit) break;
-        (void)run_progressive(state, milestone.passes, pass, [&](const auto& now) {
-            return bar(now.passes, milestones.back().passes);
-        });
-        examples::stop_if_asked();
-        at(milestone, state);
-    }
+/// Each setting of the cache varied, with the others fixed.
+std::vector<Knob> all_knobs() {
+    std::vector<Knob> all{Knob{.name = "tile 3, 25 rays, 6 nearest, reach 1"}};
+    for (const int tile : {2, 3, 4, 6})
+        all.push_back({"tile " + std::to_string(tile), {.tile = tile}, 1});
+    for (const int rays : {9, 16, 25, 49, 100})
+        all.push_back({std::to_string(rays) + " gather rays", {.rays = rays}, 2});
+    for (const std::size_t nearest : {3u, 6u, 10u, 20u})
+        all.push_back({std::to_string(nearest) + " nearest", {.nearest = nearest}, 3});
+    for (const float reach : {0.3f, 0.5f, 1.0f, 2.0f, 4.0f})
+        all.push_back({"reach " + text(double(reach), "%.1f"), {.reach = reach}, 4});
+    all.push_back({"25 rays at every vertex, no cache", {}, 0, false});
+    return all;
 }
 
-/// The first seed runs to the end; the others as far as bias and variance are needed.
-void run_seeds(std::vector<Milestone>& milestones, const Box& box,
-               const examples::Options& options, int seeds, long long split_at) {
+/// The result of one setting, over several seeds.
+struct Turned {
+    double seconds = 0, mean = 0, flip = 0;
+    std::size_t points = 0;
+    BiasVariance from_twin{}, from_traced{}, blocks{};
+};
+
+Turned turn(const Bench& bench, const Knob& knob) {
+    auto now = bench.settings;
+    now.gather = knob.gather;
+    Mapper mapper(bench.room.world, now); // the same photons for all
+    Turned found;
+    std::vector<Image> runs;
+    const int seeds = bench.sizes.seeds;
     for (int seed = 1; seed <= seeds; ++seed) {
-        const auto number = std::uint64_t(seed);
-        const auto pass = [&](long long i, double scale) {
-            return photon_mapping_pass(box.world, box.camera,
-                                       pass_settings(options, number),
-                                       frame_of(options, 1, number), i, scale);
-        };
-        const double begin = examples::processor_seconds();
-        const auto keep = [&](Milestone& at, const ProgressiveState& state) {
-            at.runs.push_back(mean_image(state));
-            if (seed > 1) return;
-            at.seconds = examples::processor_seconds() - begin;
-            at.megabytes = peak_megabytes();
-            at.estimate = estimate_error(state).pixels;
-            at.radius = std::sqrt(state.shrink);
-        };
-        run_to(milestones, seed == 1 ? milestones.back().passes : split_at, {}, pass,
-               examples::ProgressBar("seed " + std::to_string(seed), options.quiet),
-               keep);
+        const RenderSettings picture =
+            bench.picture(9, static_cast<std::uint64_t>(seed));
+        const double start = examples::processor_seconds();
+        if (knob.cached) mapper.fill_cache(bench.room.camera, picture);
+        found.points = mapper.state<Gathering>().cache.records.size();
+        runs.push_back(indirect_light(bench.room, mapper, picture));
+        found.seconds += (examples::processor_seconds() - start) / seeds;
+        found.flip += flip(runs.back(), bench.traced.truth) / seeds;
+        found.mean += mean_error(runs.back(), bench.traced.truth) / seeds;
     }
+    const examples::Oracle &twin = bench.twin, &traced = bench.traced;
+    found.from_twin = examples::relative_split(runs, twin.truth, twin.noise);
+    found.from_traced = examples::relative_split(runs, traced.truth, traced.noise);
+    found.blocks = examples::relative_split(runs, traced.truth, traced.block_noise, 10);
+    return found;
 }
 
-/// The same passes with the exponent that suits edges.
-void run_faster(std::vector<Milestone>& milestones, const Box& box,
-                const examples::Options& options, const Reference& truth) {
-    const auto pass = [&](long long i, double scale) {
-        return photon_mapping_pass(box.world, box.camera,
-                                   pass_settings(options, options.seed),
-                                   frame_of(options, 1, options.seed), i, scale);
-    };
-    run_to(milestones, milestones.back().passes, {.alpha = 1.0 / 3}, pass,
-           examples::ProgressBar("alpha 1/3", options.quiet),
-           [&](Milestone& at, const ProgressiveState& state) {
-               at.faster = rel_mse(mean_image(state), truth.image) - truth.noise;
-           });
+/// The references, and their errors.
+void table_of_oracles(const Bench& bench) {
+    examples::show_table(
+        bench.options,
+        {.name = "irradiance_cache-truth",
+         .columns = {"reference", "rays per pixel", "its own relMSE"},
+         .rows = {{"gathered at every vertex, the same photons",
+                   std::to_string(bench.twin.rays), text(bench.twin.noise, "%.2g")},
+                  {"path tracing", std::to_string(bench.traced.rays),
+                   text(bench.traced.noise, "%.2g")}}});
 }
 
-/// The error of the box against the number of passes.
-void save_errors(const std::vector<Milestone>& milestones, const Reference& truth,
-                 const examples::Options& options) {
+/// Indirect light alone, one setting after the other.
+void knobs(const examples::Options& options, const Sizes& sizes) {
+    const Box room = cornell_box();
+    const auto settings = fast(sizes.side, options.seed, options.threads);
+    Bench bench{room, options, sizes, settings};
+    add_oracles(bench);
+    examples::Table table{
+        .name = "irradiance_cache-knobs",
+        .columns = {"", "processor seconds", "points", "bias² of interpolating",
+                    "noise", "bias² with the photons'", "blocks", "mean", "FLIP"}};
     examples::Plot plot{
-        .name = "progressive-picture",
-        .columns = {"passes", "alpha = 2/3", "alpha = 1/3", "n^(-2/3)", "n^(-1/3)"},
-        .y_label = "relMSE of the box",
-        .log_x = true,
-        .log_y = true};
-    examples::Table table{.name = "progressive-picture-table",
-                          .columns = {"passes", "processor seconds", "radius", "relMSE",
-                                      "squared bias", "variance", "FLIP",
-                                      "estimated error per pixel", "peak memory, MB"}};
-    double first = 0;
-    for (const Milestone& at : milestones) {
-        const auto split =
-            at.runs.size() > 1
-                ? examples::relative_split(at.runs, truth.exact, truth.noise)
-                : BiasVariance{std::nan(""), std::nan("")};
-        const double error = rel_mse(at.runs[0], truth.image) - truth.noise;
-        const auto n = double(at.passes);
-        if (plot.rows.empty()) first = error;
-        plot.rows.push_back({n, error, at.faster, first * std::pow(n, -2.0 / 3),
-                             first * std::pow(n, -1.0 / 3)});
+        .name = "irradiance_cache-knobs-plot",
+        .columns = {"processor seconds", "tile", "gather rays", "nearest", "reach"},
+        .y_label = "relMSE of indirect light",
+        .rows = {}};
+    for (const Knob& knob : all_knobs()) {
+        const Turned found = turn(bench, knob);
+        const auto& [bias, noise] = found.from_twin;
         table.rows.push_back(
-            {std::to_string(at.passes), examples::text(at.seconds, "%.2f"),
-             examples::text(at.radius, "%.2f"), examples::text(error, "%.2g"),
-             examples::text(split.bias_squared, "%.2g"),
-             examples::text(split.variance, "%.2g"),
-             examples::text(flip(at.runs[0], truth.image), "%.3f"),
-             at.passes > 1 ? examples::text(at.estimate, "%.2g") : "",
-             examples::text(at.megabytes, "%.0f")});
-        if (!options.quiet) examples::print_row(table.rows.back(), 10);
+            {knob.name, text(found.seconds, "%.3f"), std::to_string(found.points),
+             text(bias, "%.2g"), text(noise, "%.2g"),
+             text(found.from_traced.bias_squared, "%.2g"),
+             text(found.blocks.bias_squared + found.blocks.variance, "%.2g"),
+             text(100 * found.mean, "%+.2f %%"), text(found.flip, "%.3f")});
+        if (knob.curve == 0) continue;
+        examples::Row row(plot.columns.size(), nothing);
+        row[0] = found.seconds;
+        row[knob.curve] = std::max(bias + noise, 1e-9);
+        plot.rows.push_back(row);
+    }
+    examples::show_table(options, table);
+    save_plot(options.out, plot);
+    table_of_oracles(bench);
+}
+
+// --- Whole pictures ------------------------------------------------------------------
+
+/// A way to make a whole picture: rays per pixel and a seed for all.
+struct Method {
+    std::string name;
+    std::function<Image(int, std::uint64_t)> shoot;
+};
+
+/// The result of a method, over several seeds.
+struct Result {
+    double seconds = 0; ///< Of a processor, both passes.
+    BiasVariance pixels{}, blocks{};
+    double mean = 0, flip = 0, trimmed = 0;
+    [[nodiscard]] double error() const { return pixels.bias_squared + pixels.variance; }
+    [[nodiscard]] double block_error() const {
+        return blocks.bias_squared + blocks.variance;
+    }
+};
+
+Result try_method(const Method& method, int rays, const examples::Oracle& oracle,
+                  int seeds) {
+    Result result;
+    std::vector<Image> runs;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const double start = examples::processor_seconds();
+        runs.push_back(method.shoot(rays, static_cast<std::uint64_t>(seed)));
+        result.seconds += (examples::processor_seconds() - start) / seeds;
+        result.flip += flip(runs.back(), oracle.truth) / seeds;
+        result.mean += mean_error(runs.back(), oracle.truth) / seeds;
+        result.trimmed += trimmed_rel_mse(runs.back(), oracle.truth) / seeds;
+        examples::stop_if_asked();
+    }
+    result.pixels = examples::relative_split(runs, oracle.truth, oracle.noise);
+    result.blocks =
+        examples::relative_split(runs, oracle.truth, oracle.block_noise, 10);
+    return result;
+}
+
+/// A picture by photons: both passes.
+template <typename Draws>
+Image by_photons(const Box& room, const PhotonMappingSettings& settings,
+                 const RenderSettings& picture, int more = 0) {
+    // [by_photons]
+    PhotonMapper mapper(room.world, settings, abilities<Draws, Gathering>);
+    mapper.fill_cache(room.camera, picture);
+    if (more == 0) return render(mapper, room.camera, picture).image;
+    RenderSettings most = picture;
+    most.samples += more;
+    return render_adaptive(mapper, room.camera, most,
+                           {.first = picture.samples,
+                            .more = more,
+                            .batches = 1,
+                            .disagreement = PresetRays{}.disagreement})
+        .image;
+    // [by_photons]
+}
+
+void methods(const examples::Options& options, const Sizes& sizes,
+             const examples::Oracle& oracle) {
+    const Box room = cornell_box();
+    const int side = sizes.side;
+    const auto picture = [&](int rays, std::uint64_t seed) {
+        return RenderSettings{.width = side,
+                              .height = side,
+                              .samples = rays,
+                              .seed = seed,
+                              .threads = options.threads};
+    };
+    const auto photons = [&](IndirectLight indirect) {
+        return [&, indirect](int rays, std::uint64_t seed) {
+            auto settings = fast(side, seed, options.threads);
+            settings.indirect = indirect;
+            return by_photons<StratifiedStream>(room, settings, picture(rays, seed));
+        };
+    };
+    const PathTracer tracer(room.world);
+    const std::vector<Method> all{
+        {"cache", photons(IndirectLight::cache)},
+        {"gather", photons(IndirectLight::gather)},
+        {"photons", photons(IndirectLight::photons)},
+        {"rays", photons(IndirectLight::rays)},
+        {"path tracing", [&](int rays, std::uint64_t seed) {
+             return render(tracer, room.camera, picture(rays, seed)).image;
+         }}};
+    std::vector<int> rungs{1, 4, 16};
+    if (options.pick(false, true, true)) rungs.push_back(64);
+    examples::Plot plot{.name = "irradiance_cache-trade",
+                        .columns = {"processor seconds"},
+                        .y_label = "relMSE of the picture",
+                        .log_x = true,
+                        .log_y = true};
+    for (const Method& method : all) plot.columns.push_back(method.name);
+    examples::Table table{.name = "irradiance_cache-trade-table",
+                          .columns = {"indirect light by", "rays per pixel",
+                                      "processor seconds", "bias²", "noise",
+                                      "blocks: bias²", "noise", "mean", "FLIP"}};
+    for (std::size_t m = 0; m < all.size(); ++m)
+        for (const int rays : rungs) {
+            const Result r = try_method(all[m], rays, oracle, sizes.seeds);
+            examples::Row row(all.size() + 1, nothing);
+            row[0] = r.seconds;
+            row[m + 1] = std::max(r.error(), 1e-9);
+            plot.rows.push_back(row);
+            if (rays != 4 && rays != rungs.back()) continue;
+            table.rows.push_back(
+                {all[m].name, std::to_string(rays), text(r.seconds, "%.3f"),
+                 text(r.pixels.bias_squared, "%.2g"), text(r.pixels.variance, "%.2g"),
+                 text(r.blocks.bias_squared, "%.2g"), text(r.blocks.variance, "%.2g"),
+                 text(100 * r.mean, "%+.2f %%"), text(r.flip, "%.3f")});
+        }
+    save_plot(options.out, plot);
+    examples::show_table(options, table);
+}
+
+/// One idea more than the rung before.
+struct Rung {
+    const char* idea;
+    int shadow_rays;
+    DirectLight direct;
+    IndirectLight indirect;
+    bool stratified;
+    int more; ///< Rays where the first ones disagree.
+};
+constexpr std::array ladder_rungs{
+    Rung{"the report's: one shadow ray", 1, DirectLight::sampled, IndirectLight::rays,
+         false, 0},
+    Rung{"+ four shadow rays, stratified", 4, DirectLight::sampled, IndirectLight::rays,
+         false, 0},
+    Rung{"+ a stratified stream", 4, DirectLight::sampled, IndirectLight::rays, true,
+         0},
+    Rung{"+ lamps in closed form", 4, DirectLight::analytic, IndirectLight::rays, true,
+         0},
+    Rung{"+ the cache for indirect rays", 4, DirectLight::analytic,
+         IndirectLight::cache, true, 0},
+    Rung{"+ 8 more rays where 2 disagree", 4, DirectLight::analytic,
+         IndirectLight::cache, true, 8}};
+
+/// The room as a rung of the ladder renders it.
+Image shoot_rung(const Rung& rung, const Box& room, const RenderSettings& picture) {
+    auto settings = fast(picture.width, picture.seed, picture.threads);
+    settings.shadow_rays = rung.shadow_rays;
+    settings.direct = rung.direct;
+    settings.indirect = rung.indirect;
+    return rung.stratified
+               ? by_photons<StratifiedStream>(room, settings, picture, rung.more)
+               : by_photons<RandomStream>(room, settings, picture, rung.more);
+}
+
+/// From the report's photon mapper to the preset `fast`, one idea after the other.
+void ladder(const examples::Options& options, const Sizes& sizes,
+            const examples::Oracle& oracle) {
+    const Box room = cornell_box();
+    examples::Table table{.name = "irradiance_cache-ladder",
+                          .columns = {"", "processor seconds", "relMSE", "trimmed",
+                                      "of blocks", "mean", "FLIP"}};
+    for (const Rung& rung : ladder_rungs) {
+        const Method method{rung.idea, [&](int rays, std::uint64_t seed) {
+                                return shoot_rung(rung, room,
+                                                  {.width = sizes.side,
+                                                   .height = sizes.side,
+                                                   .samples = rays,
+                                                   .seed = seed,
+                                                   .threads = options.threads});
+                            }};
+        const Result r = try_method(method, 2, oracle, sizes.seeds);
+        table.rows.push_back({rung.idea, text(r.seconds, "%.3f"),
+                              text(r.error(), "%.2g"), text(r.trimmed, "%.2g"),
+                              text(r.block_error(), "%.2g"),
+                              text(100 * r.mean, "%+.2f %%"), text(r.flip, "%.3f")});
+    }
+    examples::show_table(options, table);
+}
+
+/// What "three seconds" looks like.
+void fast_picture(const examples::Options& options) {
+    const Box room = cornell_box();
+    const double start = examples::processor_seconds();
+    const Image image = by_photons<StratifiedStream>(
+        room, fast(options.width, options.seed, options.threads),
+        {.width = options.width,
+         .height = options.height,
+         .samples = 2,
+         .seed = options.seed,
+         .threads = options.threads},
+        8);
+    examples::show_table(
+        options, {.name = "irradiance_cache-fast-table",
+                  .columns = {"pixels", "processor seconds of both passes"},
+                  .rows = {{std::to_string(options.width) + " x " +
+                                std::to_string(options.height),
+                            text(examples::processor_seconds() - start, "%.2f")}}});
+    save_png(image, options.path("irradiance_cache-fast.png"));
+}
+
+// --- The closed form in a penumbra ---------------------------------------------------
+
+using Stage = Scene<Shapes<Quad>, Materials<Lambertian>>;
+
+/// A square lamp over a floor.
+struct Lamp {
+    const char* name;
+    float side, height;
+};
+constexpr std::array lamps{Lamp{"side 2, 1 above the floor", 2, 1},
+                           Lamp{"that of the box: side 0.5, 2 above", 0.5f, 2}};
+
+/// A floor, a lamp, and halfway between them half a ceiling whose edge is over x = 0.
+World<Stage> penumbra_stage(const Lamp& lamp) {
+    Stage stage;
+    const auto white = stage.add(Lambertian{.albedo = Rgb{1}});
+    const auto black = stage.add(Lambertian{.albedo = Rgb{0}});
+    const float h = lamp.height, s = lamp.side;
+    stage.add(Quad{.corner{-4, 0, -4}, .edge_u{0, 0, 8}, .edge_v{8, 0, 0}}, white);
+    stage.add(Quad{.corner{-8, h / 2, -8}, .edge_u{8, 0, 0}, .edge_v{0, 0, 16}}, black);
+    stage.add(Quad{.corner{-s / 2, h, -s / 2}, .edge_u{s, 0, 0}, .edge_v{0, 0, s}},
+              black, Rgb{1});
+    return World(std::move(stage));
+}
+
+constexpr std::array shadow_rays{1, 2, 4, 9};
+
+/// The light that the closed form finds at one point, as a fraction of the whole
+/// lamp's; one value for each number of shadow rays.
+struct InPenumbra {
+    double x = 0; ///< Position; the penumbra is -1 to 1.
+    std::array<double, shadow_rays.size()> bias{}, noise{}, sampled{};
+};
+
+InPenumbra measure_penumbra(const World<Stage>& stage, const Lamp& lamp, double place,
+                            std::uint64_t number, long long trials,
+                            std::uint64_t seed) {
+    InPenumbra here{.x = place};
+    const float h = lamp.height, s = lamp.side, x = float(place) * s / 2;
+    const Ray down{.origin{x, h / 4, 0}, .direction{0, -1, 0}};
+    const auto vertex = vertex_at(stage, down, *closest_hit(stage, down));
+    const Lambertian white{.albedo = Rgb{1}};
+    // From x the edge hides all of the lamp that is left of -x.
+    const auto from = [&](float left) {
+        const Quad part{
+            .corner{left, h, -s / 2}, .edge_u{s / 2 - left, 0, 0}, .edge_v{0, 0, s}};
+        if (!(left < s / 2)) return 0.0;
+        const auto& at = vertex.point;
+        return double(
+            form_factor_from(at.position, at.normal, part, false).value_or(0));
+    };
+    const double whole = from(-s / 2), exact = from(std::max(-s / 2, -x));
+    for (std::size_t k = 0; k < shadow_rays.size(); ++k)
+        for (const DirectLight how : {DirectLight::analytic, DirectLight::sampled}) {
+            double sum = 0, squares = 0;
+            for (long long t = 0; t < trials; ++t) {
+                auto stream =
+                    random_stream(seed, Pass::gathering, 1 + k,
+                                  number * std::uint64_t(trials) + std::uint64_t(t));
+                Counts counts;
+                auto context = context_of(stream, counts);
+                const double value =
+                    double(sample_all_lights(stage, vertex, white,
+                                             {how, shadow_rays[k]}, context)
+                               .x) /
+                    whole;
+                sum += value / double(trials);
+                squares += value * value / double(trials);
+            }
+            const double spread = std::sqrt(std::max(0.0, squares - sum * sum));
+            if (how == DirectLight::analytic) {
+                here.bias[k] = sum - exact / whole;
+                here.noise[k] = spread;
+            } else {
+                here.sampled[k] = spread;
+            }
+        }
+    return here;
+}
+
+void penumbra(const examples::Options& options) {
+    const int places = options.pick(10, 24, 24);
+    const long long trials = options.pick(8000, 100000, 1000000);
+    examples::Plot plot{
+        .name = "irradiance_cache-penumbra",
+        .columns = {"place; the penumbra is from -1 to 1", "1 ray", "2", "4", "9"},
+        .y_label = "bias, % of the whole lamp's light"};
+    examples::Table table{.name = "irradiance_cache-penumbra-table",
+                          .columns = {"lamp", "shadow rays", "largest bias",
+                                      "its standard error", "noise, closed form",
+                                      "noise, sampled", "in full light: closed form",
+                                      "sampled"}};
+    const auto percent = [](double share) { return text(100 * share, "%.2f %%"); };
+    for (const Lamp& lamp : lamps) {
+        const World stage = penumbra_stage(lamp);
+        std::vector<InPenumbra> found(static_cast<std::size_t>(places));
+        const auto at_place = [&](long long i) {
+            found[static_cast<std::size_t>(i)] = measure_penumbra(
+                stage, lamp, 1.2 * (2 * (double(i) + 0.5) / places - 1),
+                static_cast<std::uint64_t>(i), trials, options.seed);
+        };
+        (void)parallel_blocks(places, at_place, {.threads = options.threads});
+        examples::stop_if_asked();
+        if (plot.rows.empty())
+            for (const InPenumbra& f : found) {
+                plot.rows.push_back({f.x});
+                for (const double b : f.bias) plot.rows.back().push_back(100 * b);
+            }
+        for (std::size_t k = 0; k < shadow_rays.size(); ++k) {
+            double largest = 0, its = 0, noise = 0, sampled = 0;
+            for (const InPenumbra& f : found) {
+                if (std::abs(f.bias[k]) > std::abs(largest)) {
+                    largest = f.bias[k];
+                    its = f.noise[k] / std::sqrt(double(trials));
+                }
+                noise = std::max(noise, f.noise[k]);
+                sampled = std::max(sampled, f.sampled[k]);
+            }
+            table.rows.push_back({lamp.name, std::to_string(shadow_rays[k]),
+                                  percent(largest), percent(its), percent(noise),
+                                  percent(sampled), percent(found.back().noise[k]),
+                                  percent(found.back().sampled[k])});
+        }
     }
     save_plot(options.out, plot);
-    save_table(options.out, table);
-}
-
-/// As many photons and rays at once, with radii that one must choose.
-void beside_one_map(const Box& box, long long passes, const Reference& truth,
-                    const examples::Options& options, int seeds) {
-    examples::Table table{.name = "progressive-beside",
-                          .columns = {"how", "processor seconds", "relMSE",
-                                      "squared bias", "variance", "FLIP"}};
-    // All seeds of one way, and the time of the first.
-    const auto try_way = [&](const std::string& how, auto make) {
-        std::vector<Image> runs;
-        double time = 0, seen = 0;
-        for (int seed = 1; seed <= seeds; ++seed) {
-            const double begin = examples::processor_seconds();
-            runs.push_back(make(std::uint64_t(seed)));
-            if (seed == 1) time = examples::processor_seconds() - begin;
-            examples::stop_if_asked();
-        }
-        const auto split = examples::relative_split(runs, truth.exact, truth.noise);
-        for (const Image& run : runs)
-            seen += flip(run, truth.image) / double(runs.size());
-        table.rows.push_back(
-            {how, examples::text(time, "%.2f"),
-             examples::text(split.bias_squared + split.variance, "%.2g"),
-             examples::text(split.bias_squared, "%.2g"),
-             examples::text(split.variance, "%.2g"), examples::text(seen, "%.3f")});
-        if (!options.quiet) examples::print_row(table.rows.back(), 10);
-    };
-    const auto settings_of = [&](double scale, long long times, std::uint64_t seed) {
-        auto settings = pass_settings(options, seed);
-        settings.caustics.photons *= times;
-        settings.general.photons *= times;
-        settings.caustics_estimate.radius *= float(scale);
-        settings.general_estimate.radius *= float(scale);
-        return settings;
-    };
-    const std::string count = std::to_string(passes) + " passes, first radius ";
-    for (const double scale : {1.0, 0.5, 0.35})
-        try_way(count + examples::text(scale, "%.2f"), [&](std::uint64_t seed) {
-            ProgressiveState state;
-            const auto pass = [&](long long i, double shrunk) {
-                return photon_mapping_pass(box.world, box.camera,
-                                           settings_of(scale, 1, seed),
-                                           frame_of(options, 1, seed), i, shrunk);
-            };
-            (void)run_progressive(state, passes, pass,
-                                  [](const auto&) { return true; });
-            return mean_image(state);
-        });
-    for (const double scale : {1.0, 0.5, 0.35, 0.25})
-        try_way("one map, radius " + examples::text(scale, "%.2f"),
-                [&](std::uint64_t seed) {
-                    const auto settings = settings_of(scale, passes, seed);
-                    const PhotonMapper mapper(box.world, settings);
-                    return render(mapper, box.camera,
-                                  frame_of(options, int(passes), seed))
-                        .image;
-                });
-    save_table(options.out, table);
-}
-
-/// The box after more and more passes, and beside one map of as many photons.
-void pictures(const examples::Options& options, const Sizes& sizes) {
-    const Box box = cornell_box();
-    const Reference truth = reference_of(box, options);
-    const long long split_at = options.pick(4, 64, 256);
-    std::vector<Milestone> all;
-    for (const long long passes : milestones(sizes.passes)) all.push_back({passes});
-    run_seeds(all, box, options, sizes.seeds, split_at);
-    run_faster(all, box, options, truth);
-    save_errors(all, truth, options);
-
-    long long compared = all.front().passes; // the last milestone of all seeds
-    for (const Milestone& at : all)
-        if (at.passes <= split_at) compared = at.passes;
-    beside_one_map(box, compared, truth, options, sizes.seeds);
+    examples::show_table(options, table);
 }
 
 } // namespace
 
-/// Makes the tables and plots of chapter 31.
+/// Makes the plots and tables of chapter 31, and the picture by the preset `fast`.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 31, progressive photons: laws and pictures.");
-        line.add("--seeds", sizes.seeds, "Runs behind bias and variance", 2, 1000);
-        line.add("--passes", sizes.passes, "How many photon maps", 1, 1'000'000'000);
+        line.about("Chapter 31, the irradiance cache: corners, knobs, trades.");
+        line.add("--seeds", sizes.seeds, "Runs behind each error", 2, 1000);
+        line.add("--truth", sizes.truth, "Rays per pixel of the references", 8,
+                 100000000);
         const examples::Options options =
-            line.parse({.draft{.width = 32, .height = 32, .samples = 1},
-                        .report{.width = 64, .height = 64, .samples = 1},
-                        .reference{.width = 128, .height = 128, .samples = 1}});
-        if (!line.given("--passes")) sizes.passes = options.pick(100, 1000, 10000);
+            line.parse({.draft{.width = 96, .height = 96, .samples = 4},
+                        .report{.width = 400, .height = 400, .samples = 4},
+                        .reference{.width = 400, .height = 400, .samples = 4}});
         if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
-        draw_discs(options);
-        laws(options, sizes);
-        one_map(options, sizes);
-        pictures(options, sizes);
+        if (!line.given("--truth")) sizes.truth = options.pick(256, 1024, 16384);
+        sizes.side = std::min(options.pick(40, 120, 200), options.width);
+        corner(options);
+        penumbra(options);
+        knobs(options, sizes);
+        const auto oracle = examples::find_oracle("cornell", cornell_box(), sizes.side,
+                                                  2 * sizes.truth, options);
+        methods(options, sizes, oracle);
+        ladder(options, sizes, oracle);
+        fast_picture(options);
     });
 }

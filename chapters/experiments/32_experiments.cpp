@@ -1,779 +1,650 @@
-// smoke: --quality draft --width 16 --height 16 --rungs 2 --seeds 2 --truth 16
+// smoke: --quality draft --width 24 --height 24 --passes 8 --seeds 2
 /// \file chapters/experiments/32_experiments.cpp
-/// \brief Chapter 32: two rooms by all renderers: error against time, the same time,
-/// the same error, bias and noise, and which light paths each carries.
+/// \brief Chapter 32: the experiments behind its tables and plots: laws, and one map
+/// beside many.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <limits>
+#include <numbers>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <ljus/image/flip.hpp>
-#include <ljus/inspect/class_means.hpp>
 #include <ljus/ljus.hpp>
-#include <ljus/path/light_path_expression.hpp>
-#include <ljus/radiosity/light_map.hpp>
-#include <ljus/radiosity/patches.hpp>
-#include <ljus/radiosity/radiosity.hpp>
-#include <ljus/scene/camera.hpp>
+#include <ljus/render/progressive.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
 #include "common/convergence.hpp"
-#include "common/plot.hpp"
-#include "common/terminal.hpp"
-#include "experiments/show_table.hpp"
+#include "common/drawing.hpp"
+#include "common/example.hpp"
+#include "experiments/window.hpp"
+
+#if __has_include(<sys/resource.h>)
+#include <sys/resource.h>
+#endif
 
 using namespace ljus;
 
 namespace {
 
-using Cornell = World<CornellSceneT<float>>;
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
 /// The options of this program, besides the common ones.
 struct Sizes {
-    int rungs = 0; ///< Efforts tried, each four times the one before.
-    int seeds = 0; ///< Runs of each.
-    int truth = 0; ///< Rays per pixel of the reference.
+    long long passes = 0; ///< How many.
+    int seeds = 0;        ///< Runs behind each bias and variance.
 };
 
-// --- The renderers --------------------------------------------------------------------
+/// The peak memory of this program; NaN if the system does not report it.
+double peak_megabytes() {
+#if __has_include(<sys/resource.h>)
+    struct ::rusage usage = {};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return double(usage.ru_maxrss) / 1024;
+#else
+    return std::nan("");
+#endif
+}
 
-/// One picture, and what it took.
-struct Shot {
-    Image image{};           ///< The picture.
-    Counts counts{};         ///< Rays of the view.
-    double solution = 0;     ///< Seconds for what does not depend on the camera.
-    double view = 0;         ///< Seconds for the picture.
-    std::size_t memory = 0;  ///< Bytes kept for other views.
-    std::size_t working = 0; ///< Peak bytes while it is made.
-    long long photons = 0;   ///< How many were emitted.
+// --- The laws, where light is known --------------------------------------------------
 
-    [[nodiscard]] double seconds() const { return solution + view; }
-};
+using examples::Strip;
+using Stage =
+    Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Mirror>, Lights<PointLight>>;
 
-/// A renderer whose rays, photons and radius, or patches, follow from an effort.
-struct Method {
-    std::string name; ///< As in plots.
-    std::string file; ///< As in names of files.
-    /// Renders a room. `effort` is a number of rays per pixel, or as much work;
-    /// cameras: one picture each from one solution.
-    std::function<std::vector<Shot>(const Cornell&, const std::vector<Camera>&,
-                                    double effort, std::uint64_t seed)>
-        shoot{};
-};
+constexpr std::array strips{examples::middle, examples::edge};
+constexpr int places = 48;
 
-/// Seconds of processor time since the last call.
-struct Lap {
-    double start = examples::processor_seconds();
-    double operator()() {
-        const double now = examples::processor_seconds();
-        const double spent = now - start;
-        start = now;
-        return std::max(spent, 1e-6);
+Vec3 place(const Strip& strip, int i) {
+    return {float(strip.at(i, places)), 0, 0.5f * std::sin(2.4f * float(i))};
+}
+
+/// A picture one row high: the estimates at the points, relative to the light
+/// in the middle.
+Image read_strip(const PhotonMap& map, const Strip& strip, double radius) {
+    Image row = make_image(places, 1);
+    const Lambertian white{.albedo = Rgb{1}};
+    for (int i = 0; i < places; ++i) {
+        VertexT<float> floor{.point{.position = place(strip, i), .normal{0, 1, 0}}};
+        floor.frame = frame_around(floor.point.normal);
+        std::uint64_t gathered = 0;
+        pixel(row, i, 0) =
+            4 * std::numbers::pi_v<float> *
+            estimate_radiance(map, floor, white, Vec3{0, 0, 1},
+                              DensityEstimateSettings{.radius = float(radius)},
+                              all_kinds, gathered);
     }
+    return row;
+}
+
+/// The same, exactly.
+Image exact_strip(const Strip& strip) {
+    Image row = make_image(places, 1);
+    for (int i = 0; i < places; ++i) {
+        const Vec3 at = place(strip, i);
+        pixel(row, i, 0) =
+            Rgb{float(4 * examples::window_light(double(at.x), double(at.z)))};
+    }
+    return row;
+}
+
+PhotonMap window_map(const World<Stage>& stage, long long photons, std::uint64_t seed,
+                     long long pass) {
+    return make_photon_map(trace_photons(stage, MapType::caustics,
+                                         {.photons = photons,
+                                          .seed = seed,
+                                          .iteration = std::uint64_t(pass),
+                                          .threads = 1})
+                               .photons);
+}
+
+/// One way to shrink at one strip, and the pictures of each seed after some passes.
+struct Series {
+    Strip strip;
+    double alpha = 0;
+    double radius = 0;                           ///< Of the first pass.
+    std::vector<std::vector<Image>> images = {}; ///< [which passes][seed].
+    std::vector<double> estimates = {}; ///< Mean square of the estimated errors.
 };
 
-/// Pictures from all cameras by a renderer that is ready.
-template <typename Renderer>
-std::vector<Shot> views_of(const Renderer& renderer, const std::vector<Camera>& cameras,
-                           const examples::Options& options, double rays,
-                           std::uint64_t seed, const Shot& made = {}) {
-    std::vector<Shot> shots;
-    for (const Camera& camera : cameras) {
-        Lap lap;
-        const auto seen = render(renderer, camera,
-                                 {.width = options.width,
-                                  .height = options.height,
-                                  .samples = std::max(1, int(std::lround(rays))),
-                                  .seed = seed,
-                                  .threads = options.threads});
-        shots.push_back(made);
-        shots.back().view = lap();
-        shots.back().image = seen.image;
-        shots.back().counts = seen.counts;
-        examples::stop_if_asked();
+/// Numbers of passes that are measured: 1, 2, 3, 6, 10, 18, 32, ...
+std::vector<long long> milestones(long long passes) {
+    std::vector<long long> list;
+    for (int i = 0;; ++i) {
+        const long long n = std::llround(std::pow(10.0, i / 4.0));
+        if (n >= passes) break;
+        if (list.empty() || n > list.back()) list.push_back(n);
     }
-    return shots;
-}
-
-/// The bytes of a photon map.
-std::size_t bytes_of(const PhotonMap& map) {
-    return map.tree.bytes() + map.records.bytes();
-}
-
-/// The photon maps' efforts: photons in proportion to the rays, and
-/// a radius that shrinks with their sixth root, so that bias and noise fall together.
-// [photon effort]
-PhotonMappingSettings photon_settings(IndirectLight indirect, double effort,
-                                      std::uint64_t seed) {
-    const bool direct = indirect == IndirectLight::photons;
-    const auto many = std::llround((direct ? 4000 : 500) * effort);
-    const auto smaller = float(std::pow(effort, -1.0 / 6));
-    return {.shadow_rays = direct ? 4 : 1,
-            .indirect = indirect,
-            .caustics{.photons = many, .seed = seed},
-            .general{.photons = many, .seed = seed, .shadow_photons = false},
-            .caustics_estimate{.radius = 0.15f * smaller},
-            .general_estimate{.radius = (direct ? 0.35f : 0.5f) * smaller}};
-}
-// [photon effort]
-
-using Cameras = std::vector<Camera>;
-
-/// A method whose renderer needs only the scene.
-template <typename Make>
-Method by_rays(const std::string& name, const std::string& file, Make make,
-               const examples::Options& options) {
-    return {name, file,
-            [&options, make](const Cornell& world, const Cameras& cameras,
-                             double effort, std::uint64_t seed) {
-                return views_of(make(world), cameras, options, effort, seed);
-            }};
-}
-
-/// Radiosity: patches that shrink as the effort grows.
-Method by_radiosity(const examples::Options& options) {
-    return {"radiosity", "radiosity",
-            [&options](const Cornell& world, const Cameras& cameras, double effort,
-                       std::uint64_t seed) {
-                Lap lap;
-                const auto solved = make_radiosity(
-                    world,
-                    {.patches = {.size = std::max(0.8 / std::sqrt(effort), 0.07)},
-                     .factors = {.analytic = false,
-                                 .rays = 512,
-                                 .seed = seed,
-                                 .threads = options.threads}});
-                const LightMapView view(world, solved->map);
-                const std::size_t kept =
-                    solved->map.irradiance.size() * sizeof(RgbT<double>);
-                return views_of(view, cameras, options, std::max(effort / 4, 4.0), seed,
-                                {.solution = lap(),
-                                 .memory = kept,
-                                 .working = kept + solved->factors.exchange.size() *
-                                                       sizeof(double)});
-            }};
-}
-
-/// Photon mapping: the general map where an indirect ray ends, or where the camera
-/// looks.
-Method by_photons(IndirectLight indirect, const examples::Options& options) {
-    const bool direct = indirect == IndirectLight::photons;
-    return {direct ? "photon map seen" : "two passes", direct ? "seen" : "photons",
-            [&options, indirect, direct](const Cornell& world, const Cameras& cameras,
-                                         double effort, std::uint64_t seed) {
-                const auto settings = photon_settings(indirect, effort, seed);
-                Lap lap;
-                const PhotonMapper mapper(world, settings);
-                const auto& maps = mapper.maps();
-                const std::size_t kept =
-                    bytes_of(maps.general) + bytes_of(maps.caustics);
-                const long long passes = maps.caustics.empty() ? 1 : 2;
-                return views_of(mapper, cameras, options, direct ? effort / 4 : effort,
-                                seed,
-                                {.solution = lap(),
-                                 .memory = kept,
-                                 .working = kept,
-                                 .photons = passes * settings.general.photons});
-            }};
-}
-
-/// All renderers of the book so far, and two ways to use photons.
-std::vector<Method> methods(const examples::Options& options) {
-    return {by_rays(
-                "Whitted", "whitted",
-                [](const Cornell& world) { return WhittedTracer(world); }, options),
-            by_rays(
-                "distributed rays", "distributed",
-                [](const Cornell& world) { return DistributedTracer(world); }, options),
-            by_rays(
-                "path tracing", "paths",
-                [](const Cornell& world) { return PathTracer(world); }, options),
-            by_radiosity(options),
-            by_photons(IndirectLight::map, options),
-            by_photons(IndirectLight::photons, options)};
-}
-
-// --- Error against time ---------------------------------------------------------------
-
-/// The result of one method with one effort.
-struct Rung {
-    double effort = 0;     ///< The effort.
-    double seconds = 0;    ///< Median over the seeds.
-    double rays = 0;       ///< Of the view.
-    double photons = 0;    ///< Emitted.
-    BiasVariance pixels{}; ///< The two parts of relMSE.
-    BiasVariance blocks{}; ///< The same for means of 10 x 10 pixels.
-    Image image{};         ///< Of the first seed.
-
-    [[nodiscard]] double error(bool block) const {
-        const BiasVariance& parts = block ? blocks : pixels;
-        return parts.bias_squared + parts.variance;
-    }
-};
-
-/// A room, its reference, and the results of all methods.
-struct Study {
-    std::string name;                      ///< Of the room.
-    Room<CornellSceneT<float>> room;       ///< The room.
-    ImageT<double> truth{};                ///< By another renderer, with other seeds.
-    double noise = 0;                      ///< Of the truth, as relMSE.
-    double block_noise = 0;                ///< The same of its blocks.
-    std::vector<std::vector<Rung>> runs{}; ///< One list per method.
-};
-
-/// A path tracer for the reference: at every surface the random numbers of a pixel's
-/// rays are stratified, and caustics come from photons.
-struct Judge {
-    using Stream = StratifiedStream; ///< The random stream that render() passes to it.
-    const Cornell& world;            ///< Of a room.
-    const PhotonMap& caustics;       ///< Empty in the matt room.
-    DensityEstimateSettings gather;  ///< In discs smaller than a pixel.
-};
-
-/// What a matt surface reflects of the light of all lamps and of the caustics map.
-template <typename Material>
-Rgb lamps_and_caustics(const Judge& judge, const VertexT<float>& at,
-                       const Material& material, auto& context) {
-    const Rgb lamps = sample_all_lights(judge.world, at, material, {}, context);
-    return lamps + estimate_radiance(judge.caustics, at, material, at.wo, judge.gather,
-                                     light_kinds, context.counts.map_photons);
-}
-
-// [judge]
-Rgb radiance(const Judge& judge, const Ray& ray, auto& context) {
-    Rgb sum{0};
-    PathState path{.ray = ray};
-    while (path.depth < 1000) {
-        const auto vertex = next_vertex(judge.world, path, context.stream);
-        if (!vertex) break;
-        if (vertex->emits() && !path.met_diffuse)
-            sum += path.throughput * vertex->object.emission;
-        const auto at_material = [&](const auto& matter) {
-            if (has(lobes(matter), Lobes::non_specular))
-                sum += path.throughput *
-                       lamps_and_caustics(judge, *vertex, matter, context);
-            return continue_path(path, *vertex, matter, Transport::radiance, Lobes::all,
-                                 context.stream);
-        };
-        if (!visit_material_at(judge.world, *vertex, at_material)) break;
-        if (path.depth >= 4 &&
-            !survives(path.throughput, path.eta_scale, next_1d(context.stream), 0.4f))
-            break;
-    }
-    return sum;
-}
-// [judge]
-
-/// A room by the renderer of the reference.
-/// \param photons  Of the caustics map.
-/// \param radius   Of its discs, m.
-/// \param options  Its size, and the number of threads.
-Image judged(const Room<CornellSceneT<float>>& room, int rays, long long photons,
-             float radius, std::uint64_t seed, const examples::Options& options) {
-    const PhotonMappingSettings settings{.indirect = IndirectLight::rays,
-                                         .caustics{.photons = photons, .seed = seed},
-                                         .caustics_estimate{.radius = radius}};
-    const PhotonMapper mapper(room.world, settings);
-    examples::ProgressBar bar("reference", options.quiet);
-    const Judge judge{.world = room.world,
-                      .caustics = mapper.maps().caustics,
-                      .gather = settings.caustics_estimate};
-    auto rendered = render(judge, room.camera,
-                           {.width = options.width,
-                            .height = options.height,
-                            .samples = rays,
-                            .seed = seed,
-                            .threads = options.threads,
-                            .progress = bar});
-    examples::stop_if_asked();
-    return std::move(rendered.image);
-}
-
-/// The reference: the mean of eight pictures, whose scatter gives its error.
-/// \param panels  As options, but with the size of what is shown.
-void find_truth(Study& study, int rays, const examples::Options& options,
-                const examples::Options& panels) {
-    constexpr int parts = 8;
-    const int part = std::max(1, rays / parts);
-    const float radius = 0.6f / float(options.width);
-    std::vector<Image> runs;
-    for (std::uint64_t number = 0; number < parts; ++number)
-        runs.push_back(judged(study.room, part, 400LL * part, radius,
-                              options.seed + 1000 + number, options));
-    study.truth = {options.width, options.height,
-                   std::vector<RgbT<double>>(runs[0].pixels.size())};
-    for (const Image& run : runs)
-        for (std::size_t i = 0; i < run.pixels.size(); ++i)
-            study.truth.pixels[i] += RgbT<double>(run.pixels[i]) / double(parts);
-    study.noise = examples::relative_split(runs, study.truth).variance / parts;
-    study.block_noise =
-        examples::relative_split(runs, study.truth, 0, 10).variance / parts;
-    save_png(judged(study.room, part, 400LL * rays, radius, options.seed + 900, panels),
-             options.path("side_by_side-" + study.name + "-truth.png"));
-}
-
-/// Runs all methods, rung by rung.
-void climb(Study& study, const std::vector<Method>& all,
-           const examples::Options& options, const Sizes& sizes) {
-    for (const Method& method : all) {
-        study.runs.emplace_back();
-        for (int rung = 0; rung < sizes.rungs; ++rung) {
-            Rung result{.effort = std::pow(4.0, rung)};
-            std::vector<Image> images;
-            std::vector<double> seconds;
-            for (int seed = 0; seed < sizes.seeds; ++seed) {
-                // A processor clock may tick only a hundred times a second.
-                Shot shot;
-                Lap lap;
-                double spent = 0;
-                int repeats = 0;
-                for (; spent < options.pick(0.01, 0.06, 0.06);
-                     ++repeats, spent += lap())
-                    shot = method.shoot(study.room.world, {study.room.camera},
-                                        result.effort,
-                                        options.seed + std::uint64_t(seed))[0];
-                images.push_back(shot.image);
-                seconds.push_back(spent / repeats);
-                result.rays += double(shot.counts.rays()) / sizes.seeds;
-                result.photons = double(shot.photons);
-            }
-            std::sort(seconds.begin(), seconds.end());
-            result.seconds = seconds[seconds.size() / 2];
-            result.pixels = examples::relative_split(images, study.truth, study.noise);
-            result.blocks =
-                examples::relative_split(images, study.truth, study.block_noise, 10);
-            result.image = images[0];
-            if (!options.quiet)
-                std::printf("%s, %s, effort %.0f: %.3f s, %.0f rays, %.0f photons, "
-                            "relMSE %.5f (bias^2 %.5f), blocks %.6f (bias^2 %.6f)\n",
-                            study.name.c_str(), method.name.c_str(), result.effort,
-                            result.seconds, result.rays, result.photons,
-                            result.error(false), result.pixels.bias_squared,
-                            result.error(true), result.blocks.bias_squared);
-            study.runs.back().push_back(std::move(result));
-        }
-    }
-}
-
-/// One column of a list of rungs.
-template <typename Value>
-std::vector<double> column(const std::vector<Rung>& rungs, Value value) {
-    std::vector<double> list;
-    for (const Rung& rung : rungs) list.push_back(value(rung));
+    list.push_back(passes);
     return list;
 }
-std::vector<double> times(const std::vector<Rung>& rungs) {
-    return column(rungs, [](const Rung& rung) { return rung.seconds; });
-}
-std::vector<double> errors(const std::vector<Rung>& rungs, bool block) {
-    return column(rungs, [&](const Rung& rung) { return rung.error(block); });
-}
 
-/// Two plots: relMSE of pixels and of blocks, against time.
-void plots(const Study& study, const std::vector<Method>& all,
-           const examples::Options& options) {
-    for (const bool block : {false, true}) {
-        examples::Plot plot{.name = "side_by_side-" + study.name +
-                                    (block ? "-blocks" : "-pixels"),
-                            .columns = {"seconds of processor time"},
-                            .y_label = block ? "relMSE of 10 x 10 blocks" : "relMSE",
-                            .log_x = true,
-                            .log_y = true};
-        for (std::size_t k = 0; k < all.size(); ++k) {
-            plot.columns.push_back(all[k].name);
-            for (const Rung& rung : study.runs[k]) {
-                examples::Row row(all.size() + 1, nothing);
-                row[0] = rung.seconds;
-                row[k + 1] = std::max(rung.error(block), 1e-9);
-                plot.rows.push_back(row);
+/// Runs all series on the same photons, seed by seed.
+void run_series(std::vector<Series>& all, long long photons,
+                const std::vector<long long>& stops, int seeds) {
+    const World stage(examples::window_scene<Stage>());
+    for (Series& series : all) {
+        series.images.assign(stops.size(), {});
+        series.estimates.assign(stops.size(), 0);
+    }
+    for (int seed = 1; seed <= seeds; ++seed) {
+        std::vector<ProgressiveState> states;
+        for (const Series& series : all) states.push_back({.alpha = series.alpha});
+        std::size_t stop = 0;
+        for (long long pass = 1; pass <= stops.back(); ++pass) {
+            const PhotonMap map = window_map(stage, photons, std::uint64_t(seed), pass);
+            for (std::size_t i = 0; i < all.size(); ++i)
+                add_pass(states[i],
+                         read_strip(map, all[i].strip,
+                                    all[i].radius * std::sqrt(states[i].shrink)));
+            if (pass != stops[stop]) continue;
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                all[i].images[stop].push_back(mean_image(states[i]));
+                const double error = estimate_error(states[i]).pixels;
+                all[i].estimates[stop] += error * error / seeds;
             }
+            ++stop;
+            examples::stop_if_asked();
         }
-        save_plot(options.out, plot);
     }
 }
 
-/// Slopes, and the bias in the best run's error.
-void split_table(const Study& study, const std::vector<Method>& all,
-                 const examples::Options& options) {
-    examples::Table table{.name = "side_by_side-" + study.name + "-split",
-                          .columns = {"", "slope of relMSE against time",
-                                      "of the best: bias²", "noise", "blocks: bias²",
-                                      "noise "}};
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const auto law =
-            examples::fit_power(times(study.runs[k]), errors(study.runs[k], false));
-        const Rung& best = study.runs[k].back();
-        table.rows.push_back({all[k].name,
-                              examples::text(law.slope, "%.2f") + " ± " +
-                                  examples::text(law.error, "%.2f"),
-                              examples::text(best.pixels.bias_squared, "%.5f"),
-                              examples::text(best.pixels.variance, "%.5f"),
-                              examples::text(best.blocks.bias_squared, "%.6f"),
-                              examples::text(best.blocks.variance, "%.6f")});
+/// Bias and variance of a series after each number of passes.
+std::vector<BiasVariance> split_of(const Series& series) {
+    std::vector<BiasVariance> split;
+    for (const auto& runs : series.images)
+        split.push_back(bias_variance(runs, exact_strip(series.strip)));
+    return split;
+}
+
+/// "-0.667 +- 0.010": the slope of a mean square over the passes, after the first ones.
+/// \param square  Of a BiasVariance: what is fitted.
+template <typename Square>
+std::string fitted_slope(const std::vector<BiasVariance>& split,
+                         const std::vector<long long>& stops, Square square) {
+    std::vector<double> n, y;
+    for (std::size_t i = 0; i < stops.size(); ++i) {
+        if (stops[i] * 60 < stops.back()) continue; // where it has settled
+        n.push_back(double(stops[i]));
+        y.push_back(square(split[i]));
     }
-    examples::show_table(options, table);
-    // Every point, to draw other plots from.
-    examples::Table points{.name = "side_by_side-" + study.name + "-points",
-                           .columns = {"renderer", "effort", "seconds", "rays",
-                                       "photons", "bias2", "variance", "block bias2",
-                                       "block variance"}};
-    double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < all.size(); ++k)
-        for (const Rung& r : study.runs[k]) {
-            std::vector<std::string> row{all[k].name};
-            for (const double value :
-                 {r.effort, r.seconds, r.rays, r.photons, r.pixels.bias_squared,
-                  r.pixels.variance, r.blocks.bias_squared, r.blocks.variance})
-                row.push_back(examples::text(value, "%.6g"));
-            points.rows.push_back(row);
-            smallest = std::min(smallest, r.error(false));
-        }
-    save_table(options.out, points);
-    if (!options.quiet)
-        std::printf("%s: the reference's standard error is %.4f; the smallest error "
-                    "reported (root of relMSE) is %.4f, %.1f times as much\n",
-                    study.name.c_str(), std::sqrt(study.noise), std::sqrt(smallest),
-                    std::sqrt(smallest / study.noise));
+    const auto fit = examples::fit_power(n, y);
+    return examples::text(fit.slope, "%.3f") + " +- " +
+           examples::text(fit.error, "%.3f");
 }
 
-// --- The same time, the same error ----------------------------------------------------
-
-/// A picture of a method for a panel.
-Shot panel(const Study& study, const Method& method, double effort,
-           const examples::Options& options) {
-    return method.shoot(study.room.world, {study.room.camera}, effort,
-                        options.seed + 77)[0];
+/// The slopes of one series beside the laws: a row of the table.
+std::vector<std::string> slopes_row(const Series& series,
+                                    const std::vector<BiasVariance>& split,
+                                    const std::vector<long long>& stops, bool quiet) {
+    const double a = series.alpha;
+    const double bias_law = series.strip.first < 0 ? -2 * (1 - a) : -(1 - a) / 2;
+    const std::string variance =
+        fitted_slope(split, stops, [](const auto& at) { return at.variance; });
+    const std::string bias =
+        fitted_slope(split, stops, [](const auto& at) { return at.bias_squared; });
+    const std::string both = fitted_slope(
+        split, stops, [](const auto& at) { return at.variance + at.bias_squared; });
+    if (!quiet)
+        std::printf("%s alpha %.2f: variance %s (law %.3f), bias^2 %s (law %.3f)\n",
+                    series.strip.name, a, variance.c_str(), -a, bias.c_str(), bias_law);
+    return {series.strip.name,
+            a < 0.5 ? "1/3" : "2/3",
+            examples::text(-a, "%.3f"),
+            variance,
+            examples::text(bias_law, "%.3f"),
+            bias,
+            examples::text(std::max(-a, bias_law), "%.3f"),
+            both};
 }
 
-/// The effort that takes a time: between rungs a straight line, beyond them the power
-/// law of the last two, or in proportion if that is less. At least 1 ray per pixel.
-double effort_for(const std::vector<Rung>& rungs, double seconds) {
-    const Rung &last = rungs.back(), &before = rungs[rungs.size() - 2];
-    if (seconds >= last.seconds) {
-        const double power = std::log(last.seconds / before.seconds) /
-                             std::log(last.effort / before.effort);
-        return last.effort * std::pow(seconds / last.seconds, 1 / std::max(power, 1.0));
-    }
-    for (std::size_t i = 1; i < rungs.size(); ++i)
-        if (seconds <= rungs[i].seconds && rungs[i].seconds > rungs[i - 1].seconds) {
-            const double t = (seconds - rungs[i - 1].seconds) /
-                             (rungs[i].seconds - rungs[i - 1].seconds);
-            return std::max(1.0, rungs[i - 1].effort +
-                                     t * (rungs[i].effort - rungs[i - 1].effort));
-        }
-    return 1;
+/// Bias and variance against the passes, for alpha = 2/3: in the middle of the light,
+/// with the variance as the passes estimate it, and across its edge.
+void plot_laws(const Series& middle, const Series& edge,
+               const std::vector<long long>& stops, const examples::Options& options) {
+    examples::Plot plot{.name = "progressive-laws",
+                        .columns = {"passes", "variance in the middle",
+                                    "squared bias in the middle", "estimated variance",
+                                    "squared bias across the edge", "n^(-2/3)"},
+                        .y_label = "mean square over the places",
+                        .log_x = true,
+                        .log_y = true};
+    const auto inside = split_of(middle), across = split_of(edge);
+    const double last = inside.back().variance;
+    for (std::size_t i = 0; i < stops.size(); ++i)
+        plot.rows.push_back(
+            {double(stops[i]), inside[i].variance, inside[i].bias_squared,
+             stops[i] > 1 ? middle.estimates[i] : std::nan(""), across[i].bias_squared,
+             2 * last * std::pow(double(stops[i]) / double(stops.back()), -2.0 / 3)});
+    save_plot(options.out, plot);
 }
 
-/// All renderers at the same time; `larger`: also the pictures of
-/// the first of the times, in more pixels by the same effort.
-void equal_time(const Study& study, const std::vector<Method>& all,
-                const std::vector<Method>& larger, const examples::Options& options) {
-    examples::Table table{
-        .name = "side_by_side-" + study.name + "-time",
-        .columns = {"", "budget, s", "taken, s", "rays per pixel", "photons", "relMSE",
-                    "times the reference's error", "of 10 x 10 blocks", "FLIP"}};
-    const std::vector<double> budgets =
-        options.pick<std::vector<double>>({0.1}, {1, 10}, {1, 10, 100});
-    for (std::size_t b = 0; b < budgets.size(); ++b)
-        for (std::size_t k = 0; k < all.size(); ++k) {
-            const double effort = std::min(effort_for(study.runs[k], budgets[b]), 1e6);
-            const Shot shot = panel(study, all[k], effort, options);
-            // The example of the chapter makes those of the matt room.
-            if (b == 0 && study.name == "glass")
-                save_png(panel(study, larger[k], effort, options).image,
-                         options.path("side_by_side-" + study.name + "-time-" +
-                                      all[k].file + ".png"));
-            const double pixels = double(options.width) * options.height;
-            const double error = rel_mse(shot.image, study.truth) - study.noise;
-            table.rows.push_back(
-                {all[k].name, examples::text(budgets[b]),
-                 examples::text(shot.seconds(), "%.2f"),
-                 examples::text(double(shot.counts.camera_rays) / pixels),
-                 std::to_string(shot.photons), examples::text(error, "%.5f"),
-                 examples::text(std::sqrt(std::max(error, 0.0) / study.noise), "%.0f"),
-                 examples::text(
-                     block_error(shot.image, study.truth) - study.block_noise, "%.6f"),
-                 examples::text(flip(shot.image, study.truth), "%.3f")});
-        }
-    examples::show_table(options, table);
+/// Slopes of bias and variance, and the estimated error beside the true one.
+void laws(const examples::Options& options, const Sizes& sizes) {
+    constexpr long long photons = 500;
+    const auto stops =
+        milestones(options.pick(sizes.passes / 5 + 1, sizes.passes, sizes.passes));
+    std::vector<Series> all;
+    for (const Strip& strip : strips)
+        for (const double alpha : {1.0 / 3, 2.0 / 3})
+            all.push_back({strip, alpha, strip.first < 0 ? 1.2 : 0.6});
+    run_series(all, photons, stops, 4 * sizes.seeds);
+
+    examples::Table table{.name = "progressive-slopes",
+                          .columns = {"where", "alpha", "variance: law", "measured",
+                                      "squared bias: law", "measured", "both: law",
+                                      "measured"}};
+    for (const Series& series : all)
+        table.rows.push_back(
+            slopes_row(series, split_of(series), stops, options.quiet));
+    plot_laws(all[1], all[3], stops, options);
+    save_table(options.out, table);
 }
 
-/// Time and rays that each needs for an error, and pictures by the effort for one of
-/// them.
-void equal_error(const Study& study, const std::vector<Method>& all,
-                 const std::vector<Method>& larger, const examples::Options& options) {
-    examples::Table table{.name = "side_by_side-" + study.name + "-error",
-                          .columns = {""}};
-    struct Target {
-        bool block;
-        double error;
-    };
-    const std::array targets{Target{false, 0.1}, Target{false, 0.03},
-                             Target{true, 0.003}, Target{true, 0.001}};
-    for (const Target& target : targets)
-        table.columns.push_back((target.block ? std::string("blocks ") : "relMSE ") +
-                                examples::text(target.error));
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const auto& rungs = study.runs[k];
-        std::vector<std::string> row{all[k].name};
-        for (const Target& target : targets) {
-            const auto error = errors(rungs, target.block);
-            const double seconds = examples::reach(times(rungs), error, target.error);
-            const double rays =
-                examples::reach(column(rungs, [](const Rung& r) { return r.rays; }),
-                                error, target.error);
-            row.push_back(std::isnan(seconds)
-                              ? "not by " +
-                                    examples::text(rungs.back().seconds, "%.2f") +
-                                    " s: " + examples::text(error.back(), "%.2g")
-                              : examples::text(seconds, "%.3f") + " s, " +
-                                    examples::text(rays / 1000, "%.0f") + "k rays");
-        }
-        table.rows.push_back(row);
-        if (study.name != "matt") continue;
-        // The panel: the run with the first error, or the closest one.
-        const double effort =
-            examples::reach(column(rungs, [](const Rung& r) { return r.effort; }),
-                            errors(rungs, targets[1].block), targets[1].error);
-        const Shot shot =
-            panel(study, larger[k], std::isnan(effort) ? rungs.back().effort : effort,
-                  options);
-        save_png(shot.image, options.path("side_by_side-" + study.name + "-error-" +
-                                          all[k].file + ".png"));
-    }
-    examples::show_table(options, table);
+/// Squared bias and variance of some runs together.
+double error_of(const std::vector<Image>& runs, const Strip& strip) {
+    const auto split = bias_variance(runs, exact_strip(strip));
+    return split.bias_squared + split.variance;
 }
 
-// --- Who carries what -----------------------------------------------------------------
+/// The best of several radii, and the mean squared error with it.
+struct BestRadius {
+    double radius = 0;
+    double error = std::numeric_limits<double>::infinity();
 
-/// The classes of paths that are distinguished.
-constexpr std::array class_names{"EL",      "ES+L",       "EDL", "ES+DL",
-                                 "ES*DS+L", "E.*D.*D.*L", "E.*L"};
-
-/// How much light of one class a renderer finds, over several seeds.
-struct ClassSum {
-    double mean = 0, squares = 0;
-
-    /// The relative standard error of the mean.
-    [[nodiscard]] double error(int seeds) const {
-        const double spread = std::max(squares - mean * mean, 0.0);
-        return mean > 0 ? std::sqrt(spread / (seeds - 1)) / mean : 0;
+    void consider(double other, double its_error) {
+        if (its_error < error) radius = other, error = its_error;
     }
 };
-using ClassSums = std::array<ClassSum, class_names.size()>;
 
-/// Settings common to all renderers when their classes are measured.
-struct ClassStudy {
-    const Study& study;
-    const examples::Options& options;
-    int seeds;
-    std::vector<LightPathExpression> classes{};
-};
+constexpr std::array radius_steps{-4, -3, -2, -1, 0, 1, 2, 3, 4}; ///< Quarter octaves.
 
-/// The means over the seeds of the results of `make`.
-template <typename Make>
-ClassSums over_seeds(const ClassStudy& of, Make make) {
-    ClassSums sums{};
-    for (int seed = 1; seed <= of.seeds; ++seed) {
-        const std::vector<RgbT<double>> means =
-            make({.width = of.options.width,
-                  .height = of.options.height,
-                  .samples = of.options.pick(2, 16, 64),
-                  .seed = of.options.seed + 5000 + std::uint64_t(seed),
-                  .threads = of.options.threads});
+/// All photons in one map, with each of several radii.
+BestRadius best_map(const Strip& strip, long long photons, int seeds) {
+    const World stage(examples::window_scene<Stage>());
+    std::array<std::vector<Image>, radius_steps.size()> runs;
+    std::array<double, radius_steps.size()> radii{};
+    for (std::size_t i = 0; i < radii.size(); ++i)
+        radii[i] = (strip.first < 0 ? 2.4 * std::pow(double(photons), -1.0 / 6)
+                                    : 4.0 * std::pow(double(photons), -1.0 / 3)) *
+                   std::exp2(radius_steps[i] / 4.0);
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const PhotonMap map = window_map(stage, photons, 5000 + std::uint64_t(seed), 0);
+        for (std::size_t i = 0; i < radii.size(); ++i)
+            runs[i].push_back(read_strip(map, strip, radii[i]));
         examples::stop_if_asked();
-        for (std::size_t k = 0; k < means.size(); ++k) {
-            const double value = (means[k].x + means[k].y + means[k].z) / 3;
-            sums[k].mean += value / of.seeds;
-            sums[k].squares += value * value / of.seeds;
+    }
+    BestRadius best;
+    for (std::size_t i = 0; i < radii.size(); ++i)
+        best.consider(radii[i], error_of(runs[i], strip));
+    return best;
+}
+
+/// The best first radius of the passes at a strip.
+/// \param stop  Which of the numbers of passes.
+BestRadius best_passes(const std::vector<Series>& all, const Strip& strip,
+                       std::size_t stop) {
+    BestRadius best;
+    for (const Series& series : all)
+        if (series.strip.first == strip.first)
+            best.consider(series.radius, error_of(series.images[stop], strip));
+    return best;
+}
+
+/// Passes at each strip, with several first radii.
+std::vector<Series> series_of_radii() {
+    std::vector<Series> all;
+    for (const Strip& strip : strips)
+        for (const int step : radius_steps)
+            all.push_back({strip, strip.first < 0 ? 2.0 / 3 : 1.0 / 3,
+                           (strip.first < 0 ? 0.9 : 0.7) * std::exp2(step / 4.0)});
+    return all;
+}
+
+/// The same photons in one map, with the best radius that one map can have, and in
+/// passes, with the best first radius.
+void one_map(const examples::Options& options, const Sizes& sizes) {
+    constexpr long long photons = 500;
+    const int seeds = std::max(2, sizes.seeds / 2);
+    std::vector<long long> stops;
+    for (long long n = 10;
+         n <= options.pick(sizes.passes / 5, sizes.passes, sizes.passes); n *= 10)
+        stops.push_back(n);
+    if (stops.empty()) stops.push_back(sizes.passes);
+    examples::Table table{.name = "progressive-one-map",
+                          .columns = {"where", "photons", "one map: best radius",
+                                      "squared error", "passes of 500", "squared error",
+                                      "ratio"}};
+    std::vector<Series> all = series_of_radii();
+    run_series(all, photons, stops, seeds);
+    for (const Strip& strip : strips)
+        for (std::size_t s = 0; s < stops.size(); ++s) {
+            const long long count = stops[s] * photons;
+            const BestRadius map = best_map(strip, count, seeds);
+            const BestRadius passes = best_passes(all, strip, s);
+            table.rows.push_back({strip.name, std::to_string(count),
+                                  examples::text(map.radius, "%.2f"),
+                                  examples::text(map.error, "%.3g"),
+                                  std::to_string(stops[s]) +
+                                      ", r = " + examples::text(passes.radius, "%.2f"),
+                                  examples::text(passes.error, "%.3g"),
+                                  examples::text(passes.error / map.error, "%.2f")});
+            if (!options.quiet)
+                std::printf(
+                    "%s, %lld photons: one map %.3g (r %.2f), passes %.3g (r %.2f)\n",
+                    strip.name, count, map.error, map.radius, passes.error,
+                    passes.radius);
         }
-    }
-    return sums;
+    save_table(options.out, table);
 }
 
-/// The classes of a renderer that is ready.
-template <typename Renderer>
-ClassSums classes_of(const ClassStudy& of, const Renderer& renderer) {
-    return over_seeds(of, [&](const RenderSettings& picture) {
-        return class_means(renderer, of.study.room.camera, picture, of.classes);
-    });
-}
-
-/// The classes of photon mapping, with maps of its own for each seed.
-ClassSums classes_of_photons(const ClassStudy& of, IndirectLight indirect) {
-    const Cornell& world = of.study.room.world;
-    return over_seeds(of, [&](const RenderSettings& picture) {
-        const auto settings =
-            photon_settings(indirect, of.options.pick(16.0, 64.0, 256.0), picture.seed);
-        return class_means(PhotonMapper(world, settings), of.study.room.camera, picture,
-                           of.classes);
-    });
-}
-
-/// The classes of radiosity, which answers for E D+ L at once. What its lamps' patches
-/// send out, and no others, is E D L; the rest is E D+ D L.
-ClassSums classes_of_radiosity(const ClassStudy& of) {
-    const Cornell& world = of.study.room.world;
-    return over_seeds(of, [&](const RenderSettings& picture) {
-        const auto all = make_radiosity(
-            world, {.patches = {.size = of.options.pick(0.4, 0.2, 0.1)},
-                    .factors = {.analytic = false, .rays = 512, .seed = picture.seed}});
-        std::vector<RgbT<double>> lamp;
-        for (const Patch& patch : all->patches.patches) lamp.push_back(patch.emitted);
-        const auto view = [&](const LightMap& map) {
-            return class_means(LightMapView(world, map), of.study.room.camera, picture,
-                               of.classes);
-        };
-        auto whole = view(all->map);
-        const auto direct =
-            view(make_light_map(world, all->patches, all->factors, lamp));
-        whole[5] = whole[2] - direct[2];
-        whole[2] = direct[2];
-        return whole;
-    });
-}
-
-/// "0.998(3)": a class over the true one, and the standard error of its last digit.
-/// Empty if the room has no such light.
-std::string class_ratio(const ClassSum& its, const ClassSum& right, int seeds) {
-    if (!(right.mean > 0)) return its.mean > 0 ? "?" : "";
-    // The difference of two light maps may leave a rest by rounding.
-    if (!(its.mean > 1e-6 * right.mean)) return "0";
-    const double ratio = its.mean / right.mean;
-    const double error = ratio * std::hypot(its.error(seeds), right.error(seeds));
-    return examples::text(ratio, "%.3f(") + std::to_string(std::lround(1000 * error)) +
-           ")";
-}
-
-/// For each class of paths, the light that a renderer finds over that of path tracing.
-void class_table(const Study& study, const examples::Options& options,
-                 const Sizes& sizes) {
-    const Cornell& world = study.room.world;
-    ClassStudy of{study, options, std::max(sizes.seeds, 4)};
-    for (const char* name : class_names)
-        of.classes.push_back(light_path_expression(name));
-    const ClassSums truth = classes_of(of, PathTracer(world));
-    const std::array<std::pair<const char*, ClassSums>, 6> renderers{
-        {{"Whitted", classes_of(of, WhittedTracer(world))},
-         {"distributed rays", classes_of(of, DistributedTracer(world))},
-         {"path tracing", truth},
-         {"radiosity", classes_of_radiosity(of)},
-         {"two passes", classes_of_photons(of, IndirectLight::map)},
-         {"photon map seen", classes_of_photons(of, IndirectLight::photons)}}};
-
-    examples::Table table{.name = "side_by_side-" + study.name + "-classes",
-                          .columns = {""}};
-    table.columns.insert(table.columns.end(), class_names.begin(), class_names.end());
-    std::vector<std::string> share{"share of the light"};
-    for (const ClassSum& sum : truth)
-        share.push_back(examples::text(100 * sum.mean / truth.back().mean, "%.1f %%"));
-    table.rows.push_back(share);
-    for (const auto& [name, sums] : renderers) {
-        std::vector<std::string> row{name};
-        for (std::size_t k = 0; k < sums.size(); ++k)
-            row.push_back(class_ratio(sums[k], truth[k], of.seeds));
-        table.rows.push_back(row);
-    }
-    examples::show_table(options, table);
-}
-
-// --- One solution, many views ---------------------------------------------------------
-
-/// The cost of the first view and of each further one, and the memory kept.
-void views(const Study& study, const std::vector<Method>& all,
-           const std::vector<Method>& larger, const examples::Options& options,
-           const Sizes& sizes) {
-    constexpr int count = 5;
-    std::vector<Camera> cameras;
-    for (int i = 0; i < count; ++i) {
-        const auto x = float(-0.8 + 1.6 * i / (count - 1));
-        cameras.push_back(look_at(View{.position{x, 1.0f + x / 2, 4.4f - x * x},
-                                       .target{0, 1, 0},
-                                       .up{0, 1, 0},
-                                       .vfov_degrees = 33}));
-    }
-    examples::Table table{.name = "side_by_side-" + study.name + "-views",
-                          .columns = {"", "solution, s", "per view, s",
-                                      "a further view over the first", "kept",
-                                      "while it is made"}};
-    const double effort = std::pow(4.0, sizes.rungs - 1);
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const Method& method = all[k];
-        if (method.file == "whitted" || method.file == "distributed") continue;
-        const auto shots =
-            method.shoot(study.room.world, cameras, effort, options.seed);
-        const double solution = shots[0].solution;
-        double view = 0;
-        for (const Shot& shot : shots) view += shot.view / count;
-        const auto size = [](std::size_t bytes) {
-            return bytes == 0 ? std::string("nothing")
-                              : examples::text(double(bytes) / 1e6, "%.2f MB");
-        };
-        const bool keeps = shots[0].memory > 0;
-        table.rows.push_back({method.name,
-                              keeps ? examples::text(solution, "%.3f") : "none",
-                              examples::text(view, "%.3f"),
-                              examples::text(view / (solution + view), "%.2f"),
-                              size(shots[0].memory), size(shots[0].working)});
-        if (method.file == "seen" || method.file == "radiosity") {
-            const auto shown =
-                larger[k].shoot(study.room.world, cameras, effort, options.seed);
-            for (int i = 0; i < count; i += 2)
-                save_png(shown[std::size_t(i)].image,
-                         options.path("side_by_side-" + study.name + "-view-" +
-                                      method.file + "-" + std::to_string(i) + ".png"));
+/// Three passes at a point near the edge of the light: photons of their own, and discs
+/// that shrink.
+void draw_discs(const examples::Options& options) {
+    const World stage(examples::window_scene<Stage>());
+    examples::Drawing figure{.name = "progressive-discs",
+                             .description = "Three passes: each has photons of its own "
+                                            "and a smaller disc than the one before",
+                             .low{-0.1, -0.35},
+                             .high{6.5, 2.1},
+                             .scale = 108};
+    double shrink = 1;
+    int panel = 0;
+    constexpr std::array colors{examples::colors::blue, examples::colors::orange,
+                                examples::colors::green};
+    for (long long pass = 1; pass <= 100; ++pass) {
+        if (pass == 1 || pass == 10 || pass == 100) {
+            const double left = 2.2 * panel;
+            const char* const color = colors[std::size_t(panel)];
+            draw_line(figure,
+                      {{left, 0}, {left + 2, 0}, {left + 2, 2}, {left, 2}, {left, 0}},
+                      {"currentColor", 1});
+            const auto traced = trace_photons(stage, MapType::caustics,
+                                              {.photons = 4000,
+                                               .seed = options.seed,
+                                               .iteration = std::uint64_t(pass)});
+            for (const Photon& photon : traced.photons) { // x from 0.6 to 2.6
+                const double x = double(photon.position.x) - 0.6;
+                const double y = double(photon.position.z) + 1;
+                if (x > 0.02 && x < 1.98 && y > 0.02 && y < 1.98)
+                    draw_dot(figure, {left + x, y}, 1.7, color);
+            }
+            draw_arc(figure, {left + 1, 1}, 0.7 * std::sqrt(shrink), 0,
+                     2 * std::numbers::pi, {"currentColor", 2});
+            draw_label(figure, {left + 1, -0.2},
+                       "pass " + std::to_string(pass) +
+                           ", r = " + examples::text(0.7 * std::sqrt(shrink), "%.2f"));
+            ++panel;
         }
+        shrink *= (double(pass) + 2.0 / 3) / (double(pass) + 1);
     }
-    examples::show_table(options, table);
+    save_drawing(options.out, figure);
+}
+
+// --- The picture ---------------------------------------------------------------------
+
+/// The Cornell box.
+using Box = decltype(cornell_box());
+
+/// How the box is rendered in one pass.
+PhotonMappingSettings pass_settings(const examples::Options& options,
+                                    std::uint64_t seed) {
+    PhotonMappingSettings settings{.split_glass = true,
+                                   .indirect = IndirectLight::photons};
+    settings.caustics = {.photons = 1000, .seed = seed, .threads = options.threads};
+    settings.general = {.photons = 5000,
+                        .seed = seed,
+                        .shadow_photons = false,
+                        .threads = options.threads};
+    settings.caustics_estimate.radius = 0.12f;
+    settings.general_estimate.radius = 0.3f;
+    return settings;
+}
+
+RenderSettings frame_of(const examples::Options& options, int samples,
+                        std::uint64_t seed) {
+    return {.width = options.width,
+            .height = options.height,
+            .samples = samples,
+            .seed = seed,
+            .threads = options.threads};
+}
+
+/// The reference of the box, by many paths.
+struct Reference {
+    Image image = {};          ///< The mean of two halves.
+    ImageT<double> exact = {}; ///< The same in double.
+    double noise = 0;          ///< Its variance, as the relMSE that it makes.
+};
+
+/// Two halves: their difference gives their own noise.
+Reference reference_of(const Box& box, const examples::Options& options) {
+    const PathTracer tracer(box.world);
+    const int rays = options.pick(256, 4096, 65536);
+    std::array<Image, 2> halves;
+    for (const std::size_t i : {0u, 1u}) {
+        examples::ProgressBar bar("reference", options.quiet);
+        auto picture = frame_of(options, rays, 77 + i);
+        picture.progress = bar;
+        halves[i] = render(tracer, box.camera, picture).image;
+        examples::stop_if_asked();
+    }
+    Reference truth{.image = halves[0]};
+    for (std::size_t p = 0; p < truth.image.pixels.size(); ++p)
+        truth.image.pixels[p] = 0.5f * (halves[0].pixels[p] + halves[1].pixels[p]);
+    truth.exact = block_means(truth.image, 1);
+    for (std::size_t p = 0; p < truth.image.pixels.size(); ++p) {
+        const RgbT<double> d = 0.5 * (RgbT<double>(halves[0].pixels[p]) -
+                                      RgbT<double>(halves[1].pixels[p]));
+        const RgbT<double> r = truth.exact.pixels[p];
+        const RgbT<double> e = d * d / (r * r + default_epsilon);
+        truth.noise += (e.x + e.y + e.z) / 3 / double(truth.image.pixels.size());
+    }
+    return truth;
+}
+
+/// The box after some passes.
+struct Milestone {
+    long long passes = 0;
+    std::vector<Image> runs = {}; ///< One per seed that reached it.
+    double seconds = 0;           ///< Of the first seed.
+    double megabytes = 0;         ///< Peak memory so far.
+    double estimate = 0;          ///< Of its error.
+    double radius = 0;            ///< As a fraction of the first radius.
+    double faster = 0;            ///< relMSE with the exponent that suits edges.
+};
+
+/// Runs passes up to the last milestone within a limit, and calls at(milestone, state)
+/// at each.
+template <typename Pass, typename At>
+void run_to(std::vector<Milestone>& milestones, long long limit, ProgressiveState state,
+            Pass pass, examples::ProgressBar bar, At at) {
+    for (Milestone& milestone : milestones) {
+        if (milestone.passes > limit) break;
+        (void)run_progressive(state, milestone.passes, pass, [&](const auto& now) {
+            return bar(now.passes, milestones.back().passes);
+        });
+        examples::stop_if_asked();
+        at(milestone, state);
+    }
+}
+
+/// The first seed runs to the end; the others as far as bias and variance are needed.
+void run_seeds(std::vector<Milestone>& milestones, const Box& box,
+               const examples::Options& options, int seeds, long long split_at) {
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const auto number = std::uint64_t(seed);
+        const auto pass = [&](long long i, double scale) {
+            return photon_mapping_pass(box.world, box.camera,
+                                       pass_settings(options, number),
+                                       frame_of(options, 1, number), i, scale);
+        };
+        const double begin = examples::processor_seconds();
+        const auto keep = [&](Milestone& at, const ProgressiveState& state) {
+            at.runs.push_back(mean_image(state));
+            if (seed > 1) return;
+            at.seconds = examples::processor_seconds() - begin;
+            at.megabytes = peak_megabytes();
+            at.estimate = estimate_error(state).pixels;
+            at.radius = std::sqrt(state.shrink);
+        };
+        run_to(milestones, seed == 1 ? milestones.back().passes : split_at, {}, pass,
+               examples::ProgressBar("seed " + std::to_string(seed), options.quiet),
+               keep);
+    }
+}
+
+/// The same passes with the exponent that suits edges.
+void run_faster(std::vector<Milestone>& milestones, const Box& box,
+                const examples::Options& options, const Reference& truth) {
+    const auto pass = [&](long long i, double scale) {
+        return photon_mapping_pass(box.world, box.camera,
+                                   pass_settings(options, options.seed),
+                                   frame_of(options, 1, options.seed), i, scale);
+    };
+    run_to(milestones, milestones.back().passes, {.alpha = 1.0 / 3}, pass,
+           examples::ProgressBar("alpha 1/3", options.quiet),
+           [&](Milestone& at, const ProgressiveState& state) {
+               at.faster = rel_mse(mean_image(state), truth.image) - truth.noise;
+           });
+}
+
+/// The error of the box against the number of passes.
+void save_errors(const std::vector<Milestone>& milestones, const Reference& truth,
+                 const examples::Options& options) {
+    examples::Plot plot{
+        .name = "progressive-picture",
+        .columns = {"passes", "alpha = 2/3", "alpha = 1/3", "n^(-2/3)", "n^(-1/3)"},
+        .y_label = "relMSE of the box",
+        .log_x = true,
+        .log_y = true};
+    examples::Table table{.name = "progressive-picture-table",
+                          .columns = {"passes", "processor seconds", "radius", "relMSE",
+                                      "squared bias", "variance", "FLIP",
+                                      "estimated error per pixel", "peak memory, MB"}};
+    double first = 0;
+    for (const Milestone& at : milestones) {
+        const auto split =
+            at.runs.size() > 1
+                ? examples::relative_split(at.runs, truth.exact, truth.noise)
+                : BiasVariance{std::nan(""), std::nan("")};
+        const double error = rel_mse(at.runs[0], truth.image) - truth.noise;
+        const auto n = double(at.passes);
+        if (plot.rows.empty()) first = error;
+        plot.rows.push_back({n, error, at.faster, first * std::pow(n, -2.0 / 3),
+                             first * std::pow(n, -1.0 / 3)});
+        table.rows.push_back(
+            {std::to_string(at.passes), examples::text(at.seconds, "%.2f"),
+             examples::text(at.radius, "%.2f"), examples::text(error, "%.2g"),
+             examples::text(split.bias_squared, "%.2g"),
+             examples::text(split.variance, "%.2g"),
+             examples::text(flip(at.runs[0], truth.image), "%.3f"),
+             at.passes > 1 ? examples::text(at.estimate, "%.2g") : "",
+             examples::text(at.megabytes, "%.0f")});
+        if (!options.quiet) examples::print_row(table.rows.back(), 10);
+    }
+    save_plot(options.out, plot);
+    save_table(options.out, table);
+}
+
+/// As many photons and rays at once, with radii that one must choose.
+void beside_one_map(const Box& box, long long passes, const Reference& truth,
+                    const examples::Options& options, int seeds) {
+    examples::Table table{.name = "progressive-beside",
+                          .columns = {"how", "processor seconds", "relMSE",
+                                      "squared bias", "variance", "FLIP"}};
+    // All seeds of one way, and the time of the first.
+    const auto try_way = [&](const std::string& how, auto make) {
+        std::vector<Image> runs;
+        double time = 0, seen = 0;
+        for (int seed = 1; seed <= seeds; ++seed) {
+            const double begin = examples::processor_seconds();
+            runs.push_back(make(std::uint64_t(seed)));
+            if (seed == 1) time = examples::processor_seconds() - begin;
+            examples::stop_if_asked();
+        }
+        const auto split = examples::relative_split(runs, truth.exact, truth.noise);
+        for (const Image& run : runs)
+            seen += flip(run, truth.image) / double(runs.size());
+        table.rows.push_back(
+            {how, examples::text(time, "%.2f"),
+             examples::text(split.bias_squared + split.variance, "%.2g"),
+             examples::text(split.bias_squared, "%.2g"),
+             examples::text(split.variance, "%.2g"), examples::text(seen, "%.3f")});
+        if (!options.quiet) examples::print_row(table.rows.back(), 10);
+    };
+    const auto settings_of = [&](double scale, long long times, std::uint64_t seed) {
+        auto settings = pass_settings(options, seed);
+        settings.caustics.photons *= times;
+        settings.general.photons *= times;
+        settings.caustics_estimate.radius *= float(scale);
+        settings.general_estimate.radius *= float(scale);
+        return settings;
+    };
+    const std::string count = std::to_string(passes) + " passes, first radius ";
+    for (const double scale : {1.0, 0.5, 0.35})
+        try_way(count + examples::text(scale, "%.2f"), [&](std::uint64_t seed) {
+            ProgressiveState state;
+            const auto pass = [&](long long i, double shrunk) {
+                return photon_mapping_pass(box.world, box.camera,
+                                           settings_of(scale, 1, seed),
+                                           frame_of(options, 1, seed), i, shrunk);
+            };
+            (void)run_progressive(state, passes, pass,
+                                  [](const auto&) { return true; });
+            return mean_image(state);
+        });
+    for (const double scale : {1.0, 0.5, 0.35, 0.25})
+        try_way("one map, radius " + examples::text(scale, "%.2f"),
+                [&](std::uint64_t seed) {
+                    const auto settings = settings_of(scale, passes, seed);
+                    const PhotonMapper mapper(box.world, settings);
+                    return render(mapper, box.camera,
+                                  frame_of(options, int(passes), seed))
+                        .image;
+                });
+    save_table(options.out, table);
+}
+
+/// The box after more and more passes, and beside one map of as many photons.
+void pictures(const examples::Options& options, const Sizes& sizes) {
+    const Box box = cornell_box();
+    const Reference truth = reference_of(box, options);
+    const long long split_at = options.pick(4, 64, 256);
+    std::vector<Milestone> all;
+    for (const long long passes : milestones(sizes.passes)) all.push_back({passes});
+    run_seeds(all, box, options, sizes.seeds, split_at);
+    run_faster(all, box, options, truth);
+    save_errors(all, truth, options);
+
+    long long compared = all.front().passes; // the last milestone of all seeds
+    for (const Milestone& at : all)
+        if (at.passes <= split_at) compared = at.passes;
+    beside_one_map(box, compared, truth, options, sizes.seeds);
 }
 
 } // namespace
 
-/// Makes the plots, tables and further pictures of chapter 21.
+/// Makes the tables and plots of chapter 31.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 32, side by side: the experiments in two rooms.");
-        line.add("--rungs", sizes.rungs,
-                 "Efforts tried, each four times the one before", 2, 8);
-        line.add("--seeds", sizes.seeds, "Runs of each effort", 2, 1000);
-        line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8,
-                 10000000);
+        line.about("Chapter 32, progressive photons: laws and pictures.");
+        line.add("--seeds", sizes.seeds, "Runs behind bias and variance", 2, 1000);
+        line.add("--passes", sizes.passes, "How many photon maps", 1, 1'000'000'000);
         const examples::Options options =
-            line.parse({.draft{.width = 40, .height = 40, .samples = 1},
-                        .report{.width = 100, .height = 100, .samples = 1},
-                        .reference{.width = 200, .height = 200, .samples = 1}});
-        if (!line.given("--rungs")) sizes.rungs = options.pick(3, 4, 5);
-        if (!line.given("--seeds")) sizes.seeds = options.pick(3, 6, 12);
-        if (!line.given("--truth")) sizes.truth = options.pick(1000, 8000, 100000);
-
-        examples::Options panels = options; // the size of what is shown
-        panels.width *= options.pick(1, 4, 2);
-        panels.height *= options.pick(1, 4, 2);
-        const auto all = methods(options), larger = methods(panels);
-        for (const bool matt : {true, false}) {
-            Study study{.name = matt ? "matt" : "glass",
-                        .room = matt ? matt_cornell_box() : cornell_box()};
-            find_truth(study, sizes.truth, options, panels);
-            climb(study, all, options, sizes);
-            plots(study, all, options);
-            split_table(study, all, options);
-            equal_time(study, all, larger, options);
-            equal_error(study, all, larger, options);
-            class_table(study, options, sizes);
-            if (matt) views(study, all, larger, options, sizes);
-        }
+            line.parse({.draft{.width = 32, .height = 32, .samples = 1},
+                        .report{.width = 64, .height = 64, .samples = 1},
+                        .reference{.width = 128, .height = 128, .samples = 1}});
+        if (!line.given("--passes")) sizes.passes = options.pick(100, 1000, 10000);
+        if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
+        draw_discs(options);
+        laws(options, sizes);
+        one_map(options, sizes);
+        pictures(options, sizes);
     });
 }

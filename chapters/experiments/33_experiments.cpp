@@ -1,652 +1,779 @@
-// smoke: --quality draft --width 16 --height 16 --most 10 --repeats 1 --truth 64
+// smoke: --quality draft --width 16 --height 16 --rungs 2 --seeds 2 --truth 16
 /// \file chapters/experiments/33_experiments.cpp
-/// \brief Chapter 33: the experiments behind its tables and plots: the model behind the
-/// times of table 1, the cost of a loop and a thread, and the same bytes for any number
-/// of threads.
+/// \brief Chapter 33: two rooms by all renderers: error against time, the same time,
+/// the same error, bias and noise, and which light paths each carries.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
+#include <functional>
+#include <limits>
 #include <string>
-#include <thread>
+#include <utility>
 #include <vector>
 
+#include <ljus/image/flip.hpp>
+#include <ljus/inspect/class_means.hpp>
 #include <ljus/ljus.hpp>
-#include <ljus/scenes/report_rooms.hpp>
+#include <ljus/path/light_path_expression.hpp>
+#include <ljus/radiosity/light_map.hpp>
+#include <ljus/radiosity/patches.hpp>
+#include <ljus/radiosity/radiosity.hpp>
+#include <ljus/scene/camera.hpp>
+#include <ljus/scenes/cornell_box.hpp>
 
-#include "common/drawing.hpp"
-#include "common/oracle.hpp"
+#include "common/clock.hpp"
+#include "common/command_line.hpp"
+#include "common/convergence.hpp"
+#include "common/plot.hpp"
+#include "common/terminal.hpp"
+#include "experiments/show_table.hpp"
 
 using namespace ljus;
 
 namespace {
 
-using examples::text;
+using Cornell = World<CornellSceneT<float>>;
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// The options of this program, besides the common ones.
 struct Sizes {
-    int most = 0;    ///< The largest number of rays of table 1 that is tried.
-    int repeats = 0; ///< Pairs of one thread and several.
-    int truth = 0;   ///< Rays per pixel of the reference.
+    int rungs = 0; ///< Efforts tried, each four times the one before.
+    int seeds = 0; ///< Runs of each.
+    int truth = 0; ///< Rays per pixel of the reference.
 };
 
-/// The columns of a table of times.
-struct Times {
-    std::vector<double> rays{}; ///< Per pixel.
-    std::vector<double> one{};  ///< Seconds with one thread.
-    std::vector<double> many{}; ///< Seconds with several.
+// --- The renderers --------------------------------------------------------------------
+
+/// One picture, and what it took.
+struct Shot {
+    Image image{};           ///< The picture.
+    Counts counts{};         ///< Rays of the view.
+    double solution = 0;     ///< Seconds for what does not depend on the camera.
+    double view = 0;         ///< Seconds for the picture.
+    std::size_t memory = 0;  ///< Bytes kept for other views.
+    std::size_t working = 0; ///< Peak bytes while it is made.
+    long long photons = 0;   ///< How many were emitted.
+
+    [[nodiscard]] double seconds() const { return solution + view; }
 };
 
-/// Those of the report's table 1.
-const Times report_times{
-    {1, 10, 100, 200, 1000}, {3, 17, 188, 362, 1391}, {22, 28, 106, 208, 640}};
-
-/// Depth 4 and no roulette, as in the report.
-PhotonMappingSettings report_settings(int threads) {
-    PhotonMappingSettings settings{.max_depth = 4, .roulette_depth = 5};
-    settings.caustics.photons = 100000;
-    settings.caustics.threads = threads;
-    settings.caustics_estimate.radius = 0.05f; // the report's
-    return settings;
-}
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
-
-// --- A straight line through times ---------------------------------------------------
-
-/// Times of the form fixed + each * rays.
-struct Line {
-    double fixed = 0; ///< Seconds, independent of the number of rays.
-    double each = 0;  ///< Seconds for one ray in every pixel.
+/// A renderer whose rays, photons and radius, or patches, follow from an effort.
+struct Method {
+    std::string name; ///< As in plots.
+    std::string file; ///< As in names of files.
+    /// Renders a room. `effort` is a number of rays per pixel, or as much work;
+    /// cameras: one picture each from one solution.
+    std::function<std::vector<Shot>(const Cornell&, const std::vector<Camera>&,
+                                    double effort, std::uint64_t seed)>
+        shoot{};
 };
 
-/// Fits a line by least squares of the *relative* residuals: otherwise the row with
-/// most rays would decide alone, and hide a fixed cost of seconds in its minutes.
-/// \param rays     At least two different numbers.
-/// \param seconds  As many, above 0.
-// [fit]
-Line fit_line(const std::vector<double>& rays, const std::vector<double>& seconds) {
-    double w = 0, wx = 0, wxx = 0, wy = 0, wxy = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const double weight = 1 / (seconds[i] * seconds[i]);
-        w += weight;
-        wx += weight * rays[i];
-        wxx += weight * rays[i] * rays[i];
-        wy += weight * seconds[i];
-        wxy += weight * rays[i] * seconds[i];
+/// Seconds of processor time since the last call.
+struct Lap {
+    double start = examples::processor_seconds();
+    double operator()() {
+        const double now = examples::processor_seconds();
+        const double spent = now - start;
+        start = now;
+        return std::max(spent, 1e-6);
     }
-    const double each = (w * wxy - wx * wy) / (w * wxx - wx * wx);
-    return {(wy - each * wx) / w, each};
-}
-// [fit]
-
-// --- The times of table 1 ------------------------------------------------------------
-
-using examples::timed;
-using examples::Timing;
-
-/// The first pass, in its two halves.
-struct FirstPass {
-    Timing emission{}; ///< Photons sent and traced, by all threads.
-    Timing tree{};     ///< The k-d tree over them.
 };
 
-template <typename R>
-FirstPass first_pass(const R& room, const PhotonMappingSettings& settings) {
-    FirstPass pass;
-    TracedPhotonsT<float> traced;
-    pass.emission = timed([&] {
-        traced = trace_photons(room.world, MapType::caustics, settings.caustics);
-    });
-    pass.tree = timed([&] { (void)make_photon_map(traced.photons); });
-    return pass;
-}
-
-/// The second pass, with the report's numbers of rays: medians of pairs of pictures.
-/// \param shot  Renders the picture with some rays per pixel and some threads: its
-///              Timing.
-template <typename Shot>
-Times time_pairs(Shot shot, const Sizes& sizes, int threads) {
-    Times times;
-    for (const double rays : report_times.rays) {
-        if (rays > sizes.most) continue;
-        std::vector<double> one, many;
-        for (int repeat = 0; repeat < sizes.repeats; ++repeat) {
-            one.push_back(shot(int(rays), 1).wall);
-            many.push_back(shot(int(rays), threads).wall);
-            examples::stop_if_asked();
-        }
-        times.rays.push_back(rays);
-        times.one.push_back(median(one));
-        times.many.push_back(median(many));
-    }
-    return times;
-}
-
-/// The straight lines through the columns of table 1, and the times of the first pass.
-/// \return The line of our second pass with one thread.
-Line save_lines(const Times& measured, const FirstPass& alone, const FirstPass& shared,
-                const examples::Options& options, int threads) {
-    examples::Table lines{.name = "parallel-lines",
-                          .columns = {"", "fixed, s", "one ray in every pixel, s",
-                                      "microseconds per path"}};
-    const auto add = [&](const std::string& name, const Line& line, double of_pixels) {
-        lines.rows.push_back({name, text(line.fixed, "%.3g"), text(line.each, "%.3g"),
-                              text(1e6 * line.each / of_pixels, "%.3g")});
-    };
-    const auto once = [&](const std::string& name, double seconds) {
-        lines.rows.push_back({name, text(seconds, "%.3g"), "", ""});
-    };
-    add("report, 1 thread", fit_line(report_times.rays, report_times.one), 160000);
-    add("report, 4 threads", fit_line(report_times.rays, report_times.many), 160000);
-    const Line loop = fit_line(measured.rays, measured.one);
-    const double pixels = double(options.width) * options.height;
-    const std::string several = std::to_string(threads) + " threads";
-    add("second pass, 1 thread", loop, pixels);
-    add("second pass, " + several, fit_line(measured.rays, measured.many), pixels);
-    once("photons, 1 thread", alone.emission.wall);
-    once("photons, " + several, shared.emission.wall);
-    once("build the k-d tree, 1 thread", alone.tree.wall);
-    save_table(options.path(""), lines);
-    return loop;
-}
-
-/// The reference of table 1.
-template <typename R>
-void save_truth(const R& room, const examples::Options& options, const Sizes& sizes) {
-    const int side = std::min(options.pick(20, 64, 100), options.width);
-    const auto oracle =
-        examples::find_oracle("four-glass", room, side, sizes.truth, options);
-    const examples::Table truth{
-        .name = "parallel-truth",
-        .columns = {"reference", "rays per pixel", "its own relMSE"},
-        .rows = {{"path tracing, no limit of depth", std::to_string(oracle.rays),
-                  text(oracle.noise, "%.2g")}}};
-    save_table(options.path(""), truth);
-}
-
-/// The straight lines through the times of table 1.
-/// \param[out] loop  The line of the second pass with one thread.
-/// \return Seconds of the first pass with one thread, for Amdahl's law.
-template <typename R>
-FirstPass lines(const R& room, const examples::Options& options, const Sizes& sizes,
-                int threads, Line& loop) {
-    const PhotonMappingSettings settings = report_settings(1);
-    const FirstPass alone = first_pass(room, settings);
-    const FirstPass shared = first_pass(room, report_settings(threads));
-    const PhotonMapper mapper(room.world, settings);
-    const auto shot = [&](int rays, int by) {
-        return timed([&] {
-            (void)render(mapper, room.camera,
-                         {options.width, options.height, rays, options.seed, by});
-        });
-    };
-    (void)shot(1, threads); // starts the threads
-    loop =
-        save_lines(time_pairs(shot, sizes, threads), alone, shared, options, threads);
-    return alone;
-}
-
-// --- What a picture costs, pixel by pixel --------------------------------------------
-
-/// A renderer whose radiance is the cost of the path: rays, and photon searches.
+/// Pictures from all cameras by a renderer that is ready.
 template <typename Renderer>
-struct CostOf {
-    using Stream = typename Renderer::Stream;
-    const Renderer& renderer; ///< Of what.
+std::vector<Shot> views_of(const Renderer& renderer, const std::vector<Camera>& cameras,
+                           const examples::Options& options, double rays,
+                           std::uint64_t seed, const Shot& made = {}) {
+    std::vector<Shot> shots;
+    for (const Camera& camera : cameras) {
+        Lap lap;
+        const auto seen = render(renderer, camera,
+                                 {.width = options.width,
+                                  .height = options.height,
+                                  .samples = std::max(1, int(std::lround(rays))),
+                                  .seed = seed,
+                                  .threads = options.threads});
+        shots.push_back(made);
+        shots.back().view = lap();
+        shots.back().image = seen.image;
+        shots.back().counts = seen.counts;
+        examples::stop_if_asked();
+    }
+    return shots;
+}
+
+/// The bytes of a photon map.
+std::size_t bytes_of(const PhotonMap& map) {
+    return map.tree.bytes() + map.records.bytes();
+}
+
+/// The photon maps' efforts: photons in proportion to the rays, and
+/// a radius that shrinks with their sixth root, so that bias and noise fall together.
+// [photon effort]
+PhotonMappingSettings photon_settings(IndirectLight indirect, double effort,
+                                      std::uint64_t seed) {
+    const bool direct = indirect == IndirectLight::photons;
+    const auto many = std::llround((direct ? 4000 : 500) * effort);
+    const auto smaller = float(std::pow(effort, -1.0 / 6));
+    return {.shadow_rays = direct ? 4 : 1,
+            .indirect = indirect,
+            .caustics{.photons = many, .seed = seed},
+            .general{.photons = many, .seed = seed, .shadow_photons = false},
+            .caustics_estimate{.radius = 0.15f * smaller},
+            .general_estimate{.radius = (direct ? 0.35f : 0.5f) * smaller}};
+}
+// [photon effort]
+
+using Cameras = std::vector<Camera>;
+
+/// A method whose renderer needs only the scene.
+template <typename Make>
+Method by_rays(const std::string& name, const std::string& file, Make make,
+               const examples::Options& options) {
+    return {name, file,
+            [&options, make](const Cornell& world, const Cameras& cameras,
+                             double effort, std::uint64_t seed) {
+                return views_of(make(world), cameras, options, effort, seed);
+            }};
+}
+
+/// Radiosity: patches that shrink as the effort grows.
+Method by_radiosity(const examples::Options& options) {
+    return {"radiosity", "radiosity",
+            [&options](const Cornell& world, const Cameras& cameras, double effort,
+                       std::uint64_t seed) {
+                Lap lap;
+                const auto solved = make_radiosity(
+                    world,
+                    {.patches = {.size = std::max(0.8 / std::sqrt(effort), 0.07)},
+                     .factors = {.analytic = false,
+                                 .rays = 512,
+                                 .seed = seed,
+                                 .threads = options.threads}});
+                const LightMapView view(world, solved->map);
+                const std::size_t kept =
+                    solved->map.irradiance.size() * sizeof(RgbT<double>);
+                return views_of(view, cameras, options, std::max(effort / 4, 4.0), seed,
+                                {.solution = lap(),
+                                 .memory = kept,
+                                 .working = kept + solved->factors.exchange.size() *
+                                                       sizeof(double)});
+            }};
+}
+
+/// Photon mapping: the general map where an indirect ray ends, or where the camera
+/// looks.
+Method by_photons(IndirectLight indirect, const examples::Options& options) {
+    const bool direct = indirect == IndirectLight::photons;
+    return {direct ? "photon map seen" : "two passes", direct ? "seen" : "photons",
+            [&options, indirect, direct](const Cornell& world, const Cameras& cameras,
+                                         double effort, std::uint64_t seed) {
+                const auto settings = photon_settings(indirect, effort, seed);
+                Lap lap;
+                const PhotonMapper mapper(world, settings);
+                const auto& maps = mapper.maps();
+                const std::size_t kept =
+                    bytes_of(maps.general) + bytes_of(maps.caustics);
+                const long long passes = maps.caustics.empty() ? 1 : 2;
+                return views_of(mapper, cameras, options, direct ? effort / 4 : effort,
+                                seed,
+                                {.solution = lap(),
+                                 .memory = kept,
+                                 .working = kept,
+                                 .photons = passes * settings.general.photons});
+            }};
+}
+
+/// All renderers of the book so far, and two ways to use photons.
+std::vector<Method> methods(const examples::Options& options) {
+    return {by_rays(
+                "Whitted", "whitted",
+                [](const Cornell& world) { return WhittedTracer(world); }, options),
+            by_rays(
+                "distributed rays", "distributed",
+                [](const Cornell& world) { return DistributedTracer(world); }, options),
+            by_rays(
+                "path tracing", "paths",
+                [](const Cornell& world) { return PathTracer(world); }, options),
+            by_radiosity(options),
+            by_photons(IndirectLight::map, options),
+            by_photons(IndirectLight::photons, options)};
+}
+
+// --- Error against time ---------------------------------------------------------------
+
+/// The result of one method with one effort.
+struct Rung {
+    double effort = 0;     ///< The effort.
+    double seconds = 0;    ///< Median over the seeds.
+    double rays = 0;       ///< Of the view.
+    double photons = 0;    ///< Emitted.
+    BiasVariance pixels{}; ///< The two parts of relMSE.
+    BiasVariance blocks{}; ///< The same for means of 10 x 10 pixels.
+    Image image{};         ///< Of the first seed.
+
+    [[nodiscard]] double error(bool block) const {
+        const BiasVariance& parts = block ? blocks : pixels;
+        return parts.bias_squared + parts.variance;
+    }
 };
 
-// [cost]
-template <typename Renderer, typename Context>
-Rgb radiance(const CostOf<Renderer>& cost, const Ray& ray, Context& context) {
-    Counts counts;
-    auto counted = context_of(context.stream, counts);
-    (void)radiance(cost.renderer, ray, counted);
-    return Rgb{float(counts.rays() + counts.map_queries)};
-}
-// [cost]
-
-/// When each of some jobs begins and ends, and on which thread.
-struct Schedule {
-    std::vector<int> thread{};   ///< Of each job.
-    std::vector<double> begin{}; ///< Of each job.
-    double end = 0;              ///< Of all.
+/// A room, its reference, and the results of all methods.
+struct Study {
+    std::string name;                      ///< Of the room.
+    Room<CornellSceneT<float>> room;       ///< The room.
+    ImageT<double> truth{};                ///< By another renderer, with other seeds.
+    double noise = 0;                      ///< Of the truth, as relMSE.
+    double block_noise = 0;                ///< The same of its blocks.
+    std::vector<std::vector<Rung>> runs{}; ///< One list per method.
 };
 
-/// Jobs that are handed out one by one, in order, to the next free thread.
-Schedule dynamic_schedule(const std::vector<double>& jobs, int threads) {
-    Schedule schedule;
-    std::vector<double> free(static_cast<std::size_t>(threads), 0.0);
-    for (const double job : jobs) {
-        const auto first = std::min_element(free.begin(), free.end());
-        schedule.thread.push_back(static_cast<int>(first - free.begin()));
-        schedule.begin.push_back(*first);
-        *first += job;
-        schedule.end = std::max(schedule.end, *first);
-    }
-    return schedule;
+/// A path tracer for the reference: at every surface the random numbers of a pixel's
+/// rays are stratified, and caustics come from photons.
+struct Judge {
+    using Stream = StratifiedStream; ///< The random stream that render() passes to it.
+    const Cornell& world;            ///< Of a room.
+    const PhotonMap& caustics;       ///< Empty in the matt room.
+    DensityEstimateSettings gather;  ///< In discs smaller than a pixel.
+};
+
+/// What a matt surface reflects of the light of all lamps and of the caustics map.
+template <typename Material>
+Rgb lamps_and_caustics(const Judge& judge, const VertexT<float>& at,
+                       const Material& material, auto& context) {
+    const Rgb lamps = sample_all_lights(judge.world, at, material, {}, context);
+    return lamps + estimate_radiance(judge.caustics, at, material, at.wo, judge.gather,
+                                     light_kinds, context.counts.map_photons);
 }
 
-/// Each thread gets an equal number of neighbouring jobs.
-Schedule static_schedule(const std::vector<double>& jobs, int threads) {
-    Schedule schedule;
-    const std::size_t count = jobs.size(), parts = static_cast<std::size_t>(threads);
-    for (std::size_t part = 0; part < parts; ++part) {
-        double now = 0;
-        for (std::size_t i = count * part / parts; i < count * (part + 1) / parts;
-             ++i) {
-            schedule.thread.push_back(static_cast<int>(part));
-            schedule.begin.push_back(now);
-            now += jobs[i];
+// [judge]
+Rgb radiance(const Judge& judge, const Ray& ray, auto& context) {
+    Rgb sum{0};
+    PathState path{.ray = ray};
+    while (path.depth < 1000) {
+        const auto vertex = next_vertex(judge.world, path, context.stream);
+        if (!vertex) break;
+        if (vertex->emits() && !path.met_diffuse)
+            sum += path.throughput * vertex->object.emission;
+        const auto at_material = [&](const auto& matter) {
+            if (has(lobes(matter), Lobes::non_specular))
+                sum += path.throughput *
+                       lamps_and_caustics(judge, *vertex, matter, context);
+            return continue_path(path, *vertex, matter, Transport::radiance, Lobes::all,
+                                 context.stream);
+        };
+        if (!visit_material_at(judge.world, *vertex, at_material)) break;
+        if (path.depth >= 4 &&
+            !survives(path.throughput, path.eta_scale, next_1d(context.stream), 0.4f))
+            break;
+    }
+    return sum;
+}
+// [judge]
+
+/// A room by the renderer of the reference.
+/// \param photons  Of the caustics map.
+/// \param radius   Of its discs, m.
+/// \param options  Its size, and the number of threads.
+Image judged(const Room<CornellSceneT<float>>& room, int rays, long long photons,
+             float radius, std::uint64_t seed, const examples::Options& options) {
+    const PhotonMappingSettings settings{.indirect = IndirectLight::rays,
+                                         .caustics{.photons = photons, .seed = seed},
+                                         .caustics_estimate{.radius = radius}};
+    const PhotonMapper mapper(room.world, settings);
+    examples::ProgressBar bar("reference", options.quiet);
+    const Judge judge{.world = room.world,
+                      .caustics = mapper.maps().caustics,
+                      .gather = settings.caustics_estimate};
+    auto rendered = render(judge, room.camera,
+                           {.width = options.width,
+                            .height = options.height,
+                            .samples = rays,
+                            .seed = seed,
+                            .threads = options.threads,
+                            .progress = bar});
+    examples::stop_if_asked();
+    return std::move(rendered.image);
+}
+
+/// The reference: the mean of eight pictures, whose scatter gives its error.
+/// \param panels  As options, but with the size of what is shown.
+void find_truth(Study& study, int rays, const examples::Options& options,
+                const examples::Options& panels) {
+    constexpr int parts = 8;
+    const int part = std::max(1, rays / parts);
+    const float radius = 0.6f / float(options.width);
+    std::vector<Image> runs;
+    for (std::uint64_t number = 0; number < parts; ++number)
+        runs.push_back(judged(study.room, part, 400LL * part, radius,
+                              options.seed + 1000 + number, options));
+    study.truth = {options.width, options.height,
+                   std::vector<RgbT<double>>(runs[0].pixels.size())};
+    for (const Image& run : runs)
+        for (std::size_t i = 0; i < run.pixels.size(); ++i)
+            study.truth.pixels[i] += RgbT<double>(run.pixels[i]) / double(parts);
+    study.noise = examples::relative_split(runs, study.truth).variance / parts;
+    study.block_noise =
+        examples::relative_split(runs, study.truth, 0, 10).variance / parts;
+    save_png(judged(study.room, part, 400LL * rays, radius, options.seed + 900, panels),
+             options.path("side_by_side-" + study.name + "-truth.png"));
+}
+
+/// Runs all methods, rung by rung.
+void climb(Study& study, const std::vector<Method>& all,
+           const examples::Options& options, const Sizes& sizes) {
+    for (const Method& method : all) {
+        study.runs.emplace_back();
+        for (int rung = 0; rung < sizes.rungs; ++rung) {
+            Rung result{.effort = std::pow(4.0, rung)};
+            std::vector<Image> images;
+            std::vector<double> seconds;
+            for (int seed = 0; seed < sizes.seeds; ++seed) {
+                // A processor clock may tick only a hundred times a second.
+                Shot shot;
+                Lap lap;
+                double spent = 0;
+                int repeats = 0;
+                for (; spent < options.pick(0.01, 0.06, 0.06);
+                     ++repeats, spent += lap())
+                    shot = method.shoot(study.room.world, {study.room.camera},
+                                        result.effort,
+                                        options.seed + std::uint64_t(seed))[0];
+                images.push_back(shot.image);
+                seconds.push_back(spent / repeats);
+                result.rays += double(shot.counts.rays()) / sizes.seeds;
+                result.photons = double(shot.photons);
+            }
+            std::sort(seconds.begin(), seconds.end());
+            result.seconds = seconds[seconds.size() / 2];
+            result.pixels = examples::relative_split(images, study.truth, study.noise);
+            result.blocks =
+                examples::relative_split(images, study.truth, study.block_noise, 10);
+            result.image = images[0];
+            if (!options.quiet)
+                std::printf("%s, %s, effort %.0f: %.3f s, %.0f rays, %.0f photons, "
+                            "relMSE %.5f (bias^2 %.5f), blocks %.6f (bias^2 %.6f)\n",
+                            study.name.c_str(), method.name.c_str(), result.effort,
+                            result.seconds, result.rays, result.photons,
+                            result.error(false), result.pixels.bias_squared,
+                            result.error(true), result.blocks.bias_squared);
+            study.runs.back().push_back(std::move(result));
         }
-        schedule.end = std::max(schedule.end, now);
     }
-    return schedule;
 }
 
-double sum_of(const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0);
+/// One column of a list of rungs.
+template <typename Value>
+std::vector<double> column(const std::vector<Rung>& rungs, Value value) {
+    std::vector<double> list;
+    for (const Rung& rung : rungs) list.push_back(value(rung));
+    return list;
+}
+std::vector<double> times(const std::vector<Rung>& rungs) {
+    return column(rungs, [](const Rung& rung) { return rung.seconds; });
+}
+std::vector<double> errors(const std::vector<Rung>& rungs, bool block) {
+    return column(rungs, [&](const Rung& rung) { return rung.error(block); });
 }
 
-/// The costs of strips of pixels, row by row.
-std::vector<double> strips_of(const Image& costs, int width) {
-    std::vector<double> jobs;
-    for (int y = 0; y < costs.height; ++y)
-        for (int x = 0; x < costs.width; x += width) {
-            jobs.push_back(0);
-            for (int i = x; i < std::min(x + width, costs.width); ++i)
-                jobs.back() += double(pixel(costs, i, y).x);
+/// Two plots: relMSE of pixels and of blocks, against time.
+void plots(const Study& study, const std::vector<Method>& all,
+           const examples::Options& options) {
+    for (const bool block : {false, true}) {
+        examples::Plot plot{.name = "side_by_side-" + study.name +
+                                    (block ? "-blocks" : "-pixels"),
+                            .columns = {"seconds of processor time"},
+                            .y_label = block ? "relMSE of 10 x 10 blocks" : "relMSE",
+                            .log_x = true,
+                            .log_y = true};
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            plot.columns.push_back(all[k].name);
+            for (const Rung& rung : study.runs[k]) {
+                examples::Row row(all.size() + 1, nothing);
+                row[0] = rung.seconds;
+                row[k + 1] = std::max(rung.error(block), 1e-9);
+                plot.rows.push_back(row);
+            }
         }
-    return jobs;
+        save_plot(options.out, plot);
+    }
 }
 
-/// The report's program: a loop over the columns, and within each a parallel loop that
-/// gives each thread an equal part of the column, and waits for all.
-double column_by_column(const Image& costs, int threads) {
-    double time = 0;
-    for (int x = 0; x < costs.width; ++x) {
-        std::vector<double> column;
-        for (int y = 0; y < costs.height; ++y)
-            column.push_back(double(pixel(costs, x, y).x));
-        time += static_schedule(column, threads).end;
+/// Slopes, and the bias in the best run's error.
+void split_table(const Study& study, const std::vector<Method>& all,
+                 const examples::Options& options) {
+    examples::Table table{.name = "side_by_side-" + study.name + "-split",
+                          .columns = {"", "slope of relMSE against time",
+                                      "of the best: bias²", "noise", "blocks: bias²",
+                                      "noise "}};
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto law =
+            examples::fit_power(times(study.runs[k]), errors(study.runs[k], false));
+        const Rung& best = study.runs[k].back();
+        table.rows.push_back({all[k].name,
+                              examples::text(law.slope, "%.2f") + " ± " +
+                                  examples::text(law.error, "%.2f"),
+                              examples::text(best.pixels.bias_squared, "%.5f"),
+                              examples::text(best.pixels.variance, "%.5f"),
+                              examples::text(best.blocks.bias_squared, "%.6f"),
+                              examples::text(best.blocks.variance, "%.6f")});
     }
-    return time;
-}
-
-/// Which thread renders which strip, in a picture, and when, in a drawing.
-void draw_schedules(const Image& costs, const examples::Options& options) {
-    constexpr int threads = 4;
-    constexpr std::array<const char*, 4> names{
-        examples::colors::blue, examples::colors::orange, examples::colors::green,
-        examples::colors::violet};
-    // Bands of rows, few enough to be visible.
-    const int rows = std::max(1, costs.height / 40);
-    std::vector<double> jobs;
-    for (int y = 0; y < costs.height; ++y) {
-        if (y % rows == 0) jobs.push_back(0);
-        for (int x = 0; x < costs.width; ++x)
-            jobs.back() += double(pixel(costs, x, y).x);
-    }
-    const double unit = sum_of(jobs) / threads; // the ideal work of each
-    examples::Drawing drawing{.name = "parallel-schedules",
-                              .description = "Four threads: each renders an equal "
-                                             "number of rows, or the next rows go to "
-                                             "whichever thread is free",
-                              .low{-0.2, -0.1},
-                              .high{6.9, 3.6},
-                              .scale = 100};
-    const auto draw = [&](const Schedule& schedule, double top, const char* title) {
-        draw_label(drawing, {3.1, top + 0.22}, title);
-        for (std::size_t i = 0; i < jobs.size(); ++i) {
-            const double y = top - 0.3 * (schedule.thread[i] + 1);
-            const double a = 6.2 * schedule.begin[i] / unit;
-            const double b = a + 6.2 * jobs[i] / unit;
-            const char* color = names[static_cast<std::size_t>(schedule.thread[i])];
-            draw_area(drawing, {{a, y}, {b, y}, {b, y + 0.26}, {a, y + 0.26}}, color);
-            draw_line(drawing, {{a, y}, {b, y}, {b, y + 0.26}, {a, y + 0.26}, {a, y}},
-                      {.color = color, .width = 1});
+    examples::show_table(options, table);
+    // Every point, to draw other plots from.
+    examples::Table points{.name = "side_by_side-" + study.name + "-points",
+                           .columns = {"renderer", "effort", "seconds", "rays",
+                                       "photons", "bias2", "variance", "block bias2",
+                                       "block variance"}};
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < all.size(); ++k)
+        for (const Rung& r : study.runs[k]) {
+            std::vector<std::string> row{all[k].name};
+            for (const double value :
+                 {r.effort, r.seconds, r.rays, r.photons, r.pixels.bias_squared,
+                  r.pixels.variance, r.blocks.bias_squared, r.blocks.variance})
+                row.push_back(examples::text(value, "%.6g"));
+            points.rows.push_back(row);
+            smallest = std::min(smallest, r.error(false));
         }
-        draw_line(drawing,
-                  {{6.2 * schedule.end / unit, top + 0.05},
-                   {6.2 * schedule.end / unit, top - 1.3}},
-                  {.dashed = true});
+    save_table(options.out, points);
+    if (!options.quiet)
+        std::printf("%s: the reference's standard error is %.4f; the smallest error "
+                    "reported (root of relMSE) is %.4f, %.1f times as much\n",
+                    study.name.c_str(), std::sqrt(study.noise), std::sqrt(smallest),
+                    std::sqrt(smallest / study.noise));
+}
+
+// --- The same time, the same error ----------------------------------------------------
+
+/// A picture of a method for a panel.
+Shot panel(const Study& study, const Method& method, double effort,
+           const examples::Options& options) {
+    return method.shoot(study.room.world, {study.room.camera}, effort,
+                        options.seed + 77)[0];
+}
+
+/// The effort that takes a time: between rungs a straight line, beyond them the power
+/// law of the last two, or in proportion if that is less. At least 1 ray per pixel.
+double effort_for(const std::vector<Rung>& rungs, double seconds) {
+    const Rung &last = rungs.back(), &before = rungs[rungs.size() - 2];
+    if (seconds >= last.seconds) {
+        const double power = std::log(last.seconds / before.seconds) /
+                             std::log(last.effort / before.effort);
+        return last.effort * std::pow(seconds / last.seconds, 1 / std::max(power, 1.0));
+    }
+    for (std::size_t i = 1; i < rungs.size(); ++i)
+        if (seconds <= rungs[i].seconds && rungs[i].seconds > rungs[i - 1].seconds) {
+            const double t = (seconds - rungs[i - 1].seconds) /
+                             (rungs[i].seconds - rungs[i - 1].seconds);
+            return std::max(1.0, rungs[i - 1].effort +
+                                     t * (rungs[i].effort - rungs[i - 1].effort));
+        }
+    return 1;
+}
+
+/// All renderers at the same time; `larger`: also the pictures of
+/// the first of the times, in more pixels by the same effort.
+void equal_time(const Study& study, const std::vector<Method>& all,
+                const std::vector<Method>& larger, const examples::Options& options) {
+    examples::Table table{
+        .name = "side_by_side-" + study.name + "-time",
+        .columns = {"", "budget, s", "taken, s", "rays per pixel", "photons", "relMSE",
+                    "times the reference's error", "of 10 x 10 blocks", "FLIP"}};
+    const std::vector<double> budgets =
+        options.pick<std::vector<double>>({0.1}, {1, 10}, {1, 10, 100});
+    for (std::size_t b = 0; b < budgets.size(); ++b)
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            const double effort = std::min(effort_for(study.runs[k], budgets[b]), 1e6);
+            const Shot shot = panel(study, all[k], effort, options);
+            // The example of the chapter makes those of the matt room.
+            if (b == 0 && study.name == "glass")
+                save_png(panel(study, larger[k], effort, options).image,
+                         options.path("side_by_side-" + study.name + "-time-" +
+                                      all[k].file + ".png"));
+            const double pixels = double(options.width) * options.height;
+            const double error = rel_mse(shot.image, study.truth) - study.noise;
+            table.rows.push_back(
+                {all[k].name, examples::text(budgets[b]),
+                 examples::text(shot.seconds(), "%.2f"),
+                 examples::text(double(shot.counts.camera_rays) / pixels),
+                 std::to_string(shot.photons), examples::text(error, "%.5f"),
+                 examples::text(std::sqrt(std::max(error, 0.0) / study.noise), "%.0f"),
+                 examples::text(
+                     block_error(shot.image, study.truth) - study.block_noise, "%.6f"),
+                 examples::text(flip(shot.image, study.truth), "%.3f")});
+        }
+    examples::show_table(options, table);
+}
+
+/// Time and rays that each needs for an error, and pictures by the effort for one of
+/// them.
+void equal_error(const Study& study, const std::vector<Method>& all,
+                 const std::vector<Method>& larger, const examples::Options& options) {
+    examples::Table table{.name = "side_by_side-" + study.name + "-error",
+                          .columns = {""}};
+    struct Target {
+        bool block;
+        double error;
     };
-    draw(static_schedule(jobs, threads), 3.1,
-         "each thread renders an equal number of rows");
-    draw(dynamic_schedule(jobs, threads), 1.3,
-         "the next rows go to whichever thread is free");
-    save_drawing(options.path(""), drawing);
+    const std::array targets{Target{false, 0.1}, Target{false, 0.03},
+                             Target{true, 0.003}, Target{true, 0.001}};
+    for (const Target& target : targets)
+        table.columns.push_back((target.block ? std::string("blocks ") : "relMSE ") +
+                                examples::text(target.error));
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto& rungs = study.runs[k];
+        std::vector<std::string> row{all[k].name};
+        for (const Target& target : targets) {
+            const auto error = errors(rungs, target.block);
+            const double seconds = examples::reach(times(rungs), error, target.error);
+            const double rays =
+                examples::reach(column(rungs, [](const Rung& r) { return r.rays; }),
+                                error, target.error);
+            row.push_back(std::isnan(seconds)
+                              ? "not by " +
+                                    examples::text(rungs.back().seconds, "%.2f") +
+                                    " s: " + examples::text(error.back(), "%.2g")
+                              : examples::text(seconds, "%.3f") + " s, " +
+                                    examples::text(rays / 1000, "%.0f") + "k rays");
+        }
+        table.rows.push_back(row);
+        if (study.name != "matt") continue;
+        // The panel: the run with the first error, or the closest one.
+        const double effort =
+            examples::reach(column(rungs, [](const Rung& r) { return r.effort; }),
+                            errors(rungs, targets[1].block), targets[1].error);
+        const Shot shot =
+            panel(study, larger[k], std::isnan(effort) ? rungs.back().effort : effort,
+                  options);
+        save_png(shot.image, options.path("side_by_side-" + study.name + "-error-" +
+                                          all[k].file + ".png"));
+    }
+    examples::show_table(options, table);
 }
 
-/// The picture of costs, and how evenly the work can be divided.
-void schedules(const Image& costs, const examples::Options& options) {
-    const double all = sum_of(strips_of(costs, costs.width));
-    float most = 0;
-    for (const Rgb& c : costs.pixels) most = std::max(most, c.x);
-    Image shown = costs;
-    for (Rgb& c : shown.pixels) c /= most;
-    save_png(shown, options.path("parallel-cost.png"));
-    draw_schedules(costs, options);
+// --- Who carries what -----------------------------------------------------------------
 
-    examples::Plot plot{.name = "parallel-schedule",
-                        .columns = {"threads", "strips of 16 pixels: dynamic",
-                                    "rows: dynamic", "rows: static",
-                                    "column by column: static"},
-                        .y_label = "speed-up over the number of threads",
-                        .log_x = true,
-                        .more = "set format x '%g'\nset yrange [0.6:1.02]\n"};
-    examples::Table table{.name = "parallel-schedule-table",
-                          .columns = {"threads", "strips, dynamic", "rows, dynamic",
-                                      "rows, static", "column by column"}};
-    for (const int threads : {1, 2, 3, 4, 8, 16, 32, 64}) {
-        const auto strips = strips_of(costs, 16), rows = strips_of(costs, costs.width);
-        const std::array speed{all / dynamic_schedule(strips, threads).end,
-                               all / dynamic_schedule(rows, threads).end,
-                               all / static_schedule(rows, threads).end,
-                               all / column_by_column(costs, threads)};
-        plot.rows.push_back({double(threads)});
-        for (const double s : speed) plot.rows.back().push_back(s / threads);
-        std::vector<std::string> row{std::to_string(threads)};
-        for (const double s : speed) row.push_back(text(s, "%.2f"));
+/// The classes of paths that are distinguished.
+constexpr std::array class_names{"EL",      "ES+L",       "EDL", "ES+DL",
+                                 "ES*DS+L", "E.*D.*D.*L", "E.*L"};
+
+/// How much light of one class a renderer finds, over several seeds.
+struct ClassSum {
+    double mean = 0, squares = 0;
+
+    /// The relative standard error of the mean.
+    [[nodiscard]] double error(int seeds) const {
+        const double spread = std::max(squares - mean * mean, 0.0);
+        return mean > 0 ? std::sqrt(spread / (seeds - 1)) / mean : 0;
+    }
+};
+using ClassSums = std::array<ClassSum, class_names.size()>;
+
+/// Settings common to all renderers when their classes are measured.
+struct ClassStudy {
+    const Study& study;
+    const examples::Options& options;
+    int seeds;
+    std::vector<LightPathExpression> classes{};
+};
+
+/// The means over the seeds of the results of `make`.
+template <typename Make>
+ClassSums over_seeds(const ClassStudy& of, Make make) {
+    ClassSums sums{};
+    for (int seed = 1; seed <= of.seeds; ++seed) {
+        const std::vector<RgbT<double>> means =
+            make({.width = of.options.width,
+                  .height = of.options.height,
+                  .samples = of.options.pick(2, 16, 64),
+                  .seed = of.options.seed + 5000 + std::uint64_t(seed),
+                  .threads = of.options.threads});
+        examples::stop_if_asked();
+        for (std::size_t k = 0; k < means.size(); ++k) {
+            const double value = (means[k].x + means[k].y + means[k].z) / 3;
+            sums[k].mean += value / of.seeds;
+            sums[k].squares += value * value / of.seeds;
+        }
+    }
+    return sums;
+}
+
+/// The classes of a renderer that is ready.
+template <typename Renderer>
+ClassSums classes_of(const ClassStudy& of, const Renderer& renderer) {
+    return over_seeds(of, [&](const RenderSettings& picture) {
+        return class_means(renderer, of.study.room.camera, picture, of.classes);
+    });
+}
+
+/// The classes of photon mapping, with maps of its own for each seed.
+ClassSums classes_of_photons(const ClassStudy& of, IndirectLight indirect) {
+    const Cornell& world = of.study.room.world;
+    return over_seeds(of, [&](const RenderSettings& picture) {
+        const auto settings =
+            photon_settings(indirect, of.options.pick(16.0, 64.0, 256.0), picture.seed);
+        return class_means(PhotonMapper(world, settings), of.study.room.camera, picture,
+                           of.classes);
+    });
+}
+
+/// The classes of radiosity, which answers for E D+ L at once. What its lamps' patches
+/// send out, and no others, is E D L; the rest is E D+ D L.
+ClassSums classes_of_radiosity(const ClassStudy& of) {
+    const Cornell& world = of.study.room.world;
+    return over_seeds(of, [&](const RenderSettings& picture) {
+        const auto all = make_radiosity(
+            world, {.patches = {.size = of.options.pick(0.4, 0.2, 0.1)},
+                    .factors = {.analytic = false, .rays = 512, .seed = picture.seed}});
+        std::vector<RgbT<double>> lamp;
+        for (const Patch& patch : all->patches.patches) lamp.push_back(patch.emitted);
+        const auto view = [&](const LightMap& map) {
+            return class_means(LightMapView(world, map), of.study.room.camera, picture,
+                               of.classes);
+        };
+        auto whole = view(all->map);
+        const auto direct =
+            view(make_light_map(world, all->patches, all->factors, lamp));
+        whole[5] = whole[2] - direct[2];
+        whole[2] = direct[2];
+        return whole;
+    });
+}
+
+/// "0.998(3)": a class over the true one, and the standard error of its last digit.
+/// Empty if the room has no such light.
+std::string class_ratio(const ClassSum& its, const ClassSum& right, int seeds) {
+    if (!(right.mean > 0)) return its.mean > 0 ? "?" : "";
+    // The difference of two light maps may leave a rest by rounding.
+    if (!(its.mean > 1e-6 * right.mean)) return "0";
+    const double ratio = its.mean / right.mean;
+    const double error = ratio * std::hypot(its.error(seeds), right.error(seeds));
+    return examples::text(ratio, "%.3f(") + std::to_string(std::lround(1000 * error)) +
+           ")";
+}
+
+/// For each class of paths, the light that a renderer finds over that of path tracing.
+void class_table(const Study& study, const examples::Options& options,
+                 const Sizes& sizes) {
+    const Cornell& world = study.room.world;
+    ClassStudy of{study, options, std::max(sizes.seeds, 4)};
+    for (const char* name : class_names)
+        of.classes.push_back(light_path_expression(name));
+    const ClassSums truth = classes_of(of, PathTracer(world));
+    const std::array<std::pair<const char*, ClassSums>, 6> renderers{
+        {{"Whitted", classes_of(of, WhittedTracer(world))},
+         {"distributed rays", classes_of(of, DistributedTracer(world))},
+         {"path tracing", truth},
+         {"radiosity", classes_of_radiosity(of)},
+         {"two passes", classes_of_photons(of, IndirectLight::map)},
+         {"photon map seen", classes_of_photons(of, IndirectLight::photons)}}};
+
+    examples::Table table{.name = "side_by_side-" + study.name + "-classes",
+                          .columns = {""}};
+    table.columns.insert(table.columns.end(), class_names.begin(), class_names.end());
+    std::vector<std::string> share{"share of the light"};
+    for (const ClassSum& sum : truth)
+        share.push_back(examples::text(100 * sum.mean / truth.back().mean, "%.1f %%"));
+    table.rows.push_back(share);
+    for (const auto& [name, sums] : renderers) {
+        std::vector<std::string> row{name};
+        for (std::size_t k = 0; k < sums.size(); ++k)
+            row.push_back(class_ratio(sums[k], truth[k], of.seeds));
         table.rows.push_back(row);
     }
-    save_plot(options.path(""), plot);
-    save_table(options.path(""), table);
+    examples::show_table(options, table);
 }
 
-// --- Amdahl's law --------------------------------------------------------------------
+// --- One solution, many views ---------------------------------------------------------
 
-void amdahl(const FirstPass& first, const Line& loop,
-            const examples::Options& options) {
-    examples::Plot plot{.name = "parallel-amdahl",
-                        .columns = {"threads", "1 ray per pixel", "10", "100", "1000"},
-                        .y_label = "speed-up of both passes, by Amdahl's law",
-                        .log_x = true,
-                        .log_y = true,
-                        .more = "set format xy '%g'\n"};
-    examples::Table table{.name = "parallel-amdahl-table",
-                          .columns = {"rays per pixel", "shared out, s",
-                                      "not shared, s",
-                                      "limit for any number of threads"}};
-    for (int threads = 1; threads <= 1024; threads *= 2) {
-        examples::Row row{double(threads)};
-        for (const int rays : {1, 10, 100, 1000}) {
-            const double serial = first.tree.wall;
-            const double shared = first.emission.wall + loop.each * rays;
-            row.push_back((serial + shared) / (serial + shared / threads));
-        }
-        plot.rows.push_back(row);
+/// The cost of the first view and of each further one, and the memory kept.
+void views(const Study& study, const std::vector<Method>& all,
+           const std::vector<Method>& larger, const examples::Options& options,
+           const Sizes& sizes) {
+    constexpr int count = 5;
+    std::vector<Camera> cameras;
+    for (int i = 0; i < count; ++i) {
+        const auto x = float(-0.8 + 1.6 * i / (count - 1));
+        cameras.push_back(look_at(View{.position{x, 1.0f + x / 2, 4.4f - x * x},
+                                       .target{0, 1, 0},
+                                       .up{0, 1, 0},
+                                       .vfov_degrees = 33}));
     }
-    for (const int rays : {1, 10, 100, 1000}) {
-        const double shared = first.emission.wall + loop.each * rays;
-        table.rows.push_back({std::to_string(rays), text(shared, "%.3g"),
-                              text(first.tree.wall, "%.3g"),
-                              text(1 + shared / first.tree.wall, "%.3g")});
-    }
-    save_plot(options.path(""), plot);
-    save_table(options.path(""), table);
-}
-
-// --- The same bytes ------------------------------------------------------------------
-
-/// A sum whose parts are made by each thread, as OpenMP's `reduction` would: with
-/// another number of threads it is rounded differently.
-// [sum by thread]
-float sum_by_thread(const std::vector<float>& values, std::size_t threads) {
-    std::vector<float> part(threads, 0.0f);
-    for (std::size_t t = 0; t < threads; ++t)
-        for (std::size_t i = values.size() * t / threads;
-             i < values.size() * (t + 1) / threads; ++i)
-            part[t] += values[i];
-    return std::accumulate(part.begin(), part.end(), 0.0f);
-}
-// [sum by thread]
-
-/// The same in blocks whose size does not depend on the number of threads.
-// [sum by block]
-float sum_by_block(const std::vector<float>& values, int threads) {
-    constexpr std::size_t size = 512;
-    std::vector<float> part((values.size() + size - 1) / size, 0.0f);
-    const auto body = [&](long long number) {
-        const auto block = static_cast<std::size_t>(number);
-        const std::size_t last = std::min((block + 1) * size, values.size());
-        float sum = 0; // of its own: the list is touched once per block
-        for (std::size_t i = block * size; i < last; ++i) sum += values[i];
-        part[block] = sum;
-    };
-    parallel_blocks(static_cast<long long>(part.size()), body, {.threads = threads});
-    return std::accumulate(part.begin(), part.end(), 0.0f);
-}
-// [sum by block]
-
-/// Pictures, maps and sums for several numbers of threads.
-/// \return Whether all pictures and maps are the same.
-template <typename R>
-bool same_bytes(const R& room, const examples::Options& options) {
-    const int size = options.pick(64, 200, 200);
-    examples::Table table{.name = "parallel-bytes",
-                          .columns = {"threads", "photons in order", "picture",
-                                      "sum by thread", "sum by block"}};
-    std::vector<float> values;
-    bool same = true;
-    for (const int threads : {1, 2, 3, 8}) {
-        const PhotonMappingSettings settings = report_settings(threads);
-        const auto traced =
-            trace_photons(room.world, MapType::caustics, settings.caustics);
-        std::vector<Vec3> marks;
-        for (const Photon& photon : traced.photons) {
-            marks.push_back(photon.position);
-            marks.push_back(photon.flux);
-        }
-        const PhotonMapper mapper(room.world, settings);
-        const Image image = render(mapper, room.camera,
-                                   {.width = size,
-                                    .height = size,
-                                    .samples = 4,
-                                    .seed = options.seed,
-                                    .threads = threads})
-                                .image;
-        if (values.empty())
-            for (const Rgb& c : image.pixels) values.push_back(c.y);
-        table.rows.push_back(
-            {std::to_string(threads), examples::hex_text(examples::hash_of(marks)),
-             examples::hex_text(examples::hash_of(image.pixels)),
-             text(double(sum_by_thread(values, std::size_t(threads))), "%.9g"),
-             text(double(sum_by_block(values, threads)), "%.9g")});
-        for (const std::size_t column : {1u, 2u, 4u})
-            same = same && table.rows.back()[column] == table.rows[0][column];
-    }
-    save_table(options.path(""), table);
-
-    // Strips of rows, as machines would render them.
-    const PhotonMappingSettings settings = report_settings(options.threads);
-    const PhotonMapper mapper(room.world, settings);
-    const RenderSettings picture{size, size, 4, options.seed, options.threads};
-    examples::Table machines{.name = "parallel-strips",
-                             .columns = {"strips", "picture"}};
-    for (const int strips : {1, 2, 3, 16}) {
-        std::vector<Rgb> whole;
-        for (int i = 0; i < strips; ++i) {
-            const auto part = render_rows(mapper, room.camera, picture,
-                                          {size * i / strips, size * (i + 1) / strips});
-            whole.insert(whole.end(), part.image.pixels.begin(),
-                         part.image.pixels.end());
-        }
-        machines.rows.push_back(
-            {std::to_string(strips), examples::hex_text(examples::hash_of(whole))});
-        same = same && machines.rows.back()[1] == table.rows[0][2];
-    }
-    save_table(options.path(""), machines);
-    return same;
-}
-
-// --- What threads cost ---------------------------------------------------------------
-
-/// More threads than processors: the same work, in turns.
-template <typename R>
-void oversubscribed(const R& room, const examples::Options& options, int repeats) {
-    const PhotonMappingSettings settings = report_settings(0);
-    const PhotonMapper mapper(room.world, settings);
-    examples::Table table{
-        .name = "parallel-threads",
-        .columns = {"threads", "seconds", "speed-up", "total processor time"}};
-    const std::array counts{1, 2, 3, 4, 8, 16, 64};
-    std::array<std::vector<double>, counts.size()> wall, work;
-    for (int repeat = 0; repeat < std::max(3, repeats); ++repeat)
-        for (std::size_t i = 0; i < counts.size(); ++i) {
-            const Timing took = timed([&] {
-                (void)render(mapper, room.camera,
-                             {options.width, options.height, options.pick(1, 4, 4),
-                              options.seed, counts[i]});
-            });
-            wall[i].push_back(took.wall);
-            work[i].push_back(took.work);
-            examples::stop_if_asked();
-        }
-    for (std::size_t i = 0; i < counts.size(); ++i)
-        table.rows.push_back({std::to_string(counts[i]), text(median(wall[i]), "%.3g"),
-                              text(median(wall[0]) / median(wall[i]), "%.2f"),
-                              text(median(work[i]) / median(work[0]), "%.2f")});
-    save_table(options.path(""), table);
-}
-
-/// Two threads that count in a number each, near each other in memory or far apart.
-// [false sharing]
-double nanoseconds_of_counting(std::size_t bytes_apart, int threads, long long times) {
-    std::vector<long long> memory(4096, 0);
-    volatile long long* const counters = memory.data(); // kept in memory, not in a
-    const auto body = [&](long long block) {            // register
-        const std::size_t mine =
-            1024 + static_cast<std::size_t>(block) * bytes_apart / sizeof(long long);
-        for (long long i = 0; i < times; ++i) counters[mine] = counters[mine] + 1;
-    };
-    const examples::StopWatch watch;
-    parallel_blocks(threads, body, {.threads = threads});
-    return 1e9 * watch.seconds() / double(times);
-}
-// [false sharing]
-
-void false_sharing(const examples::Options& options, int repeats) {
-    examples::Table table{.name = "parallel-sharing",
-                          .columns = {"bytes from one counter to the other",
-                                      "ns per increment", "relative to 256 bytes"}};
-    const std::array<std::size_t, 6> places{8, 16, 32, 64, 128, 256};
-    const long long times = options.pick(1000000, 20000000, 20000000);
-    std::array<std::vector<double>, places.size()> found;
-    for (int repeat = 0; repeat < std::max(5, repeats); ++repeat)
-        for (std::size_t i = 0; i < places.size(); ++i)
-            found[i].push_back(nanoseconds_of_counting(places[i], 2, times));
-    for (std::size_t i = 0; i < places.size(); ++i)
-        table.rows.push_back({std::to_string(places[i]), text(median(found[i]), "%.3g"),
-                              text(median(found[i]) / median(found.back()), "%.2f")});
-    save_table(options.path(""), table);
-}
-
-/// An empty loop: the cost of waking the threads, and of a block.
-void empty_loops(const examples::Options& options, int threads) {
-    examples::Table table{.name = "parallel-empty",
-                          .columns = {"threads", "loop of 2 blocks, microseconds",
-                                      "ns per further block"}};
-    for (const int by : {1, threads}) {
-        const auto loop = [by](long long blocks) {
-            std::vector<double> taken;
-            for (int i = 0; i < 101; ++i) {
-                const examples::StopWatch watch;
-                parallel_blocks(blocks, [](long long) {}, {.threads = by});
-                taken.push_back(watch.seconds());
-            }
-            return median(taken);
+    examples::Table table{.name = "side_by_side-" + study.name + "-views",
+                          .columns = {"", "solution, s", "per view, s",
+                                      "a further view over the first", "kept",
+                                      "while it is made"}};
+    const double effort = std::pow(4.0, sizes.rungs - 1);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const Method& method = all[k];
+        if (method.file == "whitted" || method.file == "distributed") continue;
+        const auto shots =
+            method.shoot(study.room.world, cameras, effort, options.seed);
+        const double solution = shots[0].solution;
+        double view = 0;
+        for (const Shot& shot : shots) view += shot.view / count;
+        const auto size = [](std::size_t bytes) {
+            return bytes == 0 ? std::string("nothing")
+                              : examples::text(double(bytes) / 1e6, "%.2f MB");
         };
-        const double few = loop(2), many = loop(100002);
-        table.rows.push_back({std::to_string(by), text(1e6 * few, "%.3g"),
-                              text(1e9 * (many - few) / 100000, "%.3g")});
+        const bool keeps = shots[0].memory > 0;
+        table.rows.push_back({method.name,
+                              keeps ? examples::text(solution, "%.3f") : "none",
+                              examples::text(view, "%.3f"),
+                              examples::text(view / (solution + view), "%.2f"),
+                              size(shots[0].memory), size(shots[0].working)});
+        if (method.file == "seen" || method.file == "radiosity") {
+            const auto shown =
+                larger[k].shoot(study.room.world, cameras, effort, options.seed);
+            for (int i = 0; i < count; i += 2)
+                save_png(shown[std::size_t(i)].image,
+                         options.path("side_by_side-" + study.name + "-view-" +
+                                      method.file + "-" + std::to_string(i) + ".png"));
+        }
     }
-    save_table(options.path(""), table);
-}
-
-// --- On many machines, on paper ------------------------------------------------------
-
-/// The limits of many machines, from the times above and a network of a gigabyte
-/// per second.
-void machines(const FirstPass& first, const Line& loop, std::size_t photons,
-              const examples::Options& options) {
-    constexpr double network = 1e9; // bytes per second
-    examples::Table table{.name = "parallel-machines",
-                          .columns = {"ranks", "photons, s", "joining them, s",
-                                      "tree, s", "64 rays per pixel, s", "picture, s",
-                                      "in all, s", "speed-up"}};
-    const double bytes = double(photons) * sizeof(Photon);
-    const double pixels = double(options.width) * options.height;
-    const double alone = first.emission.wall + first.tree.wall + 64 * loop.each;
-    for (const int ranks : {1, 16, 256, 4096}) {
-        // Joining: every rank receives all photons but its own, in a ring.
-        const double join = ranks == 1 ? 0 : bytes * (ranks - 1) / ranks / network;
-        const double gather = ranks == 1 ? 0 : pixels * sizeof(Rgb) / network;
-        const double emission = first.emission.wall / ranks,
-                     view = 64 * loop.each / ranks;
-        const double all = emission + join + first.tree.wall + view + gather;
-        table.rows.push_back({std::to_string(ranks), text(emission, "%.2g"),
-                              text(join, "%.2g"), text(first.tree.wall, "%.2g"),
-                              text(view, "%.2g"), text(gather, "%.2g"),
-                              text(all, "%.2g"), text(alone / all, "%.3g")});
-    }
-    save_table(options.path(""), table);
+    examples::show_table(options, table);
 }
 
 } // namespace
 
-/// Makes the tables and figures of chapter 32.
+/// Makes the plots, tables and further pictures of chapter 21.
+/// \param argc  Number of arguments.
+/// \param argv  The command line; `--help` explains it.
+/// \return 0; after an exception 2, with one sentence on stderr.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 33, many threads: what they cost, and the same bytes.");
-        line.add("--most", sizes.most, "The largest number of rays that is timed", 10,
-                 1000);
-        line.add("--repeats", sizes.repeats, "Pairs of one thread and several", 1,
-                 1000);
+        line.about("Chapter 33, side by side: the experiments in two rooms.");
+        line.add("--rungs", sizes.rungs,
+                 "Efforts tried, each four times the one before", 2, 8);
+        line.add("--seeds", sizes.seeds, "Runs of each effort", 2, 1000);
         line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8,
-                 100000000);
+                 10000000);
         const examples::Options options =
-            line.parse({.draft{.width = 48, .height = 48, .samples = 4},
-                        .report{.width = 400, .height = 400, .samples = 64},
-                        .reference{.width = 400, .height = 400, .samples = 64}});
-        if (!line.given("--most")) sizes.most = options.pick(100, 1000, 1000);
-        if (!line.given("--repeats")) sizes.repeats = options.pick(3, 3, 5);
-        if (!line.given("--truth")) sizes.truth = options.pick(512, 32768, 262144);
-        const int processors = int(std::thread::hardware_concurrency());
-        const int threads =
-            std::max(2, options.threads > 0 ? options.threads : processors);
+            line.parse({.draft{.width = 40, .height = 40, .samples = 1},
+                        .report{.width = 100, .height = 100, .samples = 1},
+                        .reference{.width = 200, .height = 200, .samples = 1}});
+        if (!line.given("--rungs")) sizes.rungs = options.pick(3, 4, 5);
+        if (!line.given("--seeds")) sizes.seeds = options.pick(3, 6, 12);
+        if (!line.given("--truth")) sizes.truth = options.pick(1000, 8000, 100000);
 
-        const auto room = four_glass_room();
-        Line loop;
-        const FirstPass first = lines(room, options, sizes, threads, loop);
-        save_truth(room, options, sizes);
-
-        const PhotonMappingSettings settings = report_settings(options.threads);
-        const PhotonMapper mapper(room.world, settings);
-        // A fixed size: the results for schedules depend on it.
-        const Image costs = render(CostOf<decltype(mapper)>{mapper}, room.camera,
-                                   {.width = 400,
-                                    .height = 400,
-                                    .samples = options.pick(1, 16, 16),
-                                    .threads = options.threads})
-                                .image;
-        schedules(costs, options);
-        amdahl(first, loop, options);
-        machines(first, loop, mapper.maps().caustics.records.size(), options);
-        const bool same = same_bytes(room, options);
-        oversubscribed(room, options, sizes.repeats);
-        false_sharing(options, sizes.repeats);
-        empty_loops(options, threads);
-        if (!options.quiet)
-            std::printf("1, 2, 3 and 8 threads, and 1 to 16 strips: %s\n",
-                        same ? "the same bytes" : "NOT the same bytes");
-        if (!same)
-            throw std::runtime_error("the number of threads has changed the picture");
+        examples::Options panels = options; // the size of what is shown
+        panels.width *= options.pick(1, 4, 2);
+        panels.height *= options.pick(1, 4, 2);
+        const auto all = methods(options), larger = methods(panels);
+        for (const bool matt : {true, false}) {
+            Study study{.name = matt ? "matt" : "glass",
+                        .room = matt ? matt_cornell_box() : cornell_box()};
+            find_truth(study, sizes.truth, options, panels);
+            climb(study, all, options, sizes);
+            plots(study, all, options);
+            split_table(study, all, options);
+            equal_time(study, all, larger, options);
+            equal_error(study, all, larger, options);
+            class_table(study, options, sizes);
+            if (matt) views(study, all, larger, options, sizes);
+        }
     });
 }

@@ -1,483 +1,488 @@
-// smoke: --quality draft --width 12 --height 12 --rays 1
+// smoke: --quality draft --seeds 3 --only radius
 /// \file chapters/experiments/36_experiments.cpp
-/// \brief Chapter 36: the experiments behind its tables and plots: what is asked, what
-/// float makes of it, what double does, and what the program says.
+/// \brief Chapter 36: the experiments behind its tables and plots: every setting of the
+/// photon mapper, varied. Error against time and memory, the cost of halving the time,
+/// and the settings that no other beats.
+///
+/// Each finished setting is a line of trades-notebook.json and is not
+/// measured again, so that a run can be stopped and continued. ./scripts/trades builds
+/// and runs it.
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <cstdio>
 #include <limits>
-#include <string>
-#include <utility>
-#include <vector>
+#include <map>
+#include <optional>
 
-#include <ljus/inspect/metrics.hpp>
-#include <ljus/inspect/survey.hpp>
 #include <ljus/ljus.hpp>
+#include <ljus/scenes/cornell_box.hpp>
+#include <ljus/scenes/report_rooms.hpp>
 
-#include "common/drawing.hpp"
-#include "common/example.hpp"
-#include "common/fingerprint.hpp"
-#include "experiments/extreme_room.hpp"
-#include "experiments/numbers.hpp"
+#include "common/command_line.hpp"
+#include "experiments/claims.hpp"
+#include "experiments/sweep.hpp"
+#include "experiments/trade_tables.hpp"
 
 using namespace ljus;
-using examples::Extreme;
-using examples::ExtremeSettings;
-using examples::render_extreme;
-using examples::text;
 
 namespace {
 
-/// What all parts of the program share.
-struct Run {
-    const examples::Options& options; ///< Where to, how large.
-    ExtremeSettings picture{};        ///< Of each picture.
-    ImageT<double> plain{};           ///< The room as it is, in double.
-    double noise = 0;                 ///< Error of another seed.
+using examples::Setting;
+using examples::text;
+
+// --- The rooms -----------------------------------------------------------------------
+
+/// A ball of glass in a closed grey room, below a small lamp: most of the bright region
+/// is one caustic.
+template <std::floating_point T>
+Room<CornellSceneT<T>> make_caustic() {
+    CornellSceneT<T> scene;
+    const auto white = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0.5)}});
+    const Vec3T<T> corner{T(-1), T(0), T(-1)}, x{T(2), T(0), T(0)}, y{T(0), T(2), T(0)},
+        z{T(0), T(0), T(4)};
+    scene.add(QuadT<T>{corner, z, x}, white);     // floor
+    scene.add(QuadT<T>{corner + y, x, z}, white); // ceiling
+    scene.add(QuadT<T>{corner, x, y}, white);     // back
+    scene.add(QuadT<T>{corner + z, y, x}, white); // front
+    scene.add(QuadT<T>{corner, y, z}, white);     // left
+    scene.add(QuadT<T>{corner + x, z, y}, white); // right
+    scene.add(QuadT<T>{.corner{T(-0.7), T(1.98), T(-0.6)},
+                       .edge_u{T(0.3), T(0), T(0)},
+                       .edge_v{T(0), T(0), T(0.3)}},
+              scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}}), RgbT<T>{T(50)});
+    scene.add(SphereT<T>{.center{T(0), T(0.5), T(0)}, .radius = T(0.35)},
+              scene.add(GlassT<T>{.index = T(1.5)}));
+    return {World(std::move(scene)), look_at(ViewT<T>{.position{T(0), T(1.3), T(2.8)},
+                                                      .target{T(0.1), T(0.25), T(0)},
+                                                      .up{T(0), T(1), T(0)},
+                                                      .vfov_degrees = T(36)})};
+}
+
+// --- The knobs -----------------------------------------------------------------------
+
+/// In the order of the chapter.
+const std::vector<std::string> knobs{
+    "preset",   "rays",        "sampling",    "shadow-rays",  "direct",
+    "glass",    "depth",       "roulette",    "photons",      "radius",
+    "nearest",  "kernel",      "numbers",     "budget",       "skip",
+    "indirect", "gather-rays", "gather-tile", "gather-reach", "irradiance-every",
+    "precision"};
+
+/// The settings of one knob, as they are put together: each is the middle, changed.
+struct Around {
+    Setting middle;
+    float unit; ///< Half of the room's width, the unit of radii.
+    int size;   ///< Of the pictures.
+    bool full;  ///< A wider range than in a draft.
+    std::vector<Setting> all{};
+
+    /// The middle's settings of photons and rays.
+    PhotonMappingSettings& s() { return middle.recipe.settings; }
+
+    /// Adds a setting. `change` gets it, and its settings of photons and rays.
+    template <typename Change>
+    void add(const std::string& value, double x, Change change) {
+        all.push_back(middle);
+        all.back().value = value;
+        all.back().x = x;
+        change(all.back(), all.back().recipe.settings);
+    }
+    /// Adds one for each number, which `change` gets as well.
+    template <typename Number = int, typename Change>
+    void numbers(const std::vector<Number>& values, Change change) {
+        for (const Number n : values)
+            add(text(double(n), "%.6g"), double(n),
+                [&](Setting& one, PhotonMappingSettings& how) { change(one, how, n); });
+    }
+    /// Adds one for each word; `change` gets its index in the list.
+    template <typename Change>
+    void words(const std::vector<std::string>& values, Change change) {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            add(values[i], 0, [&](Setting& one, PhotonMappingSettings& how) {
+                change(one, how, static_cast<int>(i));
+            });
+    }
 };
 
-// [error]
-/// How far two pictures of the same rays are apart: relMSE without the worst pixels,
-/// which are single bright paths.
-template <typename T>
-double error_of(const ImageT<T>& image, const ImageT<double>& truth) {
-    return trimmed_rel_mse(image, truth, 0.05);
+/// Whole ways to make a picture.
+void add_presets(Around& to) {
+    for (const auto& recipe : examples::recipes(to.size, to.size))
+        to.add(recipe.name, 0, [&](Setting& one, auto&) { one.recipe = recipe; });
+    to.words({"paths", "report"}, [&](Setting& one, auto& how, int report) {
+        one.paths = report == 0;
+        if (one.paths) return;
+        how = {.max_depth = 4, .roulette_depth = 5};
+        how.caustics.photons = to.full ? 100000 : 10000;
+        how.caustics_estimate.radius = 0.01f * to.unit;
+    });
 }
-// [error]
 
-// --- Pictures side by side ------------------------------------------------------------
-
-/// Pictures of one size in rows, with thin gaps.
-class Sheet {
-public:
-    /// \param columns  How many in a row.
-    explicit Sheet(int columns) : columns_(columns) {}
-    /// Adds the next one.
-    void add(const Image& image) { pictures_.push_back(image); }
-    /// All of them.
-    void save(const std::string& path) const {
-        constexpr int gap = 4;
-        const int width = pictures_.front().width, height = pictures_.front().height;
-        const int rows = (static_cast<int>(pictures_.size()) + columns_ - 1) / columns_;
-        Image sheet = make_image(columns_ * (width + gap) - gap,
-                                 rows * (height + gap) - gap, Rgb{1});
-        for (std::size_t i = 0; i < pictures_.size(); ++i) {
-            const int left = static_cast<int>(i) % columns_ * (width + gap);
-            const int top = static_cast<int>(i) / columns_ * (height + gap);
-            for (int y = 0; y < height; ++y)
-                for (int x = 0; x < width; ++x)
-                    pixel(sheet, left + x, top + y) = pixel(pictures_[i], x, y);
-        }
-        save_png(sheet, path, {.exposure = 0.5});
+/// Rays through a pixel, of photon mapping and of path tracing.
+void add_rays(Around& to) {
+    for (const int n : {1, 4, 16, 64}) {
+        if (n > 16 && !to.full) continue;
+        to.add(std::to_string(n), n, [n](Setting& one, auto&) { one.recipe.rays = n; });
+        to.add("paths " + std::to_string(n), n, [n](Setting& one, auto&) {
+            one.recipe.rays = n;
+            one.paths = true;
+        });
     }
+}
 
-private:
-    int columns_;
-    std::vector<Image> pictures_{};
+/// Adds the settings of a knob that turns rays and paths.
+void add_path_knob(Around& to, const std::string& knob) {
+    if (knob == "preset") add_presets(to);
+    if (knob == "rays") add_rays(to);
+    if (knob == "sampling")
+        to.words({"random", "jittered", "multi-jittered", "sobol"},
+                 [](Setting& one, auto&, int i) { one.sampling = Sampling(i); });
+    if (knob == "shadow-rays")
+        to.numbers({1, 2, 4, 9},
+                   [](Setting&, auto& how, int n) { how.shadow_rays = n; });
+    if (knob == "direct")
+        to.words({"sampled", "analytic", "mis"},
+                 [](Setting&, auto& how, int i) { how.direct = DirectLight(i); });
+    if (knob == "glass")
+        to.words({"one way", "both ways"},
+                 [](Setting&, auto& how, int i) { how.split_glass = i == 1; });
+    if (knob == "depth")
+        to.numbers({1, 2, 3, 4, 6, 8}, [](Setting&, auto& how, int depth) {
+            how.max_depth = depth;
+            how.roulette_depth = depth + 1;
+        });
+    if (knob == "roulette")
+        to.numbers({1, 2, 4, 8, 16},
+                   [](Setting&, auto& how, int from) { how.roulette_depth = from; });
+    if (knob == "precision")
+        to.words({"float", "double"},
+                 [](Setting& one, auto&, int i) { one.in_double = i == 1; });
+}
+
+/// Adds the settings of a knob that turns the photons of caustics.
+void add_caustics_knob(Around& to, const std::string& knob) {
+    to.middle.of_maps = true;
+    if (knob == "photons")
+        to.numbers(to.full ? std::vector{1000, 10000, 100000, 300000}
+                           : std::vector{1000, 10000, 100000},
+                   [](Setting&, auto& how, int n) { how.caustics.photons = n; });
+    if (knob == "radius")
+        to.numbers<float>({0.0125f, 0.025f, 0.05f, 0.1f, 0.2f, 0.4f},
+                          [&](Setting&, auto& how, float r) {
+                              how.caustics_estimate.radius = r * to.unit;
+                          });
+    if (knob == "nearest") {
+        to.s().caustics_estimate.radius = to.unit;
+        to.numbers({4, 16, 64, 256}, [](Setting&, auto& how, int k) {
+            how.caustics_estimate.nearest = std::size_t(k);
+        });
+    }
+    if (knob == "kernel")
+        to.words({"box", "cone", "gaussian", "epanechnikov", "biweight"},
+                 [](Setting&, auto& how, int i) {
+                     how.caustics_estimate.kernel = Kernel(i);
+                 });
+    if (knob == "numbers")
+        to.words({"random", "sobol"}, [](Setting&, auto& how, int i) {
+            how.caustics.numbers = PhotonSampling(i);
+        });
+    if (knob == "budget")
+        to.words(
+            {"as seen", "equal", "flux", "area", "brightness"},
+            [](Setting&, auto& how, int i) { how.caustic_budget = CausticBudget(i); });
+    to.middle.of_maps = false;
+}
+
+/// Adds the settings of a knob that turns direct and indirect light from the general
+/// map.
+void add_general_knob(Around& to, const std::string& knob) {
+    if (knob == "skip") {
+        to.s().direct = DirectLight::sampled;
+        to.s().general.photons = to.full ? 300000 : 30000;
+        to.words({"none", "report", "any", "enough"},
+                 [](Setting&, auto& how, int i) { how.skip.rule = SkipRule(i); });
+    }
+    if (knob == "indirect") {
+        to.s().general.photons = to.full ? 60000 : 20000;
+        to.words({"rays", "map", "photons", "gather", "cache", "none"},
+                 [](Setting&, auto& how, int i) { how.indirect = IndirectLight(i); });
+    }
+    if (knob.rfind("gather", 0) == 0 || knob == "irradiance-every") {
+        // What gathers needs precomputed irradiance.
+        to.middle.recipe = examples::recipes(to.size, to.size)[1];
+        to.s().general.photons = to.full ? 60000 : 20000;
+    }
+    if (knob == "gather-rays")
+        to.numbers({4, 9, 25, 64},
+                   [](Setting&, auto& how, int n) { how.gather.rays = n; });
+    if (knob == "gather-tile")
+        to.numbers({1, 2, 3, 5, 8},
+                   [](Setting&, auto& how, int n) { how.gather.tile = n; });
+    if (knob == "gather-reach")
+        to.numbers<float>({0.125f, 0.25f, 0.5f, 1.0f, 2.0f},
+                          [](Setting&, auto& how, float a) { how.gather.reach = a; });
+    if (knob == "irradiance-every")
+        to.numbers({2, 6, 16, 64},
+                   [](Setting&, auto& how, int n) { how.irradiance.every = n; });
+}
+
+/// The settings of one knob, around a middle.
+/// \param knob  Which.
+/// \param unit  Half of the room's width, the unit of radii.
+/// \param size  Of the pictures.
+/// \param full  Farther than in a draft.
+std::vector<Setting> settings_of(const std::string& knob, float unit, int size,
+                                 bool full) {
+    Around around{.middle = {.knob = knob}, .unit = unit, .size = size, .full = full};
+    around.middle.recipe.rays = full ? 16 : 4;
+    PhotonMappingSettings& s = around.s();
+    s = preset_settings(Preset::exact, size, size);
+    s.caustics.photons = s.general.photons = full ? 30000 : 10000;
+    s.caustics_estimate.radius = 0.05f * unit;
+    s.general_estimate.radius = 0.15f * unit;
+    add_path_knob(around, knob);
+    add_caustics_knob(around, knob);
+    add_general_knob(around, knob);
+    return around.all;
+}
+
+/// The options of this program, besides the common ones.
+struct Request {
+    std::string only = "all"; ///< A knob.
+    int size = 40;            ///< Side of the pictures.
+    int seeds = 0;            ///< Pictures by each setting.
+    int truth = 0;            ///< Rays per pixel of the references.
+    bool references = false;  ///< Only those.
+    bool check = false;       ///< Fail if a claim of the book does not hold.
 };
 
-// --- The table ------------------------------------------------------------------------
+/// A sweep of all rooms. It goes over them twice: first it only counts what is not in
+/// the notebook yet, so that the bar can show the time that is left.
+struct Sweep {
+    const examples::Options& options;
+    const Request& request;
+    examples::Notebook notebook;
+    std::optional<examples::ProgressBar> bar{}; ///< None: it counts.
+    double done = 0, all = 0;                   ///< As examples::cost_of() has it.
+    std::map<std::string, std::string> stamps{};
+    std::vector<examples::Claim> claims{}; ///< Of promises.
+    examples::Table references{.name = "trades-references",
+                               .columns = {"room", "rays per pixel", "its own relMSE",
+                                           "of blocks", "least relMSE measured",
+                                           "its standard error over the root of that"}};
+    examples::Table promises{.name = "trades-promises",
+                             .columns = {"room", "promised", "chosen", "pictures",
+                                         "time, s", "noise", "bias", "estimated relMSE",
+                                         "measured relMSE"}};
 
-/// One line of the table.
-struct Asked {
-    std::string what;       ///< In words.
-    Extreme how{};          ///< What is extreme.
-    bool same_room = false; ///< The picture must be that of the room as it is.
+    /// Some work is done, or when counting, there is some.
+    void add(double cost) {
+        (bar ? done : all) += cost;
+        if (bar) (void)(*bar)(static_cast<long long>(1000 * done / all), 1000);
+    }
 };
 
-/// The first of several lines, or "nothing".
-std::string first_line(const std::string& lines) {
-    return lines.empty() ? "nothing" : lines.substr(0, lines.find('\n'));
-}
+// --- Promises ------------------------------------------------------------------------
 
-/// Finite, and no sample left out.
-template <typename T>
-bool whole(const RenderedT<T>& rendered) {
-    return rendered.counts.rejected == 0 &&
-           std::all_of(rendered.image.pixels.begin(), rendered.image.pixels.end(),
-                       [](const auto& color) { return is_finite(color); });
-}
-
-/// Renders what is asked in both precisions: a row of the table.
-/// \param sheet  Where the picture in float goes; null: nowhere.
-void add_row(const Run& run, const Asked& asked, examples::Table& table, Sheet* sheet) {
-    const auto single = render_extreme<float>(asked.how, run.picture);
-    const auto twice = render_extreme<double>(asked.how, run.picture);
-    if (!whole(single.rendered) || !whole(twice.rendered))
-        throw std::runtime_error(asked.what + ": a sample is not finite");
-    // What cannot be compared with the room as it is, is compared with double.
-    const ImageT<double>& truth = asked.same_room ? run.plain : twice.rendered.image;
-    const auto error = [&](const auto& image) {
-        return text(error_of(image, truth), "%.1e");
-    };
-    table.rows.push_back({asked.what, error(single.rendered.image),
-                          asked.same_room ? error(twice.rendered.image) : "",
-                          first_line(single.remarks), first_line(twice.remarks)});
-    if (sheet != nullptr) sheet->add(single.rendered.image);
-}
-
-/// Other sizes and positions: the picture must be the same.
-void same_rooms(const Run& run) {
-    examples::Table table{.name = "extremes-same",
-                          .columns = {"the room", "error, float", "error, double",
-                                      "remarks, float", "remarks, double"}};
-    Sheet scales(5);
-    for (const double scale : {1e-6, 1e-3, 1.0, 1e3, 1e6})
-        add_row(run, {text(scale, "%.0e") + " times the size", {.scale = scale}, true},
-                table, &scales);
-    for (const double far : {1e2, 1e4, 1e5, 1e6, 1e7})
-        add_row(run, {text(far, "%.0e") + " away", {.moved = Vec3T<double>(far)}, true},
-                table, nullptr);
-    add_row(run,
-            {"a millionth, 1 away", {.scale = 1e-6, .moved = Vec3T<double>(1.0)}, true},
-            table, nullptr);
-    add_row(run, {"1e+12 away", {.moved = Vec3T<double>(1e12)}, true}, table, nullptr);
-    add_row(run, {"1e+15 away", {.moved = Vec3T<double>(1e15)}, true}, table, nullptr);
-    add_row(run, {"1e+10 times the size", {.scale = 1e10}, true}, table, nullptr);
-    table.rows.push_back({"as it is, another seed", text(run.noise, "%.1e"),
-                          text(run.noise, "%.1e"), "", ""});
-    save_table(run.options.out, table);
-    scales.save(run.options.path("extremes-scales.png"));
-}
-
-/// Lamps, albedos, roughness, glass: other pictures, in float against double.
-void other_rooms(const Run& run) {
-    examples::Table table{.name = "extremes-other",
-                          .columns = {"the room", "float against double", "",
-                                      "remarks, float", "remarks, double"}};
-    Sheet lamps(5), surfaces(5), glasses(5);
-    const auto lamp = [&](const std::string& what, double radius) {
-        add_row(run, {what, {.lamp = radius}}, table, &lamps);
-    };
-    lamp("lamp: a point", 0);
-    lamp("lamp: a ball of radius 1e-6", 1e-6);
-    lamp("lamp: a ball of radius 0.01", 0.01);
-    lamp("lamp: a ball of radius 0.9", 0.9);
-    lamp("lamp: the ceiling", Extreme::ceiling);
-    const auto surface = [&](const std::string& what, const Extreme& how) {
-        add_row(run, {what, how}, table, &surfaces);
-    };
-    surface("albedo 0", {.albedo = 0});
-    surface("albedo 1", {.albedo = 1});
-    surface("diffuse, roughness 1", {.matt = 1});
-    surface("mirror, roughness 0.01", {.gloss = 0.01});
-    surface("mirror, roughness 1", {.gloss = 1});
-    for (const double index : {1.0, 1.0 + 1e-6, 1.5, 10.0, 1000.0})
-        add_row(run, {"glass, index " + text(index, "%.7g"), {.index = index}}, table,
-                &glasses);
-    for (auto& row : table.rows) row.erase(row.begin() + 2);
-    table.columns.erase(table.columns.begin() + 2);
-    save_table(run.options.out, table);
-    lamps.save(run.options.path("extremes-lamps.png"));
-    surfaces.save(run.options.path("extremes-surfaces.png"));
-    glasses.save(run.options.path("extremes-glasses.png"));
-}
-
-/// The mean of a picture's pixels and channels, as a cell of the table.
-template <typename T>
-std::string mean_text(const ImageT<T>& image) {
-    double sum = 0;
-    for (const auto& c : image.pixels)
-        sum += (double(c.x) + double(c.y) + double(c.z)) / 3;
-    return text(sum / double(image.pixels.size()), "%.3f");
-}
-
-/// Renders the room as it is with other numbers in both precisions: a row of the table.
-/// \param sheet  Where the picture goes; null: nowhere.
-void add_numbers(examples::Table& table, Sheet* sheet, const std::string& what,
-                 const ExtremeSettings& settings) {
-    const auto single = render_extreme<float>({}, settings);
-    const auto twice = render_extreme<double>({}, settings);
-    if (!whole(single.rendered) || !whole(twice.rendered))
-        throw std::runtime_error(what + ": a sample is not finite");
-    table.rows.push_back({what, mean_text(single.rendered.image),
-                          mean_text(twice.rendered.image),
-                          std::to_string(single.photons), first_line(single.remarks)});
-    if (sheet != nullptr) sheet->add(single.rendered.image);
-}
-
-/// From no photon to ten million.
-void numbers_of_photons(const Run& run, examples::Table& table, Sheet& sheet) {
-    const auto with = [&run](long long count, std::size_t nearest) {
-        ExtremeSettings now = run.picture;
-        now.photons = count;
-        now.nearest = nearest;
-        if (nearest > 0) now.radius = 1;
-        return now;
-    };
-    add_numbers(table, &sheet, "0 photons", with(0, 0));
-    add_numbers(table, &sheet, "1 photon", with(1, 0));
-    const std::size_t kept = render_extreme<float>({}, with(200, 0)).photons;
-    add_numbers(table, &sheet, "k - 1 photons for an estimate of k",
-                with(200, kept + 1));
-    add_numbers(table, &sheet,
-                std::to_string(run.picture.photons) + " photons, 50 per estimate",
-                with(run.picture.photons, 50));
-    // Ten million take their time, and memory: in float only.
-    ExtremeSettings many =
-        with(run.options.pick(100'000LL, 10'000'000LL, 10'000'000LL), 0);
-    many.radius = 0.05;
-    const auto most = render_extreme<float>({}, many);
-    if (!whole(most.rendered)) throw std::runtime_error("a sample is not finite");
-    sheet.add(most.rendered.image);
-    table.rows.push_back({std::to_string(many.photons) + " photons",
-                          mean_text(most.rendered.image), "",
-                          std::to_string(most.photons), first_line(most.remarks)});
-}
-
-/// One pixel, one ray, and pictures that are a line.
-void numbers_of_pixels(const Run& run, examples::Table& table) {
-    ExtremeSettings now = run.picture;
-    now.width = now.height = now.samples = 1;
-    add_numbers(table, nullptr, "1 x 1 pixel, 1 ray", now);
-    now.samples = run.options.pick(1000, 100'000, 100'000);
-    add_numbers(table, nullptr, "1 x 1 pixel, " + std::to_string(now.samples) + " rays",
-                now);
-    now = run.picture;
-    now.width = 1;
-    now.height = 1000;
-    add_numbers(table, nullptr, "1 x 1000 pixels", now);
-    std::swap(now.width, now.height);
-    add_numbers(table, nullptr, "1000 x 1 pixels", now);
-}
-
-/// Numbers of photons, rays and pixels.
-void numbers(const Run& run) {
-    examples::Table table{
-        .name = "extremes-numbers",
-        .columns = {"asked", "mean, float", "mean, double", "photons kept", "remarks"}};
-    Sheet sheet(5);
-    numbers_of_photons(run, table, sheet);
-    numbers_of_pixels(run, table);
-    save_table(run.options.out, table);
-    sheet.save(run.options.path("extremes-photons.png"));
-}
-
-/// Threads: all pictures must have the same bytes.
-void threads(const Run& run) {
-    examples::Table table{.name = "extremes-threads",
-                          .columns = {"threads", "float", "double"}};
-    for (const int count : {1, 2, 3, 7, 16, 64}) {
-        ExtremeSettings settings = run.picture;
-        settings.threads = count;
-        const auto hash = [&]<typename T>(T) {
-            return examples::hex_text(examples::hash_of(
-                render_extreme<T>({}, settings).rendered.image.pixels));
-        };
-        table.rows.push_back({std::to_string(count), hash(0.0f), hash(0.0)});
-        if (table.rows.back()[1] != table.rows.front()[1] ||
-            table.rows.back()[2] != table.rows.front()[2])
-            throw std::runtime_error("the number of threads has changed the picture");
-    }
-    save_table(run.options.out, table);
-}
-
-/// Powers of two: no digit is lost, and the bytes must be the same.
-void powers(const Run& run) {
-    examples::Table table{.name = "extremes-powers",
-                          .columns = {"times the size", "float", "double"}};
-    for (const int power : {0, -20, -10, 10, 20}) {
-        const auto hash = [&]<typename T>(T) {
-            return examples::hex_text(examples::hash_of(
-                render_extreme<T>({.scale = std::exp2(power)}, run.picture)
-                    .rendered.image.pixels));
-        };
-        table.rows.push_back({"2^" + std::to_string(power), hash(0.0f), hash(0.0)});
-    }
-    save_table(run.options.out, table);
-}
-
-// --- Plots ----------------------------------------------------------------------------
-
-/// The error over the distance from the origin, and over the size.
-void plots(const Run& run) {
-    const int step = run.options.pick(3, 1, 1);
-    examples::Plot far{.name = "extremes-far",
-                       .columns = {"distance from the origin, scene units", "float",
-                                   "double", "another seed"},
-                       .y_label = "error against the room at the origin",
-                       .log_x = true,
-                       .log_y = true};
-    for (int i = 0; i <= 32; i += step) {
-        const double x = std::pow(10.0, i / 2.0);
-        // Beyond what a scene can be made of, in float, there is no point of the curve.
-        const auto error = [&]<typename T>(T) {
-            return error_of(render_extreme<T>({.moved = Vec3T<double>(x)}, run.picture)
-                                .rendered.image,
-                            run.plain);
-        };
-        far.rows.push_back(
-            {x, i <= 18 ? error(0.0f) : std::nan(""), error(0.0), run.noise});
-    }
-    save_plot(run.options.out, far);
-    examples::Plot scale{.name = "extremes-scale",
-                         .columns = {"size of the room, over its own", "float",
-                                     "double", "another seed"},
-                         .y_label = "error against the room as it is",
-                         .log_x = true,
-                         .log_y = true};
-    for (int i = -12; i <= 12; i += step) {
-        const auto error = [&]<typename T>(T) {
-            const double off =
-                error_of(render_extreme<T>({.scale = std::pow(10.0, i)}, run.picture)
-                             .rendered.image,
-                         run.plain);
-            return off > 0 ? off : std::nan(""); // the room itself
-        };
-        scale.rows.push_back({std::pow(10.0, i), error(0.0f), error(0.0), run.noise});
-    }
-    save_plot(run.options.out, scale);
-}
-
-// --- Slivers --------------------------------------------------------------------------
-
-/// Two triangles seen along their long edges: their corners are known up to a dot, and
-/// their planes up to the fans.
-void tilt_drawing(const Run& run) {
-    examples::Drawing drawing{
-        .name = "extremes-tilt",
-        .description = "Two triangles seen along their long edge. The corners of both "
-                       "are known up to the same dot; the plane of the thin one turns "
-                       "by much more.",
-        .low = {-0.4, -0.95},
-        .high = {6.4, 0.95}};
-    constexpr double dot = 0.06;
-    const auto triangle = [&](double left, double width, const char* name) {
-        const double reach = 2.6, turn = 2 * dot / width;
-        for (const double sign : {1.0, -1.0}) {
-            const auto y = [&](double x) { return sign * turn * (x - width / 2); };
-            examples::draw_line(drawing,
-                                {{left - 0.25, y(-0.25)}, {left + reach, y(reach)}},
-                                {.color = examples::colors::orange, .dashed = true});
+/// Promises some seconds, and two errors, three times each: were they kept?
+/// \return The smallest error that was measured.
+template <typename Room>
+double promises(Sweep& sweep, const std::string& name, const Room& room,
+                const examples::Oracle& oracle) {
+    constexpr int runs = 3;
+    const examples::Options& options = sweep.options;
+    const double seconds = options.pick(0.6, 3.0, 10.0);
+    double least = std::numeric_limits<double>::infinity();
+    for (const examples::Promise& promise :
+         {examples::Promise{.seconds = seconds}, {.error = 0.03}, {.error = 0.01}}) {
+        const bool timed = promise.seconds > 0;
+        double took = 0, noise = 0, bias = 0, unsure = 0, error = 0;
+        std::string chosen, pictures;
+        for (int run = 0; run < runs && sweep.bar; ++run) {
+            const double begin = examples::processor_seconds();
+            const auto kept = keep(
+                room.world, room.camera,
+                {.width = oracle.truth.width,
+                 .height = oracle.truth.height,
+                 .seed = options.seed + std::uint64_t(run),
+                 .threads = options.threads},
+                promise, [begin] { return examples::processor_seconds() - begin; },
+                true, [](const auto&) {});
+            chosen += (run > 0 ? " / " : "") + kept.recipe.name;
+            pictures += (run > 0 ? " / " : "") + std::to_string(kept.pictures);
+            took += kept.seconds / runs;
+            noise += kept.noise / runs;
+            bias += kept.forecast().bias / runs;
+            unsure += kept.forecast().unsure / runs;
+            error += (rel_mse(kept.rendered.image, oracle.truth) - oracle.noise) / runs;
         }
-        examples::draw_line(drawing, {{left, 0}, {left + width, 0}},
-                            {.color = examples::colors::blue, .width = 4});
-        for (const double x : {left, left + width})
-            examples::draw_dot(drawing, {x, 0}, dot * drawing.scale, "currentColor");
-        examples::draw_label(drawing, {left + 1.0, -0.8}, name);
-    };
-    triangle(0, 2.0, "wide");
-    triangle(3.5, 0.5, "thin");
-    save_drawing(run.options.out, drawing);
+        sweep.add(timed ? runs * seconds : 2.0 * runs);
+        if (!sweep.bar) continue;
+        least = std::min(least, error);
+        sweep.promises.rows.push_back(
+            {name, timed ? text(seconds) + " s" : text(promise.error), chosen, pictures,
+             text(took, "%.2f"), text(noise, "%.2g"),
+             text(bias, "%.2g") + " ± " + text(unsure, "%.1g"),
+             text(noise + bias, "%.2g"), text(error, "%.2g")});
+        sweep.claims.push_back(
+            {timed ? "the seconds are kept: their part of those promised"
+                   : "the error " + text(promise.error) + " is kept: its part of it",
+             name, timed ? took / seconds : error / promise.error, timed ? 0.8 : 0,
+             1.2});
+    }
+    return least;
 }
 
-/// Rays that leave thin triangles and meet them again: with their points' error alone,
-/// and with the tilt of their plane.
-void slivers(const Run& run) {
-    examples::Table table{.name = "extremes-slivers",
-                          .columns = {"height over base", "float",
-                                      "double, points alone", "double, with the tilt",
-                                      "its start, over the base"}};
-    const int cases = run.options.pick(1000, 100'000, 1'000'000);
-    for (const double thin : {1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10}) {
-        examples::Numbers n;
-        long again[3] = {};
-        double farthest = 0;
-        for (int i = 0; i < cases; ++i) {
-            const auto a = n.direction(), way = n.direction();
-            const auto b = glm::normalize(glm::cross(a, n.direction()));
-            const auto third = n.between(0, 1) * a + thin * b;
-            const Vec2T<double> u{n.next(), n.next()};
-            const TriangleT<double> sliver{Vec3T<double>(0.0), a, third};
-            const Triangle single{Vec3{0}, Vec3(a), Vec3(third)};
-            if (!ljus::has_area(sliver)) continue;
-            auto point = sample_area(sliver, u);
-            const auto ray = spawn_ray(point, way);
-            again[2] += intersect(ray, sliver).has_value();
-            farthest = std::max(farthest, glm::distance(ray.origin, point.position));
-            // As it was: the rounding of the corners and no more.
-            constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
-            point.error = 7 * unit / (1 - 7 * unit) * (glm::abs(a) + glm::abs(third));
-            again[1] += intersect(spawn_ray(point, way), sliver).has_value();
-            if (!ljus::has_area(single)) continue;
-            again[0] +=
-                intersect(spawn_ray(sample_area(single, Vec2(u)), Vec3(way)), single)
-                    .has_value();
+/// Tries the promises of a room, and reports the accuracy of its reference: its
+/// standard error beside the root of the smallest error that was measured by it.
+template <typename Room>
+void try_promises(Sweep& sweep, const std::string& name, const Room& room,
+                  const examples::Oracle& oracle) {
+    double least = promises(sweep, name, room, oracle);
+    if (!sweep.bar) return;
+    for (const auto& line : sweep.notebook.lines)
+        if (line.scene == name) least = std::min(least, line.error());
+    sweep.references.rows.push_back(
+        {name, std::to_string(oracle.rays), text(oracle.noise, "%.2g"),
+         text(oracle.block_noise, "%.2g"), text(least, "%.2g"),
+         text(100 * std::sqrt(oracle.noise / least), "%.0f %%")});
+}
+
+/// Makes the reference of a room, if references are what is asked for.
+/// \return Whether they are.
+template <typename Room>
+bool makes_reference(const Sweep& sweep, const std::string& name, const Room& room) {
+    const Request& request = sweep.request;
+    if (!request.references || !sweep.bar) return request.references;
+    const auto oracle =
+        examples::find_oracle(name, room, request.size, request.truth, sweep.options);
+    save_reference(sweep.options.path(""), name, oracle, sweep.notebook.conditions);
+    return true;
+}
+
+/// The reference of a room, if there is one.
+std::optional<examples::Oracle> reference_of(const Sweep& sweep,
+                                             const std::string& name) {
+    return examples::find_reference(
+        name, sweep.request.size,
+        {sweep.options.out, LJUS_SOURCE_FOLDER "/examples/data"});
+}
+
+/// Goes over a room in which only promises are tried.
+template <typename Room>
+void go_over(Sweep& sweep, const std::string& name, const Room& room) {
+    if (makes_reference(sweep, name, room) || sweep.request.only != "all") return;
+    const auto oracle = reference_of(sweep, name);
+    if (oracle)
+        try_promises(sweep, name, room, *oracle);
+    else if (sweep.bar)
+        std::fprintf(stderr,
+                     "no promise is tried in the room %s: --references makes the "
+                     "reference that it has not\n",
+                     name.c_str());
+}
+
+/// Goes over all settings of one room, and its promises.
+/// \param make  Makes the room, in float and in double.
+/// \param unit  Half of its width.
+template <typename Make>
+void go_over(Sweep& sweep, const std::string& name, const Make& make, float unit) {
+    const examples::Options& options = sweep.options;
+    const Request& request = sweep.request;
+    const auto room = make(float{});
+    const auto room_in_double = make(double{});
+    if (makes_reference(sweep, name, room)) return;
+    const auto oracle = reference_of(sweep, name);
+    if (!oracle)
+        throw std::runtime_error("there is no reference of the room " + name +
+                                 ": make it by --references with that --size.");
+    for (const std::string& knob : knobs) {
+        if (request.only != "all" && request.only != knob) continue;
+        for (const Setting& setting :
+             settings_of(knob, unit, request.size,
+                         options.quality != examples::Quality::draft)) {
+            // The curves of whole methods end at their bias: in report quality it must
+            // not drown in noise.
+            examples::Measuring how{request.size, request.seeds, options.threads};
+            if (knob == "preset") how.seeds *= options.pick(1, 16, 16);
+            const auto either = [&](const auto& work) {
+                setting.in_double ? work(room_in_double) : work(room);
+            };
+            std::string& stamp = sweep.stamps[name + " " + knob + " " + setting.value];
+            if (stamp.empty())
+                either(
+                    [&](const auto& r) { stamp = stamp_of(r, setting, *oracle, how); });
+            examples::Measured line{name, knob, setting.value, setting.x};
+            line.stamp = stamp;
+            if (sweep.notebook.find(line)) continue;
+            if (sweep.bar)
+                either([&](const auto& r) {
+                    measure(line, r, setting, *oracle, how, sweep.notebook);
+                });
+            sweep.add(cost_of(setting, how));
         }
-        const auto share = [&](long count) {
-            return count == 0 ? std::string("0")
-                              : text(100.0 * double(count) / cases, "%.2g %%");
-        };
-        table.rows.push_back({text(thin, "%.0e"), share(again[0]), share(again[1]),
-                              share(again[2]), text(farthest, "%.0e")});
     }
-    save_table(run.options.out, table);
-
-    tilt_drawing(run);
-}
-
-/// What double costs: processor time of both passes, alternating, and memory.
-void trade(const Run& run) {
-    std::vector<double> seconds[2];
-    std::size_t photons[2] = {};
-    const int rounds = run.options.pick(1, 7, 7);
-    const auto once = [&]<typename T>(T, int which) {
-        const double before = examples::processor_seconds();
-        const auto picture = render_extreme<T>({}, run.picture);
-        seconds[which].push_back(examples::processor_seconds() - before);
-        photons[which] =
-            picture.photon_bytes / std::max<std::size_t>(1, picture.photons);
-    };
-    for (int i = 0; i < rounds; ++i) {
-        once(0.0f, 0);
-        once(0.0, 1);
-    }
-    const auto median = [](std::vector<double> values) {
-        std::nth_element(values.begin(),
-                         values.begin() + std::ptrdiff_t(values.size() / 2),
-                         values.end());
-        return values[values.size() / 2];
-    };
-    examples::Table table{.name = "extremes-trade",
-                          .columns = {"precision", "s", "over float",
-                                      "bytes per photon", "bytes per pixel",
-                                      "bytes per ball"}};
-    for (int i = 0; i < 2; ++i)
-        table.rows.push_back(
-            {i == 0 ? "float" : "double", text(median(seconds[i]), "%.3g"),
-             text(median(seconds[i]) / median(seconds[0]), "%.2f"),
-             std::to_string(photons[i]), std::to_string(12 * (i + 1)),
-             std::to_string(i == 0 ? sizeof(Sphere) : sizeof(SphereT<double>))});
-    save_table(run.options.out, table);
-}
-
-void body(examples::CommandLine& line) {
-    line.about("Chapter 36: whole pictures at the extremes.");
-    const examples::Options options =
-        line.parse({.draft{.width = 48, .height = 48, .samples = 2},
-                    .report{.width = 100, .height = 100, .samples = 8},
-                    .reference{.width = 160, .height = 160, .samples = 64}});
-    Run run{.options = options};
-    run.picture = {.width = options.width,
-                   .height = options.height,
-                   .samples = options.samples,
-                   .photons = options.pick(2000LL, 50'000LL, 200'000LL),
-                   .seed = options.seed,
-                   .threads = options.threads};
-    run.plain = render_extreme<double>({}, run.picture).rendered.image;
-    ExtremeSettings other = run.picture;
-    other.seed = options.seed + 1;
-    run.noise = error_of(render_extreme<double>({}, other).rendered.image, run.plain);
-    const auto step = [&](const char* name, void (*make)(const Run&)) {
-        examples::stop_if_asked();
-        if (!options.quiet) std::printf("  %s\n", name);
-        make(run);
-    };
-    step("sizes and places", same_rooms);
-    step("lamps, surfaces, glass", other_rooms);
-    step("photons, rays, pixels", numbers);
-    step("threads", threads);
-    step("powers of two", powers);
-    step("plots", plots);
-    step("slivers", slivers);
-    step("the trade", trade);
+    if (request.only != "all") return;
+    try_promises(sweep, name, room, *oracle);
 }
 
 } // namespace
 
-/// Makes the chapter's figures.
+/// Turns all knobs.
 int main(int argc, char** argv) {
-    return examples::run_main(argc, argv, body);
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        Request request;
+        line.about("Every knob of the photon mapper: error against time and memory.");
+        std::vector<std::string> words{"all"};
+        words.insert(words.end(), knobs.begin(), knobs.end());
+        line.add("--only", request.only, "Measure only this knob", words);
+        line.add("--size", request.size, "Side of the pictures in pixels", 4, 1000);
+        line.add("--seeds", request.seeds, "Pictures per setting", 3, 1000);
+        line.add("--truth", request.truth, "Rays per pixel of the references", 8,
+                 100000000);
+        line.add("--references", request.references, "Make only the references");
+        line.add("--check", request.check, "Fail if a claim of the book does not hold");
+        const examples::Options options = line.parse();
+        if (!line.given("--seeds")) request.seeds = options.pick(3, 5, 16);
+        if (!line.given("--truth")) request.truth = options.pick(4096, 262144, 262144);
+        const std::string side = std::to_string(request.size);
+        const std::string seeds =
+            request.references ? "parts with seeds of their own"
+                               : std::to_string(request.seeds) + " seeds from 1 on";
+        const std::string conditions = examples::conditions(
+            options, seeds + ", pictures of " + side + " x " + side);
+        Sweep sweep{
+            options, request,
+            examples::open_notebook(options.path("trades-notebook.json"), conditions)};
+        sweep.promises.notes = {conditions};
+        for (const bool measures : {false, true}) {
+            if (measures) sweep.bar.emplace("the sweep", options.quiet);
+            go_over(
+                sweep, "cornell", [](auto t) { return cornell_box<decltype(t)>(); }, 1);
+            go_over(
+                sweep, "caustic", [](auto t) { return make_caustic<decltype(t)>(); },
+                1);
+            go_over(
+                sweep, "report", [](auto t) { return four_glass_room<decltype(t)>(); },
+                5);
+            go_over(sweep, "matt", matt_cornell_box());
+            go_over(sweep, "final", final_room());
+            go_over(sweep, "materials", all_materials_room());
+        }
+        sweep.bar.reset(); // it wipes its line
+        if (request.references) return;
+        save_trades(options.path(""), sweep.notebook, {"cornell", "caustic", "report"},
+                    knobs);
+        if (request.only != "all") return;
+        save_table(options.path(""), sweep.promises);
+        save_table(options.path(""), sweep.references);
+        auto claims = examples::judge(sweep.notebook);
+        claims.insert(claims.end(), sweep.claims.begin(), sweep.claims.end());
+        save_claims(options.path(""), claims, conditions);
+        for (const auto& claim : claims) {
+            if (claim.holds()) continue;
+            std::fprintf(stderr, "%s\n", claim.sentence().c_str());
+            if (request.check)
+                throw std::runtime_error(
+                    "the sweep does not show what the book says: " + claim.sentence());
+        }
+    });
 }

@@ -1,360 +1,483 @@
-// smoke: --width 16 --rays 1
-// headers: broken
+// smoke: --quality draft --width 12 --height 12 --rays 1
 /// \file chapters/experiments/37_experiments.cpp
-/// \brief Chapter 37: the gallery, what each mistake looks like. The program is
-/// compiled against headers in which the rows of tests/break_it can be switched on, one
-/// at a time: the right picture, the wrong one, and their difference with its sign.
+/// \brief Chapter 37: the experiments behind its tables and plots: what is asked, what
+/// float makes of it, what double does, and what the program says.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
-#include <fstream>
-#include <map>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
-#if __has_include("ljus_break_it.hpp")
-#include "ljus_break_it.hpp" // made by cmake/break_it_gallery.py
-#define LJUS_HAS_MISTAKES
-#endif
+#include <ljus/inspect/metrics.hpp>
+#include <ljus/inspect/survey.hpp>
+#include <ljus/ljus.hpp>
 
-#include "common/clock.hpp"
-#include "common/command_line.hpp"
 #include "common/drawing.hpp"
-#include "common/error_map.hpp"
-#include "common/plot.hpp"
-#include "common/terminal.hpp"
-#include "experiments/break_it_scenes.hpp"
+#include "common/example.hpp"
+#include "common/fingerprint.hpp"
+#include "experiments/extreme_room.hpp"
+#include "experiments/numbers.hpp"
+
+using namespace ljus;
+using examples::Extreme;
+using examples::ExtremeSettings;
+using examples::render_extreme;
+using examples::text;
 
 namespace {
 
-/// A mistake and the scene that shows it.
-struct Mistake {
-    const char* row;              ///< Of tests/break_it.
-    Image (*picture)(const Eye&); ///< Right or wrong, as the headers are switched.
+/// What all parts of the program share.
+struct Run {
+    const examples::Options& options; ///< Where to, how large.
+    ExtremeSettings picture{};        ///< Of each picture.
+    ImageT<double> plain{};           ///< The room as it is, in double.
+    double noise = 0;                 ///< Error of another seed.
 };
 
-constexpr std::array mistakes{
-    // Rays and surfaces
-    Mistake{.row = "sphere-direction-length", .picture = egg},
-    Mistake{.row = "triangle-epsilon", .picture = small_mesh},
-    Mistake{.row = "triangle-u-plus-v", .picture = triangles},
-    Mistake{.row = "surface-shadow-stay", .picture = point_light},
-    Mistake{.row = "shading_normals-side", .picture = cards},
-    Mistake{.row = "bvh-later", .picture = many_balls},
-    Mistake{.row = "metaballs-overstep", .picture = blobs},
-    Mistake{.row = "reflection-half", .picture = mirror_ball},
-    // Glass
-    Mistake{.row = "glass-half-vector", .picture = glass_ball},
-    Mistake{.row = "schlick-thin-side", .picture = pool_by_schlick},
-    Mistake{.row = "refraction-total-ignored", .picture = pool_without_fresnel},
-    Mistake{.row = "glass-index-swapped", .picture = glass_ball},
-    Mistake{.row = "glass-squared-index", .picture = lamp_in_glass},
-    Mistake{.row = "whitted-branch", .picture = glass_ball},
-    // Light
-    Mistake{.row = "lambertian-missing-pi", .picture = box_by_paths},
-    Mistake{.row = "lambertian-doubled-cosine", .picture = box_by_paths},
-    Mistake{.row = "hemisphere_sampling-belt", .picture = open_sky},
-    Mistake{.row = "oren_nayar-azimuth", .picture = rough_ball},
-    Mistake{.row = "direct-light-pdf", .picture = one_lamp},
-    Mistake{.row = "direct-light-distance", .picture = point_light},
-    Mistake{.row = "solid-angle-area", .picture = two_sizes},
-    Mistake{.row = "path-tracing-light-choice", .picture = two_lamps},
-    Mistake{.row = "direct-light-inverted", .picture = lamp_and_point},
-    Mistake{.row = "direct-light-shadow", .picture = one_lamp},
-    Mistake{.row = "distributed-rays-hard-shadow", .picture = penumbra},
-    Mistake{.row = "path-tracing-plain-twice", .picture = box_by_plain_paths},
-    Mistake{.row = "depth-roulette", .picture = box_with_roulette},
-    Mistake{.row = "stratified-remainder", .picture = lamp_places},
-    Mistake{.row = "rays-alike", .picture = box_with_few_rays},
-    Mistake{.row = "render-shared-stream", .picture = box_direct},
-    Mistake{.row = "png-maximum", .picture = as_saved},
-    // Photons
-    Mistake{.row = "emission-cosine", .picture = direct_photons},
-    Mistake{.row = "tracing-stored", .picture = point_by_photons},
-    Mistake{.row = "aim-weight", .picture = caustic_of_one},
-    Mistake{.row = "caustics-overlap", .picture = caustic_of_two},
-    Mistake{.row = "tracing-owner", .picture = caustic_and_general},
-    Mistake{.row = "photon-mapping-emission", .picture = box_by_two_passes},
-    Mistake{.row = "photon-mapping-direct-twice", .picture = box_with_map_seen},
-    Mistake{.row = "roulette-uncompensated", .picture = box_by_photons},
-    Mistake{.row = "general-map-mirror", .picture = dots},
-    Mistake{.row = "general-map-other-side", .picture = screen},
-    Mistake{.row = "kd-tree-cube", .picture = spread_photons},
-    Mistake{.row = "photon-mapping-kernel", .picture = direct_photons},
-    Mistake{.row = "photon-map-k", .picture = few_photons},
-    Mistake{.row = "shadow-photons-lights", .picture = two_lamps_skipped},
-    Mistake{.row = "final-gathering-edge", .picture = box_with_points},
-    Mistake{.row = "irradiance-cache-normal", .picture = box_with_cache},
-    Mistake{.row = "caustic_budget-flux", .picture = shared_budget},
-    Mistake{.row = "progressive-radius", .picture = sixteen_passes},
-    Mistake{.row = "form-factors-visible", .picture = box_by_radiosity},
-};
-
-#ifdef LJUS_HAS_MISTAKES
-
-/// The right picture, the wrong one, and the map of their difference, side by side.
-Image side_by_side(const Image& right, const Image& wrong, double range) {
-    ImageT<double> difference = make_image<double>(right.width, right.height);
-    for (std::size_t i = 0; i < right.pixels.size(); ++i)
-        difference.pixels[i] = RgbT<double>{
-            double(luminance(wrong.pixels[i]) - luminance(right.pixels[i]))};
-    const Image map =
-        examples::error_picture(difference, examples::Ramp::signs, -range, range);
-    const int gap = 6, width = right.width;
-    Image all = make_image(2 * (width + gap) + map.width, map.height, Rgb{1});
-    const auto put = [&](const Image& part, int left) {
-        for (int y = 0; y < part.height; ++y)
-            for (int x = 0; x < part.width; ++x)
-                pixel(all, left + x, y) = pixel(part, x, y);
-    };
-    put(right, 0);
-    put(wrong, width + gap);
-    put(map, 2 * (width + gap));
-    return all;
+// [error]
+/// How far two pictures of the same rays are apart: relMSE without the worst pixels,
+/// which are single bright paths.
+template <typename T>
+double error_of(const ImageT<T>& image, const ImageT<double>& truth) {
+    return trimmed_rel_mse(image, truth, 0.05);
 }
+// [error]
 
-/// The range of the map's colours: a round number that few differences
-/// exceed, as a fraction of white.
-double range_of(const Image& right, const Image& wrong) {
-    std::vector<double> sizes;
-    for (std::size_t i = 0; i < right.pixels.size(); ++i) {
-        const double d =
-            std::abs(double(luminance(wrong.pixels[i]) - luminance(right.pixels[i])));
-        if (d > 1e-4) sizes.push_back(d);
+// --- Pictures side by side ------------------------------------------------------------
+
+/// Pictures of one size in rows, with thin gaps.
+class Sheet {
+public:
+    /// \param columns  How many in a row.
+    explicit Sheet(int columns) : columns_(columns) {}
+    /// Adds the next one.
+    void add(const Image& image) { pictures_.push_back(image); }
+    /// All of them.
+    void save(const std::string& path) const {
+        constexpr int gap = 4;
+        const int width = pictures_.front().width, height = pictures_.front().height;
+        const int rows = (static_cast<int>(pictures_.size()) + columns_ - 1) / columns_;
+        Image sheet = make_image(columns_ * (width + gap) - gap,
+                                 rows * (height + gap) - gap, Rgb{1});
+        for (std::size_t i = 0; i < pictures_.size(); ++i) {
+            const int left = static_cast<int>(i) % columns_ * (width + gap);
+            const int top = static_cast<int>(i) / columns_ * (height + gap);
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x)
+                    pixel(sheet, left + x, top + y) = pixel(pictures_[i], x, y);
+        }
+        save_png(sheet, path, {.exposure = 0.5});
     }
-    if (sizes.empty()) return 1;
-    std::sort(sizes.begin(), sizes.end());
-    const double most = sizes[sizes.size() * 97 / 100];
-    for (const double range : {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0})
-        if (most <= range) return range;
-    return 10;
+
+private:
+    int columns_;
+    std::vector<Image> pictures_{};
+};
+
+// --- The table ------------------------------------------------------------------------
+
+/// One line of the table.
+struct Asked {
+    std::string what;       ///< In words.
+    Extreme how{};          ///< What is extreme.
+    bool same_room = false; ///< The picture must be that of the room as it is.
+};
+
+/// The first of several lines, or "nothing".
+std::string first_line(const std::string& lines) {
+    return lines.empty() ? "nothing" : lines.substr(0, lines.find('\n'));
 }
 
-/// Text for a page.
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text)
-        result += c == '&'   ? std::string("&amp;")
-                  : c == '<' ? std::string("&lt;")
-                             : std::string(1, c);
-    return result;
+/// Finite, and no sample left out.
+template <typename T>
+bool whole(const RenderedT<T>& rendered) {
+    return rendered.counts.rejected == 0 &&
+           std::all_of(rendered.image.pixels.begin(), rendered.image.pixels.end(),
+                       [](const auto& color) { return is_finite(color); });
 }
 
-/// A page's address, as Doxygen names that of a source file.
-std::string source_page(const std::string& file) {
-    std::string name;
-    for (const char c : file) name += c == '_' ? std::string("__") : std::string(1, c);
-    return name + "_8cpp_source.html";
+/// Renders what is asked in both precisions: a row of the table.
+/// \param sheet  Where the picture in float goes; null: nowhere.
+void add_row(const Run& run, const Asked& asked, examples::Table& table, Sheet* sheet) {
+    const auto single = render_extreme<float>(asked.how, run.picture);
+    const auto twice = render_extreme<double>(asked.how, run.picture);
+    if (!whole(single.rendered) || !whole(twice.rendered))
+        throw std::runtime_error(asked.what + ": a sample is not finite");
+    // What cannot be compared with the room as it is, is compared with double.
+    const ImageT<double>& truth = asked.same_room ? run.plain : twice.rendered.image;
+    const auto error = [&](const auto& image) {
+        return text(error_of(image, truth), "%.1e");
+    };
+    table.rows.push_back({asked.what, error(single.rendered.image),
+                          asked.same_room ? error(twice.rendered.image) : "",
+                          first_line(single.remarks), first_line(twice.remarks)});
+    if (sheet != nullptr) sheet->add(single.rendered.image);
 }
 
-/// The line as it was and as it is broken, the test that notices, and what it does to
-/// the picture.
-std::string told(const ljus_break_it::Told& row, const std::string& brightness,
-                 const std::string& largest) {
-    char line[32];
-    std::snprintf(line, sizeof line, "#l%05d", row.line);
-    const std::string to = row.to;
-    return "<div class=\"ljus-mistake\"><pre class=\"fragment\">ljus/" +
-           escaped(row.header) + "\n<del>- " + escaped(row.from) + "</del>\n<ins>+ " +
-           (to.empty() ? std::string("(nothing)") : escaped(to)) +
-           "</ins></pre>\n<p>Row <code>" + row.name + "</code>; noticed by <a href=\"" +
-           source_page(std::string(row.test) + "_test") + line + "\">" +
-           escaped(row.noticed) + "</a>. Mean brightness " + brightness +
-           " of the right one; largest difference " + largest + ".</p></div>\n";
+/// Other sizes and positions: the picture must be the same.
+void same_rooms(const Run& run) {
+    examples::Table table{.name = "extremes-same",
+                          .columns = {"the room", "error, float", "error, double",
+                                      "remarks, float", "remarks, double"}};
+    Sheet scales(5);
+    for (const double scale : {1e-6, 1e-3, 1.0, 1e3, 1e6})
+        add_row(run, {text(scale, "%.0e") + " times the size", {.scale = scale}, true},
+                table, &scales);
+    for (const double far : {1e2, 1e4, 1e5, 1e6, 1e7})
+        add_row(run, {text(far, "%.0e") + " away", {.moved = Vec3T<double>(far)}, true},
+                table, nullptr);
+    add_row(run,
+            {"a millionth, 1 away", {.scale = 1e-6, .moved = Vec3T<double>(1.0)}, true},
+            table, nullptr);
+    add_row(run, {"1e+12 away", {.moved = Vec3T<double>(1e12)}, true}, table, nullptr);
+    add_row(run, {"1e+15 away", {.moved = Vec3T<double>(1e15)}, true}, table, nullptr);
+    add_row(run, {"1e+10 times the size", {.scale = 1e10}, true}, table, nullptr);
+    table.rows.push_back({"as it is, another seed", text(run.noise, "%.1e"),
+                          text(run.noise, "%.1e"), "", ""});
+    save_table(run.options.out, table);
+    scales.save(run.options.path("extremes-scales.png"));
 }
 
-/// The mean of the luminance, without what is no number.
-double mean(const Image& image) {
+/// Lamps, albedos, roughness, glass: other pictures, in float against double.
+void other_rooms(const Run& run) {
+    examples::Table table{.name = "extremes-other",
+                          .columns = {"the room", "float against double", "",
+                                      "remarks, float", "remarks, double"}};
+    Sheet lamps(5), surfaces(5), glasses(5);
+    const auto lamp = [&](const std::string& what, double radius) {
+        add_row(run, {what, {.lamp = radius}}, table, &lamps);
+    };
+    lamp("lamp: a point", 0);
+    lamp("lamp: a ball of radius 1e-6", 1e-6);
+    lamp("lamp: a ball of radius 0.01", 0.01);
+    lamp("lamp: a ball of radius 0.9", 0.9);
+    lamp("lamp: the ceiling", Extreme::ceiling);
+    const auto surface = [&](const std::string& what, const Extreme& how) {
+        add_row(run, {what, how}, table, &surfaces);
+    };
+    surface("albedo 0", {.albedo = 0});
+    surface("albedo 1", {.albedo = 1});
+    surface("diffuse, roughness 1", {.matt = 1});
+    surface("mirror, roughness 0.01", {.gloss = 0.01});
+    surface("mirror, roughness 1", {.gloss = 1});
+    for (const double index : {1.0, 1.0 + 1e-6, 1.5, 10.0, 1000.0})
+        add_row(run, {"glass, index " + text(index, "%.7g"), {.index = index}}, table,
+                &glasses);
+    for (auto& row : table.rows) row.erase(row.begin() + 2);
+    table.columns.erase(table.columns.begin() + 2);
+    save_table(run.options.out, table);
+    lamps.save(run.options.path("extremes-lamps.png"));
+    surfaces.save(run.options.path("extremes-surfaces.png"));
+    glasses.save(run.options.path("extremes-glasses.png"));
+}
+
+/// The mean of a picture's pixels and channels, as a cell of the table.
+template <typename T>
+std::string mean_text(const ImageT<T>& image) {
     double sum = 0;
-    for (const Rgb& color : image.pixels)
-        if (is_finite(color)) sum += double(luminance(color));
-    return sum / double(image.pixels.size());
+    for (const auto& c : image.pixels)
+        sum += (double(c.x) + double(c.y) + double(c.z)) / 3;
+    return text(sum / double(image.pixels.size()), "%.3f");
 }
 
-/// Plot: of all mistakes, how many a look at the mean brightness would find.
-void save_brightness(const examples::Options& options,
-                     const std::vector<double>& ratios) {
-    examples::Plot plot{.name = "break_it-brightness",
-                        .columns = {"tolerance of the mean brightness (%)",
-                                    "mistakes that are found (%)"},
-                        .y_label = "mistakes that are found (%)",
-                        .log_x = true,
-                        .more = "set yrange [0:100]\nset key off\n"};
-    examples::Table table{.name = "break_it-found",
-                          .columns = {"tolerance", "found", "of", "share"}};
-    for (int i = 0; i <= 40; ++i) {
-        const double percent = 0.1 * std::pow(10.0, i / 10.0 * 0.75);
-        double found = 0;
-        for (const double ratio : ratios)
-            found += std::abs(ratio - 1) > percent / 100 ? 1 : 0;
-        plot.rows.push_back({percent, 100 * found / double(ratios.size())});
-    }
-    for (const int percent : {1, 5, 20}) {
-        int found = 0;
-        for (const double ratio : ratios)
-            found += std::abs(ratio - 1) > percent / 100.0 ? 1 : 0;
-        table.rows.push_back(
-            {std::to_string(percent) + " %", std::to_string(found),
-             std::to_string(ratios.size()),
-             examples::text(100.0 * found / double(ratios.size()), "%.0f %%")});
-    }
-    save_plot(options.out, plot);
-    save_table(options.out, table);
+/// Renders the room as it is with other numbers in both precisions: a row of the table.
+/// \param sheet  Where the picture goes; null: nowhere.
+void add_numbers(examples::Table& table, Sheet* sheet, const std::string& what,
+                 const ExtremeSettings& settings) {
+    const auto single = render_extreme<float>({}, settings);
+    const auto twice = render_extreme<double>({}, settings);
+    if (!whole(single.rendered) || !whole(twice.rendered))
+        throw std::runtime_error(what + ": a sample is not finite");
+    table.rows.push_back({what, mean_text(single.rendered.image),
+                          mean_text(twice.rendered.image),
+                          std::to_string(single.photons), first_line(single.remarks)});
+    if (sheet != nullptr) sheet->add(single.rendered.image);
 }
 
-/// Drawing: one function, twice in one program.
-void draw_switch(const examples::Options& options) {
-    using examples::draw_arrow, examples::draw_label, examples::draw_line;
-    examples::Drawing drawing{
-        .name = "break_it-switch",
-        .description =
-            "A row of tests/break_it replaces a text in the body of a function. "
-            "The body stands in the header twice, and a switch chooses.",
-        .low{0, 0},
-        .high{7, 3.1}};
-    const auto box = [&](double left, double low, double right, double high,
-                         const examples::Pen& pen) {
-        draw_line(drawing,
-                  {{left, low}, {right, low}, {right, high}, {left, high}, {left, low}},
-                  pen);
+/// From no photon to ten million.
+void numbers_of_photons(const Run& run, examples::Table& table, Sheet& sheet) {
+    const auto with = [&run](long long count, std::size_t nearest) {
+        ExtremeSettings now = run.picture;
+        now.photons = count;
+        now.nearest = nearest;
+        if (nearest > 0) now.radius = 1;
+        return now;
     };
-    box(0.1, 1.1, 1.6, 2.0, {});
-    draw_label(drawing, {0.85, 1.7}, "a header");
-    draw_label(drawing, {0.85, 1.35}, "of the library");
-    draw_arrow(drawing, {1.65, 1.55}, {2.35, 1.55});
-    box(2.4, 0.2, 4.9, 2.95, {});
-    draw_label(drawing, {3.65, 2.72}, "the same, switched");
-    box(2.55, 1.6, 4.75, 2.5, {.color = examples::colors::blue});
-    draw_label(drawing, {3.65, 2.2}, "if no row is on:", examples::colors::blue);
-    draw_label(drawing, {3.65, 1.87}, "the body as it was", examples::colors::blue);
-    box(2.55, 0.4, 4.75, 1.3, {.color = examples::colors::orange});
-    draw_label(drawing, {3.65, 1.0}, "if row 7 is on:", examples::colors::orange);
-    draw_label(drawing, {3.65, 0.67}, "FROM replaced by TO", examples::colors::orange);
-    draw_arrow(drawing, {4.95, 2.05}, {5.55, 2.05}, {.color = examples::colors::blue});
-    draw_arrow(drawing, {4.95, 0.85}, {5.55, 0.85},
-               {.color = examples::colors::orange});
-    draw_label(drawing, {6.25, 2.2}, "right picture", examples::colors::blue);
-    draw_label(drawing, {6.25, 1.87}, "test passes", examples::colors::blue);
-    draw_label(drawing, {6.25, 1.0}, "wrong picture", examples::colors::orange);
-    draw_label(drawing, {6.25, 0.67}, "test must fail", examples::colors::orange);
-    save_drawing(options.out, drawing);
+    add_numbers(table, &sheet, "0 photons", with(0, 0));
+    add_numbers(table, &sheet, "1 photon", with(1, 0));
+    const std::size_t kept = render_extreme<float>({}, with(200, 0)).photons;
+    add_numbers(table, &sheet, "k - 1 photons for an estimate of k",
+                with(200, kept + 1));
+    add_numbers(table, &sheet,
+                std::to_string(run.picture.photons) + " photons, 50 per estimate",
+                with(run.picture.photons, 50));
+    // Ten million take their time, and memory: in float only.
+    ExtremeSettings many =
+        with(run.options.pick(100'000LL, 10'000'000LL, 10'000'000LL), 0);
+    many.radius = 0.05;
+    const auto most = render_extreme<float>({}, many);
+    if (!whole(most.rendered)) throw std::runtime_error("a sample is not finite");
+    sheet.add(most.rendered.image);
+    table.rows.push_back({std::to_string(many.photons) + " photons",
+                          mean_text(most.rendered.image), "",
+                          std::to_string(most.photons), first_line(most.remarks)});
 }
 
-/// Table: how many mutants the tests notice, as far as that has been measured.
-void table_of_mutants(const examples::Options& options) {
-    const std::string file = LJUS_SOURCE_FOLDER "/chapters/measured/mutation.csv";
-    examples::Table table{.name = "break_it-mutation"};
-    std::string notes;
-    if (std::ifstream in(file); in) {
-        for (std::string line; std::getline(in, line);) {
-            if (line.starts_with("#")) {
-                notes += line.substr(1);
-                continue;
-            }
-            std::vector<std::string> cells(1);
-            for (const char c : line)
-                if (c == ',')
-                    cells.emplace_back();
-                else
-                    cells.back() += c;
-            if (table.columns.empty())
-                table.columns = cells;
-            else
-                table.rows.push_back(cells);
+/// One pixel, one ray, and pictures that are a line.
+void numbers_of_pixels(const Run& run, examples::Table& table) {
+    ExtremeSettings now = run.picture;
+    now.width = now.height = now.samples = 1;
+    add_numbers(table, nullptr, "1 x 1 pixel, 1 ray", now);
+    now.samples = run.options.pick(1000, 100'000, 100'000);
+    add_numbers(table, nullptr, "1 x 1 pixel, " + std::to_string(now.samples) + " rays",
+                now);
+    now = run.picture;
+    now.width = 1;
+    now.height = 1000;
+    add_numbers(table, nullptr, "1 x 1000 pixels", now);
+    std::swap(now.width, now.height);
+    add_numbers(table, nullptr, "1000 x 1 pixels", now);
+}
+
+/// Numbers of photons, rays and pixels.
+void numbers(const Run& run) {
+    examples::Table table{
+        .name = "extremes-numbers",
+        .columns = {"asked", "mean, float", "mean, double", "photons kept", "remarks"}};
+    Sheet sheet(5);
+    numbers_of_photons(run, table, sheet);
+    numbers_of_pixels(run, table);
+    save_table(run.options.out, table);
+    sheet.save(run.options.path("extremes-photons.png"));
+}
+
+/// Threads: all pictures must have the same bytes.
+void threads(const Run& run) {
+    examples::Table table{.name = "extremes-threads",
+                          .columns = {"threads", "float", "double"}};
+    for (const int count : {1, 2, 3, 7, 16, 64}) {
+        ExtremeSettings settings = run.picture;
+        settings.threads = count;
+        const auto hash = [&]<typename T>(T) {
+            return examples::hex_text(examples::hash_of(
+                render_extreme<T>({}, settings).rendered.image.pixels));
+        };
+        table.rows.push_back({std::to_string(count), hash(0.0f), hash(0.0)});
+        if (table.rows.back()[1] != table.rows.front()[1] ||
+            table.rows.back()[2] != table.rows.front()[2])
+            throw std::runtime_error("the number of threads has changed the picture");
+    }
+    save_table(run.options.out, table);
+}
+
+/// Powers of two: no digit is lost, and the bytes must be the same.
+void powers(const Run& run) {
+    examples::Table table{.name = "extremes-powers",
+                          .columns = {"times the size", "float", "double"}};
+    for (const int power : {0, -20, -10, 10, 20}) {
+        const auto hash = [&]<typename T>(T) {
+            return examples::hex_text(examples::hash_of(
+                render_extreme<T>({.scale = std::exp2(power)}, run.picture)
+                    .rendered.image.pixels));
+        };
+        table.rows.push_back({"2^" + std::to_string(power), hash(0.0f), hash(0.0)});
+    }
+    save_table(run.options.out, table);
+}
+
+// --- Plots ----------------------------------------------------------------------------
+
+/// The error over the distance from the origin, and over the size.
+void plots(const Run& run) {
+    const int step = run.options.pick(3, 1, 1);
+    examples::Plot far{.name = "extremes-far",
+                       .columns = {"distance from the origin, scene units", "float",
+                                   "double", "another seed"},
+                       .y_label = "error against the room at the origin",
+                       .log_x = true,
+                       .log_y = true};
+    for (int i = 0; i <= 32; i += step) {
+        const double x = std::pow(10.0, i / 2.0);
+        // Beyond what a scene can be made of, in float, there is no point of the curve.
+        const auto error = [&]<typename T>(T) {
+            return error_of(render_extreme<T>({.moved = Vec3T<double>(x)}, run.picture)
+                                .rendered.image,
+                            run.plain);
+        };
+        far.rows.push_back(
+            {x, i <= 18 ? error(0.0f) : std::nan(""), error(0.0), run.noise});
+    }
+    save_plot(run.options.out, far);
+    examples::Plot scale{.name = "extremes-scale",
+                         .columns = {"size of the room, over its own", "float",
+                                     "double", "another seed"},
+                         .y_label = "error against the room as it is",
+                         .log_x = true,
+                         .log_y = true};
+    for (int i = -12; i <= 12; i += step) {
+        const auto error = [&]<typename T>(T) {
+            const double off =
+                error_of(render_extreme<T>({.scale = std::pow(10.0, i)}, run.picture)
+                             .rendered.image,
+                         run.plain);
+            return off > 0 ? off : std::nan(""); // the room itself
+        };
+        scale.rows.push_back({std::pow(10.0, i), error(0.0f), error(0.0), run.noise});
+    }
+    save_plot(run.options.out, scale);
+}
+
+// --- Slivers --------------------------------------------------------------------------
+
+/// Two triangles seen along their long edges: their corners are known up to a dot, and
+/// their planes up to the fans.
+void tilt_drawing(const Run& run) {
+    examples::Drawing drawing{
+        .name = "extremes-tilt",
+        .description = "Two triangles seen along their long edge. The corners of both "
+                       "are known up to the same dot; the plane of the thin one turns "
+                       "by much more.",
+        .low = {-0.4, -0.95},
+        .high = {6.4, 0.95}};
+    constexpr double dot = 0.06;
+    const auto triangle = [&](double left, double width, const char* name) {
+        const double reach = 2.6, turn = 2 * dot / width;
+        for (const double sign : {1.0, -1.0}) {
+            const auto y = [&](double x) { return sign * turn * (x - width / 2); };
+            examples::draw_line(drawing,
+                                {{left - 0.25, y(-0.25)}, {left + reach, y(reach)}},
+                                {.color = examples::colors::orange, .dashed = true});
         }
-    } else {
-        table.columns = {"floor", "made", "equivalent", "killed now", "share now"};
-        notes = " Not measured yet: ./scripts/test --mutate -- --csv "
-                "chapters/measured/mutation.csv does it.";
-    }
-    save_table(options.out, table);
-    examples::save_text(options.path("break_it-mutation-notes.html"),
-                        "<div class=\"ljus-caption\">" + notes + "</div>\n");
+        examples::draw_line(drawing, {{left, 0}, {left + width, 0}},
+                            {.color = examples::colors::blue, .width = 4});
+        for (const double x : {left, left + width})
+            examples::draw_dot(drawing, {x, 0}, dot * drawing.scale, "currentColor");
+        examples::draw_label(drawing, {left + 1.0, -0.8}, name);
+    };
+    triangle(0, 2.0, "wide");
+    triangle(3.5, 0.5, "thin");
+    save_drawing(run.options.out, drawing);
 }
 
-/// Makes the gallery, or the requested part of it.
-void gallery(const examples::Options& options, const Eye& eye,
-             const std::string& only) {
-    std::map<Image (*)(const Eye&), Image> right; // shared by several mistakes
-    examples::Table list{.name = "break_it-list",
-                         .columns = {"row", "header", "test", "brightness",
-                                     "largest difference", "seconds"}};
-    examples::ProgressBar bar("mistakes", options.quiet);
-    std::vector<double> ratios;
-    long long done = 0;
-    for (const Mistake& mistake : mistakes) {
-        (void)bar(done++, static_cast<long long>(mistakes.size()));
-        if (!only.empty() && only != mistake.row) continue;
-        const examples::StopWatch clock;
-        const int number = ljus_break_it::number_of(mistake.row);
-        ljus_break_it::row = 0;
-        if (!right.contains(mistake.picture))
-            right[mistake.picture] = mistake.picture(eye);
-        const Image& good = right[mistake.picture];
-        ljus_break_it::row = number;
-        const Image wrong = mistake.picture(eye);
-        ljus_break_it::row = 0;
-        const std::string name = std::string("break_it-") + mistake.row;
-        save_png(side_by_side(good, wrong, range_of(good, wrong)),
-                 options.path(name + ".png"));
-        double largest = 0;
-        for (std::size_t i = 0; i < wrong.pixels.size(); ++i) {
-            const double d = double(luminance(wrong.pixels[i] - good.pixels[i]));
-            if (std::abs(d) > std::abs(largest)) largest = d;
+/// Rays that leave thin triangles and meet them again: with their points' error alone,
+/// and with the tilt of their plane.
+void slivers(const Run& run) {
+    examples::Table table{.name = "extremes-slivers",
+                          .columns = {"height over base", "float",
+                                      "double, points alone", "double, with the tilt",
+                                      "its start, over the base"}};
+    const int cases = run.options.pick(1000, 100'000, 1'000'000);
+    for (const double thin : {1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10}) {
+        examples::Numbers n;
+        long again[3] = {};
+        double farthest = 0;
+        for (int i = 0; i < cases; ++i) {
+            const auto a = n.direction(), way = n.direction();
+            const auto b = glm::normalize(glm::cross(a, n.direction()));
+            const auto third = n.between(0, 1) * a + thin * b;
+            const Vec2T<double> u{n.next(), n.next()};
+            const TriangleT<double> sliver{Vec3T<double>(0.0), a, third};
+            const Triangle single{Vec3{0}, Vec3(a), Vec3(third)};
+            if (!ljus::has_area(sliver)) continue;
+            auto point = sample_area(sliver, u);
+            const auto ray = spawn_ray(point, way);
+            again[2] += intersect(ray, sliver).has_value();
+            farthest = std::max(farthest, glm::distance(ray.origin, point.position));
+            // As it was: the rounding of the corners and no more.
+            constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
+            point.error = 7 * unit / (1 - 7 * unit) * (glm::abs(a) + glm::abs(third));
+            again[1] += intersect(spawn_ray(point, way), sliver).has_value();
+            if (!ljus::has_area(single)) continue;
+            again[0] +=
+                intersect(spawn_ray(sample_area(single, Vec2(u)), Vec3(way)), single)
+                    .has_value();
         }
-        const double ratio = mean(wrong) / mean(good);
-        ratios.push_back(ratio);
-        const auto& row = ljus_break_it::told[static_cast<std::size_t>(number)];
-        list.rows.push_back({mistake.row, row.header, row.test,
-                             examples::text(ratio, "%.2f"),
-                             examples::text(largest, "%+.2f"),
-                             examples::text(clock.seconds(), "%.2f")});
-        examples::save_text(options.path(name + ".html"),
-                            told(row, list.rows.back()[3], list.rows.back()[4]));
+        const auto share = [&](long count) {
+            return count == 0 ? std::string("0")
+                              : text(100.0 * double(count) / cases, "%.2g %%");
+        };
+        table.rows.push_back({text(thin, "%.0e"), share(again[0]), share(again[1]),
+                              share(again[2]), text(farthest, "%.0e")});
     }
-    if (only.empty()) {
-        save_table(options.out, list);
-        save_brightness(options, ratios);
-    } else {
-        for (const auto& line : list.rows)
-            std::printf("%s: brightness %s, largest difference %s, %s s\n",
-                        line[0].c_str(), line[3].c_str(), line[4].c_str(),
-                        line[5].c_str());
-    }
+    save_table(run.options.out, table);
+
+    tilt_drawing(run);
 }
 
-#endif
+/// What double costs: processor time of both passes, alternating, and memory.
+void trade(const Run& run) {
+    std::vector<double> seconds[2];
+    std::size_t photons[2] = {};
+    const int rounds = run.options.pick(1, 7, 7);
+    const auto once = [&]<typename T>(T, int which) {
+        const double before = examples::processor_seconds();
+        const auto picture = render_extreme<T>({}, run.picture);
+        seconds[which].push_back(examples::processor_seconds() - before);
+        photons[which] =
+            picture.photon_bytes / std::max<std::size_t>(1, picture.photons);
+    };
+    for (int i = 0; i < rounds; ++i) {
+        once(0.0f, 0);
+        once(0.0, 1);
+    }
+    const auto median = [](std::vector<double> values) {
+        std::nth_element(values.begin(),
+                         values.begin() + std::ptrdiff_t(values.size() / 2),
+                         values.end());
+        return values[values.size() / 2];
+    };
+    examples::Table table{.name = "extremes-trade",
+                          .columns = {"precision", "s", "over float",
+                                      "bytes per photon", "bytes per pixel",
+                                      "bytes per ball"}};
+    for (int i = 0; i < 2; ++i)
+        table.rows.push_back(
+            {i == 0 ? "float" : "double", text(median(seconds[i]), "%.3g"),
+             text(median(seconds[i]) / median(seconds[0]), "%.2f"),
+             std::to_string(photons[i]), std::to_string(12 * (i + 1)),
+             std::to_string(i == 0 ? sizeof(Sphere) : sizeof(SphereT<double>))});
+    save_table(run.options.out, table);
+}
+
+void body(examples::CommandLine& line) {
+    line.about("Chapter 37: whole pictures at the extremes.");
+    const examples::Options options =
+        line.parse({.draft{.width = 48, .height = 48, .samples = 2},
+                    .report{.width = 100, .height = 100, .samples = 8},
+                    .reference{.width = 160, .height = 160, .samples = 64}});
+    Run run{.options = options};
+    run.picture = {.width = options.width,
+                   .height = options.height,
+                   .samples = options.samples,
+                   .photons = options.pick(2000LL, 50'000LL, 200'000LL),
+                   .seed = options.seed,
+                   .threads = options.threads};
+    run.plain = render_extreme<double>({}, run.picture).rendered.image;
+    ExtremeSettings other = run.picture;
+    other.seed = options.seed + 1;
+    run.noise = error_of(render_extreme<double>({}, other).rendered.image, run.plain);
+    const auto step = [&](const char* name, void (*make)(const Run&)) {
+        examples::stop_if_asked();
+        if (!options.quiet) std::printf("  %s\n", name);
+        make(run);
+    };
+    step("sizes and places", same_rooms);
+    step("lamps, surfaces, glass", other_rooms);
+    step("photons, rays, pixels", numbers);
+    step("threads", threads);
+    step("powers of two", powers);
+    step("plots", plots);
+    step("slivers", slivers);
+    step("the trade", trade);
+}
 
 } // namespace
 
-/// The program's entry.
+/// Makes the chapter's figures.
 int main(int argc, char** argv) {
-    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("What each mistake of tests/break_it looks like.");
-        std::string only;
-        line.add("--row", only, "only this mistake");
-        line.without({"--height"});
-        const examples::Options options =
-            line.parse({.draft{.width = 160, .height = 160, .samples = 32},
-                        .report{.width = 160, .height = 160, .samples = 256},
-                        .reference{.width = 240, .height = 240, .samples = 1024}});
-        const Eye eye{.size = options.width,
-                      .samples = options.samples,
-                      .seed = options.seed,
-                      .threads = options.threads};
-#ifdef LJUS_HAS_MISTAKES
-        gallery(options, eye, only);
-        if (only.empty()) {
-            draw_switch(options);
-            table_of_mutants(options);
-        }
-#else
-        (void)mistakes;
-        (void)eye;
-        std::puts("This program shows mistakes, and was compiled against headers "
-                  "without any: build it with CMake, and with Python 3.9 or later.");
-#endif
-    });
+    return examples::run_main(argc, argv, body);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file chapters/experiments/break_it_scenes.hpp
-/// \brief The small scenes in which the mistakes of chapter 37 show.
+/// \brief The small scenes in which the mistakes of chapter 38 show.
 
 #include <algorithm>
 #include <array>

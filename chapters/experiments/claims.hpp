@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file chapters/experiments/claims.hpp
-/// \brief What chapter 35 says of the trades, as numbers that a sweep is judged by.
+/// \brief What chapter 36 says of the trades, as numbers that a sweep is judged by.
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the README's program and chapter 36's four make the compiler do at -O2: user time
+# What the README's program and chapter 37's four make the compiler do at -O2: user time
 # over that of a yardstick compiled in the same rounds, and bytes of code. The numbers of
 # compile_time.csv are the ones to keep to; the limits stand below. Code is exact. Times
 # are not, even so: what is above the limit after four rounds is measured for four more.

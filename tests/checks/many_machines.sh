@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks the program examples/33_many_machines.cpp: 1 to 4 ranks make the same bytes as one
+# Checks the program examples/34_many_machines.cpp: 1 to 4 ranks make the same bytes as one
 # process, and a killed rank leaves no picture. Exit code 77 if mpirun cannot start a rank.
 # Usage: many_machines.sh MPIRUN PROGRAM SCRATCH RENDER SCENE.json
 set -euo pipefail

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks the program examples/31_progressive.cpp, killed at random and resumed often: its sums
+# Checks the program examples/32_progressive.cpp, killed at random and resumed often: its sums
 # and its picture have the same bytes as those of an undisturbed run; and what it refuses.
 # Usage: progressive_program.sh PROGRAM SCRATCH [KILLS]
 set -euo pipefail
