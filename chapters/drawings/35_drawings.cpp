@@ -1,5 +1,5 @@
 // smoke: --quality draft
-/// \file chapters/drawings/35_depth_drawings.cpp
+/// \file chapters/drawings/35_drawings.cpp
 /// \brief Chapter 35: three ways to end a path, and rays where the first ones disagree.
 
 #include <cmath>
@@ -104,6 +104,34 @@ void draw_pixels(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
+/// Bias and noise as the legs of a right triangle.
+void draw_triangle(const std::string& folder) {
+    Drawing drawing{.name = "rays_per_pixel-parts",
+                    .description =
+                        "Bias and noise as the legs of a right triangle whose "
+                        "longest side is the error; more rays shorten the "
+                        "leg of the noise only",
+                    .low{-0.6, -0.7},
+                    .high{5.3, 1.2},
+                    .scale = 95};
+    const double bias = 0.9;
+    const char* names[] = {"1 ray", "4 rays", "16 rays"};
+    double noise = 4.4;
+    for (int i = 0; i < 3; ++i) {
+        draw_line(drawing, {{0, bias}, {noise, 0}}, {colors::red, 2});
+        draw_dot(drawing, {noise, 0}, 4, colors::red);
+        draw_label(drawing, {noise + 0.05, -0.32}, names[i]);
+        noise /= 2;
+    }
+    draw_line(drawing, {{0, 0}, {4.4, 0}}, {colors::blue, 3});
+    draw_line(drawing, {{0, 0}, {0, bias}}, {colors::orange, 4});
+    draw_line(drawing, {{0.15, 0}, {0.15, 0.15}, {0, 0.15}}, {.width = 1});
+    draw_label(drawing, {-0.32, bias / 2}, "bias", colors::orange);
+    draw_label(drawing, {3.3, 0.72}, "error", colors::red);
+    draw_label(drawing, {3.3, -0.32}, "noise", colors::blue);
+    save_drawing(folder, drawing);
+}
+
 } // namespace
 
 /// Makes the chapter's drawings.
@@ -113,5 +141,6 @@ int main(int argc, char** argv) {
         const examples::Options options = line.parse({});
         draw_endings(options.path(""));
         draw_pixels(options.path(""));
+        draw_triangle(options.path(""));
     });
 }
