@@ -1,6 +1,7 @@
 // smoke: --quality draft
 /// \file chapters/drawings/35_drawings.cpp
-/// \brief Chapter 35: three ways to end a path, and rays where the first ones disagree.
+/// \brief Chapter 35: the parts of an error, three ways to end a path, and rays where the first
+/// ones disagree.
 
 #include <cmath>
 #include <string>
@@ -137,7 +138,7 @@ void draw_triangle(const std::string& folder) {
 /// Makes the chapter's drawings.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 35, depth: drawings.");
+        line.about("Chapter 35, when to stop: drawings.");
         const examples::Options options = line.parse({});
         draw_endings(options.path(""));
         draw_pixels(options.path(""));
