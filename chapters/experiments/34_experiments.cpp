@@ -515,38 +515,6 @@ void oversubscribed(const R& room, const examples::Options& options, int repeats
     save_table(options.path(""), table);
 }
 
-/// Two threads that count in a number each, near each other in memory or far apart.
-// [false sharing]
-double nanoseconds_of_counting(std::size_t bytes_apart, int threads, long long times) {
-    std::vector<long long> memory(4096, 0);
-    volatile long long* const counters = memory.data(); // kept in memory, not in a
-    const auto body = [&](long long block) {            // register
-        const std::size_t mine =
-            1024 + static_cast<std::size_t>(block) * bytes_apart / sizeof(long long);
-        for (long long i = 0; i < times; ++i) counters[mine] = counters[mine] + 1;
-    };
-    const examples::StopWatch watch;
-    parallel_blocks(threads, body, {.threads = threads});
-    return 1e9 * watch.seconds() / double(times);
-}
-// [false sharing]
-
-void false_sharing(const examples::Options& options, int repeats) {
-    examples::Table table{.name = "parallel-sharing",
-                          .columns = {"bytes from one counter to the other",
-                                      "ns per increment", "relative to 256 bytes"}};
-    const std::array<std::size_t, 6> places{8, 16, 32, 64, 128, 256};
-    const long long times = options.pick(1000000, 20000000, 20000000);
-    std::array<std::vector<double>, places.size()> found;
-    for (int repeat = 0; repeat < std::max(5, repeats); ++repeat)
-        for (std::size_t i = 0; i < places.size(); ++i)
-            found[i].push_back(nanoseconds_of_counting(places[i], 2, times));
-    for (std::size_t i = 0; i < places.size(); ++i)
-        table.rows.push_back({std::to_string(places[i]), text(median(found[i]), "%.3g"),
-                              text(median(found[i]) / median(found.back()), "%.2f")});
-    save_table(options.path(""), table);
-}
-
 /// An empty loop: the cost of waking the threads, and of a block.
 void empty_loops(const examples::Options& options, int threads) {
     examples::Table table{.name = "parallel-empty",
@@ -641,7 +609,6 @@ int main(int argc, char** argv) {
         machines(first, loop, mapper.maps().caustics.records.size(), options);
         const bool same = same_bytes(room, options);
         oversubscribed(room, options, sizes.repeats);
-        false_sharing(options, sizes.repeats);
         empty_loops(options, threads);
         if (!options.quiet)
             std::printf("1, 2, 3 and 8 threads, and 1 to 16 strips: %s\n",
