@@ -75,9 +75,9 @@ Image along_picture(std::uint64_t seed, int samples) {
 
 } // namespace
 
-// 75 differences of two means of 8: beyond 6 standard errors (Student's t with 14 degrees
-// of freedom) with a chance of 75 * 3e-5, once in 440 seeds. The further 4 % are for what
-// the program's photons blur at the ends of gather rays, mostly along edges of the room.
+// 75 differences of two means of 8: beyond 6 standard errors (Student's t with 14
+// degrees of freedom) with a chance of 75 * 3e-5, once in 440 seeds. The further 4 %
+// are for what photons blur at the ends of gather rays, mostly along edges of the room.
 TEST_CASE("the last step of the build-along has the radiance of the photon mapper") {
     const auto world = room();
     const Camera camera{.position{0, 0, 2.9f}, .half_height = 0.45f};
@@ -106,4 +106,47 @@ TEST_CASE("the last step of the build-along has the radiance of the photon mappe
                   6 * noise + 0.04 * value);
             CHECK(noise < 0.1 * value); // or the check above could not fail
         }
+}
+
+// Ten numbers of 20 000 trials: beyond 5 standard errors with a chance of 10 * 6e-7.
+TEST_CASE("the glass of the build-along reflects what Fresnel's equations say") {
+    along::Random random{mix_bits(ljus_test::test_seed(1))};
+    constexpr int trials = 20000;
+    for (const double cosine : {1.0, 0.8, 0.5, 0.3, 0.1})
+        for (const bool outside : {true, false}) {
+            CAPTURE(cosine);
+            CAPTURE(outside);
+            const double up = outside ? -cosine : cosine;
+            const along::Ray ray{{}, {std::sqrt(1 - cosine * cosine), up, 0}};
+            const along::Hit hit{0, {}, {0, 1, 0}, {}, &along::spheres[1]};
+            int reflected = 0;
+            for (int i = 0; i < trials; ++i)
+                if (along::scatter(ray, hit, random).direction.y * up < 0) ++reflected;
+            const double right =
+                fresnel(cosine, outside ? 1.0 : 1.5, outside ? 1.5 : 1.0);
+            CHECK(std::abs(reflected - trials * right) <=
+                  5 * std::sqrt(trials * right * (1 - right)));
+        }
+}
+
+// A sphere at distance d, in a direction of the cosine c, receives c (R/d)^2 of what a
+// point of the lamp emits; here the mean over 50 x 50 points. The flux of photons for
+// one sphere varies by a few per cent, and their sum by less than 0.1 %.
+TEST_CASE(
+    "the caustic photons of the build-along carry what the lamp sends to the balls") {
+    const double flux = along::pi * along::lamp_area * along::lamp_radiance.x; // W
+    double right = 0, found = 0;
+    for (const along::Sphere& sphere : along::spheres)
+        for (int i = 0; i < 50; ++i)
+            for (int j = 0; j < 50; ++j) {
+                const double x = (i - 24.5) / 25 * along::lamp_half;
+                const double z = (j - 24.5) / 25 * along::lamp_half;
+                const along::Vec to = sphere.centre - along::Vec{x, 1, z};
+                const double square = along::dot(to, to), cosine = -along::unit(to).y;
+                right += cosine * sphere.radius * sphere.radius / square / 2500;
+            }
+    along::Random random{mix_bits(ljus_test::test_seed(1))};
+    for (const along::Photon& photon : along::trace_caustics(30000, random))
+        found += photon.flux.x;
+    CHECK(found == doctest::Approx(right * flux).epsilon(0.005));
 }

@@ -1,4 +1,5 @@
 // Step 1, a gradient: the smallest program that makes a picture.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 

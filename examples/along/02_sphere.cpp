@@ -1,4 +1,5 @@
 // Step 2, a sphere: each pixel sends a ray, which meets a sphere or misses it.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 

@@ -178,8 +178,7 @@ using Photons = std::vector<Photon>;
 Photons trace_photons(int n, Random& random) {
     Photons photons;
     for (int i = 0; i < n; ++i) {
-        const Vec point = lamp_point(random);
-        Ray ray{point, cosine_direction({0, -1, 0}, random)};
+        Ray ray{lamp_point(random), cosine_direction({0, -1, 0}, random)};
         Vec flux = pi * lamp_area / n * lamp_radiance;
         for (int bounce = 0;; ++bounce) {
             const Hit hit = trace(ray, random);
@@ -200,6 +199,7 @@ Vec dots(const Photons& photons, const Hit& hit) {
     }
     return 300 * flux;
 }
+
 const int width = 200, height = 200;
 const int samples = 16; // rays per pixel
 

@@ -179,8 +179,7 @@ using Photons = std::vector<Photon>;
 Photons trace_photons(int n, Random& random) {
     Photons photons;
     for (int i = 0; i < n; ++i) {
-        const Vec point = lamp_point(random);
-        Ray ray{point, cosine_direction({0, -1, 0}, random)};
+        Ray ray{lamp_point(random), cosine_direction({0, -1, 0}, random)};
         Vec flux = pi * lamp_area / n * lamp_radiance;
         for (int bounce = 0;; ++bounce) {
             const Hit hit = trace(ray, random);

@@ -181,8 +181,7 @@ using Photons = std::vector<Photon>;
 Photons trace_photons(int n, Random& random) {
     Photons photons;
     for (int i = 0; i < n; ++i) {
-        const Vec point = lamp_point(random);
-        Ray ray{point, cosine_direction({0, -1, 0}, random)};
+        Ray ray{lamp_point(random), cosine_direction({0, -1, 0}, random)};
         Vec flux = pi * lamp_area / n * lamp_radiance;
         for (;;) {
             const Hit hit = trace(ray, random);
@@ -199,9 +198,9 @@ Photons trace_photons(int n, Random& random) {
 void build(std::span<Photon> tree, int axis = 0) {
     if (tree.size() < 2) return;
     const auto half = tree.size() / 2;
-    const auto along = [axis](const Photon& photon) { return photon.point[axis]; };
+    const auto by = [axis](const Photon& photon) { return photon.point[axis]; };
     std::ranges::nth_element(tree.data(), &tree[half], tree.data() + tree.size(), {},
-                             along);
+                             by);
     build(tree.first(half), (axis + 1) % 3);
     build(tree.subspan(half + 1), (axis + 1) % 3);
 }
