@@ -67,6 +67,7 @@ Vec lamp_point(Random& random) {
     const double x = 2 * random() - 1, z = 2 * random() - 1;
     return {lamp_half * x, 1, lamp_half * z};
 }
+
 // The distance to a sphere along a ray.
 double distance(Ray ray, Sphere sphere) {
     const Vec to = sphere.centre - ray.origin;

@@ -203,6 +203,7 @@ Vec flux_within(const Photons& photons, const Hit& hit, double radius) {
     }
     return flux;
 }
+
 // What a diffuse surface reflects of the light that photons bring.
 Vec photon_light(const Photons& photons, const Hit& hit, double radius) {
     const double area = pi * radius * radius; // m^2
