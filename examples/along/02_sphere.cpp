@@ -1,0 +1,68 @@
+// Step 2, a sphere: each pixel sends a ray, which meets a sphere or misses it.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+const double infinity = HUGE_VAL;
+const double epsilon = 1e-6; // m; what is nearer is the surface left behind
+
+// A point, a direction or a colour.
+struct Vec {
+    double x = 0, y = 0, z = 0;
+};
+Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Vec operator*(Vec a, Vec b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+Vec operator*(double s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
+double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vec unit(Vec a) { return 1 / std::sqrt(dot(a, a)) * a; }
+
+struct Ray {
+    Vec origin, direction; // the direction has length 1
+};
+
+struct Sphere {
+    Vec centre;
+    double radius;
+};
+
+const Sphere ball{{0, 0, 0}, 0.8};
+// The distance to a sphere along a ray.
+double distance(Ray ray, Sphere sphere) {
+    const Vec to = sphere.centre - ray.origin;
+    const double middle = dot(to, ray.direction);
+    const Vec off = to - middle * ray.direction;
+    const double square = sphere.radius * sphere.radius - dot(off, off);
+    if (square < 0) return infinity;
+    const double half = std::sqrt(square);
+    if (middle - half > epsilon) return middle - half;
+    return middle + half > epsilon ? middle + half : infinity;
+}
+
+const int width = 200, height = 200;
+
+// The ray through a point of the picture, in pixels from its upper left corner.
+Ray camera_ray(double x, double y) {
+    const Vec eye{0, 0, 2.9};
+    return {eye, unit({0.9 * (x / width - 0.5), 0.9 * (0.5 - y / height), -1})};
+}
+
+Vec sky(double up) { return up * Vec{0.3, 0.5, 0.9} + (1 - up) * Vec{1, 0.9, 0.8}; }
+
+// The radiance that arrives against a ray, in W/(m^2 sr).
+Vec radiance(Ray ray) {
+    if (distance(ray, ball) < infinity) return {0.8, 0.6, 0.2};
+    return sky(0.5 + ray.direction.y);
+}
+
+// The gamma of a screen: from 0 to 255.
+double encoded(double value) { return 255 * std::pow(std::min(value, 1.0), 1 / 2.2); }
+
+int main() {
+    std::printf("P3 %d %d 255\n", width, height);
+    for (int row = 0; row < height; ++row)
+        for (int column = 0; column < width; ++column) {
+            const Vec c = radiance(camera_ray(column + 0.5, row + 0.5));
+            std::printf("%.0f %.0f %.0f\n", encoded(c.x), encoded(c.y), encoded(c.z));
+        }
+}

@@ -1,0 +1,122 @@
+// Step 4, a room: six walls, a second sphere, and shadows.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+const double pi = std::numbers::pi;
+const double infinity = HUGE_VAL;
+const double epsilon = 1e-6; // m; what is nearer is the surface left behind
+
+// A point, a direction or a colour.
+struct Vec {
+    double x = 0, y = 0, z = 0;
+};
+Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Vec operator*(Vec a, Vec b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+Vec operator*(double s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
+double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vec unit(Vec a) { return 1 / std::sqrt(dot(a, a)) * a; }
+
+struct Ray {
+    Vec origin, direction; // the direction has length 1
+};
+
+struct Sphere {
+    Vec centre;
+    double radius;
+    Vec albedo;
+};
+
+const Sphere spheres[] = {
+    {{-0.45, -0.6, -0.4}, 0.4, {0.8, 0.6, 0.2}},
+    {{0.45, -0.65, 0.1}, 0.35, {0.3, 0.7, 0.4}},
+};
+
+struct Wall {
+    Vec point, normal, albedo;
+};
+
+const Wall walls[] = {
+    {{0, -1, 0}, {0, 1, 0}, {0.75, 0.75, 0.75}}, // floor
+    {{0, 1, 0}, {0, -1, 0}, {0.75, 0.75, 0.75}}, // ceiling
+    {{0, 0, -1}, {0, 0, 1}, {0.75, 0.75, 0.75}}, // back
+    {{0, 0, 3}, {0, 0, -1}, {0.75, 0.75, 0.75}}, // behind the eye
+    {{-1, 0, 0}, {1, 0, 0}, {0.75, 0.25, 0.2}},  // left
+    {{1, 0, 0}, {-1, 0, 0}, {0.25, 0.35, 0.75}}, // right
+};
+
+const Vec lamp{0, 0.9, 0};
+const double lamp_intensity = 5; // W/sr
+
+// The distance to a sphere along a ray.
+double distance(Ray ray, Sphere sphere) {
+    const Vec to = sphere.centre - ray.origin;
+    const double middle = dot(to, ray.direction);
+    const Vec off = to - middle * ray.direction;
+    const double square = sphere.radius * sphere.radius - dot(off, off);
+    if (square < 0) return infinity;
+    const double half = std::sqrt(square);
+    if (middle - half > epsilon) return middle - half;
+    return middle + half > epsilon ? middle + half : infinity;
+}
+
+// The distance to the front of a wall.
+double distance(Ray ray, Wall wall) {
+    const double cosine = dot(ray.direction, wall.normal);
+    const double t = dot(wall.point - ray.origin, wall.normal) / cosine;
+    return cosine < 0 && t > epsilon ? t : infinity;
+}
+
+// What a ray meets first.
+struct Hit {
+    double t = infinity;
+    Vec point, normal, albedo;
+};
+
+Hit intersect(Ray ray) {
+    Hit hit;
+    for (const Sphere& sphere : spheres)
+        if (const double t = distance(ray, sphere); t < hit.t) {
+            const Vec point = ray.origin + t * ray.direction;
+            hit = {t, point, unit(point - sphere.centre), sphere.albedo};
+        }
+    for (const Wall& wall : walls)
+        if (const double t = distance(ray, wall); t < hit.t)
+            hit = {t, ray.origin + t * ray.direction, wall.normal, wall.albedo};
+    return hit;
+}
+
+// What a diffuse surface reflects of the light that comes straight from the lamp.
+Vec direct_light(Hit hit) {
+    const Vec to = lamp - hit.point, direction = unit(to);
+    const double square = dot(to, to), cosine = dot(direction, hit.normal);
+    const double t = intersect({hit.point, direction}).t;
+    if (cosine <= 0 || t < std::sqrt(square) - epsilon) return {};
+    const double irradiance = lamp_intensity * cosine / square; // W/m^2
+    return irradiance / pi * hit.albedo;
+}
+
+const int width = 200, height = 200;
+
+// The ray through a point of the picture, in pixels from its upper left corner.
+Ray camera_ray(double x, double y) {
+    const Vec eye{0, 0, 2.9};
+    return {eye, unit({0.9 * (x / width - 0.5), 0.9 * (0.5 - y / height), -1})};
+}
+
+// The radiance that arrives against a ray, in W/(m^2 sr).
+Vec radiance(Ray ray) { return direct_light(intersect(ray)); }
+
+// The gamma of a screen: from 0 to 255.
+double encoded(double value) { return 255 * std::pow(std::min(value, 1.0), 1 / 2.2); }
+
+int main() {
+    std::printf("P3 %d %d 255\n", width, height);
+    for (int row = 0; row < height; ++row)
+        for (int column = 0; column < width; ++column) {
+            const Vec c = radiance(camera_ray(column + 0.5, row + 0.5));
+            std::printf("%.0f %.0f %.0f\n", encoded(c.x), encoded(c.y), encoded(c.z));
+        }
+}
