@@ -443,17 +443,25 @@ Mean by_paths(const W& world, const Vec2& low, const Vec2& high, double albedo,
 
 } // namespace
 
-TEST_CASE("environment: photons through a window bring what paths find") {
+namespace {
+
+/// A room of 2 x 2 x 2 whose wall at x = -1 is open between heights 0.5 and 1.5.
+auto room_with_window() {
     const Lambertian wall{.albedo{0.6f, 0.5f, 0.4f}};
-    // A room of 2 x 2 x 2 whose wall at x = -1 is open between heights 0.5 and 1.5.
-    const World world(make_scene(
-        placed(Quad{{-1, 0, -1}, {0, 0, 2}, {2, 0, 0}}, wall),
-        placed(Quad{{-1, 2, -1}, {2, 0, 0}, {0, 0, 2}}, wall),
-        placed(Quad{{1, 0, -1}, {0, 0, 2}, {0, 2, 0}}, wall),
-        placed(Quad{{-1, 0, -1}, {2, 0, 0}, {0, 2, 0}}, wall),
-        placed(Quad{{-1, 0, 1}, {0, 2, 0}, {2, 0, 0}}, wall),
-        placed(Quad{{-1, 0, -1}, {0, 0.5f, 0}, {0, 0, 2}}, wall),
-        placed(Quad{{-1, 1.5f, -1}, {0, 0.5f, 0}, {0, 0, 2}}, wall), bright_part(1)));
+    return World(make_scene(placed(Quad{{-1, 0, -1}, {0, 0, 2}, {2, 0, 0}}, wall),
+                            placed(Quad{{-1, 2, -1}, {2, 0, 0}, {0, 0, 2}}, wall),
+                            placed(Quad{{1, 0, -1}, {0, 0, 2}, {0, 2, 0}}, wall),
+                            placed(Quad{{-1, 0, -1}, {2, 0, 0}, {0, 2, 0}}, wall),
+                            placed(Quad{{-1, 0, 1}, {0, 2, 0}, {2, 0, 0}}, wall),
+                            placed(Quad{{-1, 0, -1}, {0, 0.5f, 0}, {0, 0, 2}}, wall),
+                            placed(Quad{{-1, 1.5f, -1}, {0, 0.5f, 0}, {0, 0, 2}}, wall),
+                            bright_part(1)));
+}
+
+} // namespace
+
+TEST_CASE("environment: photons through a window bring what paths find") {
+    const World world = room_with_window();
     const Vec2 low{-0.6f, -0.8f}, high{0.8f, 0.8f};
     const Mean photons = by_photons(world, {MapType::general}, low, high, 5000);
     const Mean paths = by_paths(world, low, high, 0.6, 60000);
@@ -477,6 +485,29 @@ TEST_CASE(
     // It is a caustic that is compared: all other light is much less.
     const Mean direct = by_photons(world, {MapType::general}, low, high, 5000);
     CHECK(direct.mean < 0.8 * photons.mean);
+}
+
+TEST_CASE("environment: it is said that much of the light through a window is missed") {
+    const auto remarks = [](const auto& world, DirectLight direct) {
+        int found = 0;
+        for (const auto& text : scene_remarks(world, {.direct = direct}))
+            found += text.find("as through a window") != text.npos ? 1 : 0;
+        return found;
+    };
+    const World room = room_with_window();
+    CHECK(remarks(room, DirectLight::analytic) == 1);
+    CHECK(remarks(room, DirectLight::sampled) == 1);
+    CHECK(remarks(room, DirectLight::mis) == 0);
+    // In the open it is not, nor where no sky is seen, nor under a sun.
+    const Lambertian matt{};
+    const auto on_floor = [&](const auto& light) {
+        return World(make_scene(placed(floor_at(0), matt),
+                                placed(Sphere{{0, -2, 0}, 0.5f}, matt), light));
+    };
+    CHECK(remarks(on_floor(EnvironmentLight{}), DirectLight::sampled) == 0);
+    CHECK(remarks(on_floor(SunLight{}), DirectLight::sampled) == 0);
+    CHECK(remarks(World(make_scene(placed(Sphere{}, matt), EnvironmentLight{})),
+                  DirectLight::sampled) == 0);
 }
 
 TEST_CASE("environment: what is no sky is refused, and one pixel is a sky") {

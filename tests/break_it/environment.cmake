@@ -63,3 +63,9 @@ ljus_break_it(NAME environment-black HEADER lights/environment.hpp TEST environm
     FROM "black = black && is_black(c);"
     TO   "black = false;"
     CASES "environment: what is no sky*")
+
+# Nothing is said about a room with a window.
+ljus_break_it(NAME environment-window HEADER render/passes.hpp TEST environment
+    FROM "sky > 0 && sky < 0.25"
+    TO   "sky > 0.25"
+    CASES "environment: it is said*")
