@@ -70,7 +70,7 @@ namespace detail {
 
 /// One of several intervals, and a position in it.
 template <std::floating_point T>
-struct IntervalT {
+struct ChosenIntervalT {
     int index = 0;   ///< Its number.
     T within = T(0); ///< In [0, 1].
 };
@@ -80,7 +80,8 @@ struct IntervalT {
 /// \param u     In [0, 1); what is left of it gives the position in the interval.
 // [choose_interval]
 template <std::floating_point T>
-[[nodiscard]] IntervalT<T> choose_interval(std::span<const double> sums, T u) noexcept {
+[[nodiscard]] ChosenIntervalT<T> choose_interval(std::span<const double> sums,
+                                                 T u) noexcept {
     // Below the sum, and so before the end of an interval whose length is not 0.
     const double place =
         std::min(double(u) * sums.back(), std::nextafter(sums.back(), 0.0));
