@@ -1,13 +1,14 @@
 // smoke: --quality draft --width 24 --height 16 --rays 1 --photons 500
 /// \file 39_environment.cpp
-/// \brief Chapter 39: a picture of a morning sky, and balls of mirror, clay and glass in
-/// its light.
+/// \brief Chapter 39: a picture of a morning sky, and balls of mirror, clay and glass
+/// in its light.
 
 #include <cmath>
 #include <numbers>
 
 #include <ljus/lights/environment.hpp>
 #include <ljus/ljus.hpp>
+#include <ljus/math/stratified_stream.hpp>
 
 #include "common/example.hpp"
 
@@ -73,7 +74,8 @@ int main(int argc, char** argv) {
         const PhotonMapper mapper(world,
                                   {.direct = DirectLight::mis,
                                    .caustics{.photons = photons, .seed = options.seed},
-                                   .caustics_estimate{.radius = 0.05f}});
+                                   .caustics_estimate{.radius = 0.05f}},
+                                  abilities<StratifiedStream>);
         // [scene]
         const Camera camera = look_at(
             {.position{0.2f, 1.7f, 5.6f}, .target{0, 0.75f, 0}, .vfov_degrees = 34});

@@ -142,7 +142,8 @@ TEST_CASE("environment: a whole turn changes nothing, to the last bit") {
 TEST_CASE_TEMPLATE("environment: the density integrates to 1, and the flux is right", T,
                    float, double) {
     const std::pair<int, int> sizes[] = {{1, 1}, {1, 7}, {6, 1}, {12, 5}, {9, 8}};
-    for (const auto& [width, height] : sizes) {
+    for (const auto& size : sizes) {
+        const int width = size.first, height = size.second;
         CAPTURE(width);
         CAPTURE(height);
         const auto light =

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 16 --height 16 --rays 4
 /// \file chapters/experiments/39_experiments.cpp
-/// \brief Chapter 39: the experiments behind its table, plot and pictures: directions of
-/// a sky drawn uniformly, by the cosine and by brightness.
+/// \brief Chapter 39: the experiments behind its table, plot and pictures: directions
+/// of a sky drawn uniformly, by the cosine and by brightness.
 
 #include <array>
 #include <cmath>
@@ -35,10 +35,11 @@ ljus::EnvironmentLightT<double> sky_with_sun(double sun) {
     return {.picture = picture};
 }
 
-/// The same in float.
+/// The same in float, darker: a white pixel is about 1.
 EnvironmentLight in_float(const ljus::EnvironmentLightT<double>& sky) {
     EnvironmentLight light{.picture =
-                               ljus::make_image(sky.picture.width, sky.picture.height)};
+                               ljus::make_image(sky.picture.width, sky.picture.height),
+                           .strength = 0.3f};
     for (std::size_t i = 0; i < sky.picture.pixels.size(); ++i)
         light.picture.pixels[i] = Rgb(sky.picture.pixels[i]);
     return light;
@@ -58,7 +59,8 @@ double relative_variance(int size, const Estimate& estimate) {
             squares += value * value;
         }
     const double count = double(size) * size;
-    return squares * count / (sum * sum) - 1;
+    const double found = squares * count / (sum * sum) - 1;
+    return found < 1e-9 ? 0 : found; // what is left by rounding
 }
 
 /// Table: the variance of three ways of drawing directions, under skies with a sun that

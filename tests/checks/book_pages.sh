@@ -25,7 +25,7 @@ See \ref ch_bvh "Bounding volumes", chapter \ref ch_bvh "8" and \ref ch_sphere_t
 END
 perl "$tools/page" page.md | diff - right.md || wrong "a page is read otherwise"
 perl "$tools/page" "$LJUS_ROOT/chapters/contents.md" >contents.md || wrong "no contents"
-[ "$(grep -c '^\\page part_' contents.md)" -eq 7 ] || wrong "the book has not seven parts"
+[ "$(grep -c '^\\page part_' contents.md)" -eq 8 ] || wrong "the book has not eight parts"
 grep -q '^| Figure 11 .*ch_caustics.*fig-11' contents.md || wrong "figure 11 is in no index"
 
 # Changes to Doxygen's pages.
