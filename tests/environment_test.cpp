@@ -276,6 +276,12 @@ TEST_CASE("environment: a white ball in a white world is invisible") {
     CHECK(radiance(mapper, past, context) == Rgb{1});
     CHECK(radiance(PlainPhotonMapper(world, PhotonMap{}, {.radius = 1}), past,
                    context) == Rgb{1});
+    // So one does where there is nothing at all.
+    Scene<Shapes<Sphere>, Materials<Lambertian>, Lights<EnvironmentLight>> empty;
+    empty.add(EnvironmentLight{.strength = 2});
+    const World nothing(std::move(empty));
+    CHECK(radiance(PathTracer(nothing), past, context) == Rgb{2});
+    CHECK(radiance(PhotonMapper(nothing), past, context) == Rgb{2});
 }
 
 TEST_CASE("environment: a gradient sky on tilted floors, by quadrature") {
