@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/uniform_sky.hpp"
 #include "ljus/lights/environment.hpp"
 #include "ljus/lights/sun_light.hpp"
 #include "ljus/materials/glass.hpp"
@@ -466,6 +467,25 @@ auto room_with_window() {
 }
 
 } // namespace
+
+TEST_CASE(
+    "environment: directions drawn uniformly, the plain twin, find the same light") {
+    const EnvironmentLight sky = bright_part(1);
+    const Lambertian matt{.albedo = Rgb{0.5f}};
+    const auto seen = [&](const auto& light, std::uint64_t seed) {
+        const World world(make_scene(placed(floor_at(0), matt),
+                                     placed(Sphere{{0, 0.8f, 0}, 0.5f}, matt), light));
+        const auto ray = [&](RandomStream& stream) {
+            const Vec2 at = 2.0f * next_2d<float>(stream) - 1.0f;
+            return Ray{.origin{at.x, 5, at.y}, .direction{0, -1, 0}};
+        };
+        return mean_radiance(PathTracer(world), 40000, seed, ray);
+    };
+    const Mean uniform = seen(plain::UniformSky{sky}, 9), bright = seen(sky, 10);
+    CHECK(std::abs(apart(uniform, bright)) < 5);
+    CHECK(uniform.error() < 0.02 * uniform.mean);
+    CHECK(bright.error() < uniform.error());
+}
 
 TEST_CASE("environment: photons through a window bring what paths find") {
     const World world = room_with_window();
