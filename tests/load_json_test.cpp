@@ -520,6 +520,61 @@ static std::string lit(const std::string& lights) {
     return changed(end, end + ", \"lights\": [" + lights + "]");
 }
 
+TEST_CASE("load_json: an environment is a constant, a gradient or a picture") {
+    const auto environment = [](const std::string& fields) {
+        const LoadedScene loaded =
+            read_json_scene(lit(R"({"type": "environment", )" + fields + "}"),
+                            LJUS_TEST_INPUTS "/a.json");
+        return std::get<std::vector<EnvironmentLight>>(loaded.scene.lights).at(0);
+    };
+    const EnvironmentLight even = environment(R"("radiance": [1, 2, 3])");
+    CHECK(even.picture.pixels == std::vector<Rgb>{Rgb{1, 2, 3}});
+    CHECK(even.strength == 1);
+    CHECK(even.rotation_degrees == 0);
+    const EnvironmentLight gradient = environment(
+        R"("gradient": {"horizon": [3, 2, 1], "zenith": [1, 1, 4], "ground": [0, 0, 0]},
+           "strength": 2.5, "rotation_deg": -90)");
+    CHECK(gradient.picture.pixels ==
+          gradient_sky(Rgb{3, 2, 1}, Rgb{1, 1, 4}, Rgb{0}).pixels);
+    CHECK(gradient.strength == 2.5f);
+    CHECK(gradient.rotation_degrees == -90);
+    CHECK(environment(R"("file": "spaces.pfm")").picture.pixels ==
+          load_pfm(LJUS_TEST_INPUTS "/spaces.pfm").pixels);
+    CHECK(environment(R"("file": "crlf.hdr")").picture.pixels ==
+          load_hdr(LJUS_TEST_INPUTS "/crlf.hdr").pixels);
+
+    const auto sky = [](const std::string& fields) {
+        return lit(R"({"type": "environment")" + fields + "}");
+    };
+    const std::string even_sky = R"(, "radiance": [1, 1, 1])";
+    for (const std::string fields : {"", R"(, "radiance": [1, 1, 1], "file": "a.hdr")"})
+        refused(sky(fields),
+                "lights[0] must have one of the fields radiance, gradient and file.");
+    refused(sky(R"(, "file": "a.png")"),
+            "lights[0].file is \"a.png\"; it must be a picture with the ending .hdr or "
+            ".pfm.");
+    CHECK(refusal(sky(R"(, "file": "none.hdr")"))
+              .starts_with(
+                  "a.json: lights[0].file cannot be used: cannot read 'none.hdr'"));
+    refused(sky(R"(, "gradient": {"horizon": [1, 1, 1], "zenith": [1, 1, 1]})"),
+            "lights[0].gradient.ground is missing.");
+    refused(sky(even_sky + R"(, "strength": 0)"),
+            "lights[0].strength is 0; it must be within [1e-9, 1e9].");
+    refused(sky(even_sky + R"(, "rotation_deg": 361)"),
+            "lights[0].rotation_deg is 361; it must be within [-360, 360] degrees.");
+    refused(sky(R"(, "radiance": [0, 0, 0])"),
+            "lights[0] cannot be used: environment light.picture is black in every "
+            "pixel; leave such a light out of the scene.");
+    const std::string one = R"({"type": "environment", "radiance": [1, 1, 1]})";
+    refused(lit(one + ", " + one),
+            "lights[1] is a second environment; a scene file has at most one.");
+
+    const World open(load_json(LJUS_TEST_INPUTS "/../scenes/sky.json").scene);
+    CHECK(open.light_count() == 2);
+    CHECK(open.can_be_met(0));
+    CHECK(!open.can_be_met(1));
+}
+
 TEST_CASE("load_json: points, spots and suns") {
     const LoadedScene loaded = read_json_scene(
         lit(R"({"type": "point", "position": [0, 2, 1], "intensity": [1, 2, 3]},
@@ -527,7 +582,7 @@ TEST_CASE("load_json: points, spots and suns") {
                 "intensity": [1, 1, 1], "inner_deg": 10, "outer_deg": 60},
                {"type": "sun", "direction": [1, -1, 0], "irradiance": [4, 4, 3]})"),
         "a.json");
-    const auto& [points, spots, suns] = loaded.scene.lights;
+    const auto& [points, spots, suns, skies] = loaded.scene.lights;
     REQUIRE(points.size() == 1);
     CHECK(points[0].position == Vec3{0, 2, 1});
     CHECK(points[0].intensity == Rgb{1, 2, 3});
@@ -536,6 +591,7 @@ TEST_CASE("load_json: points, spots and suns") {
     CHECK(spots[0].outer_degrees == doctest::Approx(60));
     REQUIRE(suns.size() == 1);
     CHECK(suns[0].irradiance == Rgb{4, 4, 3});
+    CHECK(skies.empty());
     // In the scene they come after the lamp, in the order of the file.
     const World world(loaded.scene);
     REQUIRE(world.light_count() == 4);
@@ -555,7 +611,7 @@ TEST_CASE("load_json: points, spots and suns") {
 
     refused(lit("1"), "lights[0] is 1; it must be an object.");
     refused(lit(R"({"type": "moon"})"),
-            "lights[0].type is \"moon\"; it must be point, spot or sun.");
+            "lights[0].type is \"moon\"; it must be point, spot, sun or environment.");
     refused(lit(R"({"type": "sun", "direction": [0, 0, 0], "irradiance": [1, 1, 1]})"),
             "lights[0].direction is [0,0,0]; it must be a vector that is not 0.");
     refused(lit(R"({"type": "point", "position": [0, 0, 0], "intensity": [1, -1, 1]})"),
@@ -1080,7 +1136,8 @@ TEST_CASE("load_json: each number of each material and light has its limits") {
         R"({"type": "point", "position": [0, 2, 1], "intensity": [1, 1, 1])",
         R"({"type": "sun", "direction": [0, -1, 0], "irradiance": [1, 1, 1])",
         R"({"type": "spot", "position": [0, 2, 1], "direction": [0, -1, 0],
-            "intensity": [1, 1, 1], "inner_deg": 1, "outer_deg": 180)"};
+            "intensity": [1, 1, 1], "inner_deg": 1, "outer_deg": 180)",
+        R"({"type": "environment", "radiance": [1, 1, 1])"};
     for (const std::string light : lights) {
         CHECK(refusal(lit(light + "}")) == "accepted");
         CHECK(

@@ -40,3 +40,9 @@ ljus_break_it(NAME json-mesh-once HEADER io/detail/json_objects.hpp TEST load_js
     FROM "if (reading.scale != factor || reading.normals != which) continue;"
     TO   "if (reading.normals != \"\") continue;"
     CASES "load_json: a mesh file is read once*")
+
+# A file takes the memory of as many skies as it names.
+ljus_break_it(NAME json-environments HEADER io/detail/json_lights.hpp TEST load_json
+    FROM "if (!std::get<std::vector<EnvironmentLightT<T>>>(scene.lights).empty())"
+    TO   "if (false)"
+    CASES "load_json: an environment*")

@@ -27,8 +27,8 @@ namespace ljus {
 ///                   "radius": 1, "emission": [2, 2, 2]}]}
 ///
 /// The materials are those of \ref json_materials, the objects those of
-/// \ref json_objects. A list `lights` may follow, of points, spots and suns:
-/// \ref json_lights. Lengths are within 1e9, radiance within 1e12.
+/// \ref json_objects. A list `lights` may follow, of points, spots, suns and an
+/// environment: \ref json_lights. Lengths are within 1e9, radiance within 1e12.
 /// \{
 
 /// The content of a scene file.

@@ -315,6 +315,32 @@ template <AnyWorld W>
                           "met");
 }
 
+/// The share of all directions in which the middle of a scene sees a sky: about half in
+/// the open, little in a room with a window, and 0 without a sky.
+/// \cost 256 rays in a scene that lists a light that fills the sky.
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] double share_of_sky([[maybe_unused]] const W& world) {
+    using T = typename W::Scalar;
+    int seen = 0;
+    if constexpr (W::any_light([]<typename L>() { return FillsSky<L>; })) {
+        bool sky = false;
+        for (std::uint32_t i = 0; i < world.light_count(); ++i)
+            sky = sky || world.visit_light(
+                             i, []<typename L>(const L&) { return FillsSky<L>; });
+        const Vec3T<T> middle =
+            world.box().low + (world.box().high - world.box().low) / T(2);
+        for (int i = 0; i < 256 && sky; ++i) {
+            const Vec2T<T> u{(T(i / 16) + T(0.5)) / T(16),
+                             (T(i % 16) + T(0.5)) / T(16)};
+            seen += occluded(world, RayT<T>{.origin = middle,
+                                            .direction = sample_uniform_sphere(u)})
+                        ? 0
+                        : 1;
+        }
+    }
+    return seen / 256.0;
+}
+
 } // namespace detail
 
 /// The warnings of a survey about a scene.
@@ -343,6 +369,14 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
              " object(s) are nearly mirrors, in whose lobe a shadow ray hardly ever "
              "lies: their light is missing or in a few bright pixels; ask for "
              "direct light by mis, or for a mirror, of roughness 0"}));
+    const double sky =
+        settings.direct == DirectLight::mis ? 0 : detail::share_of_sky(world);
+    if (sky > 0 && sky < 0.25)
+        remarks.push_back(
+            "from the middle of the scene only a small part of the sky is seen, as "
+            "through a window: most shadow rays to it miss, and where further rays go "
+            "to pixels whose first ones disagree, as in the preset fast, the picture "
+            "may be a tenth too dark; the preset exact is right there, and noisy");
     detail::add_contact_remarks(world, remarks);
     return remarks;
 }

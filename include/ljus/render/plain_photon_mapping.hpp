@@ -66,7 +66,10 @@ template <AnyWorld W, std::floating_point T, typename Context>
     bool met_diffuse = false, goes_on = true;
     for (int depth = 1; goes_on; ++depth) {
         const auto hit = closest_hit(world, ray);
-        if (!hit) break;
+        if (!hit) {
+            if (!met_diffuse) sum += throughput * sky_radiance(world, ray.direction);
+            break;
+        }
         const VertexT<T> x = vertex_at(world, ray, *hit);
         if (x.emits() && !met_diffuse) // E S* L
             sum += throughput * x.object.emission;

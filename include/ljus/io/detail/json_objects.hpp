@@ -11,6 +11,7 @@
 #include "ljus/geometry/detail/pair_triangles.hpp"
 #include "ljus/io/detail/json_field.hpp"
 #include "ljus/io/detail/json_materials.hpp"
+#include "ljus/lights/environment.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/lights/spot_light.hpp"
 #include "ljus/lights/sun_light.hpp"
@@ -38,7 +39,7 @@ namespace detail {
 template <std::floating_point T>
 using FileSceneT =
     Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>, MeshT<T>>, FileMaterialsT<T>,
-          Lights<PointLightT<T>, SpotLightT<T>, SunLightT<T>>>;
+          Lights<PointLightT<T>, SpotLightT<T>, SunLightT<T>, EnvironmentLightT<T>>>;
 
 /// Reads no meshes: the default of load_json().
 template <std::floating_point T>

@@ -1,0 +1,291 @@
+#pragma once
+
+/// \file ljus/lights/environment.hpp
+/// \brief Light from all around: a picture of the sky in latitude and longitude.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "ljus/image/image.hpp"
+#include "ljus/lights/light.hpp"
+#include "ljus/math/piecewise_constant.hpp"
+
+namespace ljus {
+
+/// \defgroup environment Environments
+/// \brief Beyond the report: light from infinitely far away, from all directions
+/// \cite debevec1998. Chapter: \ref ch_environment.
+///
+/// The picture is a map of the sphere of directions. Its rows are equal steps of the
+/// angle from straight up (+y) to straight down, its columns equal steps of azimuth:
+///
+/// | in the picture     | direction |
+/// |--------------------|-----------|
+/// | the upper edge     | +y        |
+/// | the middle         | -z        |
+/// | a quarter to right | +x        |
+/// | both side edges    | +z        |
+///
+/// A pixel is one radiance for all directions in its field. A picture of one pixel is a
+/// constant sky.
+/// \{
+
+/// Light from infinitely far away in all directions: from a sky, or from a photograph
+/// of a place. Its flux is what falls into the sphere around all shapes of its scene.
+///
+///     scene.add(EnvironmentLight{.picture = load_hdr("garden.hdr"), .strength = 2});
+///     scene.add(EnvironmentLight{.picture = make_image(1, 1, Rgb{0.2f, 0.4f, 1})});
+template <std::floating_point T>
+struct EnvironmentLightT {
+    using Scalar = T; ///< The precision.
+    /// Radiance, W/(m^2 sr); of any width and height, not black everywhere.
+    ImageT<T> picture{.width = 1, .height = 1, .pixels = {RgbT<T>(T(1))}};
+    T strength = T(1); ///< Factor of all radiance, above 0.
+    T rotation_degrees =
+        T(0); ///< Turns the sky about +y, counter-clockwise from above.
+};
+using EnvironmentLight = EnvironmentLightT<float>; ///< EnvironmentLightT in float.
+
+/// An environment as its scene stores it.
+template <std::floating_point T>
+struct EnvironmentInSceneT {
+    using Scalar = T;              ///< The precision.
+    ImageT<T> picture{};           ///< Radiance, W/(m^2 sr), with the strength.
+    PiecewiseConstant2D density{}; ///< Brightness times solid angle of each pixel.
+    RgbT<T> sum{T(0)};             ///< The integral of the radiance, W/m^2.
+    T turn = T(0);                 ///< The rotation, in whole turns.
+    SphereT<T> around{};           ///< The sphere around the scene.
+};
+
+namespace detail {
+
+/// The brightness by which a colour is sampled: the sum of its channels, as for the
+/// choice of a light by power.
+template <std::floating_point T>
+[[nodiscard]] constexpr T brightness(const RgbT<T>& c) noexcept {
+    return c.x + c.y + c.z;
+}
+
+/// 1 - cos of an angle that is a fraction of pi, without cancellation.
+template <std::floating_point T>
+[[nodiscard]] T one_minus_cos_of(T fraction) noexcept {
+    const T sine = std::sin(fraction * (std::numbers::pi_v<T> / T(2)));
+    return T(2) * sine * sine;
+}
+
+/// The solid angle of a pixel, in steradians: a belt of the sphere is as large as the
+/// difference of its heights.
+// [solid angle of pixel]
+[[nodiscard]] inline double solid_angle_of_pixel(int width, int height,
+                                                 int y) noexcept {
+    const auto below = [height](int row) {
+        return one_minus_cos_of(double(row) / height);
+    };
+    return 2 * std::numbers::pi * (below(y + 1) - below(y)) / width;
+}
+// [solid angle of pixel]
+
+} // namespace detail
+
+/// The picture of a clear sky that is brighter or darker towards the horizon, for an
+/// EnvironmentLightT. Above the horizon the radiance is linear in the sine of the
+/// elevation, below it is that of the ground.
+/// \param horizon  Radiance at the horizon, W/(m^2 sr).
+/// \param zenith   Radiance straight up.
+/// \param ground   Radiance below the horizon.
+/// \return One column of 256 pixels, each with the mean radiance of its belt.
+template <std::floating_point T>
+[[nodiscard]] ImageT<T> gradient_sky(const RgbT<T>& horizon, const RgbT<T>& zenith,
+                                     const RgbT<T>& ground) {
+    constexpr int height = 256;
+    ImageT<T> picture = make_image<T>(1, height, ground);
+    for (int y = 0; y < height / 2; ++y) {
+        const T above = detail::one_minus_cos_of(T(y) / T(height));
+        const T below = detail::one_minus_cos_of(T(y + 1) / T(height));
+        const T sine = T(1) - (above + below) / T(2);
+        pixel(picture, 0, y) = horizon + sine * (zenith - horizon);
+    }
+    return picture;
+}
+
+/// A gradient_sky() in float; accepts colours in braces.
+[[nodiscard]] inline Image gradient_sky(const Rgb& horizon, const Rgb& zenith,
+                                        const Rgb& ground) {
+    return gradient_sky<float>(horizon, zenith, ground);
+}
+
+/// \name An environment
+/// \{
+
+/// Refuses an invalid light.
+/// \throws std::invalid_argument  if the strength is not above 0 and finite, the
+///         rotation not finite, or the picture empty, black in every pixel, or in some
+///         pixel negative or not finite.
+template <std::floating_point T>
+void check(const EnvironmentLightT<T>& light) {
+    require_positive("environment light.strength", light.strength);
+    require(std::isfinite(light.rotation_degrees), "environment light.rotation_degrees",
+            light.rotation_degrees, "finite");
+    check(light.picture);
+    bool black = true;
+    for (int y = 0; y < light.picture.height; ++y)
+        for (int x = 0; x < light.picture.width; ++x) {
+            const RgbT<T>& c = pixel(light.picture, x, y);
+            if (!(is_finite(c) && std::min({c.x, c.y, c.z}) >= T(0)))
+                detail::refuse(
+                    detail::join({"environment light.picture, column ",
+                                  to_text(static_cast<long long>(x)), ", row ",
+                                  to_text(static_cast<long long>(y))}),
+                    c, "finite and at least 0 in every channel");
+            black = black && is_black(c);
+        }
+    if (black)
+        throw std::invalid_argument(
+            "environment light.picture is black in every pixel; "
+            "leave such a light out of the scene.");
+}
+
+/// Prepares a checked environment for its scene.
+/// \cost A sum over all pixels; 8 bytes a pixel beside the picture.
+// [in_scene]
+template <std::floating_point T>
+[[nodiscard]] EnvironmentInSceneT<T> in_scene(const EnvironmentLightT<T>& light,
+                                              const SphereT<T>& around) {
+    EnvironmentInSceneT<T> made{.picture = light.picture,
+                                .turn = std::remainder(light.rotation_degrees, T(360)) /
+                                        T(360),
+                                .around = around};
+    const int width = made.picture.width, height = made.picture.height;
+    for (RgbT<T>& radiance : made.picture.pixels) radiance *= light.strength;
+    std::vector<double> solid_angle; // of a pixel in each row
+    for (int y = 0; y < height; ++y)
+        solid_angle.push_back(detail::solid_angle_of_pixel(width, height, y));
+    RgbT<double> sum{0};
+    made.density = make_piecewise_constant(width, height, [&](int x, int y) {
+        const RgbT<double> there = solid_angle[static_cast<std::size_t>(y)] *
+                                   RgbT<double>(pixel(made.picture, x, y));
+        sum += there;
+        return detail::brightness(there);
+    });
+    made.sum = RgbT<T>(sum);
+    return made;
+}
+// [in_scene]
+
+/// The flux into the sphere around the scene, in W: the radiance over all directions,
+/// each through the disc pi R^2.
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> power(const EnvironmentInSceneT<T>& light) noexcept {
+    return detail::disc_area(light.around.radius) * light.sum;
+}
+
+namespace detail {
+
+/// A direction to the sky.
+template <std::floating_point T>
+struct SkyDirectionT {
+    Vec3T<T> wi{T(0)};      ///< Unit, towards the sky.
+    RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
+    T pdf = T(0);           ///< Per steradian.
+};
+
+/// The density of a direction in a pixel, per steradian: its brightness over the
+/// integral of all brightness.
+// [pdf of pixel]
+template <std::floating_point T>
+[[nodiscard]] T pdf_of_pixel(const EnvironmentInSceneT<T>& light,
+                             const RgbT<T>& radiance) noexcept {
+    return static_cast<T>(double(brightness(radiance)) / light.density.rows.back());
+}
+// [pdf of pixel]
+
+/// Samples a direction to the sky by its brightness: a pixel, and in it a direction,
+/// uniform in solid angle.
+// [sample_sky]
+template <std::floating_point T>
+[[nodiscard]] SkyDirectionT<T> sample_sky(const EnvironmentInSceneT<T>& light,
+                                          const Vec2T<T>& u) noexcept {
+    const CellT<T> at = sample_cell(light.density, u);
+    const int rows = light.picture.height;
+    // From the nearer pole, so that the belts around both keep their digits.
+    const bool down = 2 * at.y >= rows;
+    const int row = down ? rows - 1 - at.y : at.y;
+    const T within = down ? T(1) - at.within.y : at.within.y;
+    const T top = one_minus_cos_of(T(row) / T(rows));
+    const T w = top + within * (one_minus_cos_of(T(row + 1) / T(rows)) - top);
+    const T r = std::sqrt(w * (T(2) - w));
+    const T column = (T(at.x) + at.within.x) / T(light.picture.width);
+    const T azimuth = T(2) * std::numbers::pi_v<T> * (column - T(0.5) - light.turn);
+    const RgbT<T>& radiance = pixel(light.picture, at.x, at.y);
+    return {.wi = {r * std::sin(azimuth), down ? w - T(1) : T(1) - w,
+                   -r * std::cos(azimuth)},
+            .radiance = radiance,
+            .pdf = pdf_of_pixel(light, radiance)};
+}
+// [sample_sky]
+
+} // namespace detail
+
+/// Samples the light for a shadow ray, which ends outside the scene.
+/// \param light  The light.
+/// \param from   The lit point, within the sphere around the scene.
+/// \param u      Point of the unit square.
+/// \return Radiance / pdf: the same for all directions, if the sky has one colour.
+template <std::floating_point T>
+[[nodiscard]] std::optional<LightSampleT<T>>
+sample_light(const EnvironmentInSceneT<T>& light, const Vec3T<T>& from,
+             const Vec2T<T>& u, T /*time*/) noexcept {
+    const auto [wi, radiance, pdf] = detail::sample_sky(light, u);
+    return LightSampleT<T>{
+        .point{.position = from + T(2) * light.around.radius * wi, .normal = -wi},
+        .wi = wi,
+        .weight = radiance / pdf,
+        .pdf = pdf};
+}
+
+/// Samples the direction of a photon by brightness.
+/// \return The direction, and the radiance over its density.
+template <std::floating_point T>
+[[nodiscard]] ArrivalT<T> sample_arrival(const EnvironmentInSceneT<T>& light,
+                                         const Vec2T<T>& u) noexcept {
+    const auto [wi, radiance, pdf] = detail::sample_sky(light, u);
+    return {-wi, radiance / pdf};
+}
+
+/// The radiance that a ray finds when it leaves the scene.
+/// \param light      The light.
+/// \param direction  Unit direction of the ray.
+/// \return W/(m^2 sr): that of one pixel, without interpolation.
+// [escaped_radiance]
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> escaped_radiance(const EnvironmentInSceneT<T>& light,
+                                       const Vec3T<T>& direction) noexcept {
+    constexpr T inv_pi = std::numbers::inv_pi_v<T>;
+    const ImageT<T>& picture = light.picture;
+    const T across = std::sqrt(direction.x * direction.x + direction.z * direction.z);
+    const T down = inv_pi * std::atan2(across, direction.y); // in [0, 1]
+    T turns =
+        inv_pi / T(2) * std::atan2(direction.x, -direction.z) + T(0.5) + light.turn;
+    turns -= std::floor(turns);
+    // Rounding may give the number of columns or rows, which is one too many.
+    const int column = std::min(int(turns * T(picture.width)), picture.width - 1);
+    const int row = std::min(int(down * T(picture.height)), picture.height - 1);
+    return pixel(picture, column, row);
+}
+// [escaped_radiance]
+
+/// The density with which sample_light() chooses a direction, per steradian; 0 where
+/// the sky is black.
+template <std::floating_point T>
+[[nodiscard]] T pdf_escaped(const EnvironmentInSceneT<T>& light,
+                            const Vec3T<T>& direction) noexcept {
+    return detail::pdf_of_pixel(light, escaped_radiance(light, direction));
+}
+
+/// \}
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,129 @@
+#pragma once
+
+/// \file ljus/math/piecewise_constant.hpp
+/// \brief Cells of a grid, chosen in proportion to their weights.
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "ljus/math/require.hpp"
+
+namespace ljus {
+
+/// \defgroup piecewise_constant Piecewise constant densities
+/// \brief Inversion of a density that is constant in each cell of a grid, as for a
+/// picture that is a light \cite pharr2023. Chapter: \ref ch_environment.
+/// \{
+
+/// Cumulative sums of the weights of a grid's cells, for sample_cell(); in double,
+/// because one cell may weigh 1e9 times as much as its neighbours.
+struct PiecewiseConstant2D {
+    int width = 0;             ///< Cells per row.
+    int height = 0;            ///< Number of rows.
+    std::vector<double> rows;  ///< The weight of all rows up to each row.
+    std::vector<double> cells; ///< Row by row: the weight up to each cell in its row.
+};
+
+/// Sums up weights.
+/// \param width   Cells per row, at least 1.
+/// \param height  Number of rows, at least 1.
+/// \param weight  Called as weight(x, y) for each cell; returns at least 0.
+/// \throws std::invalid_argument  if the sum of all weights is 0 or not finite.
+// [make_piecewise_constant]
+template <typename Weight>
+[[nodiscard]] PiecewiseConstant2D make_piecewise_constant(int width, int height,
+                                                          const Weight& weight) {
+    PiecewiseConstant2D made{.width = width, .height = height, .rows{}, .cells{}};
+    made.rows.reserve(static_cast<std::size_t>(height));
+    made.cells.reserve(static_cast<std::size_t>(width) *
+                       static_cast<std::size_t>(height));
+    double all = 0;
+    for (int y = 0; y < height; ++y) {
+        double row = 0;
+        for (int x = 0; x < width; ++x)
+            made.cells.push_back(row += double(weight(x, y)));
+        made.rows.push_back(all += row);
+    }
+    require_positive("the sum of all weights", all);
+    return made;
+}
+// [make_piecewise_constant]
+
+/// A cell, and a point in it.
+template <std::floating_point T>
+struct CellT {
+    int x = 0;             ///< Column.
+    int y = 0;             ///< Row.
+    Vec2T<T> within{T(0)}; ///< Position in the cell, in [0, 1]^2.
+};
+
+namespace detail {
+
+/// The cumulative sums of one row.
+[[nodiscard]] inline std::span<const double> row_of(const PiecewiseConstant2D& density,
+                                                    int y) noexcept {
+    const auto width = static_cast<std::size_t>(density.width);
+    return std::span(density.cells).subspan(static_cast<std::size_t>(y) * width, width);
+}
+
+/// One of several intervals, and a position in it.
+template <std::floating_point T>
+struct ChosenIntervalT {
+    int index = 0;   ///< Its number.
+    T within = T(0); ///< In [0, 1].
+};
+
+/// Chooses an interval in proportion to its length.
+/// \param sums  The sum of all lengths up to each interval.
+/// \param u     In [0, 1); what is left of it gives the position in the interval.
+// [choose_interval]
+template <std::floating_point T>
+[[nodiscard]] ChosenIntervalT<T> choose_interval(std::span<const double> sums,
+                                                 T u) noexcept {
+    // Below the sum, and so before the end of an interval whose length is not 0.
+    const double place =
+        std::min(double(u) * sums.back(), std::nextafter(sums.back(), 0.0));
+    const auto end = std::upper_bound(sums.begin(), sums.end(), place);
+    const double begin = end == sums.begin() ? 0.0 : *(end - 1);
+    return {static_cast<int>(end - sums.begin()),
+            static_cast<T>((place - begin) / (*end - begin))};
+}
+// [choose_interval]
+
+} // namespace detail
+
+/// Chooses a cell with a probability proportional to its weight, and a point in it,
+/// uniformly. Neighbours in u stay neighbours, so that stratified numbers stay
+/// stratified.
+/// \param density  The weights.
+/// \param u        Point of [0,1)^2.
+/// \return A cell whose weight is not 0.
+/// \cost Two binary searches.
+// [sample_cell]
+template <std::floating_point T>
+[[nodiscard]] CellT<T> sample_cell(const PiecewiseConstant2D& density,
+                                   const Vec2T<T>& u) noexcept {
+    const auto row = detail::choose_interval(std::span(density.rows), u.y);
+    const auto cell = detail::choose_interval(detail::row_of(density, row.index), u.x);
+    return {cell.index, row.index, {cell.within, row.within}};
+}
+// [sample_cell]
+
+/// The probability that sample_cell() chooses a cell: its part of the sum of all
+/// weights.
+/// \param density  The weights.
+/// \param x        Column, in [0, width).
+/// \param y        Row, in [0, height).
+[[nodiscard]] inline double probability_of_cell(const PiecewiseConstant2D& density,
+                                                int x, int y) noexcept {
+    const auto row = detail::row_of(density, y);
+    const auto column = static_cast<std::size_t>(x);
+    const double before = x == 0 ? 0.0 : row[column - 1];
+    return (row[column] - before) / density.rows.back();
+}
+
+/// \}
+
+} // namespace ljus
