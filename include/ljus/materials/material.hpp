@@ -190,6 +190,17 @@ template <Refractive M>
     return m;
 }
 
+/// Whether a material scatters light through its surface into a lobe with a density: it
+/// is that of a transparent body, and has a glossy lobe. Light from both sides then
+/// counts at a vertex, not only that of the side of `wo`.
+template <typename M>
+[[nodiscard]] constexpr bool scatters_through([[maybe_unused]] const M& m) noexcept {
+    if constexpr (Refractive<M>)
+        return has(lobes(m), Lobes::glossy);
+    else
+        return false;
+}
+
 /// The default emitted radiance: none.
 /// \return 0 W/(m^2 sr).
 template <typename M>
