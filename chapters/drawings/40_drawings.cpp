@@ -1,6 +1,6 @@
 // smoke: --quality draft
 /// \file chapters/drawings/40_drawings.cpp
-/// \brief Chapter 40: the half vector of a facet that refracts, and lobes on both sides.
+/// \brief Chapter 40: the half vector of a facet that refracts, and lobes.
 
 #include <cmath>
 #include <numbers>

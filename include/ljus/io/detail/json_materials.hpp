@@ -45,7 +45,7 @@ namespace ljus {
 /// | glossy          | reflectance, roughness                                        |
 /// | full-glossy     | the same; see CompensatedGlossy                               |
 /// | dielectric      | ior, \[absorption\]: smooth glass                             |
-/// | rough-glass     | ior, roughness, \[absorption\]: frosted; see RoughGlass         |
+/// | rough-glass     | ior, roughness, \[absorption\]: frosted; see RoughGlass       |
 /// | thin-glass      | ior, tint: a pane                                             |
 /// | soap-film       | ior, thickness_nm; if it drains, scale, level and up          |
 /// | checker         | even, odd, a map, \[columns, rows\]: two by two squares       |
