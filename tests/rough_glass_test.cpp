@@ -426,6 +426,24 @@ TEST_CASE("rough glass: it is glossy, a body, and its colour is absorption") {
     static_assert(ljus::Material<RoughGlass>);
 }
 
+TEST_CASE("rough glass: nearly specular below a roughness of 0.85, for index 1.5") {
+    for (const float roughness : {0.01f, 0.4f, 0.84f})
+        CHECK(nearly_specular(RoughGlass{.roughness = roughness}));
+    for (const float roughness : {0.86f, 1.0f})
+        CHECK_FALSE(nearly_specular(RoughGlass{.roughness = roughness}));
+    CHECK_FALSE(nearly_specular(RoughGlass{.roughness = 0})); // which is specular
+    // Of a body that is denser lobes are wider.
+    CHECK_FALSE(nearly_specular(RoughGlass{.index = 2, .roughness = 0.8f}));
+}
+
+TEST_CASE("rough glass: light of both sides counts on it, but not on glass or gloss") {
+    CHECK(scatters_through(RoughGlass{}));
+    CHECK_FALSE(scatters_through(RoughGlass{.roughness = 0}));
+    CHECK_FALSE(scatters_through(RoughGlass{.index = 1}));
+    CHECK_FALSE(scatters_through(ljus::Glass{}));
+    CHECK_FALSE(scatters_through(ljus::Glossy{}));
+}
+
 TEST_CASE("rough glass: what no glass can be is refused by name and value") {
     CHECK(refusal(RoughGlass{}).empty());
     CHECK(refusal(RoughGlass{.roughness = 0}).empty());

@@ -235,7 +235,8 @@ template <std::floating_point T>
 
 /// Whether a material is nearly a mirror: its only lobe with a density is a glossy one,
 /// in which a sampled direction typically has a density above 1 per steradian, which is
-/// 3 times that of a Lambertian surface. A GlossyT is if its roughness is below 0.42.
+/// 3 times that of a Lambertian surface. A GlossyT is if its roughness is below 0.42, a
+/// RoughGlassT of index 1.5 below 0.85.
 /// \cost None for a material without a glossy lobe; else one sample.
 template <Material M>
 [[nodiscard]] bool nearly_specular(const M& m) noexcept {
