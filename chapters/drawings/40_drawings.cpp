@@ -85,7 +85,7 @@ void draw_lobes(const std::string& folder) {
         const char* color;
         const char* name;
         Point label;
-    } curves[] = {{0.5, colors::red, "roughness 0.5", {2.0, -2.35}},
+    } curves[] = {{0.5, colors::red, "roughness 0.5", {1.4, -2.75}},
                   {0.7, colors::orange, "0.7", {1.15, -1.2}},
                   {0.9, colors::green, "0.9", {1.0, -0.5}}};
     for (const auto& curve : curves) {
