@@ -232,6 +232,33 @@ TEST_CASE("rough glass scenes: no photon map is asked at rough glass, and its li
     CHECK(letters.find("EDDL") != std::string::npos);
 }
 
+TEST_CASE("rough glass scenes: two blocks that touch are one") {
+    const auto block = [](bool halved) {
+        Room room;
+        const auto glass =
+            room.add(RoughGlass{.roughness = 0.6f, .absorption{0.5f, 0, 0}});
+        const auto black = room.add(Lambertian{.albedo = Rgb{0}});
+        if (halved) {
+            add_box(room, {-1, -1, -1}, {1, 0, 1}, glass);
+            add_box(room, {-1, 0, -1}, {1, 1, 1}, glass);
+        } else {
+            add_box(room, {-1, -1, -1}, {1, 1, 1}, glass);
+        }
+        room.add(Sphere{{0, -0.8f, -2.6f}, 1}, black, Rgb{1});
+        return World(std::move(room));
+    };
+    const auto ray = [](auto& stream) {
+        const auto u = next_2d<float>(stream);
+        return Ray{.origin{u.x - 0.5f, u.y - 0.5f, 3}, .direction{0, 0, -1}};
+    };
+    const World<Room> one = block(false), two = block(true);
+    const Mean whole = ljus_test::mean_radiance(PathTracer(one), 40000, 9, ray);
+    const Mean halves = ljus_test::mean_radiance(PathTracer(two), 40000, 10, ray);
+    MESSAGE(whole.mean, " +- ", whole.error(), " and ", halves.mean);
+    CHECK(std::abs(ljus_test::apart(whole, halves)) < 5);
+    CHECK(whole.error() < 0.02 * whole.mean);
+}
+
 TEST_CASE("rough glass scenes: distributed rays follow it to lamps") {
     Scene<Shapes<Sphere>, Materials<Lambertian, RoughGlass>> scene;
     scene.add(Sphere{{0, 0, 0}, 1}, scene.add(RoughGlass{.roughness = 0.5f}));
