@@ -398,6 +398,15 @@ TEST_CASE("load_json: each name makes its own material") {
         with(R"({"type": "dielectric", "ior": 1.25, "absorption": [3, 0, 3]})"), "a");
     CHECK(std::get<std::vector<Glass>>(green.scene.materials).at(0).absorption ==
           Rgb{3, 0, 3});
+    const LoadedScene frosted =
+        read_json_scene(with(R"({"type": "rough-glass", "ior": 1.25, "roughness": 0.5,
+                                 "absorption": [3, 0, 3]})"),
+                        "a");
+    const RoughGlass frost =
+        std::get<std::vector<RoughGlass>>(frosted.scene.materials).at(0);
+    CHECK(frost.index == 1.25f);
+    CHECK(frost.roughness == 0.5f);
+    CHECK(frost.absorption == Rgb{3, 0, 3});
 }
 
 TEST_CASE("load_json: textures by a plane, a globe and the shape's own coordinates") {
@@ -654,7 +663,7 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
          "materials.glass.type is \"crystal\"; it must be lambertian, oren-nayar, "
          "mirror, dielectric, mixture, oren-nayar-full, oren-nayar-printed, fujii, "
          "fon, eon, metal, rough-metal, full-rough-metal, glossy, full-glossy, "
-         "thin-glass, soap-film, checker or picture."},
+         "rough-glass, thin-glass, soap-film, checker or picture."},
         {"\"ior\": 1.5", "\"ior\": 1.5, \"tint\": [1, 1, 1]",
          "materials.glass.tint is not known; the fields here are type, ior and "
          "absorption."},
@@ -1089,6 +1098,7 @@ TEST_CASE("load_json: each number of each material and light has its limits") {
     };
     const char* const metal = R"({"type": "rough-metal", "metal": "gold")";
     const char* const gloss = R"({"type": "glossy", "reflectance": [1, 1, 1])";
+    const char* const frost = R"({"type": "rough-glass", "ior": 1.5)";
     const char* const mixture = R"({"type": "mixture", "color": [0.1, 0.1, 0.1])";
     const char* const film = R"({"type": "soap-film", "ior": 1.33)";
     const auto read = [&](const std::string& material) {
@@ -1103,10 +1113,10 @@ TEST_CASE("load_json: each number of each material and light has its limits") {
           Limit{R"({"type": "fon", "albedo": [1, 1, 1])", "roughness", 0, 1},
           Limit{R"({"type": "eon", "albedo": [1, 1, 1])", "roughness", 0, 1},
           Limit{metal, "roughness", 0.01, 1}, Limit{gloss, "roughness", 0.01, 1},
-          Limit{mixture, "reflectivity", 0, 1}, Limit{mixture, "transparency", 0, 1},
-          Limit{mixture, "specularity", 0, 1}, Limit{mixture, "sigma_deg", 0, 90},
-          Limit{mixture, "ior", 1e-3, 1e3}, Limit{mixture, "emissivity", 0, 1e12},
-          Limit{film, "thickness_nm", 0, 1e6}}) {
+          Limit{frost, "roughness", 0.01, 1}, Limit{mixture, "reflectivity", 0, 1},
+          Limit{mixture, "transparency", 0, 1}, Limit{mixture, "specularity", 0, 1},
+          Limit{mixture, "sigma_deg", 0, 90}, Limit{mixture, "ior", 1e-3, 1e3},
+          Limit{mixture, "emissivity", 0, 1e12}, Limit{film, "thickness_nm", 0, 1e6}}) {
         CAPTURE(limit.start);
         CAPTURE(limit.field);
         const auto with = [&](double value) {

@@ -12,8 +12,8 @@ ljus_break_it(NAME survey-digits HEADER render/passes.hpp TEST survey
 
 # Every gloss is called a mirror.
 ljus_break_it(NAME survey-narrow HEADER render/passes.hpp TEST survey
-    FROM "Lobes::glossy) > T(1000)"
-    TO   "Lobes::glossy) > T(0)"
+    FROM "next->pdf > T(1000)"
+    TO   "next->pdf > T(0)"
     CASES "survey: a lobe that*")
 
 # Ten times as narrow before anybody is warned.

@@ -83,12 +83,14 @@ void check_reciprocity(const M& m, double roundoffs = 4) {
 
 /// For one wo: sample() and pdf() agree under `which` (chi-square, false
 /// alarm 3 in 10 million for each call), weight = f |cos|/pdf, directions are unit
-/// vectors, and no lobe appears that was not requested.
+/// vectors, and no lobe appears that was not requested. The density is summed over
+/// `fine` by `fine` points of each cell.
 template <ljus::Material M>
 void check_sampling(const M& m, const ljus::Vec3T<typename M::Scalar>& wo,
-                    ljus::Lobes which = ljus::Lobes::all, std::uint64_t seed = 1) {
+                    ljus::Lobes which = ljus::Lobes::all, std::uint64_t seed = 1,
+                    int fine = 16) {
     using T = typename M::Scalar;
-    constexpr int rows = 10, columns = 12, fine = 16, count = 60000;
+    constexpr int rows = 10, columns = 12, count = 60000;
     constexpr double dphi = 2 * std::numbers::pi / columns, dz = 2.0 / rows;
     // The last cell is for deltas and for what is absorbed.
     std::vector<double> counts(rows * columns + 1), expected(rows * columns + 1);
@@ -115,7 +117,7 @@ void check_sampling(const M& m, const ljus::Vec3T<typename M::Scalar>& wo,
     Draws draws{seed};
     const T u = std::numeric_limits<T>::epsilon() / 2;
     for (int i = 0; i < count; ++i) {
-        const auto s = sample(m, wo, draws.cube<T>(), ljus::Transport::flux, which);
+        const auto s = sample(m, wo, draws.cube<T>(), ljus::Transport::radiance, which);
         if (!s || s->specular) counts.back() += 1;
         if (!s) continue;
         REQUIRE(std::abs(glm::length(s->wi) - 1) <= 4 * u);

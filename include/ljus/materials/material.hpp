@@ -190,6 +190,17 @@ template <Refractive M>
     return m;
 }
 
+/// Whether a material scatters light through its surface into a lobe with a density: it
+/// is that of a transparent body, and has a glossy lobe. Light from both sides then
+/// counts at a vertex, not only that of the side of `wo`.
+template <typename M>
+[[nodiscard]] constexpr bool scatters_through([[maybe_unused]] const M& m) noexcept {
+    if constexpr (Refractive<M>)
+        return has(lobes(m), Lobes::glossy);
+    else
+        return false;
+}
+
 /// The default emitted radiance: none.
 /// \return 0 W/(m^2 sr).
 template <typename M>
@@ -224,7 +235,8 @@ template <std::floating_point T>
 
 /// Whether a material is nearly a mirror: its only lobe with a density is a glossy one,
 /// in which a sampled direction typically has a density above 1 per steradian, which is
-/// 3 times that of a Lambertian surface. A GlossyT is if its roughness is below 0.42.
+/// 3 times that of a Lambertian surface. A GlossyT is if its roughness is below 0.42, a
+/// RoughGlassT of index 1.5 below 0.85.
 /// \cost None for a material without a glossy lobe; else one sample.
 template <Material M>
 [[nodiscard]] bool nearly_specular(const M& m) noexcept {

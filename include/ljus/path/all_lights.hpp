@@ -98,13 +98,14 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
     const auto next = scatter(vertex, material, next_3d<T>(context.stream),
                               Transport::radiance, Lobes::non_specular);
     if (!next) return RgbT<T>{T(0)};
-    PathStateT<T> path{.ray = spawn_ray(vertex.point, next->wi, vertex.time),
-                       .throughput = next->sample.weight,
-                       .medium = detail::medium_beyond(vertex.medium, material,
-                                                       vertex.wo, next->sample.wi),
-                       .medium_known = true,
-                       .depth = 1,
-                       .branch = std::uint64_t(1) << 44};
+    PathStateT<T> path{
+        .ray = spawn_ray(vertex.point, next->wi, vertex.time),
+        .throughput = next->sample.weight,
+        .medium =
+            detail::medium_beyond(vertex.medium, material, vertex.wo, next->sample.wi),
+        .medium_known = !detail::leaves_body<M>(vertex.wo, next->sample.wi),
+        .depth = 1,
+        .branch = std::uint64_t(1) << 44};
     auto numbers = context.stream; // next_vertex() moves the copy
     ++context.counts.shadow_rays;
     const auto lamp = next_vertex(world, path, numbers);

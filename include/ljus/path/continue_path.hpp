@@ -88,8 +88,7 @@ void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
     if (vertex.stop_probability < T(1)) path.throughput /= vertex.stop_probability;
     path.eta_scale *= next.eta_scale;
     path.medium = medium_beyond(path.medium, material, vertex.wo, next.wi);
-    if constexpr (MayAbsorb<M>) // it may leave into another body
-        path.medium_known = !(vertex.wo.z < T(0) && next.wi.z > T(0));
+    if constexpr (MayAbsorb<M>) path.medium_known = !leaves_body<M>(vertex.wo, next.wi);
     path.previous = vertex.point.position;
     path.pdf = next.pdf;
     path.specular = next.specular;

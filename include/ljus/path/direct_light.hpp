@@ -154,7 +154,10 @@ template <AnyWorld W, std::floating_point T, Material M>
         if (is_black(visible)) return share;
     }
     share.arrived = share.sent;
-    const RgbT<T> medium = medium_beyond(vertex.medium, material, vertex.wo, wi);
+    RgbT<T> medium = medium_beyond(vertex.medium, material, vertex.wo, wi);
+    if constexpr (MayAbsorb<M>)
+        if (leaves_body<M>(vertex.wo, wi) && world.has_nested_media())
+            medium = medium_at(world, spawn_ray(point, sampled->wi, vertex.time));
     if (!is_black(medium))
         share.arrived *= transmittance(
             medium, glm::distance(point.position, sampled->point.position));

@@ -31,7 +31,10 @@ namespace ljus {
 ///
 /// A glossy surface is a D. Where irradiance is looked up, by IndirectLight::gather and
 /// cache, nearly_specular() gloss between a light and a surface with a diffuse lobe is
-/// an S, and no path ends on any other gloss.
+/// an S, and no path ends on any other gloss. No photon map is asked for the light that
+/// rough glass scatters through itself, see scatters_through(): paths go on, also with
+/// IndirectLight::photons and IndirectLight::map. Photons that went through rough glass
+/// are indirect ones elsewhere.
 /// \{
 
 /// \name Optional abilities of a photon mapper
@@ -363,10 +366,11 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
     const DirectLightSettings how{mapper.settings().direct,
                                   mapper.settings().shadow_rays};
     if constexpr (Mapper::template has<Skipping>)
-        return sample_all_lights(mapper.world(), vertex, material, how, context,
-                                 verdicts_of(mapper, at_rest(mapper.world(), vertex)));
-    else
-        return sample_all_lights(mapper.world(), vertex, material, how, context);
+        if (!scatters_through(material)) // a verdict is about one side
+            return sample_all_lights(
+                mapper.world(), vertex, material, how, context,
+                verdicts_of(mapper, at_rest(mapper.world(), vertex)));
+    return sample_all_lights(mapper.world(), vertex, material, how, context);
 }
 
 } // namespace detail
@@ -407,7 +411,7 @@ void light_at(const PhotonMapper<W, X...>& mapper, const VertexT<T>& vertex,
     else
         add("shadow ray", "DL",
             detail::light_of_lights(mapper, vertex, material, context));
-    if (settings.indirect == IndirectLight::photons)
+    if (settings.indirect == IndirectLight::photons && !scatters_through(material))
         add("general map", "D..DL",
             ask(maps.general, settings.general_estimate,
                 one_kind(PhotonKind::indirect)));
@@ -480,7 +484,8 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
             const bool second = path.met_diffuse && detail::gathers(settings.indirect);
             const auto at_material = [&]<typename M>(const M& material) {
                 const Lobes parts = lobes(material);
-                bool gather = second, mirror = false;
+                const bool through = scatters_through(material);
+                bool gather = second && !through, mirror = false;
                 if constexpr (PhotonMapper<W, X...>::template has<Gathering>)
                     if (second && has(parts, Lobes::glossy) &&
                         settings.indirect != IndirectLight::map) {
@@ -496,8 +501,10 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                             gloss_mirrors = mapper.passes().gloss_as_mirrors &&
                                             has(parts, Lobes::diffuse);
                     }
+                const bool follow =
+                    mirror || (through && settings.indirect == IndirectLight::photons);
                 const Lobes open = gather   ? Lobes::specular
-                                   : mirror ? Lobes::all
+                                   : follow ? Lobes::all
                                             : mapper.bounces();
                 if (path.depth == settings.max_depth) {
                     detail::cut_if(has(parts, open), context.counts);
@@ -512,7 +519,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                 // One branch; after gathering, by mirrors and glass only.
                 Lobes which = open;
                 if constexpr (PhotonMapper<W, X...>::template has<Skipping>)
-                    if (has(which, Lobes::diffuse) &&
+                    if (has(which, Lobes::diffuse) && !through &&
                         needs_no_bounce(mapper,
                                         detail::at_rest(mapper.world(), *vertex),
                                         context.counts))

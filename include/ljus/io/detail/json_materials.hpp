@@ -17,6 +17,7 @@
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
+#include "ljus/materials/rough_glass.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/materials/textured.hpp"
 #include "ljus/scene/make_scene.hpp"
@@ -44,6 +45,7 @@ namespace ljus {
 /// | glossy          | reflectance, roughness                                        |
 /// | full-glossy     | the same; see CompensatedGlossy                               |
 /// | dielectric      | ior, \[absorption\]: smooth glass                             |
+/// | rough-glass     | ior, roughness, \[absorption\]: frosted; see RoughGlass       |
 /// | thin-glass      | ior, tint: a pane                                             |
 /// | soap-film       | ior, thickness_nm; if it drains, scale, level and up          |
 /// | checker         | even, odd, a map, \[columns, rows\]: two by two squares       |
@@ -223,6 +225,10 @@ constexpr auto material_rows() {
         row("glossy", {"reflectance", "roughness"}, [](In in) { return in.gloss(); }),
         row("full-glossy", {"reflectance", "roughness"},
             [](In in) { return in.full(in.gloss()); }),
+        row("rough-glass", {"ior", "roughness", "absorption"},
+            [](In in) {
+                return RoughGlassT<T>{in.ior(), in.roughness(), in.absorption()};
+            }),
         row("thin-glass", {"ior", "tint"},
             [](In in) {
                 return ThinGlassT<T>{in.ior(), in.color("tint")};

@@ -1,0 +1,244 @@
+#pragma once
+
+/// \file ljus/materials/rough_glass.hpp
+/// \brief Frosted glass: a transparent body whose surface consists of microfacets.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "ljus/materials/glass.hpp"
+#include "ljus/materials/glossy.hpp"
+#include "ljus/optics/microfacet.hpp"
+
+namespace ljus {
+
+/// \defgroup rough_glass Rough glass
+/// \brief Beyond the report: microfacets that reflect and refract. Chapter:
+/// \ref ch_rough_glass.
+///
+/// Each facet is a smooth boundary \cite walter2007. Two directions on one side of the
+/// surface are joined by the facet that reflects one into the other; two directions on
+/// different sides by the facet that refracts one into the other. With the relative
+/// index \f$ \eta = n_o/n_i \f$ its normal is
+///
+/// \f[ h = \pm\frac{\eta\, w_o + w_i}{L}, \qquad L = |\eta\, w_o + w_i| \f]
+///
+/// All lobes have a density, so that in Heckbert's letters rough glass is a D: shadow
+/// rays end on it, but start from it through the surface as well.
+/// \{
+
+/// The rough boundary of a transparent body: outside is z > 0 and has index 1. Light
+/// that meets a second facet is lost. Of light along the normal, for index 1.5, that is
+/// 1 % from either side at roughness 0.3, 3 % from outside and 24 % from inside at 0.7,
+/// and 11 % and 58 % at 1.
+/// \cite walter2007
+template <std::floating_point T>
+struct RoughGlassT {
+    using Scalar = T;         ///< The precision of its numbers.
+    T index = T(1.5);         ///< Index of refraction inside.
+    T roughness = T(0.3);     ///< alpha = roughness^2; 0 (GlassT) or in [0.01, 1].
+    RgbT<T> absorption{T(0)}; ///< Inside, per scene unit, >= 0.
+};
+using RoughGlass = RoughGlassT<float>; ///< RoughGlassT in float.
+
+namespace detail {
+
+/// Whether the facets spread refracted light by more than 2e-5 radians, about
+/// alpha |n - 1|. The rounding of a float direction is not small against less, and the
+/// boundary counts as smooth: for an index close to that of the surroundings.
+template <std::floating_point T>
+[[nodiscard]] bool is_rough(const RoughGlassT<T>& glass) noexcept {
+    return glass.roughness * glass.roughness * std::abs(glass.index - T(1)) > T(2e-5);
+}
+
+/// The boundary with the same body, but smooth.
+template <std::floating_point T>
+[[nodiscard]] GlassT<T> smooth(const RoughGlassT<T>& glass) noexcept {
+    return {.index = glass.index, .absorption = glass.absorption};
+}
+
+/// A direction in the frame that is turned to the side of `wo`, where out.z > 0.
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> turned_to(const Vec3T<T>& wo, const Vec3T<T>& w) noexcept {
+    return {w.x, w.y, wo.z < T(0) ? -w.z : w.z};
+}
+
+/// The indices on both sides of a boundary, as seen from `wo`.
+template <std::floating_point T>
+struct SidesT {
+    T here = T(1);   ///< On the side of `wo`.
+    T beyond = T(1); ///< On the other side.
+};
+
+/// The indices on both sides of rough glass.
+template <std::floating_point T>
+[[nodiscard]] SidesT<T> sides(const RoughGlassT<T>& glass,
+                              const Vec3T<T>& wo) noexcept {
+    if (wo.z > T(0)) return {T(1), glass.index};
+    return {glass.index, T(1)};
+}
+
+/// The density of the facet that joins two directions, times the fraction of light that
+/// goes this way, as the density of `in`: the visible normals of `out` times F/(4 h.wo)
+/// for reflection, or (1 - F) |h.wi| / L^2 for transmission.
+/// \param out, in  In the frame that is turned to `out`.
+/// \param n        Indices on the side of `out` and beyond.
+/// \return Per steradian; 0 if no facet that is visible joins them.
+// [joined]
+template <std::floating_point T>
+[[nodiscard]] T density_of_joined(T alpha, const Vec3T<T>& out, const Vec3T<T>& in,
+                                  const SidesT<T>& n) noexcept {
+    const T visible = T(2) / (out.z + ggx_lambda(alpha, out)); // G1 / out.z
+    if (in.z > T(0)) {
+        const Vec3T<T> h = half_vector(out, in);
+        const T f = fresnel(std::min(glm::dot(out, h), T(1)), n.here, n.beyond);
+        return visible * ggx_distribution(alpha, h) * f / T(4);
+    }
+    const T eta = n.here / n.beyond;
+    const Vec3T<T> sum = eta * out + in;
+    const T length = glm::length(sum);
+    const Vec3T<T> h = sum / (eta > T(1) ? length : -length);
+    const T cos_out = glm::dot(out, h), cos_in = glm::dot(in, h);
+    if (!(h.z > T(0) && cos_out > T(0) && cos_in < T(0))) return T(0);
+    const T through = T(1) - fresnel(std::min(cos_out, T(1)), n.here, n.beyond);
+    return visible * cos_out * ggx_distribution(alpha, h) * through * -cos_in /
+           (length * length);
+}
+// [joined]
+
+/// The fraction of light that facets do not block on its way along `in`, over |in.z|:
+/// for reflection G2/G1(out) with correlated heights, as for GlossyT; for transmission
+/// G1(in), for heights on both sides that are independent \cite walter2007.
+/// \param out, in  In the frame that is turned to `out`.
+template <std::floating_point T>
+[[nodiscard]] T unblocked(T alpha, const Vec3T<T>& out, const Vec3T<T>& in) noexcept {
+    const T r_in = ggx_lambda(alpha, in);
+    if (in.z < T(0)) return T(2) / (r_in - in.z);
+    const T r_out = ggx_lambda(alpha, out);
+    return (out.z + r_out) / (in.z * r_out + out.z * r_in);
+}
+
+} // namespace detail
+
+/// The lobes of this material: a glossy one, or a specular one if it is smooth.
+template <std::floating_point T>
+[[nodiscard]] Lobes lobes(const RoughGlassT<T>& glass) noexcept {
+    return detail::is_rough(glass) ? Lobes::glossy : Lobes::specular;
+}
+
+/// The density of sample().
+/// \return Per steradian, on both sides. Its integral is below 1, because reflected
+///         directions into the surface and refracted ones out of it are rejected.
+/// \cite walter2007 \cite heitz2018
+template <std::floating_point T>
+[[nodiscard]] T pdf(const RoughGlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& wi,
+                    Lobes which = Lobes::all) noexcept {
+    if (!has(which & lobes(glass), Lobes::glossy)) return T(0);
+    if (wo.z == T(0) || wi.z == T(0)) return T(0);
+    return detail::density_of_joined(
+        glass.roughness * glass.roughness, detail::turned_to(wo, wo),
+        detail::turned_to(wo, wi), detail::sides(glass, wo));
+}
+
+/// The BSDF for radiance. Reflected light has that of GlossyT with Fresnel's
+/// reflectance. For transmitted light
+///
+/// \f[ f = \frac{|w_o \cdot h|\,|w_i \cdot h|}{|w_{o,z}|\,|w_{i,z}|}\,
+///         \frac{\eta^2 (1 - F)\, D(h)\, G_1(w_o)\, G_1(w_i)}{L^2} \f]
+///
+/// The directions of transmitted light can be exchanged only if the square of the index
+/// is divided out: \f$ f(w_o, w_i)/n_o^2 = f(w_i, w_o)/n_i^2 \f$.
+/// \return f in 1/sr, without the cosine; 0 at grazing angles where f would overflow.
+/// \cost Four square roots, those of fresnel() and of normalisation included.
+/// \cite walter2007
+// [rough glass]
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> evaluate(const RoughGlassT<T>& glass, const Vec3T<T>& wo,
+                               const Vec3T<T>& wi) noexcept {
+    const T density = pdf(glass, wo, wi);
+    if (!(density > T(0))) return RgbT<T>{T(0)};
+    const Vec3T<T> out = detail::turned_to(wo, wo), in = detail::turned_to(wo, wi);
+    T f = density * detail::unblocked(glass.roughness * glass.roughness, out, in);
+    if (in.z < T(0)) {
+        const auto [here, beyond] = detail::sides(glass, wo);
+        f *= (here / beyond) * (here / beyond);
+    }
+    return RgbT<T>{f <= std::numeric_limits<T>::max() ? f : T(0)};
+}
+// [rough glass]
+
+/// Chooses a facet that is visible from `wo`, and reflection with its probability F, or
+/// refraction with 1 - F. The weight is the fraction of light that no other facet
+/// blocks, at most 1; radiance from index n_t is then scaled by (n_i/n_t)^2.
+/// \return Also nothing if a reflected direction points into the surface, or a
+///         refracted one out of it.
+/// \cost One sine, one cosine, a dozen square roots.
+/// \cite walter2007 \cite heitz2018
+// [sample rough glass]
+template <std::floating_point T>
+[[nodiscard]] std::optional<BsdfSampleT<T>>
+sample(const RoughGlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
+       Transport transport, Lobes which = Lobes::all) noexcept {
+    if (!detail::is_rough(glass))
+        return sample(detail::smooth(glass), wo, u, transport, which);
+    if (!has(which, Lobes::glossy) || !(wo.z > T(0) || wo.z < T(0)))
+        return std::nullopt;
+    const T alpha = glass.roughness * glass.roughness;
+    const Vec3T<T> out = detail::turned_to(wo, wo);
+    const auto [here, beyond] = detail::sides(glass, wo);
+    const T eta = here / beyond;
+    const Vec3T<T> h = detail::sample_visible_normal(alpha, out, Vec2T<T>{u.x, u.y});
+    const T cos_facet = std::clamp(glm::dot(out, h), T(0), T(1));
+    const bool reflected = u.z < fresnel(cos_facet, here, beyond);
+    const std::optional<Vec3T<T>> in =
+        reflected ? glm::normalize(reflect(-out, h)) : ljus::refract(-out, h, eta);
+    if (!in || !(reflected ? in->z > T(0) : in->z < T(0))) return std::nullopt;
+
+    const Vec3T<T> wi = detail::turned_to(wo, *in);
+    const T density = pdf(glass, wo, wi);
+    if (!(density > T(0))) return std::nullopt;
+    const T scale = !reflected && transport == Transport::radiance ? eta * eta : T(1);
+    const T weight = detail::unblocked(alpha, out, *in) * std::abs(in->z) * scale;
+    auto next = diffuse_sample(wi, RgbT<T>{weight}, density);
+    next.eta_scale = scale;
+    return next;
+}
+// [sample rough glass]
+
+/// Both branches if it is smooth, as for GlassT.
+/// \return Nothing if it is rough.
+template <std::floating_point T>
+[[nodiscard]] std::optional<std::array<BsdfSampleT<T>, 2>>
+split(const RoughGlassT<T>& glass, const Vec3T<T>& wo, Transport transport) noexcept {
+    if (detail::is_rough(glass)) return std::nullopt;
+    return split(detail::smooth(glass), wo, transport);
+}
+
+/// The index of refraction inside.
+template <std::floating_point T>
+[[nodiscard]] constexpr T refractive_index(const RoughGlassT<T>& glass) noexcept {
+    return glass.index;
+}
+
+/// The absorption coefficient inside, per scene unit; see transmittance().
+template <std::floating_point T>
+[[nodiscard]] constexpr RgbT<T> absorption(const RoughGlassT<T>& glass) noexcept {
+    return glass.absorption;
+}
+
+/// Requires a valid index, a finite absorption of at least 0, and a roughness of 0 or
+/// within [0.01, 1].
+template <std::floating_point T>
+void check(const RoughGlassT<T>& glass) {
+    detail::require_index("rough_glass.index", glass.index);
+    require_radiance("rough_glass.absorption", glass.absorption);
+    const T r = glass.roughness;
+    require(r == T(0) || (r >= detail::min_roughness<T> && r <= T(1)),
+            "rough_glass.roughness", r, "0, which is smooth, or within [0.01, 1]");
+}
+
+/// \}
+
+} // namespace ljus
