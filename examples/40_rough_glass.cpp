@@ -3,6 +3,7 @@
 /// \brief Five plates of glass before a wall of squares, from smooth to rough.
 
 #include <ljus/ljus.hpp>
+#include <ljus/materials/rough_glass.hpp>
 
 #include "common/example.hpp"
 

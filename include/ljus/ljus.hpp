@@ -25,7 +25,6 @@
 #include "ljus/materials/mixture.hpp"
 #include "ljus/materials/oren_nayar.hpp"
 #include "ljus/materials/rough_diffuse.hpp"
-#include "ljus/materials/rough_glass.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/materials/textured.hpp"
 
