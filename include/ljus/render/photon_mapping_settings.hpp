@@ -93,6 +93,7 @@ inline void check(const PhotonMappingSettings& settings) {
             "irradiance.radius", double(settings.irradiance.radius),
             "at least 0 (0: chosen from the photons)");
     require_at_least("irradiance.shadow_rays", settings.irradiance.shadow_rays, 1);
+    require_at_least("irradiance.least", settings.irradiance.least, 0);
     require_at_least("gather.rays", settings.gather.rays, 1);
     require_at_least("gather.tile", settings.gather.tile, 1);
     require(settings.gather.nearest >= 2 &&
@@ -150,6 +151,8 @@ enum class Preset : std::uint8_t {
     settings.gather.rays = draft ? 16 : 36;
     settings.gather.tile = draft ? 5 : 4;
     if (!draft) settings.irradiance.shadow_rays = 2; // a gather ray is one of 36
+    // The disc of an estimate then covers at most 1/32 of what indirect light falls on.
+    settings.irradiance.least = 32 * int(settings.irradiance.nearest);
     return settings;
 }
 
