@@ -65,6 +65,9 @@ struct PhotonMappingSettings {
     PhotonPassSettings general{};  ///< Photons for all other light.
     CausticBudget caustic_budget =
         CausticBudget::as_seen; ///< How mirrors and glass share caustics.photons.
+    /// Whether, with Budgeting listed, lights share them by what arrives even if objects
+    /// share them as seen. Its pilot may send a quarter of the photons at most.
+    bool share_lights = false;
     /// How caustics are estimated; radius 0: chosen to hold 32 photons typically.
     DensityEstimateSettings caustics_estimate{};
     /// How the general map is queried; radius 0: chosen to hold 64 photons typically.
@@ -143,6 +146,7 @@ enum class Preset : std::uint8_t {
     settings.direct = DirectLight::analytic;
     settings.shadow_rays = draft ? 2 : 4;
     settings.indirect = IndirectLight::cache;
+    settings.share_lights = true;
     const long long photons =
         std::clamp(draft ? pixels / 4 : pixels * 7 / 10, 10'000LL, 1'000'000LL);
     // Small pictures need more photons per pixel: blotches scale with the picture.
