@@ -127,8 +127,8 @@ ljus_break_it(NAME final-gathering-step HEADER photons/kernel_border.hpp
 # A gather ray sees nothing of what gloss reflects.
 ljus_break_it(NAME final-gathering-gloss-black HEADER render/final_gathering.hpp
     TEST final_gathering
-    FROM "if (has(parts, Lobes::glossy)) {"
-    TO   "if (has(parts, Lobes::glossy)) return false; else if (false) {"
+    FROM "if (has(parts, Lobes::glossy) ||"
+    TO   "if (has(parts, Lobes::glossy)) return false; else if ("
     CASES "final gathering: a gather ray goes on*")
 
 # What the caustics map has of a lamp's light by gloss, gather rays bring again.
