@@ -65,8 +65,8 @@ struct PhotonMappingSettings {
     PhotonPassSettings general{};  ///< Photons for all other light.
     CausticBudget caustic_budget =
         CausticBudget::as_seen; ///< How mirrors and glass share caustics.photons.
-    /// Whether, with Budgeting listed, lights share them by what arrives even if objects
-    /// share them as seen. Its pilot may send a quarter of the photons at most.
+    /// Whether, with Budgeting listed, lights share them by what arrives even if the
+    /// objects share them as seen; by a pilot of at most a quarter of the photons.
     bool share_lights = false;
     /// How caustics are estimated; radius 0: chosen to hold 32 photons typically.
     DensityEstimateSettings caustics_estimate{};
