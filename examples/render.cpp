@@ -124,7 +124,8 @@ RenderedT<typename S::Scalar> map_photons(const Room<S>& room, Request& r) {
     examples::stop_if_asked();
     const Passes& passes = mapper.passes();
     const auto& maps = mapper.maps();
-    std::fputs(maps.remarks.c_str(), stderr);
+    r.remarks = maps.remarks;
+    std::fputs(r.remarks.c_str(), stderr);
     if (!r.quiet && (passes.caustics_map || passes.general_map)) {
         std::printf("  %-16s %8.2f s\n", "photons", watch.seconds());
         if (passes.caustics_map)
@@ -177,6 +178,8 @@ RenderedT<typename S::Scalar> render_promised(const Room<S>& room, Request& r) {
     };
     const auto now = [&watch] { return watch.seconds(); };
     auto kept = keep(room.world, room.camera, r.picture, r.promise, now, r.quiet, say);
+    r.remarks = kept.remarks;
+    std::fputs(r.remarks.c_str(), stderr);
     r.photon = kept.recipe.settings;
     r.picture.samples = kept.recipe.rays;
     r.preset = static_cast<Preset>(kept.choice.recipe); // one per preset

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -888,6 +889,16 @@ TEST_CASE("caustic_budget: lamps that nobody sees take no photons from the other
                     "budget by flux") != std::string::npos);
     settings.caustic_budget = CausticBudget::flux;
     CHECK(PhotonMapper(room, settings, abilities<Budgeting>).maps().remarks.empty());
+
+    // A preset asks the pilot if 200 photons for each of 51 lamps are a quarter at most.
+    settings.caustic_budget = CausticBudget::as_seen;
+    for (const auto& [photons, asks, shared] :
+         {std::tuple{40800LL, true, true}, std::tuple{40799LL, true, false},
+          std::tuple{40800LL, false, false}}) {
+        settings.caustics.photons = photons;
+        settings.share_lights = asks;
+        CHECK(caustic_light_shares(room, settings).empty() != shared);
+    }
 }
 
 TEST_CASE("caustic_budget: who has one lamp, or gives shares, has no pilot of lamps") {
@@ -910,6 +921,18 @@ TEST_CASE("caustic_budget: who has one lamp, or gives shares, has no pilot of la
     CHECK(mapper.settings().caustics.light_shares.size() == 2);
     settings.caustics.light_shares = {0.25, 0.75};
     CHECK(caustic_light_shares(two, settings) == std::vector{0.25, 0.75});
+
+    // The presets ask it, without a pilot of objects.
+    CHECK_FALSE(preset_settings(Preset::exact, 100, 100).share_lights);
+    for (const Preset preset : {Preset::draft, Preset::fast}) {
+        auto asked = preset_settings(preset, 100, 100);
+        CHECK(asked.share_lights);
+        asked.indirect = IndirectLight::none;
+        const PhotonMapper by_preset(two, asked, abilities<Budgeting>);
+        CHECK(by_preset.settings().caustics.light_shares ==
+              pilot_lights(two, asked.caustics));
+        CHECK(by_preset.settings().caustics.shares.empty());
+    }
     CHECK(refusal([&] {
               (void)trace_photons(one, MapType::caustics,
                                   {.photons = 9, .light_shares = {0.5, 0.5}});

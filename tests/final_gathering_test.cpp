@@ -327,6 +327,61 @@ TEST_CASE("final gathering: in a furnace every way of gathering finds L / (1 - a
     }
 }
 
+TEST_CASE("final gathering: with too few photons gather rays go on as paths") {
+    // Emission 1, albedo 0.5: radiance 2. 50 photons know little of it; paths have no
+    // bias, and 5 standard errors are allowed: a false alarm once in 1.7 million.
+    const auto room = box_furnace(Rgb{1}, Rgb{0.5f});
+    const RenderSettings picture{.width = 12, .height = 12, .samples = 4, .threads = 1};
+    for (const IndirectLight indirect : {IndirectLight::gather, IndirectLight::cache}) {
+        Mean seen;
+        PhotonMappingSettings settings{.direct = DirectLight::analytic,
+                                       .indirect = indirect};
+        settings.general.photons = 50;
+        settings.irradiance.least = 1000;
+        for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+            settings.general.seed = test_seed(seed);
+            RenderSettings one = picture;
+            one.seed = test_seed(seed);
+            PhotonMapper mapper(room.world, settings, abilities<Gathering>);
+            REQUIRE(mapper.maps().starved);
+            CHECK(mapper.state<Gathering>().points.empty());
+            mapper.fill_cache(room.camera, one);
+            double sum = 0;
+            for (const Rgb& pixel : render(mapper, room.camera, one).image.pixels)
+                sum += double(pixel.x) / (12 * 12);
+            seen.add(sum);
+        }
+        CAPTURE(int(indirect));
+        CHECK(seen.agrees_with(2));
+        CHECK(seen.error() < 0.02);
+    }
+    // How many are kept decides, and no others.
+    PhotonMappingSettings settings{.indirect = IndirectLight::gather};
+    settings.general.photons = 500;
+    const auto map_of = [&](int least) {
+        settings.irradiance.least = least;
+        return PhotonMapper(room.world, settings, abilities<Gathering>).maps();
+    };
+    const auto all = map_of(0);
+    const int kept = int(all.general.records.size()); // indirect photons alone
+    CHECK_FALSE(all.starved);
+    CHECK(all.remarks.empty());
+    CHECK_FALSE(map_of(kept).starved);
+    const auto starved = map_of(kept + 1);
+    CHECK(starved.starved);
+    CHECK(starved.general.empty());
+    CHECK(starved.remarks == "of 500 general photons " + std::to_string(kept) +
+                                 " landed twice or more, fewer than " +
+                                 std::to_string(kept + 1) +
+                                 ": paths carry the light between surfaces, not "
+                                 "these\n");
+    settings.keep_general_map = true;
+    CHECK(map_of(100000).general.records.size() > std::size_t(kept));
+    // No other source of indirect light asks for irradiance.
+    settings.indirect = IndirectLight::map;
+    CHECK_FALSE(map_of(100000).starved);
+}
+
 TEST_CASE("final gathering: an estimate of few photons, added up by hand") {
     // Epanechnikov's weights 2 (1 - d^2 / r^2), over pi r^2, in colours.
     const World scene(square(false));
@@ -652,6 +707,8 @@ TEST_CASE("final gathering: settings that give no picture are refused by a sente
                     "; it must be at least 0 (0: chosen from the photons).");
     refused([](auto& s) { s.irradiance.shadow_rays = 0; },
             "irradiance.shadow_rays is 0; it must be at least 1.");
+    refused([](auto& s) { s.irradiance.least = -1; },
+            "irradiance.least is -1; it must be at least 0.");
     refused([](auto& s) { s.gather.rays = 0; },
             "gather.rays is 0; it must be at least 1.");
     refused([](auto& s) { s.gather.tile = 0; },

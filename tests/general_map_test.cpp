@@ -735,6 +735,8 @@ TEST_CASE("general map: what the presets ask for") {
     CHECK(fast.indirect == IndirectLight::cache);
     CHECK(fast.gather.rays == 36);
     CHECK(fast.gather.tile == 4);
+    for (const auto& settings : {draft, fast}) // 32 photons in each of 32 discs
+        CHECK(settings.irradiance.least == 1024);
     const auto exact = preset_settings(Preset::exact, 400, 300);
     CHECK(exact.caustics.photons == 2000000);
     CHECK(exact.direct == DirectLight::mis);

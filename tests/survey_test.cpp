@@ -719,6 +719,16 @@ TEST_CASE("survey: every reason, in the order in which they are printed") {
     CHECK(plan.tree.on);
     CHECK(plan.tree.why == "30 objects, a tree finds the first on a ray");
     CHECK(plan.irradiance.why == "no gather ray asks for it");
+    const auto gather_with = [&](int least) {
+        return plan_of(lit, [least](PhotonMappingSettings& settings) {
+            settings.indirect = IndirectLight::gather;
+            settings.irradiance.least = least;
+        });
+    };
+    CHECK(gather_with(0).irradiance.why == "gather rays look it up where they end");
+    CHECK(gather_with(70).irradiance.why ==
+          "gather rays look it up where they end, unless fewer than 70 indirect "
+          "photons are kept");
     CHECK(plan.cache.why == "not asked for");
 
     // Skipping: with enough photons for the lights, with one too few, and in the dark.

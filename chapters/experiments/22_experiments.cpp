@@ -317,6 +317,86 @@ void compare_aims(const examples::Options& options, long long paths) {
     plot_aims(options, everywhere, aimed);
 }
 
+// --- A lamp far outside ---------------------------------------------------------------
+
+/// A floor, a wall and a ball under a small lamp that is brighter the farther it is.
+/// \param radii  Its distance, in radii of the sphere around them.
+auto under_far_lamp(float radii) {
+    Scene<Shapes<Sphere, Quad>, Materials<Lambertian>> scene;
+    const auto white = scene.add(Lambertian{.albedo = Rgb{0.7f}});
+    scene.add(Quad{{-2, 0, -2}, {0, 0, 4}, {4, 0, 0}}, white);
+    scene.add(Quad{{-2, 0, -2}, {4, 0, 0}, {0, 2.5f, 0}}, white);
+    scene.add(Sphere{.center{0.3f, 0.5f, 0}, .radius = 0.5f}, white);
+    const SphereT<float> lit = *lit_sphere(World(scene));
+    const Vec3 away = radii * lit.radius * glm::normalize(Vec3{-0.6f, 1, 0.5f});
+    const float radius = 0.1f;
+    const float far = glm::length(away) / radius; // E = pi L / far^2
+    scene.add(Sphere{.center = lit.center + away, .radius = radius}, white,
+              Rgb{far * far / float(pi)});
+    return Room<decltype(scene)>{
+        World(std::move(scene)),
+        look_at(
+            View{.position{-1, 3, 5}, .target{0, 0.6f, -0.3f}, .vfov_degrees = 40})};
+}
+
+/// Sends photons to their first surface, as the lamp emits them or aimed at the scene:
+/// pictures of where they land, and a table for lamps at several distances.
+void compare_far_lamps(const examples::Options& options, long long photons,
+                       long long paths) {
+    const auto land = [](const auto& room, const auto* aim, RandomStream& stream) {
+        const auto sent = aim ? emit(room.world, aim->choice, stream, *aim)
+                              : emit(room.world, room.world.light_choice(), stream);
+        const auto hit = closest_hit(room.world, sent.ray);
+        Photon photon{.direction = sent.ray.direction};
+        if (hit && !is_black(sent.flux)) {
+            photon.position = sent.ray.origin + hit->at.t * sent.ray.direction;
+            photon.flux = sent.flux;
+        }
+        return photon; // black if none has landed
+    };
+    const auto room = under_far_lamp(20);
+    const auto at_room = aim_at_scene(room.world, room.world.light_choice());
+    for (const bool aimed : {false, true}) {
+        std::vector<Photon> landed;
+        for (long long path = 0; path < photons; ++path) {
+            auto stream = random_stream(options.seed, Pass::user, 2,
+                                        static_cast<std::uint64_t>(path));
+            const Photon photon = land(room, aimed ? &at_room : nullptr, stream);
+            if (!is_black(photon.flux)) landed.push_back(photon);
+        }
+        Image image =
+            scene_drawing(room.world, room.camera, options.width, options.height);
+        add_dots(image, room, landed, PhotonKind::direct);
+        save_png(image, options.path(std::string("emission-far-") +
+                                     (aimed ? "aimed" : "everywhere") + ".png"));
+    }
+
+    examples::Table table{.name = "emission-far",
+                          .columns = {"distance, radii", "land", "land if aimed",
+                                      "flux, W", "flux if aimed, W", "photons for 1 %",
+                                      "for 1 % if aimed"},
+                          .rows = {}};
+    for (const int radii : {2, 8, 32, 128}) {
+        const auto far = under_far_lamp(float(radii));
+        const auto at_far = aim_at_scene(far.world, far.world.light_choice());
+        Brought ways[2];
+        for (const bool aimed : {false, true})
+            ways[aimed] = send(options, paths, [&](RandomStream& stream) {
+                return double(land(far, aimed ? &at_far : nullptr, stream).flux.y);
+            });
+        std::vector<std::string> row{std::to_string(radii)};
+        for (const Brought& b : ways)
+            row.push_back(
+                examples::text(100 * double(b.met) / double(paths), "%.3g %%"));
+        for (const Brought& b : ways) row.push_back(examples::text(b.mean, "%.3g"));
+        for (const Brought& b : ways)
+            row.push_back(
+                examples::text(1e4 * (b.squares / (b.mean * b.mean) - 1), "%.2g"));
+        table.rows.push_back(row);
+    }
+    examples::show_table(options, table);
+}
+
 // --- Spots and suns -------------------------------------------------------------------
 
 /// Photons of one light as dots on a floor, a wall and a ball.
@@ -637,6 +717,7 @@ int main(int argc, char** argv) {
         count_photons(options, sizes.photons);
         compare_roulettes(options, sizes.paths);
         compare_aims(options, sizes.paths);
+        compare_far_lamps(options, sizes.photons / 10, sizes.paths / 5);
         picture_of_light(options, sizes.photons,
                          SpotLight{.position{-1.5f, 2.5f, 1.5f},
                                    .direction{1.6f, -2.2f, -1.6f},

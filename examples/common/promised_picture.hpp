@@ -256,6 +256,7 @@ struct Kept {
     std::vector<Forecast> found{}; ///< The pilot's forecasts.
     Choice choice{};               ///< What was chosen,
     std::string why{};             ///< and why, in sentences.
+    std::string remarks{};         ///< Remarks on its photon passes, one a line.
     long long pictures = 0;        ///< The number of pictures.
     double seconds = 0;            ///< Time since the clock began, with the pilot.
     double noise = 0;              ///< Variance of the mean, from the scatter.
@@ -317,6 +318,7 @@ keep(const W& world, const C& camera, ljus::RenderSettings picture,
         ++kept.pictures;
         kept.rendered.counts += shot.rendered.counts;
         kept.recipe.settings = shot.settings;
+        kept.remarks = shot.remarks;
         kept.noise = relative_noise(state);
         kept.seconds = now();
         const double one = (kept.seconds - pilot_seconds) / double(kept.pictures);

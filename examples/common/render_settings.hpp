@@ -66,6 +66,7 @@ struct RenderRequest {
     PassOptions passes{};          ///< Progressive photon maps.
     Promise promise{};             ///< Seconds or an error.
     nlohmann::ordered_json kept{}; ///< How the promise was kept.
+    std::string remarks{};         ///< Remarks on the photon passes, one a line.
     std::string slice{};           ///< "3/16", or nothing.
     SliceNumber part{};            ///< The same as a number.
     std::string pixel{};           ///< "120,80", or nothing.
@@ -238,7 +239,8 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
         options = line.fill({width, height, rays.first});
         r.more_rays = options.samples > 1 ? rays.more : 0;
         r.photon = preset_settings(*r.preset, options.width, options.height);
-        r.photon.irradiance = {}; // keep the default shadow rays, not the preset's
+        // Keep the default shadow rays, not the preset's.
+        r.photon.irradiance = {.least = r.photon.irradiance.least};
         line.give_again();
     }
     if (r.passes.passes > 0) { // each pass has one ray per pixel
@@ -294,6 +296,7 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
     if (!r.photon.caustics.light_shares.empty())
         json["caustic-light-shares"] = r.photon.caustics.light_shares;
     if (!r.kept.empty()) json["promise"] = r.kept;
+    if (!r.remarks.empty()) json["remarks"] = r.remarks;
     return json;
 }
 

@@ -127,8 +127,8 @@ ljus_break_it(NAME final-gathering-step HEADER photons/kernel_border.hpp
 # A gather ray sees nothing of what gloss reflects.
 ljus_break_it(NAME final-gathering-gloss-black HEADER render/final_gathering.hpp
     TEST final_gathering
-    FROM "if (has(parts, Lobes::glossy)) {"
-    TO   "if (has(parts, Lobes::glossy)) return false; else if (false) {"
+    FROM "if (has(parts, Lobes::glossy) ||"
+    TO   "if (has(parts, Lobes::glossy)) return false; else if ("
     CASES "final gathering: a gather ray goes on*")
 
 # What the caustics map has of a lamp's light by gloss, gather rays bring again.
@@ -152,6 +152,29 @@ ljus_break_it(NAME final-gathering-gloss-matt HEADER render/photon_mapping.hpp
 "
     TO   ""
     CASES "final gathering: a white room*")
+
+# Where the map has too few photons, gather rays end and find nothing.
+ljus_break_it(NAME final-gathering-starved HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM "(lookup.paths && has(parts, Lobes::diffuse))"
+    TO   "(false && has(parts, Lobes::diffuse))"
+    CASES "final gathering: with too few photons*")
+
+# Paths of the camera end where nothing is known.
+ljus_break_it(NAME final-gathering-starved-camera HEADER render/photon_mapping.hpp
+    TEST final_gathering
+    FROM "(has(parts, Lobes::glossy) || mapper.maps().starved)"
+    TO   "has(parts, Lobes::glossy)"
+    CASES "final gathering: with too few photons*")
+
+# All photons count, though only those that have landed before are looked up.
+ljus_break_it(NAME final-gathering-starved-count HEADER render/photon_mapping.hpp
+    TEST final_gathering
+    FROM "count_of(photons, PhotonKind::indirect);
+    maps.starved"
+    TO   "static_cast<long long>(photons.size());
+    maps.starved"
+    CASES "final gathering: with too few photons*")
 
 # Its lamps are asked again, though the caustics map has told.
 ljus_break_it(NAME final-gathering-gloss-again HEADER render/photon_mapping.hpp

@@ -100,6 +100,12 @@ for line in '^skipped rays  *on ' 'shared out by flux, the radius comes from the
     'photon mapping in 7 passes, alpha 0.5$'; do
     grep -q "$line" plan.txt || wrong "no $line in the plan"
 done
+# Too few photons are said, on the terminal and beside the picture.
+"$render" "$scene" "${few[@]}" --preset draft --general-photons 500 --quiet --out choice.pfm \
+    2>err.txt
+grep -q '^of 500 general photons .* landed twice or more, fewer than 1024' err.txt ||
+    wrong "no remark on few photons: $(cat err.txt)"
+json_has '"remarks": "of 500 general photons'
 "$render" "$scene" "${few[@]}" --renderer path --path-lights power --quiet --out choice.pfm
 json_has '"path-lights": "power"'
 

@@ -162,8 +162,13 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
     plan_photons(plan, run, found, settings);
     plan_skipping(plan, run, settings);
     plan.irradiance = {"irradiance", run.irradiance,
-                       run.irradiance ? "gather rays look it up where they end"
-                                      : "no gather ray asks for it"};
+                       !run.irradiance ? "no gather ray asks for it"
+                       : settings.irradiance.least == 0
+                           ? "gather rays look it up where they end"
+                           : "gather rays look it up where they end, unless fewer "
+                             "than " +
+                                 std::to_string(settings.irradiance.least) +
+                                 " indirect photons are kept"};
     plan.cache = {"irradiance cache", run.cache,
                   run.cache ? "pixels interpolate what few points gather"
                             : "not asked for"};

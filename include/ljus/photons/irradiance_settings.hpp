@@ -20,6 +20,8 @@ struct IrradiancePointSettings {
     float radius = 0;    ///< Their maximum radius, in scene units; 0: four times their
                          ///< typical radius.
     int shadow_rays = 4; ///< Per light, for direct light; at least 1.
+    int least = 0;       ///< Fewest indirect photons of the map: with fewer, no gather
+                         ///< ray ends at a point; it goes on as a path does.
     bool edges = true;   ///< Divide by the fraction of the disc on the shape.
 };
 

@@ -76,6 +76,21 @@ struct EmittedPhotonT {
     std::uint16_t light = 0; ///< Index of its light.
 };
 
+namespace detail {
+
+/// How photons leave a light that is not aimed.
+struct LeaveAsEmitted {
+    /// A photon by emit_photon(), whichever number the light has.
+    template <Light L, std::floating_point T>
+    [[nodiscard]] LeavingPhotonT<T>
+    operator()(std::uint32_t, const L& light, const Vec2T<T>& u_point,
+               const Vec2T<T>& u_direction, T time) const {
+        return emit_photon(light, u_point, u_direction, time);
+    }
+};
+
+} // namespace detail
+
 /// Emits a photon of a light chosen by power; see emit_photon().
 ///
 /// Each photon of a white light carries the same flux, the scene's total flux over the
@@ -84,22 +99,24 @@ struct EmittedPhotonT {
 /// \param choice  The distribution of its lights, at least one: World::light_choice()
 ///                or another.
 /// \param stream  Five numbers are drawn from a stream of any kind.
+/// \param leave   How a photon leaves its light: as it emits, or a SceneAimT.
 /// \return The photon; its flux is that of all paths together.
 /// \report{Section 3.2.2}
 /// \erratum{The program behind the report gives every light the same number of photons
 ///          and the same flux whatever its area, and multiplies the flux by the cosine
 ///          that the direction's density already holds.}
 // [emit]
-template <AnyWorld W, StreamLike Stream>
+template <AnyWorld W, StreamLike Stream, typename Leave = detail::LeaveAsEmitted>
 [[nodiscard]] EmittedPhotonT<typename W::Scalar>
-emit(const W& world, const LightChoice& choice, Stream& stream) {
+emit(const W& world, const LightChoice& choice, Stream& stream,
+     const Leave& leave = {}) {
     using T = typename W::Scalar;
     const ChosenLightT<T> chosen = choose_light(choice, next_1d<T>(stream));
     const Vec2T<T> u_point = next_2d<T>(stream);
     const Vec2T<T> u_direction = next_2d<T>(stream);
     const T time = detail::path_time(world, stream);
     LeavingPhotonT<T> photon = world.visit_light(chosen.light, [&](const auto& light) {
-        return emit_photon(light, u_point, u_direction, time);
+        return leave(chosen.light, light, u_point, u_direction, time);
     });
     photon.ray.time = time;
     return {.ray = photon.ray,

@@ -11,6 +11,7 @@
 #include "ljus/parallel.hpp"
 #include "ljus/photons/aiming.hpp"
 #include "ljus/photons/photon_pass.hpp"
+#include "ljus/photons/scene_aim.hpp"
 
 namespace ljus {
 
@@ -21,7 +22,7 @@ namespace detail {
 
 /// Emits and traces the paths of a block.
 template <AnyWorld W, std::floating_point T>
-void trace_block(const W& world, MapType map, const LightChoice& choice,
+void trace_block(const W& world, MapType map, const SceneAimT<T>& aim,
                  const std::vector<ObjectId>& targets, const PhotonPassSettings& pass,
                  const BlockRange& paths, PhotonBlockT<T>& block) {
     const Pass part =
@@ -35,14 +36,18 @@ void trace_block(const W& world, MapType map, const LightChoice& choice,
         SentPhotonT<T> sent;
         if (map == MapType::caustics) {
             const auto aimed =
-                aim_by_share(world, choice, targets, pass.shares, stream);
+                aim_by_share(world, aim.choice, targets, pass.shares, stream);
             if (!aimed) {
                 ++block.unsent;
                 continue;
             }
             sent = {aimed->photon, aimed->target};
         } else {
-            sent.photon = emit(world, choice, stream);
+            sent.photon = emit(world, aim.choice, stream, aim);
+            if (is_black(sent.photon.flux)) { // behind a lamp, or outside of its cone
+                ++block.unsent;
+                continue;
+            }
         }
         sent.photon.flux /= static_cast<T>(pass.photons);
         trace_photon(world, map, sent, pass, stream, block);
@@ -88,6 +93,17 @@ template <std::floating_point T>
     for (std::size_t i = 0; pass.equal_lights && i < lights; ++i)
         choice.cumulative[i] = static_cast<double>(i + 1);
     return choice;
+}
+
+/// Where the photons of a pass leave their lights to; those of the caustics map are
+/// aimed at single objects instead.
+/// \param choice  The distribution of the lights for the pass.
+template <AnyWorld W>
+[[nodiscard]] SceneAimT<typename W::Scalar> scene_aim_of(const W& world, MapType map,
+                                                         const PhotonPassSettings& pass,
+                                                         LightChoice choice) {
+    if (map == MapType::caustics) return {.choice = std::move(choice)};
+    return aim_at_scene(world, choice, pass.light_shares.empty() && !pass.equal_lights);
 }
 
 /// The objects at which the photons of a pass are aimed: none for the general map.
@@ -167,13 +183,14 @@ template <AnyWorld W>
 [[nodiscard, gnu::cold]] TracedPhotonsT<typename W::Scalar>
 trace_photons(const W& world, MapType map, const PhotonPassSettings& pass) {
     using T = typename W::Scalar;
-    const LightChoice choice = detail::start_pass<T>(pass, world.light_choice());
+    const auto aim = detail::scene_aim_of(
+        world, map, pass, detail::start_pass<T>(pass, world.light_choice()));
     const auto targets = detail::targets_of(world, map, pass);
     if (map == MapType::caustics && targets.empty()) return {.emitted = pass.photons};
 
     const auto trace = [&](const detail::BlockRange& paths,
                            detail::PhotonBlockT<T>& block) {
-        detail::trace_block(world, map, choice, targets, pass, paths, block);
+        detail::trace_block(world, map, aim, targets, pass, paths, block);
     };
     const auto call = [](const void* tracer, const detail::BlockRange& paths,
                          detail::PhotonBlockT<T>& block) {
@@ -201,11 +218,12 @@ trace_photons(const W& world, MapType map, const PhotonPassSettings& pass,
     require_at_least("the first path", first, 0);
     require_at_least("the last path", last, first);
     require_at_least("the number of photons", pass.photons, last);
-    const LightChoice choice = detail::start_pass<T>(pass, world.light_choice());
+    const auto aim = detail::scene_aim_of(
+        world, map, pass, detail::start_pass<T>(pass, world.light_choice()));
     const auto targets = detail::targets_of(world, map, pass);
     detail::PhotonBlockT<T> block;
     if (map == MapType::general || !targets.empty())
-        detail::trace_block(world, map, choice, targets, pass, {first, last}, block);
+        detail::trace_block(world, map, aim, targets, pass, {first, last}, block);
     return {.photons = std::move(block.photons),
             .audit = block.audit,
             .emitted = last - first};

@@ -22,15 +22,19 @@ struct Budgeting {
 /// The shares of caustic photons by light for a budget, measured by pilot_lights().
 /// \param world     The closed scene.
 /// \param settings  The budget and the photons.
-/// \return As PhotonPassSettings::light_shares; those in the settings if the budget
-///         measures nothing, or if shares are given.
+/// \return As PhotonPassSettings::light_shares; those in the settings if nothing is
+///         measured, or if shares are given.
 template <AnyWorld W>
 [[nodiscard]] std::vector<double>
 caustic_light_shares(const W& world, const PhotonMappingSettings& settings) {
     const CausticBudget budget = settings.caustic_budget;
     const bool given =
         !settings.caustics.light_shares.empty() || !settings.caustics.shares.empty();
-    if (given || budget == CausticBudget::as_seen || budget == CausticBudget::equal)
+    const bool measures =
+        budget != CausticBudget::as_seen && budget != CausticBudget::equal;
+    const auto lights = static_cast<long long>(world.light_count());
+    const bool affordable = 4 * 200 * lights <= settings.caustics.photons;
+    if (given || !(measures || (settings.share_lights && affordable)))
         return settings.caustics.light_shares;
     return pilot_lights(world, settings.caustics);
 }

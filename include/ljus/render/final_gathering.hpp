@@ -64,6 +64,8 @@ struct GatherLookupT {
     const PhotonMapT<T>* caustics = nullptr;     ///< For both, and glossy surfaces.
     DensityEstimateSettings caustics_estimate{}; ///< Estimate of caustics on gloss.
     bool gloss_as_mirrors = false; ///< As in the PhotonPassSettings of the map.
+    bool paths = false; ///< Whether rays go on at diffuse surfaces as at glossy ones,
+                        ///< since the map has too few photons.
 
     /// Irradiance points alone: where there is none, it is dark.
     GatherLookupT(const IrradiancePointsT<T>& known) noexcept : points(&known) {}
@@ -129,7 +131,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
 /// counted the light that reaches the ray's origin by nearly_specular() surfaces, the
 /// ray is followed through these as through mirrors. At any other glossy surface the
 /// light of lamps and of the caustics map is added, and the ray continues in a sampled
-/// direction.
+/// direction. With `lookup.paths` so it does at a diffuse surface.
 /// \param world      The closed scene.
 /// \param lookup     Irradiance points, or these with a caustics map.
 /// \param path       The ray, as it leaves a diffuse surface.
@@ -153,7 +155,8 @@ gather_ray(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
         const auto at_material = [&](const auto& material) {
             const Lobes parts = lobes(material);
             Lobes on = Lobes::specular;
-            if (has(parts, Lobes::glossy)) {
+            if (has(parts, Lobes::glossy) ||
+                (lookup.paths && has(parts, Lobes::diffuse))) {
                 on = Lobes::all;
                 if (!mirrors || !nearly_specular_at(world, *vertex, material)) {
                     found.radiance +=

@@ -29,7 +29,9 @@ template <typename Mapper>
 gather_lookup(const Mapper& mapper) noexcept {
     GatherLookupT<typename Mapper::Scalar> lookup(
         mapper.template state<Gathering>().points);
-    if (mapper.passes().irradiance) lookup.general = &mapper.maps().general;
+    lookup.paths = mapper.maps().starved;
+    if (mapper.passes().irradiance && !lookup.paths)
+        lookup.general = &mapper.maps().general;
     lookup.irradiance = mapper.settings().irradiance;
     lookup.caustics = &mapper.maps().caustics;
     lookup.caustics_estimate = mapper.settings().caustics_estimate;

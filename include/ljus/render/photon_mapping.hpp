@@ -3,6 +3,7 @@
 /// \file ljus/render/photon_mapping.hpp
 /// \brief The report's renderer: two photon maps, and rays from the camera.
 
+#include <algorithm>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -60,6 +61,8 @@ struct PhotonMapsT {
     PhotonMapT<T> general; ///< L D, L ... D ... D, and shadows; empty unless asked for.
     FluxAudit caustics_audit{}; ///< Where the flux of the caustics pass went.
     FluxAudit general_audit{};  ///< Where the flux of the general pass went.
+    bool starved = false;       ///< Whether the general map has fewer indirect photons
+                                ///< than IrradiancePointSettings::least.
     bool complete = true;       ///< False if the progress callback stopped the pass.
     std::string remarks{};      ///< Remarks of survey and passes, one per line.
 };
@@ -109,17 +112,32 @@ requires(Included<First>&& StreamLike<First>) struct StreamAmong<First, X...> {
     return settings.general.shadow_photons ? all_kinds : light_kinds;
 }
 
+/// The number of photons of a kind.
+/// \param photons  Of the general pass.
+template <std::floating_point T>
+[[nodiscard]] long long count_of(const std::vector<PhotonT<T>>& photons,
+                                 PhotonKind kind) {
+    return std::count_if(photons.begin(), photons.end(),
+                         [kind](const auto& photon) { return photon.kind == kind; });
+}
+
 /// Whether most photons land once only, as in the open: irradiance points at indirect
 /// photons alone would then be too few.
 /// \param photons  Of the general pass.
 template <std::floating_point T>
 [[nodiscard]] bool lands_once(const std::vector<PhotonT<T>>& photons) {
-    std::size_t direct = 0, indirect = 0;
-    for (const PhotonT<T>& photon : photons) {
-        direct += photon.kind == PhotonKind::direct ? 1 : 0;
-        indirect += photon.kind == PhotonKind::indirect ? 1 : 0;
-    }
-    return direct > 2 * indirect;
+    return count_of(photons, PhotonKind::direct) >
+           2 * count_of(photons, PhotonKind::indirect);
+}
+
+/// A sentence about a general map with too few indirect photons.
+/// \param indirect  Indirect photons that it kept.
+[[nodiscard, gnu::cold]] inline std::string
+starved_remark(long long indirect, const PhotonMappingSettings& settings) {
+    return join({"of ", to_text(settings.general.photons), " general photons ",
+                 to_text(indirect), " landed twice or more, fewer than ",
+                 to_text(settings.irradiance.least),
+                 ": paths carry the light between surfaces, not these"});
 }
 
 /// Runs the photon passes: the maps that the plan asks for, and no others.
@@ -165,6 +183,12 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     }
     auto photons = trace(MapType::general, general, maps.general_audit);
     if (verdicts) judge(photons);
+    const long long indirect = count_of(photons, PhotonKind::indirect);
+    maps.starved = run.irradiance && indirect < settings.irradiance.least;
+    if (maps.starved) {
+        maps.remarks.append(starved_remark(indirect, settings)).append("\n");
+        if (!settings.keep_general_map) return maps;
+    }
     if (choose && lands_once(photons)) kept = light_kinds;
     if (verdicts || choose)
         std::erase_if(photons,
@@ -229,7 +253,7 @@ public:
             });
         choose_radii();
         if constexpr (has<Gathering>)
-            if (passes_.irradiance && maps_.complete)
+            if (passes_.irradiance && maps_.complete && !maps_.starved)
                 kept<Gathering>().points = make_irradiance_points(
                     world.get(), maps_.general, maps_.caustics, settings_.irradiance,
                     settings_.general.seed, settings_.general.threads);
@@ -487,8 +511,8 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                 const bool through = scatters_through(material);
                 bool gather = second && !through, mirror = false;
                 if constexpr (PhotonMapper<W, X...>::template has<Gathering>)
-                    if (second && has(parts, Lobes::glossy) &&
-                        settings.indirect != IndirectLight::map) {
+                    if (second && settings.indirect != IndirectLight::map &&
+                        (has(parts, Lobes::glossy) || mapper.maps().starved)) {
                         // No irradiance says what a glossy surface reflects.
                         gather = false;
                         mirror = gloss_mirrors &&

@@ -65,6 +65,9 @@ struct PhotonMappingSettings {
     PhotonPassSettings general{};  ///< Photons for all other light.
     CausticBudget caustic_budget =
         CausticBudget::as_seen; ///< How mirrors and glass share caustics.photons.
+    /// Whether, with Budgeting listed, lights share them by what arrives even if the
+    /// objects share them as seen; by a pilot of at most a quarter of the photons.
+    bool share_lights = false;
     /// How caustics are estimated; radius 0: chosen to hold 32 photons typically.
     DensityEstimateSettings caustics_estimate{};
     /// How the general map is queried; radius 0: chosen to hold 64 photons typically.
@@ -93,6 +96,7 @@ inline void check(const PhotonMappingSettings& settings) {
             "irradiance.radius", double(settings.irradiance.radius),
             "at least 0 (0: chosen from the photons)");
     require_at_least("irradiance.shadow_rays", settings.irradiance.shadow_rays, 1);
+    require_at_least("irradiance.least", settings.irradiance.least, 0);
     require_at_least("gather.rays", settings.gather.rays, 1);
     require_at_least("gather.tile", settings.gather.tile, 1);
     require(settings.gather.nearest >= 2 &&
@@ -142,6 +146,7 @@ enum class Preset : std::uint8_t {
     settings.direct = DirectLight::analytic;
     settings.shadow_rays = draft ? 2 : 4;
     settings.indirect = IndirectLight::cache;
+    settings.share_lights = true;
     const long long photons =
         std::clamp(draft ? pixels / 4 : pixels * 7 / 10, 10'000LL, 1'000'000LL);
     // Small pictures need more photons per pixel: blotches scale with the picture.
@@ -150,6 +155,8 @@ enum class Preset : std::uint8_t {
     settings.gather.rays = draft ? 16 : 36;
     settings.gather.tile = draft ? 5 : 4;
     if (!draft) settings.irradiance.shadow_rays = 2; // a gather ray is one of 36
+    // The disc of an estimate then covers at most 1/32 of what indirect light falls on.
+    settings.irradiance.least = 32 * int(settings.irradiance.nearest);
     return settings;
 }
 

@@ -1,0 +1,192 @@
+#pragma once
+
+/// \file ljus/photons/scene_aim.hpp
+/// \brief Photons of a far lamp, aimed at the scene.
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "ljus/photons/photon_path.hpp"
+
+namespace ljus {
+
+/// \addtogroup emission
+/// \{
+
+/// The sphere around all that photons are sent to: the objects that are no lamps, and
+/// the lamps that touch the sphere around those. A lamp far away would make the sphere
+/// as large as its distance.
+/// \param world  The closed scene.
+/// \return Larger by 0.1 %, against rounding; nothing if all objects are lamps.
+/// \cost Four passes over the objects.
+// [lit_sphere]
+template <AnyWorld W, std::floating_point T = typename W::Scalar>
+[[nodiscard]] std::optional<SphereT<T>> lit_sphere(const W& world) {
+    const auto sphere_around = [&](const auto& counts) -> std::optional<SphereT<T>> {
+        const auto visit = [&](const auto& f) {
+            for (std::uint32_t type = 0; type < world.objects().size(); ++type)
+                for (std::uint32_t i = 0; i < world.objects()[type].size(); ++i) {
+                    const SphereT<T> bound = world.visit_shape(
+                        {type, i}, [](const auto& s) { return bounding_sphere(s); });
+                    if (counts(world.objects()[type][i].light != no_light, bound))
+                        f(bound);
+                }
+        };
+        BoxT<T> box;
+        visit([&](const SphereT<T>& bound) {
+            box.low = glm::min(box.low, bound.center - bound.radius);
+            box.high = glm::max(box.high, bound.center + bound.radius);
+        });
+        if (!(box.low.x <= box.high.x)) return std::nullopt;
+        SphereT<T> sphere{.center = box.low + (box.high - box.low) / T(2), .radius = 0};
+        visit([&](const SphereT<T>& bound) {
+            sphere.radius = std::max(
+                sphere.radius,
+                T(1.001) * (bound.radius + glm::distance(sphere.center, bound.center)));
+        });
+        return sphere;
+    };
+    const auto matt = sphere_around([](bool lamp, const auto&) { return !lamp; });
+    if (!matt) return std::nullopt;
+    return sphere_around([&](bool lamp, const SphereT<T>& bound) {
+        return !lamp ||
+               glm::distance(bound.center, matt->center) <= bound.radius + matt->radius;
+    });
+}
+// [lit_sphere]
+
+namespace detail {
+
+/// The part of an aimed light's photons that is sent into the cone. The others leave as
+/// from any light, so that they find what lies outside the cone; their flux is at most
+/// eight times that of a photon that is not aimed.
+inline constexpr double part_in_cone = 7.0 / 8;
+
+/// A photon of a near light, most probably sent into the cone of a sphere.
+/// \param sphere  As of lit_sphere().
+/// \return The photon; its flux is 0 in directions in which the light does not emit.
+// [emit_into]
+template <NearLight L, std::floating_point T>
+[[nodiscard]] LeavingPhotonT<T> emit_into(const L& light, const SphereT<T>& sphere,
+                                          const Vec2T<T>& u_point, Vec2T<T> u, T time) {
+    constexpr T part = T(part_in_cone);
+    const auto point = emission_point(light, u_point, time);
+    const ConeT<T> cone = cone_towards(sphere, position_of(point));
+    bool inside = u.x < part;
+    Vec3T<T> direction;
+    if (inside) {
+        u.x /= part;
+        direction = to_world(frame_around(cone.axis),
+                             sample_uniform_cone(u, cone.one_minus_cos));
+    } else {
+        u.x = (u.x - part) / (T(1) - part);
+        direction = sample_emission(light, point, u);
+        const Vec3T<T> apart = direction - cone.axis; // accurate for narrow cones
+        inside = glm::dot(apart, apart) <= T(2) * cone.one_minus_cos;
+    }
+    const T emitted = pdf_emission(light, point, direction);
+    if (!(emitted > T(0))) return {leave(point, direction), RgbT<T>{T(0)}};
+    const T in_cone = inside ? part * pdf_uniform_cone(cone.one_minus_cos) : T(0);
+    const T drawn = in_cone + (T(1) - part) * emitted;
+    return {leave(point, direction), power(light) * (emitted / drawn)};
+}
+// [emit_into]
+
+/// The part of a light's flux that goes into the cone of a sphere, if it pays to aim
+/// there; nothing if not.
+///
+/// Let w be the quotient of the densities of emission and of the cone. A photon drawn
+/// in the cone is worth \f$ E[w]^2 / E[w^2] \f$ photons of equal flux, and of those
+/// that leave as the light emits the part \f$ E[w] \f$ goes into the cone. Therefore
+/// aiming pays if \f$ E[w] > E[w^2] \f$. It does not for a spot that shines on a part
+/// of the sphere, nor for a lamp that faces it from nearby.
+/// \param sphere  As of lit_sphere().
+// [part_of_flux_in]
+template <AnyWorld W, NearLight L, std::floating_point T>
+[[nodiscard]] std::optional<double> part_of_flux_in(const W& world, const L& light,
+                                                    const SphereT<T>& sphere) {
+    constexpr int samples = 64;
+    double sum = 0, squares = 0;
+    for (int i = 0; i < samples; ++i) {
+        auto stream = random_stream(0, Pass::general_photons, ~0ull, std::uint64_t(i));
+        const T time = path_time(world, stream);
+        const auto point = emission_point(light, next_2d<T>(stream), time);
+        const ConeT<T> cone = cone_towards(sphere, position_of(point));
+        if (cone.one_minus_cos == T(2)) return std::nullopt; // within the sphere
+        const Vec3T<T> direction =
+            to_world(frame_around(cone.axis),
+                     sample_uniform_cone(next_2d<T>(stream), cone.one_minus_cos));
+        const double w = double(pdf_emission(light, point, direction)) /
+                         double(pdf_uniform_cone(cone.one_minus_cos));
+        sum += w;
+        squares += w * w;
+    }
+    if (!(sum > squares)) return std::nullopt;
+    return sum / samples;
+}
+// [part_of_flux_in]
+
+} // namespace detail
+
+/// How the photons of a general map leave the lights of a scene: those of far lamps are
+/// aimed. `emit(world, aim.choice, stream, aim)` emits one.
+template <std::floating_point T>
+struct SceneAimT {
+    LightChoice choice{};         ///< By the flux that goes to the scene.
+    SphereT<T> sphere{};          ///< As of lit_sphere().
+    std::vector<bool> is_aimed{}; ///< One per light; none if none is aimed.
+
+    /// A photon that leaves a light.
+    /// \param number  The light's number; the others are those of emit_photon().
+    template <Light L>
+    [[nodiscard]] LeavingPhotonT<T>
+    operator()(std::uint32_t number, const L& light, const Vec2T<T>& u_point,
+               const Vec2T<T>& u_direction, T time) const {
+        if constexpr (NearLight<L>)
+            if (!is_aimed.empty() && is_aimed[number])
+                return detail::emit_into(light, sphere, u_point, u_direction, time);
+        return emit_photon(light, u_point, u_direction, time);
+    }
+};
+
+/// Finds the lights from which the scene fills so small a part of the directions that
+/// it pays to aim photons at it. Of a lamp far outside nearly all photons would fly
+/// past the scene otherwise. Lights within the scene and suns are not aimed. Jensen's
+/// projection maps \cite jensen2001 do the same by cells of directions.
+/// \param world     The closed scene.
+/// \param choice    The distribution of its lights.
+/// \param by_power  Whether that is by power. Then the choice of an aimed light is by
+///                  the flux that goes to the scene.
+/// \return For emit().
+/// \cost That of lit_sphere(), and 64 samples for each light outside the scene.
+template <AnyWorld W, std::floating_point T = typename W::Scalar>
+[[nodiscard]] SceneAimT<T> aim_at_scene(const W& world, const LightChoice& choice,
+                                        bool by_power = true) {
+    SceneAimT<T> aim{.choice = choice};
+    const auto sphere = lit_sphere(world);
+    if (!sphere) return aim;
+    aim.sphere = *sphere;
+    std::vector<bool> is_aimed;
+    double before = 0, sum = 0;
+    for (std::uint32_t i = 0; i < world.light_count(); ++i) {
+        const auto part =
+            world.visit_light(i, [&]<typename L>(const L& l) -> std::optional<double> {
+                if constexpr (NearLight<L>)
+                    return detail::part_of_flux_in(world, l, *sphere);
+                return std::nullopt;
+            });
+        is_aimed.push_back(part.has_value());
+        sum += (choice.cumulative[i] - before) * part.value_or(1.0);
+        before = choice.cumulative[i];
+        if (by_power) aim.choice.cumulative[i] = sum;
+    }
+    if (std::find(is_aimed.begin(), is_aimed.end(), true) == is_aimed.end())
+        return {.choice = choice};
+    aim.is_aimed = std::move(is_aimed);
+    return aim;
+}
+
+/// \}
+
+} // namespace ljus
