@@ -148,7 +148,7 @@ struct MaterialReader {
         has_diffuse = has_dissolve = false;
     }
     void read(std::string_view text) {
-        each_line(text, [&](std::string_view line, long long at) {
+        LineReader{path}.read(text, true, [&](std::string_view line, long long at) {
             Words words{line};
             number = at;
             const std::string_view keyword = words.next();
