@@ -40,3 +40,9 @@ ljus_break_it(NAME json-mesh-once HEADER io/detail/json_objects.hpp TEST load_js
     FROM "if (reading.scale != factor || reading.normals != which) continue;"
     TO   "if (reading.normals != \"\") continue;"
     CASES "load_json: a mesh file is read once*")
+
+# The path of an entry is that of the one behind it.
+ljus_break_it(NAME json-path HEADER io/detail/json_field.hpp TEST load_json
+    FROM "path + \"[\" + std::to_string(index) + \"]\";"
+    TO   "path + \"[\" + std::to_string(index + 1) + \"]\";"
+    CASES "load_json: an error names*")
