@@ -433,6 +433,7 @@ TEST_CASE("load_obj: materials of a file, and scenes that use it") {
     CHECK(loaded.parts[2].material.index == doctest::Approx(1.33));
     CHECK(loaded.parts[3].material.is_mirror());
     CHECK(loaded.parts[3].material.specular.z == 1);
+    CHECK(to_text(loaded.report).find("black") == std::string::npos);
     Scene<Shapes<Mesh>, Materials<Lambertian, Glass, Mirror>> scene;
     add_obj(scene, loaded);
     CHECK(scene.size() == 5);
@@ -652,7 +653,8 @@ TEST_CASE("load_obj: which words of a material file make a mirror or glass") {
     const std::string notes = to_text(loaded.report);
     for (
         const char* note :
-        {"line 28: Kd is 7 8 9; it must be one number or three, from 0 to 1. The "
+        {"line 8: illum makes a mirror whose colour, Ks, is 0: it is black.",
+         "line 28: Kd is 7 8 9; it must be one number or three, from 0 to 1. The "
          "nearest is taken.",
          "line 32: Kd is 0.25 0.5 1.5; it must be",
          "line 34: Ke is 7 nan -1; it must be one number or three, from 0 to 1e+12. It "

@@ -216,13 +216,13 @@ ljus_break_it(NAME obj-glass-of-nothing HEADER io/detail/obj_material.hpp TEST l
 
 # A picture under a black Kd is black.
 ljus_break_it(NAME obj-black-picture HEADER io/detail/obj_material.hpp TEST load_obj
-    FROM "const bool black = has_diffuse && color == glm::dvec3(0);"
+    FROM "const bool black = has_diffuse && is.diffuse == glm::dvec3(0);"
     TO   "const bool black = false;"
     CASES "load_obj: files of other programs")
 
 # Tr 1 under a picture is glass.
 ljus_break_it(NAME obj-tr-opaque HEADER io/detail/obj_material.hpp TEST load_obj
-    FROM "!has_dissolve && material->dissolve == 0)"
+    FROM "!has_dissolve && is.dissolve == 0)"
     TO   "false)"
     CASES "load_obj: files of other programs")
 
@@ -231,3 +231,9 @@ ljus_break_it(NAME obj-not-smooth HEADER io/detail/obj_reader.hpp TEST load_obj
     FROM "in_smooth_group_ = !group.empty() && group != \"off\" && group != \"0\";"
     TO   "in_smooth_group_ = group == \"on\";"
     CASES "load_obj: each trouble*")
+
+# A black mirror is not remarked.
+ljus_break_it(NAME obj-black-mirror HEADER io/detail/obj_material.hpp TEST load_obj
+    FROM "is.is_mirror() && is.specular == glm::dvec3(0)"
+    TO   "false"
+    CASES "load_obj: which words*")
