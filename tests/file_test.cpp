@@ -321,6 +321,29 @@ TEST_CASE("file: a file of too few bytes does not begin as it must") {
     }
 }
 
+TEST_CASE("file: pieces begin with what was left of the one before") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("words");
+    std::string whole;
+    for (int i = 0; i < 40000; ++i) whole += std::to_string(i) + " ";
+    whole += std::string(300000, 'x') + " end"; // longer than a piece
+    ScratchFolder::write(path, whole);
+    std::string words;
+    int last_ones = 0;
+    ljus::read_in_pieces(path, whole.size(), [&](std::string_view text, bool last) {
+        const std::size_t used = last ? text.size() : text.rfind(' ') + 1; // or 0
+        words += text.substr(0, used);
+        last_ones += last ? 1 : 0;
+        return used;
+    });
+    CHECK(words == whole);
+    CHECK(last_ones == 1);
+    CHECK_THROWS_WITH(
+        ljus::read_in_pieces(path, 9,
+                             [](std::string_view text, bool) { return text.size(); }),
+        ("cannot read '" + path + "': it is longer than the 9 bytes allowed.").c_str());
+}
+
 TEST_CASE("file: a list has what was read, as it was then") {
     const ScratchFolder folder;
     const std::string a = folder.file("a"), b = folder.file("b");

@@ -476,14 +476,14 @@ TEST_CASE(
     const std::string file = folder.file("s.json");
     const auto materials = nlohmann::json::parse(
         R"([{"file": "a.png"}, {"file": "./a.png"}, {"file": "b.png"}, {"file": 1}, 2])");
-    detail::FilePicturesT<float> pictures({materials, file, ""});
+    detail::FilePicturesT<float> pictures({materials, file, materials});
     CHECK(pictures.take(folder.file("a.png")).pixels.size() == 6);
     std::filesystem::rename(folder.file("a.png"), folder.file("b.png"));
     CHECK(pictures.take(folder.file("a.png")).pixels.size() == 6);
     CHECK(pictures.pixels == 12);
     CHECK(pictures.at(folder.file("a.png")).image.pixels.empty());
 
-    detail::FilePicturesT<float> many({materials, file, ""});
+    detail::FilePicturesT<float> many({materials, file, materials});
     many.at(folder.file("b.png")).uses = 3;
     many.pixels = (1 << 25) - 13;
     for (int i = 0; i < 2; ++i) (void)many.take(folder.file("b.png"));
@@ -1172,7 +1172,7 @@ TEST_CASE("load_json: a file beside the scene, or anywhere if its name is whole"
     const auto beside = [](const char* file, const char* name) {
         const nlohmann::json value = name;
         const std::string whole = file;
-        const detail::JsonField field{value, whole, "x"};
+        const detail::JsonField field{value, whole, value};
         return detail::path_beside(field);
     };
     CHECK(beside("scenes/a.json", "b.obj") == "scenes/b.obj");

@@ -141,6 +141,7 @@ TEST_CASE("load_obj: line ends, numbers from the end, comments, no last line fee
     for (const std::string& text : {dos, mac}) // lines are counted alike
         CHECK(trouble(text + "f 1 2 99\r\n", ObjTrouble::bad_index).line == 18);
     const auto back = read_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n", "x");
+    CHECK(back.parts[0].mesh.triangle(0).v1 == Vec3{0, 0, 0});
     CHECK(back.parts[0].mesh.triangle(0).v2 == Vec3{1, 0, 0});
 }
 
@@ -196,6 +197,33 @@ TEST_CASE("load_obj: random polygons are cut into triangles that all turn one wa
             sum += twice / 2;
         }
         REQUIRE(sum == doctest::Approx(right).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("load_obj: a polygon that is not flat is cut as it is seen along its area") {
+    // As before, around an axis that leans from all others, and up to 0.1 off a plane.
+    RandomStream stream = random_stream(8, Pass::user, 0, 0);
+    const glm::dvec3 normal = glm::normalize(glm::dvec3{1, 1.1, 1.2});
+    const glm::dvec3 u = glm::normalize(glm::cross(normal, glm::dvec3{1, 0, 0}));
+    const glm::dvec3 v = glm::cross(normal, u);
+    for (int round = 0; round < 300; ++round) {
+        const int count = 4 + int(next_1d<double>(stream) * 9);
+        std::vector<glm::dvec3> corners;
+        for (int i = 0; i < count; ++i) {
+            const double a = 2 * std::numbers::pi * i / count;
+            const double r = 0.3 + next_1d<double>(stream);
+            const double off = 0.1 * next_1d<double>(stream);
+            corners.push_back(r * std::cos(a) * u + r * std::sin(a) * v + off * normal);
+        }
+        glm::dvec3 area{0};
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            area += glm::cross(corners[i], corners[(i + 1) % corners.size()]);
+        const auto cut = detail::cut_polygon(corners);
+        REQUIRE(cut.triangles.size() == corners.size() - 2);
+        CHECK_FALSE(cut.crossed);
+        for (const auto& [a, b, c] : cut.triangles)
+            REQUIRE(glm::dot(area, glm::cross(corners[b] - corners[a],
+                                              corners[c] - corners[a])) > 0);
     }
 }
 
@@ -405,6 +433,7 @@ TEST_CASE("load_obj: materials of a file, and scenes that use it") {
     CHECK(loaded.parts[2].material.index == doctest::Approx(1.33));
     CHECK(loaded.parts[3].material.is_mirror());
     CHECK(loaded.parts[3].material.specular.z == 1);
+    CHECK(to_text(loaded.report).find("black") == std::string::npos);
     Scene<Shapes<Mesh>, Materials<Lambertian, Glass, Mirror>> scene;
     add_obj(scene, loaded);
     CHECK(scene.size() == 5);
@@ -624,7 +653,8 @@ TEST_CASE("load_obj: which words of a material file make a mirror or glass") {
     const std::string notes = to_text(loaded.report);
     for (
         const char* note :
-        {"line 28: Kd is 7 8 9; it must be one number or three, from 0 to 1. The "
+        {"line 8: illum makes a mirror whose colour, Ks, is 0: it is black.",
+         "line 28: Kd is 7 8 9; it must be one number or three, from 0 to 1. The "
          "nearest is taken.",
          "line 32: Kd is 0.25 0.5 1.5; it must be",
          "line 34: Ke is 7 nan -1; it must be one number or three, from 0 to 1e+12. It "
@@ -998,6 +1028,63 @@ TEST_CASE("load_obj: text in UTF-16 is refused by its name") {
                                                "': its text is UTF-16; save it as "
                                                "UTF-8.");
     }
+}
+
+TEST_CASE("load_obj: a file that comes in pieces has the lines of the whole") {
+    const std::string text =
+        "\xef\xbb\xbfv 1\r\n\r\n\rf 1 \\\r\n2\\\n\n# c\\\n\\\n\nf\\";
+    const std::vector<std::pair<std::string, long long>> right{
+        {"v 1", 1}, {"", 2}, {"", 3}, {"f 1  2 ", 4}, {"# c  ", 7}, {"f\\", 10}};
+    for (std::size_t step = 1; step <= text.size(); ++step) {
+        CAPTURE(step);
+        std::vector<std::pair<std::string, long long>> lines;
+        const std::string name = "x.obj";
+        detail::LineReader reader{name};
+        std::size_t begin = 0;
+        for (std::size_t end = 3;; end += step) { // a mark is read whole
+            const bool last = end >= text.size();
+            end = std::min(end, text.size());
+            begin += reader.read(std::string_view(text).substr(begin, end - begin),
+                                 last, [&](std::string_view line, long long number) {
+                                     lines.emplace_back(line, number);
+                                 });
+            if (last) break;
+        }
+        CHECK(begin == text.size());
+        CHECK(lines == right);
+    }
+    // A file of many pieces, with a line that is longer than each of them.
+    const ScratchFolder folder;
+    const MeshData ball = icosphere(Sphere{.center{1, 2, 3}, .radius = 0.7f}, 5);
+    const std::string file = "#" + std::string(1 << 18, ' ') + "\n" + obj_text(ball);
+    ScratchFolder::write(folder.file("ball.obj"), file);
+    const auto loaded = load_obj(folder.file("ball.obj"));
+    CHECK(to_text(loaded.report).empty());
+    const MeshData& again = loaded.parts.at(0).mesh.data();
+    CHECK(again.positions.size() == ball.positions.size());
+    REQUIRE(again.triangles.size() == ball.triangles.size());
+    int other = 0;
+    for (std::size_t i = 0; i < ball.triangles.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            other += ball.positions[ball.triangles[i][k]] ==
+                             again.positions[again.triangles[i][k]]
+                         ? 0
+                         : 1;
+    CHECK(other == 0);
+}
+
+TEST_CASE("load_obj: a material file may be named behind its use") {
+    const ScratchFolder folder;
+    ScratchFolder::write(folder.file("a.mtl"), "newmtl red\nKd 1 0 0\n");
+    const auto loaded = read_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl none\n"
+                                 "f 1 2 3\nusemtl red\nf 1 2 3\nusemtl nothing\n"
+                                 "f 1 2 3\nusemtl none\nmtllib a.mtl\n",
+                                 folder.file("x.obj"));
+    REQUIRE(loaded.parts.size() == 2);
+    CHECK(loaded.parts[0].mesh.size() == 3); // of no material, or of none that is known
+    CHECK(loaded.parts[1].material.diffuse == glm::dvec3{1, 0, 0});
+    CHECK(loaded.report[ObjTrouble::no_material].count == 3);
+    CHECK(loaded.report[ObjTrouble::no_material].line == 5);
 }
 
 TEST_CASE("load_obj: random polygons with holes have the area that is left") {

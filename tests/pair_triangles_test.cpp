@@ -1,10 +1,13 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "ljus/geometry/detail/pair_triangles.hpp"
+#include "ljus/math/random.hpp"
 
 using namespace ljus;
 
@@ -172,4 +175,28 @@ TEST_CASE("pair_triangles: how far a corner may be off grows with the coordinate
     CHECK(shapes({{0, 0, 0}, {small, 0, 0}, {small, small, 0}, {0, small, 0}},
                  {{0, 1, 2}, {0, 2, 3}})
               .quads.size() == 1);
+}
+
+TEST_CASE("pair_triangles: equal points are found as by comparing each with each") {
+    const auto check = [](auto zero) {
+        using T = decltype(zero);
+        RandomStream stream = random_stream(3, Pass::user, 0, 0);
+        for (const int count : {0, 1, 2, 300}) {
+            std::vector<Vec3T<T>> points;
+            for (int i = 0; i < count; ++i) {
+                Vec3T<T> point;
+                for (int axis = 0; axis < 3; ++axis) // -2, ..., 2, and both zeros
+                    point[axis] = std::trunc(5 * next_1d<T>(stream) - T(2.5));
+                points.push_back(point);
+            }
+            const auto first = detail::first_equal_points(points);
+            REQUIRE(first.size() == points.size());
+            for (std::size_t i = 0; i < points.size(); ++i)
+                CHECK(first[i] ==
+                      std::uint32_t(std::find(points.begin(), points.end(), points[i]) -
+                                    points.begin()));
+        }
+    };
+    check(0.0f);
+    check(0.0);
 }

@@ -42,6 +42,12 @@ ljus_break_it(NAME file-shown-letters HEADER io/file_beside.hpp TEST file
 
 # What was read is listed without what was in it.
 ljus_break_it(NAME file-hash HEADER io/file.hpp TEST file
-    FROM "current()->files_.back().hash = hash;"
+    FROM "notes->files_[number].hash = hash;"
     TO   "(void)hash;"
     CASES "file: a list has what*")
+
+# What is left of a piece is lost.
+ljus_break_it(NAME file-pieces HEADER io/file.hpp TEST file
+    FROM "left = text.size() - used;"
+    TO   "left = 0;"
+    CASES "file: pieces*")

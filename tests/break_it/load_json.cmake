@@ -46,3 +46,8 @@ ljus_break_it(NAME json-environments HEADER io/detail/json_lights.hpp TEST load_
     FROM "if (!std::get<std::vector<EnvironmentLightT<T>>>(scene.lights).empty())"
     TO   "if (false)"
     CASES "load_json: an environment*")
+# The path of an entry is that of the one behind it.
+ljus_break_it(NAME json-path HEADER io/detail/json_field.hpp TEST load_json
+    FROM "path + \"[\" + std::to_string(index) + \"]\";"
+    TO   "path + \"[\" + std::to_string(index + 1) + \"]\";"
+    CASES "load_json: an error names*")

@@ -1,8 +1,8 @@
-# The number of a vertex, from the end, off by one.
-ljus_break_it(NAME load-obj-from-the-end HEADER io/detail/obj_text.hpp TEST load_obj
-    FROM "number > 0 ? number - 1 :"
-    TO   "number > 1 ? number - 1 :"
-    CASES "load_obj: a cube*")
+# The number of a vertex from the end is counted from the beginning.
+ljus_break_it(NAME load-obj-from-the-end HEADER io/detail/obj_reader.hpp TEST load_obj
+    FROM "number - 1 : number + all"
+    TO   "number - 1 : -number - 1"
+    CASES "load_obj: line ends*")
 
 # What is no number is 0, as many a program has it.
 ljus_break_it(NAME load-obj-bad-number HEADER io/detail/obj_text.hpp TEST load_obj
@@ -11,7 +11,7 @@ ljus_break_it(NAME load-obj-bad-number HEADER io/detail/obj_text.hpp TEST load_o
     CASES "load_obj: each trouble*")
 
 # A number that does not fit, or is none, is taken as far as it goes.
-ljus_break_it(NAME load-obj-overflow HEADER io/detail/obj_text.hpp TEST load_obj
+ljus_break_it(NAME load-obj-overflow HEADER io/detail/obj_reader.hpp TEST load_obj
     FROM "end > 0 && (stop != last || error != std::errc{})"
     TO   "false"
     CASES "load_obj: each trouble*")
@@ -30,25 +30,25 @@ ljus_break_it(NAME polygon-fan HEADER geometry/detail/polygon.hpp TEST load_obj
 
 # The neighbours of an ear that is cut off are not asked again.
 ljus_break_it(NAME polygon-neighbours HEADER geometry/detail/polygon.hpp TEST load_obj
-    FROM "ears[beside] = is_ear(left[beside]) ? 1 : 0;"
-    TO   "ears[beside] = 1;"
+    FROM "ears[k] = is_ear(k) ? 1 : 0;"
+    TO   "ears[k] = 1;"
     CASES "load_obj: polygons*,load_obj: many corners*")
 
 # A hostile texture coordinate is taken for none without a word.
 ljus_break_it(NAME load-obj-uv-index HEADER io/detail/obj_reader.hpp TEST load_obj
-    FROM "(named.uv == 0 || face_corners.back().uv)"
-    TO   "true"
+    FROM "missing[k] || (end > 0 && corner[k] == no_number);"
+    TO   "missing[k];"
     CASES "load_obj: each trouble*")
 
 # All corners have the first texture coordinates of the file.
 ljus_break_it(NAME load-obj-uv HEADER io/detail/obj_reader.hpp TEST load_obj
-    FROM "corner.uv ? uv[*corner.uv]"
-    TO   "corner.uv ? uv[0]"
+    FROM "uv != no_number ? uv_[uv]"
+    TO   "uv != no_number ? uv_[0]"
     CASES "load_obj: texture coordinates*")
 
 # A seam of the picture is an edge of the surface.
 ljus_break_it(NAME load-obj-seam HEADER io/detail/obj_reader.hpp TEST load_obj
-    FROM "smooth_across_seams(part);"
+    FROM "part.smooth();"
     TO   "smooth_normals(part.data);"
     CASES "load_obj: texture coordinates*")
 
@@ -60,8 +60,8 @@ ljus_break_it(NAME load-obj-picture HEADER io/load_obj.hpp TEST load_obj
 
 # The first line that is met in place of the first line of the file.
 ljus_break_it(NAME load-obj-first-line HEADER io/obj_report.hpp TEST load_obj
-    FROM "if (at.count++ == 0 || line < at.line) at.line = line;"
-    TO   "if (at.count++ == 0) at.line = line;"
+    FROM "if (at.count == 0 || line < at.line) at.line = line;"
+    TO   "if (at.count == 0) at.line = line;"
     CASES "load_obj: a report has the first line*")
 
 # What is glass and a mirror at once.
@@ -120,7 +120,7 @@ ljus_break_it(NAME text-mark HEADER io/file.hpp TEST load_obj
 
 # A line does not go on behind a backslash.
 ljus_break_it(NAME obj-backslash HEADER io/detail/obj_text.hpp TEST load_obj
-    FROM "if (line.ends_with('\\\\') && !text.empty()) {"
+    FROM "if (line.ends_with('\\\\') && !rest.empty()) {"
     TO   "if (false) {"
     CASES "load_obj: files of other programs")
 
@@ -142,11 +142,29 @@ ljus_break_it(NAME pfm-blanks HEADER io/pfm.hpp TEST pfm
     TO   ""
     CASES "pfm: blanks behind*")
 
-# A box of corners is passed over though it meets an ear.
-ljus_break_it(NAME polygon-boxes HEADER geometry/detail/polygon.hpp TEST load_obj
-    FROM "sides.u[k] > 0 ? high.x : low.x"
-    TO   "sides.u[k] > 0 ? low.x : high.x"
+# Only corners that stand out keep an ear.
+ljus_break_it(NAME polygon-hollow HEADER geometry/detail/polygon.hpp TEST load_obj
+    FROM "if (is_hollow(i)) hollow.push_back(left[i]);"
+    TO   "if (!is_hollow(i)) hollow.push_back(left[i]);"
     CASES "load_obj: random polygons are cut*")
+
+# A polygon that is not flat is seen along an axis.
+ljus_break_it(NAME polygon-seen HEADER geometry/detail/polygon.hpp TEST load_obj
+    FROM "const double along = from[axis] / across[axis];"
+    TO   "const double along = 0;"
+    CASES "load_obj: a polygon that is not flat*")
+
+# The next piece of a file begins behind a line that has only begun.
+ljus_break_it(NAME obj-piece HEADER io/detail/obj_text.hpp TEST load_obj
+    FROM "if (rest.empty() && !last) return piece.size() - left;"
+    TO   ";"
+    CASES "load_obj: a file that comes in pieces*")
+
+# A vertex for each corner of each face.
+ljus_break_it(NAME obj-vertices HEADER io/detail/obj_reader.hpp TEST load_obj
+    FROM "if (corners_[vertex] == corner) return vertex;"
+    TO   ";"
+    CASES "load_obj: what is written*")
 
 # A material file is read as often as it is named.
 ljus_break_it(NAME obj-library-once HEADER io/detail/obj_material.hpp TEST load_obj
@@ -156,8 +174,8 @@ ljus_break_it(NAME obj-library-once HEADER io/detail/obj_material.hpp TEST load_
 
 # The next faces have the material before.
 ljus_break_it(NAME obj-part-reset HEADER io/detail/obj_reader.hpp TEST load_obj
-    FROM "part.reset();"
-    TO   ""
+    FROM "material_ = known.number;"
+    TO   "material_ = 1;"
     CASES "load_obj: materials of a file*")
 
 # A tetrahedron has a third of its parallelepiped in place of a sixth.
@@ -185,9 +203,9 @@ ljus_break_it(NAME obj-tiny-number HEADER io/detail/obj_text.hpp TEST load_obj
     CASES "load_obj: files of other programs")
 
 # A 0 for "no normal" makes the whole corner unreadable.
-ljus_break_it(NAME obj-zero-index HEADER io/detail/obj_text.hpp TEST load_obj
-    FROM "*number = std::numeric_limits<long long>::max();"
-    TO   "return std::nullopt;"
+ljus_break_it(NAME obj-zero-index HEADER io/detail/obj_reader.hpp TEST load_obj
+    FROM "corner[k] = place_of(number, counts[k]);"
+    TO   "if (end > 0 && number == 0) break;"
     CASES "load_obj: files of other programs")
 
 # Glass of index 1, which nobody sees.
@@ -198,18 +216,24 @@ ljus_break_it(NAME obj-glass-of-nothing HEADER io/detail/obj_material.hpp TEST l
 
 # A picture under a black Kd is black.
 ljus_break_it(NAME obj-black-picture HEADER io/detail/obj_material.hpp TEST load_obj
-    FROM "const bool black = has_diffuse && color == glm::dvec3(0);"
+    FROM "const bool black = has_diffuse && is.diffuse == glm::dvec3(0);"
     TO   "const bool black = false;"
     CASES "load_obj: files of other programs")
 
 # Tr 1 under a picture is glass.
 ljus_break_it(NAME obj-tr-opaque HEADER io/detail/obj_material.hpp TEST load_obj
-    FROM "!has_dissolve && material->dissolve == 0)"
+    FROM "!has_dissolve && is.dissolve == 0)"
     TO   "false)"
     CASES "load_obj: files of other programs")
 
 # That faces are meant to be smooth is not said.
 ljus_break_it(NAME obj-not-smooth HEADER io/detail/obj_reader.hpp TEST load_obj
-    FROM "in_smooth_group = !group.empty() && group != \"off\" && group != \"0\";"
-    TO   "in_smooth_group = group == \"on\";"
+    FROM "in_smooth_group_ = !group.empty() && group != \"off\" && group != \"0\";"
+    TO   "in_smooth_group_ = group == \"on\";"
     CASES "load_obj: each trouble*")
+
+# A black mirror is not remarked.
+ljus_break_it(NAME obj-black-mirror HEADER io/detail/obj_material.hpp TEST load_obj
+    FROM "is.is_mirror() && is.specular == glm::dvec3(0)"
+    TO   "false"
+    CASES "load_obj: which words*")

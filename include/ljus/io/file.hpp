@@ -115,33 +115,29 @@ public:
     }
 
 private:
-    friend Bytes load_file(const std::string&, std::size_t, std::string_view);
+    template <typename Use>
+    friend void read_in_pieces(const std::string&, std::size_t, Use&&);
     static FilesRead*& current() noexcept {
         thread_local FilesRead* list = nullptr;
         return list;
-    }
-    static void note(const std::string& path) {
-        if (current() != nullptr) current()->files_.push_back({path});
-    }
-    static void note(const Bytes& bytes) {
-        if (current() == nullptr) return;
-        std::uint64_t hash = detail::fnv_start;
-        for (const unsigned char byte : bytes) hash = detail::fnv_hash(hash, byte);
-        current()->files_.back().hash = hash;
     }
 
     std::vector<File> files_;
     FilesRead* outer_ = current();
 };
 
-/// Reads a file; a FilesRead takes note of it.
+/// Reads a file piece by piece; a FilesRead takes note of it.
 /// \param path  The file; not a pipe or a device, which may never end.
 /// \param most  The largest size in bytes.
-/// \param begin The first bytes that it must have; they are tested first.
+/// \param use   Called as use(text, last) with a piece, and whether it is the last one;
+///              returns how many bytes it has used. The next piece begins with those
+///              left.
 /// \throws std::runtime_error  with path and reason.
-[[nodiscard]] inline Bytes load_file(const std::string& path, std::size_t most,
-                                     std::string_view begin = {}) {
-    FilesRead::note(path);
+template <typename Use>
+void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {
+    FilesRead* const notes = FilesRead::current();
+    const std::size_t number = notes != nullptr ? notes->files_.size() : 0;
+    if (notes != nullptr) notes->files_.push_back({path});
     struct Closed {
         std::FILE* file;
         ~Closed() {
@@ -157,35 +153,50 @@ private:
     const Closed closed{std::fopen(path.c_str(), "rb")};
     if (closed.file == nullptr) detail::fail_to_read(path, std::strerror(errno));
 
-    // In pieces, because the length in a file's header cannot be trusted.
-    Bytes bytes;
-    for (std::size_t piece = std::size_t(1) << 16;;
-         piece = std::max(piece, bytes.size())) {
-        const std::size_t old_size = bytes.size();
+    std::uint64_t hash = detail::fnv_start;
+    std::string piece(std::size_t(1) << 16, '\0');
+    std::size_t left = 0, size = 0; // of the piece before; of the file so far
+    for (bool last = false; !last;) {
+        if (left > piece.size() / 2) piece.resize(2 * piece.size());
         // One byte more than the limit shows that the file is longer.
-        const std::size_t room = most - old_size;
-        const std::size_t wanted = room < piece ? room + 1 : piece;
-        bytes.resize(old_size + wanted);
-        const std::size_t got =
-            std::fread(bytes.data() + old_size, 1, wanted, closed.file);
-        const int error = errno;
-        bytes.resize(old_size + got);
-        if (std::ferror(closed.file)) detail::fail_to_read(path, std::strerror(error));
-        const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
-                                    bytes.size());
-        if (!text.starts_with(begin))
-            detail::fail_to_read(path, detail::join({"it does not begin with '",
-                                                     shown(std::string(begin)),
-                                                     "': it is another kind of file"}));
-        if (bytes.size() > most)
+        const std::size_t room = most - size, free = piece.size() - left;
+        const std::size_t wanted = room < free ? room + 1 : free;
+        const std::size_t got = std::fread(piece.data() + left, 1, wanted, closed.file);
+        if (std::ferror(closed.file)) detail::fail_to_read(path, std::strerror(errno));
+        if (notes != nullptr)
+            for (std::size_t i = left; i < left + got; ++i)
+                hash = detail::fnv_hash(hash, static_cast<unsigned char>(piece[i]));
+        size += got;
+        last = got < wanted;
+        const std::string_view text(piece.data(), left + got);
+        const std::size_t used = use(text, last);
+        if (size > most)
             detail::fail_to_read(
                 path, detail::join({"it is longer than the ", std::to_string(most),
                                     " bytes allowed"}));
-        if (got < wanted) {
-            FilesRead::note(bytes);
-            return bytes;
-        }
+        left = text.size() - used;
+        std::memmove(piece.data(), piece.data() + used, left);
     }
+    if (notes != nullptr) notes->files_[number].hash = hash;
+}
+
+/// Reads a file; a FilesRead takes note of it.
+/// \param path  The file; not a pipe or a device, which may never end.
+/// \param most  The largest size in bytes.
+/// \param begin The first bytes that it must have; they are tested first.
+/// \throws std::runtime_error  with path and reason.
+[[nodiscard]] inline Bytes load_file(const std::string& path, std::size_t most,
+                                     std::string_view begin = {}) {
+    Bytes bytes;
+    read_in_pieces(path, most, [&](std::string_view text, bool) {
+        if (bytes.empty() && !text.starts_with(begin))
+            detail::fail_to_read(path, detail::join({"it does not begin with '",
+                                                     shown(std::string(begin)),
+                                                     "': it is another kind of file"}));
+        bytes.insert(bytes.end(), text.begin(), text.end());
+        return text.size();
+    });
+    return bytes;
 }
 
 namespace detail {
@@ -197,11 +208,14 @@ inline std::string_view plain_text(std::string_view text, const std::string& pat
     return text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
 }
 
-// The plain_text() of a file.
+// The text of a file.
 inline std::string load_text(const std::string& path, std::size_t most) {
-    const Bytes bytes = load_file(path, most);
-    return std::string(
-        plain_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path));
+    std::string text;
+    read_in_pieces(path, most, [&](std::string_view piece, bool) {
+        text += piece;
+        return piece.size();
+    });
+    return text;
 }
 
 } // namespace detail

@@ -99,8 +99,7 @@ std::map<std::string, MaterialId> read_materials(const JsonField& list, Scene& s
     SharedByMaterialsT<T> shared{.pictures = FilePicturesT<T>(list)};
     std::map<std::string, MaterialId> materials;
     for (const auto& [name, value] : list.value.items())
-        materials[name] = read_material(
-            {value, list.file, path_of_member(list.path, name)}, shared, scene);
+        materials[name] = read_material({value, list.file, list.root}, shared, scene);
     return materials;
 }
 
@@ -153,7 +152,7 @@ template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT
                                               const std::string& file,
                                               LoadMeshes load_meshes = {}) {
     const nlohmann::json root = detail::parse_json(source, file);
-    return detail::read_scene<T>({root, file, ""}, load_meshes);
+    return detail::read_scene<T>({root, file, root}, load_meshes);
 }
 
 /// Loads a scene file.

@@ -81,6 +81,34 @@ void load_picture(ObjMaterial& material, LoadedObjT<T>& loaded, long long& pixel
     }
 }
 
+// The meshes of a file, which `read` gives to an ObjReader. The lists of the reader are
+// gone when the meshes, which need more memory, are made.
+template <std::floating_point T, typename Read>
+LoadedObjT<T> read_obj_pieces(const std::string& file, const ObjSettings& settings,
+                              Read read) {
+    require_positive("the scale of a mesh file", settings.scale);
+    LoadedObjT<T> loaded;
+    std::vector<ObjFacesT<T>> parts;
+    {
+        ObjReader<T> reader(file, settings);
+        read(reader);
+        parts = reader.take_faces();
+        loaded.report = std::move(reader.report);
+    }
+    if (parts.empty()) refuse_without_faces(file, loaded.report);
+    long long pixels = 0;
+    for (ObjFacesT<T>& part : parts) {
+        if (settings.pictures) load_picture(part.material, loaded, pixels);
+        try {
+            loaded.parts.push_back(
+                {MeshT<T>(std::move(part.data)), std::move(part.material)});
+        } catch (const std::invalid_argument& wrong) {
+            throw std::runtime_error(shown_path(file) + ": " + wrong.what());
+        }
+    }
+    return loaded;
+}
+
 } // namespace detail
 
 /// Reads meshes from the text of an OBJ file. Faces of one material, wherever they
@@ -98,29 +126,8 @@ void load_picture(ObjMaterial& material, LoadedObjT<T>& loaded, long long& pixel
 template <std::floating_point T = float>
 [[nodiscard]] LoadedObjT<T> read_obj(std::string_view text, const std::string& file,
                                      const ObjSettings& settings = {}) {
-    require_positive("the scale of a mesh file", settings.scale);
-    detail::ObjReader<T> reader{.file = file, .settings = settings};
-    reader.read(detail::plain_text(text, file));
-    ObjContent& content = reader.report.content;
-    content.vertices = static_cast<long long>(reader.exact.size());
-    content.normals = static_cast<long long>(reader.normals.size());
-    content.uvs = static_cast<long long>(reader.uv.size());
-    if (reader.parts.empty()) detail::refuse_without_faces(file, reader.report);
-
-    LoadedObjT<T> loaded{.report = std::move(reader.report)};
-    detail::count_edges(reader.whole, reader.lines, loaded.report);
-    long long pixels = 0;
-    for (detail::ObjFacesT<T>& part : reader.parts) {
-        detail::finish(part, settings.normals, loaded.report);
-        if (settings.pictures) detail::load_picture(part.material, loaded, pixels);
-        try {
-            loaded.parts.push_back(
-                {MeshT<T>(std::move(part.data)), std::move(part.material)});
-        } catch (const std::invalid_argument& wrong) {
-            throw std::runtime_error(shown_path(file) + ": " + wrong.what());
-        }
-    }
-    return loaded;
+    return detail::read_obj_pieces<T>(file, settings,
+                                      [&](auto& reader) { reader.read(text, true); });
 }
 
 /// Loads an OBJ file.
@@ -132,7 +139,12 @@ template <std::floating_point T = float>
 template <std::floating_point T = float>
 [[nodiscard]] LoadedObjT<T> load_obj(const std::string& path,
                                      const ObjSettings& settings = {}) {
-    return read_obj<T>(detail::load_text(path, detail::max_obj_file), path, settings);
+    return detail::read_obj_pieces<T>(path, settings, [&](auto& reader) {
+        read_in_pieces(path, detail::max_obj_file,
+                       [&](std::string_view piece, bool last) {
+                           return reader.read(piece, last);
+                       });
+    });
 }
 
 /// Adds all meshes of a file to a scene, each made of what the file says: glass and

@@ -7,13 +7,12 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "ljus/accel/mesh_data.hpp"
+#include "ljus/geometry/detail/equal_points.hpp"
 
 namespace ljus {
 
@@ -82,10 +81,11 @@ struct ObjReport {
     std::vector<std::string> notes{};
     ObjContent content{}; ///< All that was read.
 
-    /// Counts an occurrence.
-    void add(ObjTrouble trouble, long long line) {
+    /// Counts occurrences, the first of them at this line.
+    void add(ObjTrouble trouble, long long line, long long count = 1) {
         ObjCount& at = counts[static_cast<std::size_t>(trouble)];
-        if (at.count++ == 0 || line < at.line) at.line = line;
+        if (at.count == 0 || line < at.line) at.line = line;
+        at.count += count;
     }
     /// The occurrences of a problem.
     [[nodiscard]] const ObjCount& operator[](ObjTrouble trouble) const {
@@ -141,57 +141,49 @@ namespace detail {
 
 // Counts the edges of a mesh that a closed surface does not have, with the lines of
 // its triangles, and whether a closed one is inside out. Vertices at the same place
-// count as one. O(n log n).
+// count as one. Expected O(n).
 template <std::floating_point T>
-void count_edges(const MeshDataT<T>& data, const std::vector<long long>& lines,
+void count_edges(const MeshDataT<T>& data, const std::vector<std::uint32_t>& lines,
                  ObjReport& report) {
-    // For each vertex the first one at its place.
-    std::vector<std::uint32_t> order, place(data.positions.size());
-    for (const auto& triangle : data.triangles)
-        order.insert(order.end(), triangle.begin(), triangle.end());
-    const auto key = [&](std::uint32_t vertex) {
-        const Vec3T<T>& p = data.positions[vertex];
-        return std::tuple{p.x, p.y, p.z};
-    };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return std::tuple{key(a), a} < std::tuple{key(b), b};
-    });
-    for (std::size_t i = 0; i < order.size(); ++i)
-        place[order[i]] = i > 0 && key(order[i]) == key(order[i - 1])
-                              ? place[order[i - 1]]
-                              : order[i];
-    const auto used = std::unique(order.begin(), order.end()) - order.begin();
-    report.content.unused = static_cast<long long>(data.positions.size()) - used;
+    const auto place = first_equal_points(data.positions);
+    // The edges of a place, to places of higher numbers.
     struct Edge {
-        std::uint32_t low, high; // its ends
-        bool forwards;           // as its triangle has it
-        std::uint32_t triangle;
-        bool operator<(const Edge& other) const {
-            return std::pair{low, high} < std::pair{other.low, other.high};
-        }
+        std::uint32_t high, triangle;
+        bool forwards; // as its triangle has it
     };
-    std::vector<Edge> edges;
-    for (std::uint32_t i = 0; i < data.triangles.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = place[data.triangles[i][k]];
-            const std::uint32_t b = place[data.triangles[i][(k + 1) % 3]];
-            if (a != b) edges.push_back({std::min(a, b), std::max(a, b), a < b, i});
-        }
-    std::sort(edges.begin(), edges.end());
+    const auto each_edge = [&](auto use) { // use(low, edge)
+        for (std::uint32_t i = 0; i < data.triangles.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t a = place[data.triangles[i][k]];
+                const std::uint32_t b = place[data.triangles[i][(k + 1) % 3]];
+                if (a != b) use(std::min(a, b), Edge{std::max(a, b), i, a < b});
+            }
+    };
+    std::vector<std::uint32_t> end(place.size() + 1, 0); // of each one's edges
+    each_edge([&](std::uint32_t low, const Edge&) { ++end[low + 1]; });
+    for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
+    std::vector<Edge> edges(end.back());
+    each_edge([&](std::uint32_t low, const Edge& edge) { edges[end[low]++] = edge; });
+
     bool closed = !edges.empty();
-    for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
-        while (next < edges.size() && !(edges[i] < edges[next])) ++next;
-        if (next - i == 2 && edges[i].forwards != edges[i + 1].forwards) continue;
-        closed = false;
-        long long line = lines[edges[i].triangle];
-        for (std::size_t k = i; k < next; ++k)
-            line = std::min(line, lines[edges[k].triangle]);
-        if (next - i > 2)
-            report.add(ObjTrouble::edge_of_many, line);
-        else if (next - i == 1)
-            report.add(ObjTrouble::edge_open, line);
-        else
-            report.add(ObjTrouble::edge_turned, line);
+    std::size_t next = 0;
+    for (const std::uint32_t stop : end) {
+        std::sort(edges.data() + next, edges.data() + stop,
+                  [](const Edge& a, const Edge& b) { return a.high < b.high; });
+        while (next < stop) {
+            const std::size_t first = next;
+            std::uint32_t line = lines[edges[first].triangle];
+            for (; next < stop && edges[next].high == edges[first].high; ++next)
+                line = std::min(line, lines[edges[next].triangle]);
+            const std::size_t count = next - first;
+            if (count == 2 && edges[first].forwards != edges[first + 1].forwards)
+                continue;
+            closed = false;
+            report.add(count > 2    ? ObjTrouble::edge_of_many
+                       : count == 1 ? ObjTrouble::edge_open
+                                    : ObjTrouble::edge_turned,
+                       line);
+        }
     }
     report.content.closed = closed;
     if (!closed) return;

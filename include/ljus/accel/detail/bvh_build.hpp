@@ -4,6 +4,7 @@
 /// \brief The construction of a tree of boxes: from the top, by the binned surface area
 /// heuristic.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "ljus/accel/bvh_nodes.hpp"
+#include "ljus/math/lanes.hpp"
 #include "ljus/math/require.hpp"
 #include "ljus/parallel.hpp"
 
@@ -33,8 +35,9 @@ struct BoundsT {
         return result;
     }
     void grow(const BoundsT& other) noexcept {
-        for (int i = 0; i < 8; ++i)
+        for_lanes([&](int i) {
             side[i] = side[i] < other.side[i] ? side[i] : other.side[i];
+        });
     }
     [[nodiscard]] T size(int axis) const noexcept {
         return -side[axis + 4] - side[axis];
@@ -127,19 +130,23 @@ template <std::floating_point T>
         BoundsT<T> bounds = BoundsT<T>::none();
         std::uint32_t count = 0;
     };
+    // All axes in one loop: their bins do not wait for each other.
+    const std::array<ToBinT<T>, 3> bin_of{
+        {ToBinT<T>(range, 0), ToBinT<T>(range, 1), ToBinT<T>(range, 2)}};
+    Bin bins[3][bin_count];
+    for (std::uint32_t i = range.first; i < range.last; ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+            Bin& bin = bins[axis][bin_of[std::size_t(axis)](refs[i].center(axis))];
+            bin.bounds.grow(refs[i].bounds);
+            ++bin.count;
+        }
     Split best;
     for (int axis = 0; axis < 3; ++axis) {
         const T size = range.centers.size(axis);
         if (!(size > std::numeric_limits<T>::min() &&
               size < std::numeric_limits<T>::max()))
             continue; // all centres in one plane
-        Bin all[bin_count];
-        const ToBinT<T> bin_of(range, axis);
-        for (std::uint32_t i = range.first; i < range.last; ++i) {
-            Bin& bin = all[bin_of(refs[i].center(axis))];
-            bin.bounds.grow(refs[i].bounds);
-            ++bin.count;
-        }
+        const Bin* const all = bins[axis];
         // One sweep from above for the costs of the upper halves, then one from below.
         double above[bin_count] = {};
         Bin upper, lower;

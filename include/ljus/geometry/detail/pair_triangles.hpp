@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "ljus/geometry/detail/equal_points.hpp"
 #include "ljus/geometry/quad.hpp"
 #include "ljus/geometry/triangle.hpp"
 
@@ -44,13 +45,7 @@ template <std::floating_point T>
 [[nodiscard]] FlatShapesT<T>
 pair_triangles(const std::vector<glm::dvec3>& vertices,
                const std::vector<std::array<std::uint32_t, 3>>& indices) {
-    // Vertices at the same point get the same index.
-    std::map<std::array<double, 3>, std::uint32_t> first_at;
-    std::vector<std::uint32_t> number(vertices.size());
-    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-        const glm::dvec3& v = vertices[i];
-        number[i] = first_at.try_emplace({v.x, v.y, v.z}, i).first->second;
-    }
+    const auto number = first_equal_points(vertices);
 
     FlatShapesT<T> shapes;
     using Edge = std::pair<std::uint32_t, std::uint32_t>;

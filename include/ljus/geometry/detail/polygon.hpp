@@ -5,13 +5,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "ljus/math/vector.hpp"
 
@@ -23,141 +25,89 @@ struct CutPolygon {
     bool crossed = false; // the polygon crosses itself, so its triangles overlap
 };
 
-// The corners of a polygon along two axes across its area vector, and boxes of a few
-// that follow each other. Most boxes lie outside an ear, and their corners with them.
-class FlatCorners {
-public:
-    static constexpr std::uint32_t group = 16; // corners in a box
-    // Those of an ear: x u + y v + w is at least 0 within it, and wherever rounding
-    // could put a corner into it.
-    struct Sides {
-        std::array<double, 3> u, v, w;
-    };
-
-    FlatCorners(std::span<const glm::dvec3> corners, const glm::dvec3& across) {
-        const glm::dvec3 normal = across / max_component(glm::abs(across));
-        const glm::dvec3 axis = std::abs(normal.x) < 0.5   ? glm::dvec3(1, 0, 0)
-                                : std::abs(normal.y) < 0.5 ? glm::dvec3(0, 1, 0)
-                                                           : glm::dvec3(0, 0, 1);
-        const glm::dvec3 right = glm::normalize(glm::cross(axis, normal));
-        const glm::dvec3 up = glm::normalize(glm::cross(normal, right));
-        double most = 0;
-        for (const glm::dvec3& corner : corners) {
-            const glm::dvec3 from_first = corner - corners[0];
-            const glm::dvec2 at(glm::dot(from_first, right), glm::dot(from_first, up));
-            most = std::max(most, glm::dot(from_first, from_first));
-            if (flat_.size() % group == 0) boxes_.push_back({at, at});
-            boxes_.back().low = glm::min(boxes_.back().low, at);
-            boxes_.back().high = glm::max(boxes_.back().high, at);
-            flat_.push_back(at);
-        }
-        rounding_ = 1e-12 * most;
-    }
-    [[nodiscard]] Sides sides_of(const std::array<std::uint32_t, 3>& ear) const {
-        Sides sides{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const glm::dvec2 from = flat_[ear[k]], to = flat_[ear[(k + 1) % 3]];
-            sides.u[k] = from.y - to.y;
-            sides.v[k] = to.x - from.x;
-            sides.w[k] = rounding_ - (sides.u[k] * from.x + sides.v[k] * from.y);
-        }
-        return sides;
-    }
-    // Whether the box of the group that begins with a corner is outside one side.
-    [[nodiscard]] bool outside(const Sides& sides, std::uint32_t first) const {
-        const auto& [low, high] = boxes_[first / group];
-        for (std::size_t k = 0; k < 3; ++k)
-            if (sides.u[k] * (sides.u[k] > 0 ? high.x : low.x) +
-                    sides.v[k] * (sides.v[k] > 0 ? high.y : low.y) + sides.w[k] <
-                0)
-                return true;
-        return false;
-    }
-
-private:
-    struct Box {
-        glm::dvec2 low, high;
-    };
-    std::vector<glm::dvec2> flat_;
-    std::vector<Box> boxes_;
-    double rounding_ = 0; // of twice the area of three corners
-};
-
 // Triangulates a polygon by cutting off ears: corners whose triangle contains no other
-// corner \cite meisters1975. A polygon that is not flat is projected along its area
-// vector. A polygon that crosses itself is cut arbitrarily, and `crossed` is set.
+// corner \cite meisters1975. A polygon that is not flat is projected along its
+// area vector. A polygon that crosses itself is cut arbitrarily, and
+// `crossed` is set.
 //
 // The corners are given counter-clockwise; n of them give n - 2 triangles. Fewer than
 // three corners, or no area, give none. Corners may coincide, as where a bridge
-// connects a hole. The cost is O(n^2), because cutting an ear only affects its two
-// neighbours.
+// connects a hole. The cost is O(n h) for h hollow corners: they alone can lie in an
+// ear, and cutting one off only affects its two neighbours.
 [[nodiscard]] inline CutPolygon cut_polygon(std::span<const glm::dvec3> corners) {
     CutPolygon result;
-    auto& triangles = result.triangles;
-    const auto count = static_cast<std::uint32_t>(corners.size());
-    constexpr std::uint32_t gone = 0xffffffffu; // in `after`, of a corner cut off
-    if (count < 3) return result;
+    if (corners.size() < 3) return result;
     glm::dvec3 across(0);
-    for (std::uint32_t i = 1; i + 1 < count; ++i)
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
         across += glm::cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
     if (!(glm::dot(across, across) > 0)) return result;
-    if (count == 3) return {.triangles = {{0, 1, 2}}};
+    if (corners.size() == 3) return {.triangles = {{0, 1, 2}}};
 
-    // Twice the signed area of three corners, as seen along `across`.
-    const auto turn = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        return glm::dot(across,
-                        glm::cross(corners[b] - corners[a], corners[c] - corners[a]));
-    };
-    std::vector<std::uint32_t> left(count), before(count), after(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        left[i] = i;
-        before[i] = (i + count - 1) % count;
-        after[i] = (i + 1) % count;
+    // Seen along the area vector, on the plane of two axes.
+    const glm::dvec3 size = glm::abs(across);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0
+                     : size.y >= size.z                   ? 1
+                                                          : 2;
+    int right = (axis + 1) % 3, up = (axis + 2) % 3;
+    if (across[axis] < 0) std::swap(right, up);
+    std::vector<glm::dvec2> flat;
+    for (const glm::dvec3& corner : corners) {
+        const glm::dvec3 from = corner - corners[0];
+        const double along = from[axis] / across[axis];
+        flat.emplace_back(from[right] - along * across[right],
+                          from[up] - along * across[up]);
     }
-    const bool many = count > 2 * FlatCorners::group;
-    const FlatCorners flat(many ? corners : std::span<const glm::dvec3>(), across);
-    const auto is_ear = [&](std::uint32_t corner) {
-        const std::array<std::uint32_t, 3> ear{before[corner], corner, after[corner]};
-        const auto [a, b, c] = ear;
+    // Twice the signed area of three corners.
+    const auto turn = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const glm::dvec2 ab = flat[b] - flat[a], ac = flat[c] - flat[a];
+        return ab.x * ac.y - ab.y * ac.x;
+    };
+    std::vector<std::uint32_t> left(corners.size());
+    std::iota(left.begin(), left.end(), 0u);
+    // The corners before, at and behind a place in `left`.
+    const auto at = [&](std::size_t i) {
+        const std::size_t n = left.size();
+        return std::array{left[(i + n - 1) % n], left[i % n], left[(i + 1) % n]};
+    };
+    const auto is_hollow = [&](std::size_t i) {
+        const auto [a, b, c] = at(i);
+        return !(turn(a, b, c) > 0);
+    };
+    std::vector<std::uint32_t> hollow;
+    for (std::size_t i = 0; i < left.size(); ++i)
+        if (is_hollow(i)) hollow.push_back(left[i]);
+    const auto is_ear = [&](std::size_t i) {
+        const auto [a, b, c] = at(i);
         if (!(turn(a, b, c) > 0)) return false;
-        const auto sides = many ? flat.sides_of(ear) : FlatCorners::Sides{};
-        for (std::uint32_t p = 0; p < count; ++p) {
-            if (many && p % FlatCorners::group == 0 && flat.outside(sides, p)) {
-                p += FlatCorners::group - 1;
-                continue;
-            }
-            if (after[p] == gone) continue;
-            if (corners[p] == corners[a] || corners[p] == corners[b] ||
-                corners[p] == corners[c])
-                continue; // it shares a corner of a bridge; its edges are not within
-            if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0)
+        for (const std::uint32_t p : hollow)
+            if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0 &&
+                corners[p] != corners[a] && corners[p] != corners[b] &&
+                corners[p] != corners[c]) // where a bridge begins it is not within
                 return false;
-        }
         return true;
     };
-    std::vector<char> ears(count); // of the corners in `left`
-    for (std::uint32_t i = 0; i < count; ++i) ears[i] = is_ear(i) ? 1 : 0;
+    std::vector<char> ears; // of the corners in `left`
+    for (std::size_t i = 0; i < left.size(); ++i) ears.push_back(is_ear(i) ? 1 : 0);
     while (left.size() > 3) {
-        const std::size_t n = left.size();
         // The first one from 1 on; if there is none, the polygon crosses itself.
         const auto found = std::find(ears.begin() + 1, ears.end(), 1);
-        const auto ear = found != ears.end() ? std::size_t(found - ears.begin())
-                                             : std::size_t(ears[0] == 0 ? 1 : 0);
-        const std::uint32_t corner = left[ear];
-        triangles.push_back({before[corner], corner, after[corner]});
-        after[before[corner]] = after[corner];
-        before[after[corner]] = before[corner];
-        after[corner] = gone;
-        left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
-        ears.erase(ears.begin() + static_cast<std::ptrdiff_t>(ear));
-        for (const std::size_t beside : {(ear + n - 2) % (n - 1), ear % (n - 1)})
-            ears[beside] = is_ear(left[beside]) ? 1 : 0;
+        const auto ear = found != ears.end() ? found - ears.begin() : 1 - ears[0];
+        const auto i = static_cast<std::size_t>(ear);
+        result.triangles.push_back(at(i));
+        std::erase(hollow, left[i]);
+        left.erase(left.begin() + ear);
+        ears.erase(ears.begin() + ear);
+        const std::array beside{(i + left.size() - 1) % left.size(), i % left.size()};
+        for (const std::size_t k : beside)
+            if (!is_hollow(k)) std::erase(hollow, left[k]);
+        for (const std::size_t k : beside) ears[k] = is_ear(k) ? 1 : 0;
     }
-    triangles.push_back({left[0], left[1], left[2]});
+    result.triangles.push_back({left[0], left[1], left[2]});
     // The areas add up to that of the polygon; those of flipped triangles are negative.
-    const double most = 1e-9 * glm::dot(across, across);
-    for (const auto& [a, b, c] : triangles)
-        result.crossed = result.crossed || turn(a, b, c) < -most;
+    const double least = -1e-9 * size[axis];
+    result.crossed =
+        std::any_of(result.triangles.begin(), result.triangles.end(),
+                    [&](const auto& t) { return turn(t[0], t[1], t[2]) < least; });
     return result;
 }
 

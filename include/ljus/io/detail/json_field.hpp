@@ -3,9 +3,11 @@
 /// \file ljus/io/detail/json_field.hpp
 /// \brief A value of a JSON file with its path, for error messages.
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -17,11 +19,11 @@
 
 namespace ljus::detail {
 
-// A value within a JSON file; refers to the file's data and its name.
+// A value within a JSON file.
 struct JsonField {
     const nlohmann::json& value;
-    const std::string& file; // the name of the file, for messages
-    std::string path;        // "objects[3].radius"; empty for the whole file
+    const std::string& file;    // the name of the file, for messages
+    const nlohmann::json& root; // all of the file
 };
 
 // A value in a message.
@@ -38,22 +40,46 @@ struct JsonField {
 
 // The path of a member: with a dot, or in brackets if its name is not a plain word.
 [[nodiscard]] inline std::string path_of_member(std::string path,
-                                                const std::string& name) {
+                                                std::string_view name) {
     bool plain = !name.empty() && name.size() <= 48;
     for (const char c : name)
         plain = plain && ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
                           (c >= '0' && c <= '9') || c == '_' || c == '-');
-    if (!plain) return path.append("[\"").append(shown(name)).append("\"]");
+    if (!plain)
+        return path.append("[\"").append(shown(std::string(name))).append("\"]");
     if (!path.empty()) path += '.';
     return path.append(name);
 }
 
-// Throws an error about a field: "scene.json: objects[3].radius is missing." `why`
+// The path of a value within another one, whose own is `path`; nothing if it is not
+// there. It is looked for when a message names it, so that reading makes no paths.
+[[nodiscard]] inline std::optional<std::string>
+path_within(const nlohmann::json& whole, const nlohmann::json& value,
+            const std::string& path = "") {
+    if (&whole == &value) return path;
+    std::size_t index = 0;
+    for (auto part = whole.begin(); part != whole.end(); ++part, ++index) {
+        if (&*part != &value && !part->is_structured()) continue;
+        const std::string next = whole.is_object()
+                                     ? path_of_member(path, part.key())
+                                     : path + "[" + std::to_string(index) + "]";
+        if (auto found = path_within(*part, value, next)) return found;
+    }
+    return std::nullopt;
+}
+[[nodiscard]] inline std::string path_of(const JsonField& field) {
+    return path_within(field.root, field.value).value_or("");
+}
+
+// Throws an error about a path: "scene.json: objects[3].radius is missing." `why`
 // completes the sentence, without the full stop.
+[[noreturn]] inline void refuse_path(const JsonField& field, const std::string& path,
+                                     std::string_view why) {
+    throw std::runtime_error(join({shown_path(field.file), ": ",
+                                   path.empty() ? "the file" : path, " ", why, "."}));
+}
 [[noreturn]] inline void refuse(const JsonField& field, std::string_view why) {
-    std::string message = shown_path(field.file);
-    message.append(": ").append(field.path.empty() ? "the file" : field.path);
-    throw std::runtime_error(message.append(" ").append(why).append("."));
+    refuse_path(field, path_of(field), why);
 }
 
 // Throws an error about a value: "scene.json: objects[3].radius is -1; it must be above
@@ -100,41 +126,46 @@ auto made_of(const JsonField& field, Call call) {
     return count < names.size() ? row.append(", ...") : row;
 }
 
-// Requires an object without unknown members.
-inline void require_object(const JsonField& field,
-                           const std::vector<std::string>& known) {
+// Names as messages list them.
+using JsonNames = std::span<const std::string_view>;
+
+// Requires an object without members beside those of two lists.
+inline void require_object(const JsonField& field, JsonNames known,
+                           JsonNames more = {}) {
     if (!field.value.is_object()) refuse_value(field, "an object");
-    for (const auto& [name, value] : field.value.items()) {
-        bool found = false;
-        for (const std::string& other : known) found = found || other == name;
-        if (!found)
-            refuse({value, field.file, path_of_member(field.path, name)},
-                   std::string("is not known; the fields here are ") +
-                       in_a_row(known, "and"));
+    for (auto part = field.value.begin(); part != field.value.end(); ++part) {
+        const auto is = [&](std::string_view name) { return name == part.key(); };
+        if (std::any_of(known.begin(), known.end(), is) ||
+            std::any_of(more.begin(), more.end(), is))
+            continue;
+        std::vector<std::string> all(known.begin(), known.end());
+        all.insert(all.end(), more.begin(), more.end());
+        refuse({*part, field.file, field.root},
+               "is not known; the fields here are " + in_a_row(all, "and"));
     }
 }
 inline void require_object(const JsonField& field,
-                           std::initializer_list<const char*> known) {
-    require_object(field, std::vector<std::string>(known.begin(), known.end()));
+                           std::initializer_list<std::string_view> known) {
+    require_object(field, JsonNames(known.begin(), known.size()));
 }
 
 // A member of an object, if it exists.
 [[nodiscard]] inline std::optional<JsonField> find(const JsonField& field,
-                                                   const std::string& name) {
+                                                   std::string_view name) {
     const auto found = field.value.find(name);
     if (found == field.value.end()) return std::nullopt;
-    return JsonField{*found, field.file, path_of_member(field.path, name)};
+    return JsonField{*found, field.file, field.root};
 }
 
 // A required member.
-[[nodiscard]] inline JsonField member(const JsonField& field, const std::string& name) {
+[[nodiscard]] inline JsonField member(const JsonField& field, std::string_view name) {
     if (!field.value.is_object()) refuse_value(field, "an object");
     if (const auto found = find(field, name)) return *found;
-    refuse({field.value, field.file, path_of_member(field.path, name)}, "is missing");
+    refuse_path(field, path_of_member(path_of(field), name), "is missing");
 }
 
 [[nodiscard]] inline JsonField entry(const JsonField& field, std::size_t i) {
-    return {field.value[i], field.file, field.path + "[" + std::to_string(i) + "]"};
+    return {field.value[i], field.file, field.root};
 }
 
 [[nodiscard]] inline std::size_t list_size(const JsonField& field) {
@@ -148,17 +179,16 @@ inline void require_object(const JsonField& field,
 }
 
 // A text for people; it may be missing or null.
-[[nodiscard]] inline std::string remark(const JsonField& field,
-                                        const std::string& name) {
+[[nodiscard]] inline std::string remark(const JsonField& field, std::string_view name) {
     const auto found = find(field, name);
     return !found || found->value.is_null() ? std::string() : text(*found);
 }
 
 inline void require_one_of(const JsonField& field,
-                           const std::vector<std::string>& names) {
-    for (const std::string& name : names)
+                           std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names)
         if (text(field) == name) return;
-    refuse_value(field, in_a_row(names, "or", names.size()));
+    refuse_value(field, in_a_row({names.begin(), names.end()}, "or", names.size()));
 }
 
 // A number within [low, high]; `right` says that in words.

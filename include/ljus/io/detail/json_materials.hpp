@@ -166,13 +166,13 @@ SoapFilmT<T> read_film(const MaterialFields<T>& in) {
 // A material's name, its fields besides `type`, and its reader.
 template <std::size_t N, typename Read>
 struct MaterialRow {
-    const char* name;
-    std::array<const char*, N> fields;
+    std::string_view name;
+    std::array<std::string_view, N> fields;
     Read read;
 };
 template <std::size_t N, typename Read>
-constexpr MaterialRow<N, Read> row(const char* name, const char* const (&fields)[N],
-                                   Read read) {
+constexpr MaterialRow<N, Read> row(std::string_view name,
+                                   const std::string_view (&fields)[N], Read read) {
     return {name, std::to_array(fields), read};
 }
 template <std::floating_point T, typename Texture>
@@ -266,9 +266,8 @@ MaterialId read_material(const JsonField& field, SharedByMaterialsT<T>& shared,
     MaterialId id{};
     const auto read = [&](const auto& row) {
         if (text(type) != row.name) return false;
-        std::vector<std::string> known{"type"};
-        known.insert(known.end(), row.fields.begin(), row.fields.end());
-        require_object(field, known);
+        static constexpr std::string_view all[]{"type"};
+        require_object(field, all, row.fields);
         id = made_of(field, [&] { return scene.add(row.read({field, shared})); });
         return true;
     };

@@ -156,14 +156,14 @@ inline MaterialId material_of(const JsonField& field,
 
 // Requires the fields of an object of this type.
 inline void require_fields_of_object(const JsonField& field, const std::string& type) {
-    std::vector<std::string> known{"type", "name", "material", "emission"};
-    const auto add = [&](std::initializer_list<const char*> own) {
-        known.insert(known.end(), own.begin(), own.end());
-    };
-    if (type == "sphere") add({"center", "radius"});
-    if (type == "mesh") add({"file", "scale", "normals"});
-    if (type == "triangles") add({"vertices", "indices"});
-    require_object(field, known);
+    static constexpr std::string_view all[]{"type", "name", "material", "emission"};
+    static constexpr std::string_view sphere[]{"center", "radius"};
+    static constexpr std::string_view mesh[]{"file", "scale", "normals"};
+    static constexpr std::string_view triangles[]{"vertices", "indices"};
+    require_object(field, all,
+                   type == "sphere" ? JsonNames(sphere)
+                   : type == "mesh" ? JsonNames(mesh)
+                                    : JsonNames(triangles));
 }
 
 template <std::floating_point T, typename LoadMeshes>

@@ -66,14 +66,17 @@ struct MaterialReader {
     ObjMaterial ignored{}; // for lines before the first material, or of a name again
     ObjMaterial* material = &ignored;
     bool has_diffuse = false, has_dissolve = false;
-    long long number = 0; // of the line
+    std::string mirror_at{}; // where illum stands
+    long long number = 0;    // of the line
 
     std::string where() const {
         return shown_path(path) + ", line " + std::to_string(number);
     }
+    void note_at(const std::string& place, const std::string& what) {
+        if (material != &ignored) notes.push_back(place + ": " + what);
+    }
     void note(std::string_view keyword, const std::string& what) {
-        if (material != &ignored)
-            notes.push_back(where() + ": " + shown(std::string(keyword)) + " " + what);
+        note_at(where(), shown(std::string(keyword)) + " " + what);
     }
     // One number, or three; of one there are three alike.
     void color(std::string_view keyword, Words words, glm::dvec3& to, double most) {
@@ -128,27 +131,27 @@ struct MaterialReader {
         }
     }
     void finish() {
-        glm::dvec3& color = material->diffuse;
-        const bool black = has_diffuse && color == glm::dvec3(0);
-        if (!material->picture.empty() && (black || !has_diffuse)) {
-            color = glm::dvec3(1);
-            if (black && material != &ignored)
-                notes.push_back(material->picture_at +
-                                ": map_Kd is multiplied by Kd, which is 0; 1 is used.");
+        ObjMaterial& is = *material;
+        const bool black = has_diffuse && is.diffuse == glm::dvec3(0);
+        if (!is.picture.empty() && (black || !has_diffuse)) {
+            is.diffuse = glm::dvec3(1);
+            if (black)
+                note_at(is.picture_at,
+                        "map_Kd is multiplied by Kd, which is 0; 1 is used.");
         }
         // Programs to which 1 is opaque write it beside a picture.
-        if (!material->picture.empty() && !has_dissolve && material->dissolve == 0) {
-            material->dissolve = 1;
-            if (material != &ignored)
-                notes.push_back(
-                    material->picture_at +
-                    ": map_Kd is on a surface that Tr 1 makes wholly clear; "
-                    "Tr is not used.");
+        if (!is.picture.empty() && !has_dissolve && is.dissolve == 0) {
+            is.dissolve = 1;
+            note_at(is.picture_at, "map_Kd is on a surface that Tr 1 makes wholly "
+                                   "clear; Tr is not used.");
         }
+        if (is.is_mirror() && is.specular == glm::dvec3(0))
+            note_at(mirror_at, "illum makes a mirror whose colour, Ks, is 0: it is "
+                               "black.");
         has_diffuse = has_dissolve = false;
     }
     void read(std::string_view text) {
-        each_line(text, [&](std::string_view line, long long at) {
+        LineReader{path}.read(text, true, [&](std::string_view line, long long at) {
             Words words{line};
             number = at;
             const std::string_view keyword = words.next();
@@ -178,6 +181,7 @@ struct MaterialReader {
                 double model = material->illumination;
                 value(keyword, words, model, 0, 10);
                 material->illumination = static_cast<int>(model);
+                mirror_at = where();
             } else if (is("map_Kd")) {
                 picture(words);
             } else if (is("map_d") || is("map_Ke")) {

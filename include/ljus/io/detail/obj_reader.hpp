@@ -4,9 +4,7 @@
 /// \brief How load_obj() reads: line by line, trusting no number.
 
 #include <cmath>
-#include <compare>
 #include <map>
-#include <optional>
 #include <unordered_map>
 
 #include "ljus/geometry/detail/polygon.hpp"
@@ -35,274 +33,308 @@ struct ObjSettings {
 
 namespace detail {
 
-// A corner of a face: the numbers, from 0, of what the file says of it.
-struct ObjCorner {
-    std::uint32_t position = 0;
-    std::optional<std::uint32_t> normal{};
-    std::optional<std::uint32_t> uv{};
+// What the file says of a corner of a face: numbers, from 0, in its lists of positions,
+// texture coordinates, normals and names of materials; or no_number.
+using ObjCorner = std::array<std::uint32_t, 4>;
+inline constexpr std::size_t at_position = 0, at_uv = 1, at_normal = 2, at_material = 3;
+inline constexpr auto no_number = std::numeric_limits<std::uint32_t>::max();
 
-    friend bool operator==(const ObjCorner&, const ObjCorner&) = default;
-};
-struct ObjCornerHash {
-    std::size_t operator()(const ObjCorner& corner) const noexcept {
-        const auto number = [](const std::optional<std::uint32_t>& from) {
-            return std::uint64_t(from.value_or(0xffffffffu));
-        };
-        std::uint64_t hash = corner.position;
-        for (const std::uint64_t more : {number(corner.uv), number(corner.normal)})
-            hash = (hash ^ more) * 0x9e3779b97f4a7c15u;
-        return static_cast<std::size_t>(hash ^ hash >> 32);
-    }
-};
+// The number, from 0, that a number of the file means in a list of `count`.
+inline std::uint32_t place_of(long long number, std::size_t count) {
+    const auto all = static_cast<long long>(count);
+    if (number == 0 || number > all || number < -all) return no_number;
+    return static_cast<std::uint32_t>(number > 0 ? number - 1 : number + all);
+}
 
-// The faces of one material, as far as they have been read.
+// All faces of one material.
 template <std::floating_point T>
 struct ObjFacesT {
     ObjMaterial material{};
     MeshDataT<T> data{};
-    // Of `data`: one for equal corners.
-    std::unordered_map<ObjCorner, std::uint32_t, ObjCornerHash> vertices{};
-    std::vector<std::uint32_t> positions{}; // of the vertices, in the file
-    bool smooth = false;                    // whether any face has normals
-    bool has_uv = false;                    // whether any face has texture coordinates
-    std::vector<long long> without_uv{};    // lines of faces that have none
+    std::vector<std::uint32_t> positions{}; // of its vertices, in the file
+    bool has_normals = false, has_uv = false;
+    std::uint32_t without_uv = 0; // line of the last face that has none
+
+    // smooth_normals(), to which a seam of the texture coordinates is no edge.
+    void smooth() {
+        MeshDataT<T> seamless{.positions = data.positions};
+        std::unordered_map<std::uint32_t, std::uint32_t> first; // at each position
+        std::vector<std::uint32_t> of;
+        for (const std::uint32_t position : positions) {
+            const auto vertex = static_cast<std::uint32_t>(of.size());
+            of.push_back(first.try_emplace(position, vertex).first->second);
+        }
+        for (const auto& [a, b, c] : data.triangles)
+            seamless.triangles.push_back({of[a], of[b], of[c]});
+        smooth_normals(seamless);
+        data.normals.clear();
+        for (const std::uint32_t vertex : of)
+            data.normals.push_back(seamless.normals[vertex]);
+    }
 };
 
-// The state of reading a file.
+// Reads a file line by line. Which materials there are is known at its end.
 template <std::floating_point T>
-struct ObjReader {
-    const std::string& file; // its name, beside which its material files are
-    const ObjSettings& settings;
-    long long line = 0; // that is read
-    ObjReport report{};
-    MeshDataT<T> whole{};            // all vertices of the file, NaN for a bad one
-    std::vector<glm::dvec3> exact{}; // the same, in the file's own units
-    std::vector<long long> lines{};  // of the triangles of `whole`
-    std::vector<Vec3T<T>> normals{}; // 0 for a bad one
-    std::vector<Vec2T<T>> uv{};      // NaN for a bad one
-    MaterialLibraries libraries{};
-    std::map<std::string, std::size_t> numbers{}; // of the parts, by material
-    std::vector<ObjFacesT<T>> parts{};
-    std::string material{};                   // that faces have from here on
-    std::optional<std::size_t> part{};        // of that material, once it has a face
-    bool in_smooth_group = false;             // whether s is neither off nor 0
-    std::vector<ObjCorner> face_corners{};    // of the face that is read
-    std::vector<glm::dvec3> face_positions{}; // of these
+class ObjReader {
+public:
+    ObjReader(const std::string& file, const ObjSettings& settings)
+        : file_(file), settings_(settings), text_{file} {}
 
-    void read(std::string_view text) {
-        each_line(text, [&](std::string_view all, long long number) {
-            Words words{all};
-            if (words.next() == "mtllib") // wherever it stands
-                libraries.add(words.name(), file, number, report);
-        });
-        each_line(text, [&](std::string_view all, long long number) {
-            Words words{all};
-            line = number;
-            const std::string_view keyword = words.next();
-            if (keyword == "v")
-                vertex(words);
-            else if (keyword == "vn")
-                normal(words);
-            else if (keyword == "vt")
-                texture(words);
-            else if (keyword == "f" || keyword == "fo") // as old files have it
-                face(words);
-            else if (keyword == "usemtl")
-                use(words.name());
-            else if (keyword == "s")
-                smoothing(words.next());
-            else if (keyword == "o")
-                ++report.content.objects;
-            else if (keyword == "g")
-                ++report.content.groups;
-            else if (keyword == "l" || keyword == "p" || keyword == "curv" ||
-                     keyword == "curv2" || keyword == "surf")
-                report.add(ObjTrouble::no_face, line);
+    ObjReport report{};
+
+    // Reads a piece of the file, as LineReader::read() does.
+    std::size_t read(std::string_view piece, bool last) {
+        return text_.read(piece, last, [&](std::string_view line, long long number) {
+            line_ = number;
+            read_line({line});
         });
     }
+
+    // The faces by material, in the order of its first use. Completes the report.
+    std::vector<ObjFacesT<T>> take_faces() {
+        report.content.vertices = static_cast<long long>(positions_.size());
+        report.content.normals = static_cast<long long>(normals_.size());
+        report.content.uvs = static_cast<long long>(uv_.size());
+        report.content.unused = std::count(latest_.begin(), latest_.end(), no_number);
+        count_edges(whole_, lines_, report);
+
+        std::vector<const ObjMaterial*> known(names_.size() + 1); // nullptr for none
+        for (const auto& [name, use] : names_) {
+            const auto found = libraries_.materials.find(name);
+            if (found == libraries_.materials.end())
+                report.add(ObjTrouble::no_material, use.at.line, use.at.count);
+            else if (!name.empty())
+                known[use.number] = &found->second;
+        }
+        std::vector<ObjFacesT<T>> parts;
+        std::unordered_map<const ObjMaterial*, std::size_t> numbers; // of the parts
+        const auto part_of = [&](const ObjCorner& corner) -> ObjFacesT<T>& {
+            const ObjMaterial* const material = known[corner[at_material]];
+            const auto [at, fresh] = numbers.try_emplace(material, parts.size());
+            if (fresh) parts.push_back({material ? *material : ObjMaterial{}});
+            return parts[at->second];
+        };
+        std::vector<std::uint32_t> vertices; // of `whole_`, in their parts
+        for (std::size_t i = 0; i < corners_.size(); ++i) {
+            const auto [position, uv, normal, material] = corners_[i];
+            ObjFacesT<T>& part = part_of(corners_[i]);
+            vertices.push_back(static_cast<std::uint32_t>(part.positions.size()));
+            part.positions.push_back(position);
+            part.data.positions.push_back(whole_.positions[i]);
+            part.data.normals.push_back(normal != no_number ? normals_[normal]
+                                                            : Vec3T<T>{0});
+            part.data.uv.push_back(uv != no_number ? uv_[uv] : Vec2T<T>{0});
+            part.has_normals = part.has_normals || normal != no_number;
+            part.has_uv = part.has_uv || uv != no_number;
+        }
+        for (std::size_t i = 0; i < lines_.size(); ++i) {
+            const auto [a, b, c] = whole_.triangles[i];
+            ObjFacesT<T>& part = part_of(corners_[a]);
+            part.data.triangles.push_back({vertices[a], vertices[b], vertices[c]});
+            if (part.has_uv && corners_[a][at_uv] == no_number &&
+                part.without_uv != lines_[i])
+                report.add(ObjTrouble::no_uv, part.without_uv = lines_[i]);
+        }
+        for (ObjFacesT<T>& part : parts) {
+            if (!part.has_normals) part.data.normals.clear();
+            if (settings_.normals == ObjNormals::smooth) part.smooth();
+            if (!part.has_uv) part.data.uv.clear();
+        }
+        return parts;
+    }
+
+private:
+    // A name of a material.
+    struct Name {
+        std::uint32_t number;
+        ObjCount at; // lines usemtl
+    };
+
+    void read_line(Words words) {
+        const std::string_view keyword = words.next();
+        if (keyword == "v")
+            vertex(words);
+        else if (keyword == "vn")
+            normal(words);
+        else if (keyword == "vt")
+            texture(words);
+        else if (keyword == "f" || keyword == "fo") // as old files have it
+            face(words);
+        else if (keyword == "usemtl")
+            use(words.name());
+        else if (keyword == "mtllib")
+            libraries_.add(words.name(), file_, line_, report);
+        else if (keyword == "s")
+            smoothing(words.next());
+        else if (keyword == "o")
+            ++report.content.objects;
+        else if (keyword == "g")
+            ++report.content.groups;
+        else if (keyword == "l" || keyword == "p" || keyword == "curv" ||
+                 keyword == "curv2" || keyword == "surf")
+            report.add(ObjTrouble::no_face, line_);
+    }
     void vertex(Words words) {
-        exact.push_back(three_numbers(words));
-        whole.positions.emplace_back(settings.scale * exact.back());
-        if (!is_finite(whole.positions.back()))
-            report.add(ObjTrouble::bad_number, line);
+        positions_.push_back(three_numbers(words));
+        latest_.push_back(no_number);
+        if (!is_finite(position(positions_.size() - 1)))
+            report.add(ObjTrouble::bad_number, line_);
         (void)words.next(); // a weight, or red: a colour has three numbers
-        if (!words.next().empty()) report.add(ObjTrouble::vertex_color, line);
+        if (!words.next().empty()) report.add(ObjTrouble::vertex_color, line_);
+    }
+    Vec3T<T> position(std::size_t number) const {
+        return Vec3T<T>(settings_.scale * positions_[number]);
     }
     void normal(Words words) {
         const glm::dvec3 n = three_numbers(words);
         const double length = glm::length(n);
         const bool good = length > 0 && std::isfinite(length);
-        if (!good) report.add(ObjTrouble::bad_normal, line);
-        normals.emplace_back(good ? n / length : glm::dvec3(0));
+        if (!good) report.add(ObjTrouble::bad_normal, line_);
+        normals_.emplace_back(good ? n / length : glm::dvec3(0));
     }
     void texture(Words words) {
         const double u = number_of(words.next());
         const std::string_view second = words.next(); // of a picture of one row: none
-        uv.emplace_back(T(u), second.empty() ? T(0) : T(number_of(second)));
-        if (!has_place(uv.back())) report.add(ObjTrouble::bad_uv, line);
+        uv_.emplace_back(T(u), second.empty() ? T(0) : T(number_of(second)));
+        if (!has_place(uv_.back())) report.add(ObjTrouble::bad_uv, line_);
     }
     static bool has_place(const Vec2T<T>& uv) {
         return std::isfinite(uv.x) && std::isfinite(uv.y);
     }
-    void smoothing(std::string_view group) {
-        in_smooth_group = !group.empty() && group != "off" && group != "0";
-    }
     void use(const std::string& name) {
-        const bool known = libraries.materials.contains(name);
-        if (!known) report.add(ObjTrouble::no_material, line);
-        material = known ? name : std::string();
-        part.reset();
+        const auto number = static_cast<std::uint32_t>(names_.size() + 1); // 0: none
+        Name& known = names_.try_emplace(name, Name{number, {0, line_}}).first->second;
+        ++known.at.count;
+        material_ = known.number;
+    }
+    void smoothing(std::string_view group) {
+        in_smooth_group_ = !group.empty() && group != "off" && group != "0";
+    }
+    // Reads a corner of a face, "1/2/3", "1//3" or "-1"; notes what does not exist.
+    ObjCorner corner_of(std::string_view word, std::array<bool, 3>& missing) const {
+        const std::array counts{positions_.size(), uv_.size(), normals_.size()};
+        ObjCorner corner{no_number, no_number, no_number, material_};
+        for (std::size_t k = 0; k < 3 && !word.empty(); ++k) {
+            const std::size_t end = std::min(word.find('/'), word.size());
+            const char* const last = word.data() + end;
+            long long number = 0;
+            const auto [stop, error] = std::from_chars(word.data(), last, number);
+            if (end > 0 && (stop != last || error != std::errc{})) break;
+            corner[k] = place_of(number, counts[k]);
+            missing[k] = missing[k] || (end > 0 && corner[k] == no_number);
+            word.remove_prefix(std::min(end + 1, word.size()));
+        }
+        // A word that is written otherwise means no position.
+        if (!word.empty() || corner[at_position] == no_number)
+            missing[at_position] = true;
+        return corner;
     }
     void face(Words words) {
-        face_corners.clear();
-        face_positions.clear();
-        bool good = true, all_uv = true, all_normals = true;
+        face_.clear();
+        std::array<bool, 3> missing{};
         for (auto word = words.next(); !word.empty(); word = words.next()) {
-            if (face_corners.size() == 1000)
-                return report.add(ObjTrouble::many_corners, line);
-            const ObjIndices named = indices_of(word).value_or(ObjIndices{});
-            const auto position = place_of(named.position, exact.size());
-            face_corners.push_back({position.value_or(0),
-                                    place_of(named.normal, normals.size()),
-                                    place_of(named.uv, uv.size())});
-            good = good && position;
-            all_uv = all_uv && (named.uv == 0 || face_corners.back().uv);
-            all_normals =
-                all_normals && (named.normal == 0 || face_corners.back().normal);
+            if (face_.size() == 1000)
+                return report.add(ObjTrouble::many_corners, line_);
+            face_.push_back(corner_of(word, missing));
         }
-        if (face_corners.size() < 3) return report.add(ObjTrouble::few_corners, line);
-        if (!good) return report.add(ObjTrouble::bad_index, line);
-        if (!all_uv) report.add(ObjTrouble::no_such_uv, line);
-        if (!all_normals) report.add(ObjTrouble::no_such_normal, line);
-        for (const ObjCorner& corner : face_corners) {
-            if (!is_finite(whole.positions[corner.position]))
-                return; // said at the vertex
-            face_positions.push_back(exact[corner.position]);
+        if (face_.size() < 3) return report.add(ObjTrouble::few_corners, line_);
+        if (missing[at_position]) return report.add(ObjTrouble::bad_index, line_);
+        if (missing[at_uv]) report.add(ObjTrouble::no_such_uv, line_);
+        if (missing[at_normal]) report.add(ObjTrouble::no_such_normal, line_);
+        face_positions_.clear();
+        for (const ObjCorner& corner : face_) {
+            if (!is_finite(position(corner[at_position]))) return; // said at the vertex
+            face_positions_.push_back(positions_[corner[at_position]]);
         }
         keep_what_all_have();
-        const CutPolygon cut = cut_polygon(face_positions);
-        const std::size_t before = whole.triangles.size();
+        const CutPolygon cut = cut_polygon(face_positions_);
+        const std::size_t before = lines_.size();
         bool empty = cut.triangles.empty();
         for (const auto& [a, b, c] : cut.triangles)
-            empty = !add({face_corners[a], face_corners[b], face_corners[c]}) || empty;
-        if (whole.triangles.size() > before) count_face();
-        if (empty) report.add(ObjTrouble::no_area, line);
-        if (cut.crossed) report.add(ObjTrouble::crossed, line);
-    }
-    void count_face() {
-        ObjContent& all = report.content;
-        ++all.faces;
-        all.polygons += face_corners.size() > 3 ? 1 : 0;
-        all.flat_faces += face_corners[0].normal ? 0 : 1;
-        if (in_smooth_group && !face_corners[0].normal &&
-            settings.normals == ObjNormals::file)
-            report.add(ObjTrouble::not_smooth, line);
-        all.no_uv_faces += face_corners[0].uv ? 0 : 1;
+            empty = !add({face_[a], face_[b], face_[c]}) || empty;
+        if (lines_.size() > before) count_face();
+        if (empty) report.add(ObjTrouble::no_area, line_);
+        if (cut.crossed) report.add(ObjTrouble::crossed, line_);
     }
     // Normals and texture coordinates that are not good at every corner of a face are
     // used at none.
     void keep_what_all_have() {
-        bool all_normals = settings.normals == ObjNormals::file;
+        bool all_normals = settings_.normals == ObjNormals::file;
         bool all_uv = true;
-        for (const ObjCorner& corner : face_corners) {
+        for (const auto& [at, uv, normal, material] : face_) {
             all_normals =
-                all_normals && corner.normal && normals[*corner.normal] != Vec3T<T>{0};
-            all_uv = all_uv && corner.uv && has_place(uv[*corner.uv]);
+                all_normals && normal != no_number && normals_[normal] != Vec3T<T>{0};
+            all_uv = all_uv && uv != no_number && has_place(uv_[uv]);
         }
-        for (ObjCorner& corner : face_corners) {
-            if (!all_normals) corner.normal.reset();
-            if (!all_uv) corner.uv.reset();
+        for (ObjCorner& corner : face_) {
+            if (!all_normals) corner[at_normal] = no_number;
+            if (!all_uv) corner[at_uv] = no_number;
         }
+    }
+    void count_face() {
+        ObjContent& all = report.content;
+        const bool flat = face_[0][at_normal] == no_number;
+        ++all.faces;
+        all.polygons += face_.size() > 3 ? 1 : 0;
+        all.flat_faces += flat ? 1 : 0;
+        if (in_smooth_group_ && flat && settings_.normals == ObjNormals::file)
+            report.add(ObjTrouble::not_smooth, line_);
+        all.no_uv_faces += face_[0][at_uv] == no_number ? 1 : 0;
     }
     // One triangle of a face; false if it has no area.
     bool add(std::array<ObjCorner, 3> corners) {
-        whole.triangles.push_back(
-            {corners[0].position, corners[1].position, corners[2].position});
-        const auto across =
-            cross_of_edges(triangle_of(whole, whole.triangles.size() - 1));
-        if (!(glm::dot(across, across) > 0)) {
-            whole.triangles.pop_back();
-            return false;
-        }
-        lines.push_back(line);
-        if (corners[0].normal && !normals_point_along(across, corners)) {
-            report.add(ObjTrouble::turned, line);
-            for (ObjCorner& corner : corners) corner.normal.reset();
-        }
-        ObjFacesT<T>& into = part_in_use();
-        into.smooth = into.smooth || corners[0].normal;
-        into.has_uv = into.has_uv || corners[0].uv;
-        auto& without = into.without_uv;
-        if (!corners[0].uv && (without.empty() || without.back() != line))
-            without.push_back(line);
-        into.data.triangles.push_back({vertex_of(into, corners[0]),
-                                       vertex_of(into, corners[1]),
-                                       vertex_of(into, corners[2])});
-        return true;
-    }
-    bool normals_point_along(const Vec3T<WideT<T>>& across,
-                             const std::array<ObjCorner, 3>& corners) const {
-        Vec3T<T> sum{0};
-        for (const ObjCorner& corner : corners) sum += normals[*corner.normal];
-        return glm::dot(Vec3T<WideT<T>>(sum), across) > 0;
-    }
-    ObjFacesT<T>& part_in_use() {
-        if (!part) {
-            const auto [at, fresh] = numbers.try_emplace(material, parts.size());
-            part = at->second;
-            if (fresh) {
-                parts.emplace_back();
-                if (!material.empty())
-                    parts.back().material = libraries.materials[material];
+        const auto across = cross_of_edges(TriangleT<T>{
+            position(corners[0][at_position]), position(corners[1][at_position]),
+            position(corners[2][at_position])});
+        if (!(glm::dot(across, across) > 0)) return false;
+        if (corners[0][at_normal] != no_number) {
+            Vec3T<T> sum{0};
+            for (const ObjCorner& corner : corners) sum += normals_[corner[at_normal]];
+            if (!(glm::dot(Vec3T<WideT<T>>(sum), across) > 0)) {
+                report.add(ObjTrouble::turned, line_);
+                for (ObjCorner& corner : corners) corner[at_normal] = no_number;
             }
         }
-        return parts[*part];
+        whole_.triangles.push_back(
+            {vertex_of(corners[0]), vertex_of(corners[1]), vertex_of(corners[2])});
+        lines_.push_back(static_cast<std::uint32_t>(line_));
+        return true;
     }
-    // The vertex of a part that a corner is.
-    std::uint32_t vertex_of(ObjFacesT<T>& into, const ObjCorner& corner) const {
-        const auto [at, fresh] = into.vertices.try_emplace(
-            corner, static_cast<std::uint32_t>(into.data.positions.size()));
-        if (fresh) {
-            into.positions.push_back(corner.position);
-            into.data.positions.push_back(whole.positions[corner.position]);
-            into.data.normals.push_back(corner.normal ? normals[*corner.normal]
-                                                      : Vec3T<T>{0});
-            into.data.uv.push_back(corner.uv ? uv[*corner.uv] : Vec2T<T>{0});
+    // The vertex of a corner: one for equal corners, if it is among the latest at their
+    // position.
+    std::uint32_t vertex_of(const ObjCorner& corner) {
+        std::uint32_t& latest = latest_[corner[at_position]];
+        std::uint32_t vertex = latest;
+        for (int i = 0; i < 64 && vertex != no_number; ++i) {
+            if (corners_[vertex] == corner) return vertex;
+            vertex = before_[vertex];
         }
-        return at->second;
+        before_.push_back(latest);
+        corners_.push_back(corner);
+        latest = static_cast<std::uint32_t>(whole_.positions.size());
+        whole_.positions.push_back(position(corner[at_position]));
+        return latest;
     }
+
+    const std::string& file_; // its name, beside which its material files are
+    const ObjSettings& settings_;
+    LineReader text_;
+    long long line_ = 0;                  // that is read
+    std::vector<glm::dvec3> positions_{}; // in the file's own units
+    std::vector<Vec3T<T>> normals_{};     // 0 for a bad one
+    std::vector<Vec2T<T>> uv_{};          // NaN for a bad one
+    MaterialLibraries libraries_{};
+    std::map<std::string, Name> names_{};
+    std::uint32_t material_ = 0;          // the name that faces have from here on
+    bool in_smooth_group_ = false;        // whether s is neither off nor 0
+    MeshDataT<T> whole_{};                // all triangles
+    std::vector<std::uint32_t> lines_{};  // of each
+    std::vector<ObjCorner> corners_{};    // of its vertices
+    std::vector<std::uint32_t> before_{}; // of each the one before at its position
+    std::vector<std::uint32_t> latest_{}; // the last one at each position
+    std::vector<ObjCorner> face_{};       // that is read
+    std::vector<glm::dvec3> face_positions_{};
 };
-
-// smooth_normals(), to which a seam of the texture coordinates is no edge.
-template <std::floating_point T>
-void smooth_across_seams(ObjFacesT<T>& part) {
-    MeshDataT<T> seamless{.triangles = part.data.triangles};
-    std::unordered_map<std::uint32_t, std::uint32_t> numbers; // by position in the file
-    std::vector<std::uint32_t> of;
-    for (std::size_t vertex = 0; vertex < part.positions.size(); ++vertex) {
-        const auto [at, fresh] =
-            numbers.try_emplace(part.positions[vertex],
-                                static_cast<std::uint32_t>(seamless.positions.size()));
-        if (fresh) seamless.positions.push_back(part.data.positions[vertex]);
-        of.push_back(at->second);
-    }
-    for (auto& triangle : seamless.triangles)
-        for (std::uint32_t& vertex : triangle) vertex = of[vertex];
-    smooth_normals(seamless);
-    part.data.normals.clear();
-    for (const std::uint32_t vertex : of)
-        part.data.normals.push_back(seamless.normals[vertex]);
-}
-
-// Drops the normals or texture coordinates of a part in which no face has any, and
-// reports the faces that lack what others have.
-template <std::floating_point T>
-void finish(ObjFacesT<T>& part, ObjNormals normals, ObjReport& report) {
-    if (!part.smooth) part.data.normals.clear();
-    if (normals == ObjNormals::smooth) smooth_across_seams(part);
-    if (!part.has_uv) return part.data.uv.clear();
-    for (const long long line : part.without_uv) report.add(ObjTrouble::no_uv, line);
-}
 
 } // namespace detail
 

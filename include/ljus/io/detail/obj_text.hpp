@@ -7,12 +7,13 @@
 #include <charconv>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
 
 #include <glm/vec3.hpp>
+
+#include "ljus/io/file.hpp"
 
 namespace ljus {
 
@@ -32,31 +33,40 @@ inline std::string_view take_line(std::string_view& text) {
     return line;
 }
 
-// Calls use(line, number) for each line of a text, numbered from 1. A line that ends in
-// a backslash goes on with the next one.
-template <typename Use>
-void each_line(std::string_view text, Use use) {
-    std::string joined;
-    for (long long number = 1, next = 1; !text.empty(); number = next) {
-        std::string_view line = take_line(text);
-        ++next;
-        if (line.ends_with('\\') && !text.empty()) {
-            for (joined.clear(); line.ends_with('\\') && !text.empty(); ++next) {
-                joined.append(line.substr(0, line.size() - 1)).append(" ");
-                line = take_line(text);
+// The lines of a text that comes in pieces, without a byte order mark. A line that ends
+// in a backslash goes on with the next one.
+struct LineReader {
+    const std::string& file; // its name
+    long long number = 1;    // of the next line
+    std::string joined{};
+
+    // Calls use(line, number) for each line of a piece. What reaches its end is left,
+    // unless it is the last piece: the next one begins with it.
+    // Returns the number of bytes that are used.
+    template <typename Use>
+    std::size_t read(std::string_view piece, bool last, Use use) {
+        std::string_view rest = number == 1 ? plain_text(piece, file) : piece;
+        while (!rest.empty()) {
+            const std::size_t left = rest.size();
+            std::string_view line = take_line(rest);
+            long long next = number + 1;
+            if (line.ends_with('\\') && !rest.empty()) {
+                for (joined.clear(); line.ends_with('\\') && !rest.empty(); ++next) {
+                    joined.append(line.substr(0, line.size() - 1)).append(" ");
+                    line = take_line(rest);
+                }
+                line = joined.append(line);
             }
-            line = joined.append(line);
+            if (rest.empty() && !last) return piece.size() - left;
+            use(line, number);
+            number = next;
         }
-        use(line, number);
+        return piece.size();
     }
-}
+};
 
-inline constexpr std::string_view blanks = " \t";
-
-// A text without the blanks around it.
-inline std::string_view trimmed(std::string_view text) {
-    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
-    return text.substr(0, text.find_last_not_of(blanks) + 1);
+inline bool is_blank(char c) {
+    return c == ' ' || c == '\t';
 }
 
 // The words of a line, one after another. A word that begins with # begins a comment.
@@ -65,9 +75,10 @@ struct Words {
 
     // The next word; empty at the end.
     std::string_view next() {
-        rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+        while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
         if (rest.starts_with('#')) rest = {};
-        const std::size_t end = std::min(rest.find_first_of(blanks), rest.size());
+        std::size_t end = 0;
+        while (end < rest.size() && !is_blank(rest[end])) ++end;
         const std::string_view word = rest.substr(0, end);
         rest.remove_prefix(end);
         return word;
@@ -75,7 +86,9 @@ struct Words {
     // All that is left: a name, which may have blanks in it, a # that no blank follows,
     // and quotation marks around it.
     [[nodiscard]] std::string name() const {
-        std::string_view text = trimmed(rest.substr(0, rest.find(" # ")));
+        std::string_view text = rest.substr(0, rest.find(" # "));
+        while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+        while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
         if (text.size() > 2 && text[0] == '"' && text.find('"', 1) == text.size() - 1)
             text = text.substr(1, text.size() - 2);
         return std::string(text);
@@ -107,38 +120,6 @@ inline double number_of(std::string_view word) {
 inline glm::dvec3 three_numbers(Words& words) {
     const double x = number_of(words.next()), y = number_of(words.next());
     return {x, y, number_of(words.next())};
-}
-
-// A corner of a face as it is written, "1/2/3", "1//3" or "-1": which vertex, texture
-// coordinate and normal, counted from 1 or, if negative, from the end. 0 for none, and
-// the largest number, which no list has, for a 0 that is written.
-struct ObjIndices {
-    long long position = 0, uv = 0, normal = 0;
-};
-
-// Reads a corner; nothing if it is written otherwise.
-inline std::optional<ObjIndices> indices_of(std::string_view word) {
-    ObjIndices result;
-    for (long long* const number : {&result.position, &result.uv, &result.normal}) {
-        const std::size_t end = std::min(word.find('/'), word.size());
-        const char* const last = word.data() + end;
-        const auto [stop, error] = std::from_chars(word.data(), last, *number);
-        if (end > 0 && (stop != last || error != std::errc{})) return std::nullopt;
-        if (end > 0 && *number == 0) *number = std::numeric_limits<long long>::max();
-        word.remove_prefix(end);
-        if (word.empty()) break;
-        word.remove_prefix(1);
-    }
-    if (!word.empty() || result.position == 0) return std::nullopt;
-    return result;
-}
-
-// The index that a number of an OBJ file means in a list of `count`; nothing if out of
-// range.
-inline std::optional<std::uint32_t> place_of(long long number, std::size_t count) {
-    const auto all = static_cast<long long>(count);
-    if (number == 0 || number > all || number < -all) return std::nullopt;
-    return static_cast<std::uint32_t>(number > 0 ? number - 1 : number + all);
 }
 
 } // namespace detail

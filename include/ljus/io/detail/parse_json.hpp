@@ -26,7 +26,7 @@ struct JsonBuilder {
     const std::string& file;             // its name
     nlohmann::json root{};               // what has been read
     std::vector<nlohmann::json*> open{}; // the enclosing lists and objects
-    std::vector<std::string> keys{};     // the current member of each open object
+    nlohmann::json* member = nullptr;    // the current one, if the last is an object
     std::size_t room = max_json_values;  // the rest of the limit
 
     bool null() { return put(nullptr); }
@@ -43,8 +43,10 @@ struct JsonBuilder {
 
     bool key(std::string& name) {
         take(4);
-        keys.back() = name;
-        if (open.back()->contains(name))
+        auto& members = open.back()->get_ref<nlohmann::json::object_t&>();
+        const auto [at, fresh] = members.try_emplace(std::move(name));
+        member = &at->second;
+        if (!fresh)
             throw std::runtime_error(shown_path(file) + ": " + path() +
                                      " appears twice.");
         return true;
@@ -83,17 +85,13 @@ struct JsonBuilder {
 private:
     // The path of the next value.
     std::string path() const {
-        std::string all;
-        for (std::size_t i = 0; i < open.size(); ++i) {
-            if (open[i]->is_object())
-                all = path_of_member(all, keys[i]);
-            else
-                all.append("[")
-                    .append(
-                        std::to_string(open[i]->size() - (i + 1 < open.size() ? 1 : 0)))
-                    .append("]");
-        }
-        return all.empty() ? "the file" : all;
+        if (open.empty()) return "the file";
+        const nlohmann::json& last = *open.back();
+        return last.is_object() ? path_within(root, *member).value_or("")
+                                : path_within(root, last)
+                                      .value_or("")
+                                      .append("[")
+                                      .append(std::to_string(last.size()) + "]");
     }
 
     void take(std::size_t cost) {
@@ -117,7 +115,7 @@ private:
             open.back()->push_back(std::move(value));
             return &open.back()->back();
         }
-        return &((*open.back())[keys.back()] = std::move(value));
+        return &(*member = std::move(value));
     }
 
     bool begin(nlohmann::json value) {
@@ -128,13 +126,11 @@ private:
                                      std::to_string(max_json_depth) +
                                      " levels are allowed.");
         open.push_back(place(std::move(value)));
-        keys.emplace_back();
         return true;
     }
 
     bool end() {
         open.pop_back();
-        keys.pop_back();
         return true;
     }
 };
