@@ -326,7 +326,7 @@ TEST_CASE("file: pieces begin with what was left of the one before") {
     const std::string path = folder.file("words");
     std::string whole;
     for (int i = 0; i < 40000; ++i) whole += std::to_string(i) + " ";
-    whole += std::string(300000, 'x') + " end"; // longer than a piece
+    whole.append(300000, 'x').append(" end"); // longer than a piece
     ScratchFolder::write(path, whole);
     std::string words;
     int last_ones = 0;
