@@ -238,9 +238,8 @@ template <AnyWorld W>
 /// \param other  The kind of the other one.
 /// \return Null if it is of no interest: surfaces that touch in points, and opaque ones
 ///         back to back.
-template <std::floating_point T>
-[[nodiscard, gnu::cold]] const char*
-contact_rule(const ContactT<T>& contact, ContactKind met, ContactKind other) noexcept {
+[[nodiscard, gnu::cold]] inline const char*
+contact_rule(const Contact& contact, ContactKind met, ContactKind other) noexcept {
     if (!contact.over_area) return nullptr;
     if (other == ContactKind::sheet)
         return "the thin surface has no effect there; move it away from the other one";
@@ -277,18 +276,17 @@ template <AnyWorld W>
 template <AnyWorld W>
 [[gnu::cold]] void add_contact_remarks(const W& world,
                                        std::vector<std::string>& remarks) {
-    using T = typename W::Scalar;
-    const ContactsT<T>& contacts = world.contacts();
+    const Contacts& contacts = world.contacts();
     struct Found {
         const char* rule;
         std::size_t pairs;
         std::string first;
     };
     std::vector<Found> all;
-    for (const ContactT<T>& contact : contacts.pairs) {
+    for (const Contact& contact : contacts.pairs) {
         const auto* met = &contacts.objects[contact.pair[0]];
         const auto* other = &contacts.objects[contact.pair[1]];
-        if (other->rank < met->rank) std::swap(met, other);
+        if (other->key < met->key) std::swap(met, other);
         const char* const rule = contact_rule(contact, met->kind, other->kind);
         if (rule == nullptr) continue;
         const auto same = std::find_if(all.begin(), all.end(), [&](const Found& found) {
@@ -301,8 +299,9 @@ template <AnyWorld W>
         all.push_back({rule, 1,
                        join({object_name(world, met->object), " and ",
                              object_name(world, other->object), " around ",
-                             to_text(contact.box.low +
-                                     (contact.box.high - contact.box.low) / T(2))})});
+                             to_text(Vec3T<typename W::Scalar>(
+                                 contact.box.low +
+                                 (contact.box.high - contact.box.low) / 2.0))})});
     }
     for (const Found& found : all)
         remarks.push_back(
