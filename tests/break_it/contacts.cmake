@@ -60,6 +60,6 @@ ljus_break_it(NAME contacts-medium HEADER path/next_vertex.hpp TEST contacts
 
 # The survey is silent about contacts.
 ljus_break_it(NAME contacts-remark HEADER render/passes.hpp TEST contacts
-    FROM "    detail::add_contact_remarks(world, remarks);"
+    FROM "    detail::add_contact_remarks(world.contacts(), type_of, remarks);"
     TO   ""
     CASES "contacts: the survey says*")

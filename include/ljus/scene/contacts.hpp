@@ -261,7 +261,9 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
                 near = box_union(near, {glm::max(whole[k].low, whole[i].low),
                                         glm::min(whole[k].high, whole[i].high)});
         for (std::uint32_t number = 0; number < object.pieces; ++number) {
-            const Box box = in_units(box_of(search.piece(object.id, number)));
+            const Box box = object.pieces == 1
+                                ? whole[i]
+                                : in_units(box_of(search.piece(object.id, number)));
             if (!overlap(box, near)) continue;
             pieces.boxes.push_back(box);
             pieces.object.push_back(i);

@@ -365,7 +365,7 @@ private:
             ids_.push_back(all[primitive]);
     }
 
-    void find_media() {
+    [[gnu::cold]] void find_media() {
         struct Body {
             BoxT<Scalar> box;
             bool absorbs;
@@ -403,7 +403,7 @@ private:
         return {.center = box_.low + half, .radius = Scalar(1.001) * glm::length(half)};
     }
 
-    void close_lights(const S& scene) {
+    [[gnu::cold]] void close_lights(const S& scene) {
         const SphereT<Scalar> sphere = around();
         const auto keep = [&](auto& to, const auto& from) {
             for (const auto& light : from) {
@@ -423,7 +423,7 @@ private:
         choice_ = ljus::light_choice(powers_);
     }
 
-    void add_lamp(const S& scene, ObjectId id) {
+    [[gnu::cold]] void add_lamp(const S& scene, ObjectId id) {
         ObjectT<Scalar>& object = objects_[id.type][id.index];
         object.emission = scene.emission_of(object);
         object.light = no_light;
@@ -437,7 +437,7 @@ private:
         add_light({0, static_cast<std::uint32_t>(lamps_.size() - 1)});
     }
 
-    void add_light(LightId id) {
+    [[gnu::cold]] void add_light(LightId id) {
         lights_.push_back(id);
         powers_.push_back(visit_light(static_cast<std::uint32_t>(lights_.size() - 1),
                                       [](const auto& light) { return power(light); }));
