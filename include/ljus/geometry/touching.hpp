@@ -90,20 +90,32 @@ shared_place(const SurfacePiece& one, const SurfacePiece& other,
     const glm::dvec3& point = one.facet.corners[0];
     const glm::dvec3 across = one.radius > 0 ? other.facet.corners[0] - point : a;
     const double length = glm::length(across);
-    const auto [low, high] =
-        detail::heights_of(other, point, length > 0 ? across / length : glm::dvec3(0));
+    const glm::dvec3 normal = length > 0 ? across / length : glm::dvec3(0);
+    const auto [low, high] = detail::heights_of(other, point, normal);
     const bool at_low = std::abs(low + one.radius) <= distance;
     const bool at_high = std::abs(high - one.radius) <= distance;
     const bool over_area = at_low && at_high;
+    const bool outside = std::abs(low - one.radius) <= distance;
     const bool share = other.radius > 0
-                           ? at_low || at_high || std::abs(low - one.radius) <= distance
+                           ? at_low || at_high || outside
                            : over_area && glm::dot(a, b) != 0 &&
                                  !detail::separated(one.facet, other, distance) &&
                                  !detail::separated(other.facet, one, distance);
     if (!share) return std::nullopt;
     const BoxT<double> box = detail::box_of(one), other_box = detail::box_of(other);
-    return SharedPlace{.box{glm::max(box.low, other_box.low) - distance,
-                            glm::min(box.high, other_box.high) + distance},
+    glm::dvec3 least = glm::max(box.low, other_box.low) - distance;
+    glm::dvec3 most = glm::min(box.high, other_box.high) + distance;
+    if (!over_area && other.radius > 0 && (outside || one.radius == 0)) {
+        // Where a sphere is this close to a plane, or to a sphere outside of it.
+        const double radius =
+            one.radius > 0 ? std::min(one.radius, other.radius) : other.radius;
+        const double half = std::sqrt(8 * radius * distance) + distance;
+        const glm::dvec3 touch =
+            other.facet.corners[0] - ((low + high) / 2 - one.radius) * normal;
+        least = glm::max(least, touch - half);
+        most = glm::min(most, touch + half);
+    }
+    return SharedPlace{.box{least, most},
                        .over_area = over_area,
                        .alike = (glm::dot(a, b) < 0) !=
                                 (one.inside_out == other.inside_out)};
