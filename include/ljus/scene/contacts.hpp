@@ -241,7 +241,7 @@ struct ContactPieces {
 /// \param looks  By object. What has one look need not be compared.
 [[nodiscard, gnu::cold]] inline ContactPieces
 list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks) {
-    double unit = 0;
+    double unit = std::numeric_limits<double>::min(); // all may lie at 0
     for (const ContactObject& object : search.objects)
         unit = std::max(unit, reach_of(object.box));
     const auto in_units = [unit](const BoxT<double>& box) {
