@@ -510,6 +510,10 @@ TEST_CASE("contacts: what only shares an edge, a corner or a box is none") {
               s.add(quad(zero, x, y), a);
               s.add(quad(0.5f * x + 0.25f * y - 0.5f * z, 0.5f * y, z), b);
           }) == 0);
+    CHECK(count([&](auto& s, auto a, auto b) { // the same at half a right angle
+              s.add(quad(zero, x, y), a);
+              s.add(quad(0.25f * (x + y - z), 0.5f * y, 0.5f * (x + z)), b);
+          }) == 0);
     CHECK(count([&](auto& s, auto a, auto b) { // two triangles of a square
               s.add(Triangle{zero, x, y}, a), s.add(Triangle{x, x + y, y}, b);
           }) == 0);

@@ -52,11 +52,17 @@ double part_by_rule(double s) {
     return sum;
 }
 
-using Flat = Scene<Shapes<Quad, Triangle>, Materials<Lambertian>, Lights<PointLight>>;
+// Renderers are compiled for each type of scene, which takes most of the compile time:
+// nearly all cases share these two types.
+using Chamber =
+    Scene<Shapes<Quad, Sphere, Triangle, Mesh>, Materials<Lambertian, Glossy>,
+          Lights<PointLight, SpotLight, SunLight>>;
+using Hall = Scene<Shapes<Quad, Sphere, Moving<Quad>>,
+                   Materials<Lambertian, Mirror, Mixture, Glass>>;
 
 /// A unit square at z = 0, whole or of two triangles.
-Flat square(bool two_triangles) {
-    Flat scene;
+Chamber square(bool two_triangles) {
+    Chamber scene;
     const auto grey = scene.add(Lambertian{.albedo = Rgb{0.5f}});
     if (two_triangles) {
         scene.add(Triangle{.v1{0, 0, 0}, .v2{1, 0, 0}, .v3{1, 1, 0}}, grey);
@@ -70,7 +76,7 @@ Flat square(bool two_triangles) {
 /// Lets every photon count, for estimate_irradiance().
 constexpr auto all_photons = [](std::uint32_t) { return true; };
 
-Vertex at(const World<Flat>& scene, float x, float y) {
+Vertex at(const World<Chamber>& scene, float x, float y) {
     const Ray ray{.origin{x, y, 0.1f}, .direction{0, 0, -1}};
     const auto hit = closest_hit(scene, ray);
     REQUIRE(hit);
@@ -107,7 +113,7 @@ TEST_CASE("final gathering: the part of the kernel beside a line") {
 TEST_CASE("final gathering: what lies on the surface near its edges") {
     const Vec3 up{0, 0, 1};
     for (const bool triangles : {false, true}) {
-        const Flat open = square(triangles);
+        const Chamber open = square(triangles);
         const World scene(open);
         const auto part = [&](float x, float y, float radius) {
             return part_on_surface(scene, at(scene, x, y), up, radius);
@@ -118,7 +124,7 @@ TEST_CASE("final gathering: what lies on the surface near its edges") {
         CHECK(part(0.98f, 0.6f, 0.1f) == doctest::Approx(kernel_part(0.2f)));
         // The same from below as from above, ignoring photons farther down or on tilted
         // surfaces.
-        Flat more = open;
+        Chamber more = open;
         const auto grey = more.add(Lambertian{});
         more.add(Quad{.corner{-9, -9, -0.5f}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
                  grey);
@@ -126,7 +132,7 @@ TEST_CASE("final gathering: what lies on the surface near its edges") {
                  grey);
         const World larger(std::move(more));
         for (const Vec3 side : {up, -up})
-            for (const World<Flat>* there : {&scene, &larger}) {
+            for (const World<Chamber>* there : {&scene, &larger}) {
                 const auto of = [&](float x, float y) {
                     return part_on_surface(*there, at(*there, x, y), side, 0.1f);
                 };
@@ -136,7 +142,7 @@ TEST_CASE("final gathering: what lies on the surface near its edges") {
             }
         // A step down or up, lower than the disc is wide, is no way on either.
         for (const float step : {-0.03f, -0.07f, 0.03f, 0.07f}) {
-            Flat stairs = open;
+            Chamber stairs = open;
             stairs.add(Quad{.corner{1, -1, step}, .edge_u{3, 0, 0}, .edge_v{0, 3, 0}},
                        stairs.add(Lambertian{}));
             const World two(std::move(stairs));
@@ -436,7 +442,7 @@ TEST_CASE("final gathering: an estimate of few photons, added up by hand") {
 
 TEST_CASE("final gathering: points at photons, with all the light that is there") {
     // A floor in the void under a point light; photons so far apart that each is alone.
-    Flat scene;
+    Chamber scene;
     const auto grey = scene.add(Lambertian{.albedo = Rgb{0.5f}});
     scene.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, grey);
     scene.add(PointLight{.position{0, 0, 2}, .intensity{8, 4, 2}});
@@ -520,8 +526,6 @@ TEST_CASE("final gathering: points at photons, with all the light that is there"
 }
 
 namespace {
-
-using Hall = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Mirror, Mixture>>;
 
 /// One point that knows the irradiance of everything that faces some way.
 IrradiancePoints everywhere(const Rgb& irradiance, std::vector<Vec3> normals) {
@@ -808,7 +812,7 @@ TEST_CASE("final gathering: like normals, and surfaces that lean") {
     // The next surface goes on, or is another one: 0.99 is 8.1 degrees.
     for (const double degrees : {7.0, 10.0, 40.0}) {
         const double angle = degrees * pi / 180;
-        Flat scene = square(false);
+        Chamber scene = square(false);
         scene.add(Quad{.corner{1, 0, 0},
                        .edge_u{float(std::cos(angle)), 0, float(std::sin(angle))},
                        .edge_v{0, 1, 0}},
@@ -831,7 +835,7 @@ TEST_CASE(
                                .normal = small_normal(Vec3{0, 0, 1})});
         return make_photon_map(photons);
     };
-    Flat under; // a shelf just above the floor is lit in its place
+    Chamber under; // a shelf just above the floor is lit in its place
     const auto grey = under.add(Lambertian{.albedo = Rgb{0.5f}});
     const Quad floor{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}};
     under.add(floor, grey);
@@ -843,7 +847,7 @@ TEST_CASE(
     for (const auto& record : dark.records) CHECK(record.irradiance == Rgb{0});
     // Half of a lamp is hidden: of 100 single shadow rays some arrive and some do not
     // (never all alike: 2^-99), and all that do say the same.
-    Flat half;
+    Chamber half;
     const auto wall = half.add(Lambertian{});
     half.add(floor, wall);
     half.add(Quad{.corner{-0.5f, -0.5f, 2}, .edge_u{0, 1, 0}, .edge_v{1, 0, 0}}, wall,
@@ -874,7 +878,7 @@ TEST_CASE(
 
 TEST_CASE("final gathering: direct photons are no part of what is worked out") {
     // A floor below a point light, and its photons: the shadow rays bring their light.
-    Flat scene;
+    Chamber scene;
     scene.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
               scene.add(Lambertian{}));
     scene.add(PointLight{.position{0, 0, 2}});
@@ -915,7 +919,7 @@ TEST_CASE("final gathering: photons lie on the shape, however its normals are be
         MeshData data{.positions{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}},
                       .triangles{{0, 1, 2}}};
         if (bent) data.normals.assign(3, glm::normalize(Vec3{2.75f, 0, 1}));
-        Scene<Shapes<Mesh>, Materials<Lambertian>> scene;
+        Chamber scene;
         scene.add(Mesh(data), scene.add(Lambertian{}));
         const World world(std::move(scene));
         std::vector<Photon> photons;
@@ -937,8 +941,6 @@ TEST_CASE("final gathering: photons lie on the shape, however its normals are be
 }
 
 namespace {
-
-using Hollow = Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Mirror>>;
 
 /// A matt place at the origin that looks up, in a medium.
 Vertex looks_up(const Rgb& medium = Rgb{0}) {
@@ -962,7 +964,7 @@ IrradiancePoints bright_at(const std::vector<Vec3>& places,
 } // namespace
 
 TEST_CASE("final gathering: rays are attenuated by what their surface lies in") {
-    Hollow room;
+    Hall room;
     room.add(Sphere{}, room.add(Lambertian{.albedo = Rgb{1}}), Rgb{0}, true);
     const World world(std::move(room));
     std::vector<Vec3> places, normals;
@@ -989,7 +991,7 @@ TEST_CASE("final gathering: rays are attenuated by what their surface lies in") 
 TEST_CASE("final gathering: in a hall of dim mirrors each ray ends by its own chance") {
     // Mirrors of 0.5: a ray goes on from each by chance 1/2, 2 rays in the mean. Of 100
     // together 200, with a standard deviation of 14: beyond 100 off once in 1e12.
-    Hollow hall;
+    Hall hall;
     hall.add(Sphere{.center{0, 0, 0.3f}}, hall.add(Mirror{.reflectance = Rgb{0.5f}}));
     const World world(std::move(hall));
     const GatherSettings settings{.rays = 100, .max_depth = 1000};
@@ -1010,7 +1012,7 @@ TEST_CASE("final gathering: five rays stand elsewhere at each place: no bias") {
     for (const float x : {-0.5f, 0.5f})
         for (const float y : {-0.5f, 0.5f})
             for (const float far : {1.0f, 2.5f}) {
-                Hollow room;
+                Hall room;
                 const Quad square{.corner{far * x - 0.25f, far * y - 0.25f, 1},
                                   .edge_u{0, 0.5f, 0},
                                   .edge_v{0.5f, 0, 0}};
@@ -1038,7 +1040,7 @@ TEST_CASE(
     "final gathering: what n^2 takes from a ray in glass is no reason to end it") {
     // A slab of clear glass before a wall: each ray that comes to the wall brings all
     // of what the wall sends, and the others are mirrored away.
-    Scene<Shapes<Quad>, Materials<Lambertian, Glass>> hall;
+    Hall hall;
     const auto glass = hall.add(Glass{.index = 2.4f});
     hall.add(Quad{.corner{-9, -9, 1}, .edge_u{0, 18, 0}, .edge_v{18, 0, 0}}, glass);
     hall.add(Quad{.corner{-9, -9, 2}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, glass);
@@ -1105,8 +1107,7 @@ TEST_CASE("final gathering: a gather ray goes on from a glossy surface") {
                 albedo +=
                     glm::dvec3(evaluate(gloss, wo, wi)) * cosine * (2 * pi / n / n);
             }
-        Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Glossy>, Lights<PointLight>>
-            hall;
+        Chamber hall;
         hall.add(Quad{.corner{-1, -1, -1}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}},
                  hall.add(gloss));
         hall.add(Sphere{.radius = 9}, hall.add(Lambertian{.albedo = Rgb{0.5f}}));
@@ -1151,7 +1152,7 @@ TEST_CASE("final gathering: a gather ray goes on from a glossy surface") {
 
 TEST_CASE("final gathering: rays meet what moves where it is at their time") {
     // A ceiling that rises from 1 to 5, so wide that all that is not along it is seen.
-    Scene<Shapes<Quad, Moving<Quad>>, Materials<Lambertian>> hall;
+    Hall hall;
     const auto matt = hall.add(Lambertian{.albedo = Rgb{0.5f}});
     hall.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, matt);
     const Quad ceiling{
@@ -1175,9 +1176,6 @@ TEST_CASE("final gathering: rays meet what moves where it is at their time") {
 }
 
 namespace {
-
-using Shiny =
-    Scene<Shapes<Quad>, Materials<Lambertian, Glossy>, Lights<SpotLight, SunLight>>;
 
 /// A place that is looked at, and the radiance that it sends there.
 struct Place {
@@ -1236,9 +1234,8 @@ double chance_of(const Mean& mean, double right, double bias) {
 }
 
 /// What mappers find at some places, over what is right: a mean over seeds.
-template <typename W>
-Mean found_over_right(const W& world, const std::vector<Place>& places, const char* how,
-                      int seeds, int depth = 100) {
+Mean found_over_right(const World<Chamber>& world, const std::vector<Place>& places,
+                      const char* how, int seeds, int depth = 100) {
     double right = 0;
     for (const Place& place : places) right += place.right;
     Mean mean;
@@ -1265,7 +1262,7 @@ Mean found_over_right(const W& world, const std::vector<Place>& places, const ch
 
 TEST_CASE("final gathering: a wall that a sun lights by a glossy plate alone") {
     // tests/inputs/glossy_plate_sun.json: the black wall shades the white.
-    Shiny scene;
+    Chamber scene;
     const Glossy gloss{.reflectance = Rgb{0.9f}, .roughness = 0.1f};
     const Quad plate{.corner{-1, 0, -1}, .edge_u{0, 0, 2}, .edge_v{2, 0, 0}};
     scene.add(plate, scene.add(gloss));
@@ -1294,7 +1291,7 @@ TEST_CASE("final gathering: a wall that a sun lights by a glossy plate alone") {
 
 TEST_CASE("final gathering: a ceiling over a glossy floor under a spot light") {
     for (const float roughness : {0.1f, 0.3f, 0.6f}) {
-        Shiny scene;
+        Chamber scene;
         const Glossy gloss{.reflectance = Rgb{0.9f}, .roughness = roughness};
         const Quad floor{.corner{-1, 0, -1}, .edge_u{0, 0, 2}, .edge_v{2, 0, 0}};
         const Vec3 lamp{0.3f, 1, 0.2f};
@@ -1330,7 +1327,7 @@ TEST_CASE("final gathering: a ceiling over a glossy floor under a spot light") {
 TEST_CASE("final gathering: a white room with a glossy wall") {
     // A lamp that faces the gloss lights the wall behind it. With the gloss taken for
     // matt that wall was 9 % too bright. Against the path tracer, 2 % allowed.
-    Shiny scene;
+    Chamber scene;
     const auto white = scene.add(Lambertian{.albedo = Rgb{0.7f}});
     const auto gloss = scene.add(Glossy{.reflectance = Rgb{0.9f}, .roughness = 0.15f});
     scene.add(Quad{{-1, -1, -1}, {0, 0, 2}, {2, 0, 0}}, white);
@@ -1394,7 +1391,8 @@ void check(const Paper&) {}
 /// A floor at the origin, made of something, between two ceilings.
 template <typename M>
 auto between(const M& material) {
-    Scene<Shapes<Quad>, Materials<Lambertian, M>, Lights<PointLight>> scene;
+    Scene<Shapes<Quad>, Materials<Lambertian, Paper, OrenNayar>, Lights<PointLight>>
+        scene;
     const auto grey = scene.add(Lambertian{.albedo = Rgb{0.8f}});
     scene.add(Quad{{-9, -9, 0}, {18, 0, 0}, {0, 18, 0}}, scene.add(material));
     scene.add(Quad{{1, -1, 1}, {0, 2, 0}, {1, 0, 0}}, grey);
@@ -1439,9 +1437,8 @@ TEST_CASE("final gathering: a sheet that lets light through is lit from behind")
 TEST_CASE("final gathering: a strong lamp that is sealed in lights nothing outside") {
     // A ball of radius 0.2 holds nearly all photons; few are left for the room, and
     // those at the bottom of the ball lie 0.1 above the floor.
-    using Room = Scene<Shapes<Sphere, Quad>, Materials<Lambertian>>;
     const auto image = [](float sealed) {
-        Room room;
+        Chamber room;
         const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
         const auto black = room.add(Lambertian{.albedo = Rgb{0}});
         const Vec3 x{2, 0, 0}, y{0, 2, 0}, z{0, 0, 2};

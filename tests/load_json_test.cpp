@@ -736,7 +736,7 @@ TEST_CASE("load_json: broken JSON is refused with line and column") {
 TEST_CASE("load_json: a name is not endless, materials have names") {
     const LoadedScene loaded = read_json_scene(
         changed("\"four things\"", "\"" + std::string(250, 'x') + "\""), "a.json");
-    CHECK(loaded.name == std::string(200, 'x') + "...");
+    CHECK(loaded.name == std::string(200, 'x').append("..."));
     std::string list = good;
     const std::size_t begin = list.find("\"materials\": {") + 13;
     list.replace(begin, list.find("\"objects\"") - begin, "[], ");

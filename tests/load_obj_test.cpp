@@ -22,6 +22,9 @@ using namespace ljus;
 
 namespace {
 
+/// A scene that lists the pictures of an OBJ file.
+using Painted = Scene<Shapes<Sphere, Mesh>, Materials<Lambertian, ObjPicture>>;
+
 /// A cube with outward sides, in polygons of four corners.
 const std::string cube = R"(# a cube
 v -1 -1 -1
@@ -507,7 +510,7 @@ TEST_CASE("load_obj: texture coordinates and the picture of a material") {
     CHECK(mesh.data().positions.size() == 4);
     REQUIRE(mesh.data().uv.size() == 4);
 
-    Scene<Shapes<Mesh>, Materials<Lambertian, ObjPicture>> scene;
+    Painted scene;
     add_obj(scene, loaded);
     const World world(std::move(scene));
     const ObjPicture& paint =
@@ -587,7 +590,7 @@ TEST_CASE("load_obj: a picture that cannot be read is named with its line") {
                                  name + "\nnewmtl unused\nmap_Kd " + name + "\n");
         const auto loaded = load_obj(folder.file("wall.obj"));
         CHECK(loaded.pictures.empty());
-        Scene<Shapes<Mesh>, Materials<Lambertian, ObjPicture>> scene;
+        Painted scene;
         add_obj(scene, loaded);
         CHECK(std::get<std::vector<Lambertian>>(scene.materials).at(0).albedo ==
               Rgb{0.5f});
@@ -707,7 +710,7 @@ TEST_CASE("load_obj: a path-traced wall shows the four colours") {
     // 3/4 in u and in v, its neighbour, which is on both sides because the
     // picture repeats, the rest.
     const WallFolder folder;
-    Scene<Shapes<Sphere, Mesh>, Materials<Lambertian, ObjPicture>> scene;
+    Painted scene;
     scene.add(Sphere{.radius = 1000}, scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{1},
               true);
     add_obj(scene, load_obj(folder.file("wall.obj")));

@@ -271,8 +271,10 @@ TEST_CASE("mesh: a lamp of triangles lights as the sphere does") {
     const auto traced = trace_photons(scene, MapType::general, {.photons = 40000});
     double sum = 0;
     for (const Photon& photon : traced.photons) sum += double(photon.flux.x);
+    // The lamp is aimed: no photon carries more than eight times the flux that it would
+    // have otherwise, and five standard errors are at most 5 sqrt(7 / 40000).
     CHECK(std::abs(double(traced.audit.emitted.x) - double(scene.powers()[0].x)) <
-          1e-3 * double(scene.powers()[0].x));
+          0.067 * double(scene.powers()[0].x));
     CHECK(sum > 0);
 }
 

@@ -1,19 +1,16 @@
 // concept: triangle
 // native: fused multiply-adds round the two sides of an edge differently
 /// \file watertight_test.cpp
-/// \brief No ray slips between two triangles: with the watertight test by construction,
-/// in double as far as half a million rays can say. Its decisions one by one are in
-/// triangle_exact_test.cpp.
+/// \brief No ray slips between two triangles with the watertight test, by construction.
+/// Half a million rays at each mesh are in watertight_leaks_test.cpp, its decisions one
+/// by one in triangle_exact_test.cpp.
 
 #include "ljus/geometry/watertight.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
-#include <string>
-#include <utility>
 
 #include "ljus/geometry/sphere.hpp"
 #include "support/leaks.hpp"
@@ -21,19 +18,10 @@
 using namespace ljus;
 using ljus_test::Aim;
 using ljus_test::ClosedMesh;
+using ljus_test::loop_leaks;
 using ljus_test::Numbers;
 
 namespace {
-
-template <typename Test>
-long leaks(const ClosedMesh& mesh, Aim aim, long rays) {
-    return ljus_test::count_leaks(mesh, aim, rays, [&](const Ray& ray) {
-        const auto prepared = prepare<Test>(ray);
-        for (const Triangle& triangle : mesh.triangles)
-            if (intersect<Test>(ray, triangle, prepared)) return true;
-        return false;
-    });
-}
 
 /// In the plane z = -4; x and y are u and v.
 const Triangle half_square{{0, 0, -4}, {1, 0, -4}, {0, 1, -4}};
@@ -44,37 +32,14 @@ Ray down_at(float x, float y) {
 
 } // namespace
 
-TEST_CASE("watertight: half a million rays at edges, at vertices, along the axes") {
-    // A tie is a ray that meets the seam exactly, so that no rounding is needed to lose
-    // it; floats are told in tenths, for they leak more often than not for long.
-    std::printf("\n%-28s %10s %10s %10s\n", "leaks of 500 000", "float", "double",
-                "watertight");
-    const Vec3T<double> origin{0}, moved{100, -100, 100};
-    for (const auto& [name, mesh] :
-         {std::pair{"dented ball", ljus_test::dented_ball(1, 1, origin)},
-          std::pair{"dented ball at 100", ljus_test::dented_ball(1, 1, moved)},
-          std::pair{"cut cube", ljus_test::cut_cube(2, 1, origin)},
-          std::pair{"cut cube at 100", ljus_test::cut_cube(2, 1.1, moved)}})
-        for (const Aim aim : {Aim::edge, Aim::vertex, Aim::axis, Aim::tie}) {
-            const long rays = 500000;
-            const long in_float = leaks<float>(mesh, aim, rays / 10) * 10;
-            const long in_double = leaks<double>(mesh, aim, rays);
-            const long none = leaks<Watertight>(mesh, aim, rays);
-            const char* at[] = {", edges", ", vertices", ", axes", ", ties"};
-            const std::string row = std::string(name) + at[static_cast<int>(aim)];
-            std::printf("%-28s %10ld %10ld %10ld\n", row.c_str(), in_float, in_double,
-                        none);
-            CAPTURE(row);
-            CHECK(in_double == 0);
-            CHECK(none == 0);
-        }
-}
-
-TEST_CASE("watertight: rays that meet a vertex or an edge exactly") {
+TEST_CASE("watertight: rays at edges, at vertices, along the axes, and ties") {
     const ClosedMesh mesh = ljus_test::dented_ball(1, 1, Vec3T<double>{0});
-    CHECK(leaks<double>(mesh, Aim::tie, 20000) == 0);
-    CHECK(leaks<Watertight>(mesh, Aim::tie, 20000) == 0);
-    CHECK(leaks<float>(mesh, Aim::tie, 20000) > 0);
+    for (const Aim aim : {Aim::edge, Aim::vertex, Aim::axis, Aim::tie}) {
+        CAPTURE(static_cast<int>(aim));
+        CHECK(loop_leaks<double>(mesh, aim, 20000) == 0);
+        CHECK(loop_leaks<Watertight>(mesh, aim, 20000) == 0);
+    }
+    CHECK(loop_leaks<float>(mesh, Aim::tie, 20000) > 0);
 }
 
 TEST_CASE("watertight: a mesh of any size, met by directions of any length") {

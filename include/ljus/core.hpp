@@ -41,11 +41,6 @@ LJUS_CORE_EXTERN template void detail::refuse(std::string_view, const Vec3&,
                                               std::string_view);
 LJUS_CORE_EXTERN template void check(const Image&);
 
-// Surfaces in one place.
-LJUS_CORE_EXTERN template ContactsT<float> detail::contacts_of(ContactSearchT<float>);
-LJUS_CORE_EXTERN template ContactsT<double>
-detail::contacts_of(ContactSearchT<double>);
-
 // Trees.
 LJUS_CORE_EXTERN template detail::BvhNodesT<float>
 detail::build_bvh(std::span<const Box>, const BvhSettings&);

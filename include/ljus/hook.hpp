@@ -39,20 +39,26 @@ inline constexpr bool is_stand_in<OwnOf<S>> = true;
 template <typename S>
 using Own = std::conditional_t<std::is_final_v<S>, S, OwnOf<S>>;
 
-// The name of a type as the compiler spells it, without this namespace. Most compilers
-// give it only within the name of a function.
-template <typename T>
-[[nodiscard]] std::string type_name() {
+// The name of a type in the compiler's text, without this namespace.
+[[nodiscard, gnu::cold]] inline std::string name_within(std::string text) {
 #ifdef __GNUC__ // "... [with T = ljus::SphereT<float>; ...]", or "[T = ...]" of clang
-    std::string name = __PRETTY_FUNCTION__;
-    name.erase(0, name.find("T = ") + 4);
-    name.erase(std::min(name.find(';'), name.rfind(']')));
-#else
-    std::string name = typeid(T).name();
+    text.erase(0, text.find("T = ") + 4);
+    text.erase(std::min(text.find(';'), text.rfind(']')));
 #endif
-    for (std::size_t at; (at = name.find("ljus::")) != std::string::npos;)
-        name.erase(at, 6);
-    return name;
+    for (std::size_t at; (at = text.find("ljus::")) != std::string::npos;)
+        text.erase(at, 6);
+    return text;
+}
+
+// The name of a type as the compiler spells it. Most compilers give it only within the
+// name of a function.
+template <typename T>
+[[nodiscard, gnu::cold]] std::string type_name() {
+#ifdef __GNUC__
+    return name_within(__PRETTY_FUNCTION__);
+#else
+    return name_within(typeid(T).name());
+#endif
 }
 
 // A table in one line: the hooks of the type, and what happens without the others.

@@ -18,37 +18,37 @@ ljus_break_it(NAME contacts-into HEADER scene/world.hpp TEST contacts
 
 # Glass covers a lamp, and a ceiling hides it.
 ljus_break_it(NAME contacts-lamp HEADER scene/contacts.hpp TEST contacts
-    FROM "is_black(object.emission)\n"
-    TO   "true\n"
+    FROM "!is_black(object.emission)"
+    TO   "false"
     CASES "contacts: a lamp in the plane*")
 
 # The one that was added first is met.
-ljus_break_it(NAME contacts-order HEADER scene/contacts.hpp TEST contacts
-    FROM "contacts.objects[order[rank]].rank = rank;"
-    TO   "contacts.objects[rank].rank = rank;"
+ljus_break_it(NAME contacts-order HEADER scene/world.hpp TEST contacts
+    FROM "object.key < met->key"
+    TO   "object.key[15] < met->key[15]"
     CASES "contacts: no order of a list*")
 
 # A rug is hidden by the floor on which it lies.
 ljus_break_it(NAME contacts-area HEADER scene/contacts.hpp TEST contacts
-    FROM "key[8] = double(covered"
-    TO   "key[8] = -double(covered"
+    FROM "key[8] = covered"
+    TO   "key[8] = -covered"
     CASES "contacts: which of two*")
 
 # Tiles that share an edge are in contact.
 ljus_break_it(NAME contacts-edge HEADER geometry/touching.hpp TEST contacts
-    FROM ">= -distance;"
-    TO   "> distance;"
+    FROM ">= -distance) return true;"
+    TO   "> distance) return true;"
     CASES "contacts: what only shares an edge*")
 
 # Planes at a right angle are in contact.
 ljus_break_it(NAME contacts-plane HEADER geometry/touching.hpp TEST contacts
-    FROM "if (!(std::abs(glm::dot(normal, other"
-    TO   "if (false && !(std::abs(glm::dot(normal, other"
+    FROM ": over_area &&"
+    TO   ":"
     CASES "contacts: what only shares an edge*")
 
 # The search takes the look of a node's first part for that of all.
 ljus_break_it(NAME contacts-looks HEADER scene/contacts.hpp TEST contacts
-    FROM "looks[i] = several;"
+    FROM "below[i] = several;"
     TO   ";"
     CASES "contacts: a search among thousands*")
 
@@ -60,6 +60,6 @@ ljus_break_it(NAME contacts-medium HEADER path/next_vertex.hpp TEST contacts
 
 # The survey is silent about contacts.
 ljus_break_it(NAME contacts-remark HEADER render/passes.hpp TEST contacts
-    FROM "    detail::add_contact_remarks(world, remarks);"
+    FROM "    detail::add_contact_remarks(world.contacts(), type_of, remarks);"
     TO   ""
     CASES "contacts: the survey says*")

@@ -50,7 +50,7 @@ ljus_break_it(NAME triangle-normal HEADER geometry/triangle.hpp TEST triangle
 ljus_break_it(NAME triangle-open HEADER geometry/surface_point.hpp TEST watertight
     FROM "!within(detail::border_of_rounding(d, to, e1, e2, inverse, near))"
     TO   "true"
-    CASES "watertight: rays that meet*")
+    CASES "watertight: rays at edges*")
 
 ljus_break_it(NAME triangle-no-area HEADER geometry/triangle.hpp TEST triangle
     FROM "if (hit && !has_area(triangle)) hit.reset();"

@@ -11,7 +11,7 @@ ljus_break_it(NAME vertex-eta_scale HEADER path/path_state.hpp TEST vertex
     CASES "vertex: roulette*")
 
 # Coming out of glass, a path takes the glass along.
-ljus_break_it(NAME vertex-medium HEADER path/next_vertex.hpp TEST vertex
+ljus_break_it(NAME vertex-medium HEADER path/continue_path.hpp TEST vertex
     FROM "wi.z < T(0) ? absorption(material) : RgbT<T>{T(0)}"
     TO   "absorption(material)"
     CASES "vertex: what a path is in*")

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ljus/geometry/triangle.hpp"
+#include "ljus/geometry/watertight.hpp"
 #include "support/numbers.hpp"
 
 namespace ljus_test {
@@ -164,6 +165,18 @@ long count_leaks(const ClosedMesh& mesh, Aim aim, long count, Meets meets,
     long leaks = 0;
     for (long i = 0; i < count; ++i) leaks += !meets(ray_at_seam(mesh, aim, n));
     return leaks;
+}
+
+/// The same by a loop over all triangles.
+/// \tparam Test  The intersection test: float, double or Watertight.
+template <typename Test>
+long loop_leaks(const ClosedMesh& mesh, Aim aim, long count) {
+    return count_leaks(mesh, aim, count, [&](const ljus::Ray& ray) {
+        const auto prepared = ljus::prepare<Test>(ray);
+        for (const ljus::Triangle& triangle : mesh.triangles)
+            if (ljus::intersect<Test>(ray, triangle, prepared)) return true;
+        return false;
+    });
 }
 
 } // namespace ljus_test

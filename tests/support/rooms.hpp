@@ -152,3 +152,7 @@ ljus::CameraT<T> room_camera() {
 }
 
 } // namespace ljus_test
+
+#ifdef LJUS_CORE // not defined for the broken headers of tests/break_it
+#include "support/rooms_core.hpp"
+#endif

@@ -78,6 +78,25 @@ scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
 
 namespace detail {
 
+/// The absorption on the side of `wi` at a surface that scatters light: `medium` if
+/// `wo` lies on the same side, otherwise that of the material's interior, or none
+/// outside.
+/// \param medium    Absorption on the side of `wo`, per scene unit.
+/// \return Per scene unit.
+template <typename M, std::floating_point T>
+[[nodiscard]] RgbT<T> medium_beyond(const RgbT<T>& medium, const M& material,
+                                    const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
+    if (same_side(wo, wi)) return medium;
+    return wi.z < T(0) ? absorption(material) : RgbT<T>{T(0)};
+}
+
+/// Whether light leaves a body along `wi`, perhaps into another around it: then
+/// medium_at() knows what medium_beyond() does not.
+template <typename M, std::floating_point T>
+[[nodiscard]] bool leaves_body(const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
+    return MayAbsorb<M> && wo.z < T(0) && wi.z > T(0);
+}
+
 /// Continues a path in a given direction.
 /// \param path      Receives its new ray, throughput and medium.
 /// \param wi        The direction in the world.

@@ -3,7 +3,7 @@
 /// \file ljus/path/direct_light.hpp
 /// \brief Direct light by shadow rays.
 
-#include "ljus/path/next_vertex.hpp"
+#include "ljus/path/continue_path.hpp"
 #include "ljus/path/renderer.hpp"
 
 namespace ljus {

@@ -443,29 +443,6 @@ template <AnyWorld W, std::floating_point T>
 }
 // [medium_at]
 
-namespace detail {
-
-/// The absorption on the side of `wi` at a surface that scatters light: `medium` if
-/// `wo` lies on the same side, otherwise that of the material's interior, or none
-/// outside.
-/// \param medium    Absorption on the side of `wo`, per scene unit.
-/// \return Per scene unit.
-template <typename M, std::floating_point T>
-[[nodiscard]] RgbT<T> medium_beyond(const RgbT<T>& medium, const M& material,
-                                    const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
-    if (same_side(wo, wi)) return medium;
-    return wi.z < T(0) ? absorption(material) : RgbT<T>{T(0)};
-}
-
-/// Whether light leaves a body along `wi`, perhaps into another around it: then
-/// medium_at() knows what medium_beyond() does not.
-template <typename M, std::floating_point T>
-[[nodiscard]] bool leaves_body(const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
-    return MayAbsorb<M> && wo.z < T(0) && wi.z > T(0);
-}
-
-} // namespace detail
-
 /// Advances a path to its next vertex. Its throughput is attenuated by media and thin
 /// surfaces. medium_at() finds the medium at the start of a path, and where the path
 /// leaves a body that may lie inside another.

@@ -65,7 +65,7 @@ template <std::floating_point T>
 /// \return In scene units; 1 if there are no photons, or if all lie at one point.
 /// \cost At most 255 searches.
 template <std::floating_point T>
-[[nodiscard]] T typical_radius(const PhotonMapT<T>& map, std::size_t count) {
+[[nodiscard, gnu::cold]] T typical_radius(const PhotonMapT<T>& map, std::size_t count) {
     std::array<Neighbor, 512> room;
     const std::span<Neighbor> found(room.data(), count + 1); // with the photon itself
     const std::size_t step = map.records.size() / 255 + 1;

@@ -71,8 +71,8 @@ struct Passes {
 /// \param settings  The user's settings.
 /// \return The decisions.
 // [survey]
-[[nodiscard]] inline Passes choose_passes(const SceneNeeds& found,
-                                          const PhotonMappingSettings& settings) {
+[[nodiscard, gnu::cold]] inline Passes
+choose_passes(const SceneNeeds& found, const PhotonMappingSettings& settings) {
     const bool lit = found.diffuse > 0 && found.lights > 0;
     const bool gather_asked = settings.indirect == IndirectLight::map ||
                               settings.indirect == IndirectLight::gather;
@@ -240,9 +240,8 @@ template <AnyWorld W>
 /// \param other  The kind of the other one.
 /// \return Null if it is of no interest: surfaces that touch in points, and opaque ones
 ///         back to back.
-template <std::floating_point T>
-[[nodiscard, gnu::cold]] const char*
-contact_rule(const ContactT<T>& contact, ContactKind met, ContactKind other) noexcept {
+[[nodiscard, gnu::cold]] inline const char*
+contact_rule(const Contact& contact, ContactKind met, ContactKind other) noexcept {
     if (!contact.over_area) return nullptr;
     if (other == ContactKind::sheet)
         return "the thin surface has no effect there; move it away from the other one";
@@ -265,52 +264,41 @@ contact_rule(const ContactT<T>& contact, ContactKind met, ContactKind other) noe
                          : nullptr;
 }
 
-/// The name of an object, such as "Quad 3".
-template <AnyWorld W>
-[[nodiscard, gnu::cold]] std::string object_name(const W& world, ObjectId id) {
-    std::string name =
-        world.visit_shape(id, []<typename G>(const G&) { return type_name<G>(); });
-    if (const auto end = name.find("T<"); end != std::string::npos) name.resize(end);
-    return join({name, " ", std::to_string(id.index)});
-}
-
 /// Adds a sentence for each rule that decides what is met where surfaces of different
 /// objects lie in one place.
-template <AnyWorld W>
-[[gnu::cold]] void add_contact_remarks(const W& world,
-                                       std::vector<std::string>& remarks) {
-    using T = typename W::Scalar;
-    const ContactsT<T>& contacts = world.contacts();
+/// \param type_of  The name of an object's shape, such as "QuadT<float>".
+[[gnu::cold]] inline void
+add_contact_remarks(const Contacts& contacts,
+                    FunctionRef<std::string(ObjectId)> type_of,
+                    std::vector<std::string>& remarks) {
     struct Found {
         const char* rule;
-        std::size_t pairs;
-        std::string first;
+        const Contact* first;
+        long long pairs;
     };
     std::vector<Found> all;
-    for (const ContactT<T>& contact : contacts.pairs) {
-        const auto* met = &contacts.objects[contact.pair[0]];
-        const auto* other = &contacts.objects[contact.pair[1]];
-        if (other->rank < met->rank) std::swap(met, other);
+    for (const Contact& contact : contacts.pairs) {
+        const TouchingObject* met = &contacts.objects[contact.pair[0]];
+        const TouchingObject* other = &contacts.objects[contact.pair[1]];
+        if (other->key < met->key) std::swap(met, other);
         const char* const rule = contact_rule(contact, met->kind, other->kind);
         if (rule == nullptr) continue;
-        const auto same = std::find_if(all.begin(), all.end(), [&](const Found& found) {
-            return found.rule == rule;
-        });
-        if (same != all.end()) {
-            ++same->pairs;
-            continue;
-        }
-        all.push_back({rule, 1,
-                       join({object_name(world, met->object), " and ",
-                             object_name(world, other->object), " around ",
-                             to_text(contact.box.low +
-                                     (contact.box.high - contact.box.low) / T(2))})});
+        std::size_t i = 0;
+        while (i < all.size() && all[i].rule != rule) ++i;
+        if (i == all.size()) all.push_back({rule, &contact, 0});
+        ++all[i].pairs;
     }
-    for (const Found& found : all)
-        remarks.push_back(
-            join({std::to_string(found.pairs),
-                  " pair(s) of objects have surfaces in one place, such as ",
-                  found.first, ": ", found.rule}));
+    const auto name = [&](std::uint32_t position) { // such as "Quad 3"
+        const ObjectId id = contacts.objects[position].object;
+        const std::string type = type_of(id);
+        return join({std::string_view(type).substr(0, type.find("T<")), " ",
+                     to_text(static_cast<long long>(id.index))});
+    };
+    for (const auto& [rule, first, pairs] : all)
+        remarks.push_back(join(
+            {to_text(pairs), " pair(s) of objects have surfaces in one place, such as ",
+             name(first->pair[0]), " and ", name(first->pair[1]), " around ",
+             to_text(Vec3((first->box.low + first->box.high) / 2.0)), ": ", rule}));
     if (!contacts.complete)
         remarks.push_back("too many objects overlap to compare all of them: where "
                           "surfaces lie in one place, their order may decide what is "
@@ -379,7 +367,11 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
             "through a window: most shadow rays to it miss, and where further rays go "
             "to pixels whose first ones disagree, as in the preset fast, the picture "
             "may be a tenth too dark; the preset exact is right there, and noisy");
-    detail::add_contact_remarks(world, remarks);
+    const auto type_of = [&](ObjectId id) {
+        return world.visit_shape(
+            id, []<typename G>(const G&) { return detail::type_name<G>(); });
+    };
+    detail::add_contact_remarks(world.contacts(), type_of, remarks);
     return remarks;
 }
 

@@ -81,7 +81,7 @@ struct PhotonMappingSettings {
 /// Refuses settings that give no picture.
 /// \param settings  The settings.
 /// \throws std::invalid_argument  with name and value.
-inline void check(const PhotonMappingSettings& settings) {
+[[gnu::cold]] inline void check(const PhotonMappingSettings& settings) {
     require_at_least("max_depth", settings.max_depth, 1);
     require_at_least("shadow_rays", settings.shadow_rays, 1);
     require_at_least("caustics.photons", settings.caustics.photons, 0);

@@ -45,7 +45,7 @@ using View = ViewT<float>; ///< ViewT in float.
 /// \throws std::invalid_argument  if the position and target are equal, `up` is along
 ///         the view, or the angle is out of range.
 template <std::floating_point T>
-[[nodiscard]] CameraT<T> look_at(const ViewT<T>& view) {
+[[nodiscard, gnu::cold]] CameraT<T> look_at(const ViewT<T>& view) {
     require_finite("camera.position", view.position);
     require_finite("camera.target", view.target);
     require_finite("camera.up", view.up);

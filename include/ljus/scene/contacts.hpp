@@ -9,10 +9,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <tuple>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "ljus/accel/detail/bvh_build.hpp"
@@ -53,78 +51,52 @@ enum class ContactKind : std::uint8_t {
 /// The material of air, which is none.
 inline constexpr MaterialId no_body{0xffffffffu, 0};
 
+/// What decides between surfaces in one place, in this order: kind, emission, index of
+/// refraction, absorption, area, what is reflected, number. The smaller list is met.
+using ContactKey = std::array<double, 16>;
+
+/// The position of an object without contacts, and of what follows the last contact.
+inline constexpr std::uint32_t no_contact = 0xffffffffu;
+
 /// Two objects that share an area or a point.
-template <std::floating_point T>
-struct ContactT {
-    std::array<std::uint32_t, 2> pair{}; ///< Positions in ContactsT::objects.
-    BoxT<T> box{};                       ///< A box around what they share.
-    bool over_area = false;              ///< False if they touch in points.
-    bool alike = false;   ///< Whether they share an area with outsides on one side.
-    bool opposed = false; ///< Whether they share one with outsides on opposite sides.
+struct Contact {
+    std::array<std::uint32_t, 2> pair{}; ///< Positions in Contacts::objects.
+    std::array<std::uint32_t, 2>
+        next{};             ///< Of each, its next contact in Contacts::pairs.
+    BoxT<double> box{};     ///< A box around what they share.
+    bool over_area = false; ///< False if they touch in points.
+    bool alike = false;     ///< Whether they share an area with outsides on one side.
+    bool opposed = false;   ///< Whether they share one with outsides on opposite sides.
 };
 
 /// An object that shares a place with others.
-template <std::floating_point T>
-struct TouchingObjectT {
-    ObjectId object{};                                       ///< The object.
-    ContactKind kind = ContactKind::opaque;                  ///< What it is.
-    std::uint32_t rank = 0;                                  ///< The lowest one is met.
-    std::vector<std::pair<std::uint32_t, BoxT<T>>> others{}; ///< Objects, and where.
+struct TouchingObject {
+    ObjectId object{};                      ///< The object.
+    ContactKind kind = ContactKind::opaque; ///< What it is.
+    ContactKey key{};                       ///< The least one is met.
+    std::uint32_t contact = no_contact;     ///< The first of its contacts.
 };
 
 /// All contacts of a scene.
-template <std::floating_point T>
-struct ContactsT {
-    std::vector<ContactT<T>> pairs;          ///< By the objects' positions.
-    std::vector<TouchingObjectT<T>> objects; ///< Those that take part.
-    BoxT<T> box{};                           ///< A box around all that objects share.
+struct Contacts {
+    std::vector<Contact> pairs{};          ///< Each pair of objects once.
+    std::vector<TouchingObject> objects{}; ///< Those that take part.
+    BoxT<double> box{};                    ///< A box around all that objects share.
     bool complete = true; ///< False if more objects overlap than can be compared.
-    /// The position in `objects` of each object of a scene, or an absent one; empty
-    /// without contacts.
-    std::vector<std::vector<std::uint32_t>> position;
+    /// The number of objects of the types before each type of shape.
+    std::vector<std::uint32_t> first{};
+    /// The position in `objects` of each object of the scene, or no_contact.
+    std::vector<std::uint32_t> position{};
 
     /// The entry of an object; null if it touches none.
-    [[nodiscard]] const TouchingObjectT<T>* find(ObjectId id) const noexcept {
+    [[nodiscard]] const TouchingObject* find(ObjectId id) const noexcept {
         if (objects.empty()) return nullptr;
-        const std::uint32_t at = position[id.type][id.index];
-        return at < objects.size() ? &objects[at] : nullptr;
+        const std::uint32_t at = position[first[id.type] + id.index];
+        return at != no_contact ? &objects[at] : nullptr;
     }
 };
 
 namespace detail {
-
-/// A part of an object in the search: its box, and its number within the object.
-template <std::floating_point T>
-struct ContactPartT {
-    BoxT<T> box{};
-    std::uint32_t object = 0; ///< In the order of the search.
-    std::uint32_t part = 0;
-    std::uint32_t look = 0; ///< Parts of one look need not be compared.
-};
-
-template <std::floating_point T>
-[[nodiscard]] bool overlap(const BoxT<T>& a, const BoxT<T>& b) noexcept {
-    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y &&
-           b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
-}
-
-/// The largest coordinate of a box.
-template <std::floating_point T>
-[[nodiscard]] T reach_of(const BoxT<T>& box) noexcept {
-    return max_component(glm::max(glm::abs(box.low), glm::abs(box.high)));
-}
-
-/// Surfaces with coordinates up to `reach` that are closer than this are in one place.
-template <std::floating_point T>
-[[nodiscard]] constexpr T contact_distance(T reach) noexcept {
-    return T(8) * std::numeric_limits<T>::epsilon() * reach;
-}
-
-/// A box that is larger by the distance within which surfaces are in one place.
-template <std::floating_point T>
-[[nodiscard]] BoxT<T> widened(const BoxT<T>& box, T reach) noexcept {
-    return {box.low - contact_distance(reach), box.high + contact_distance(reach)};
-}
 
 /// Whether the point of a ray at t may lie in a box, despite rounding.
 template <std::floating_point T>
@@ -135,92 +107,6 @@ template <std::floating_point T>
         return place + slack >= box.low[axis] && place - slack <= box.high[axis];
     };
     return within(0) && within(1) && within(2);
-}
-
-/// Visits the pairs of parts of different looks whose boxes overlap: each part asks a
-/// tree over all of them.
-/// \param budget  Decreases by the number of nodes visited; the search ends at 0.
-template <std::floating_point T, typename Visit>
-[[gnu::cold]] void overlapping_parts(const std::vector<ContactPartT<T>>& parts,
-                                     long long& budget, const Visit& visit) {
-    std::vector<BoxT<T>> boxes;
-    for (const ContactPartT<T>& part : parts) boxes.push_back(part.box);
-    const BvhNodesT<T> tree = build_bvh<T>(boxes);
-    // The look that all parts below a node have; children come after their parents.
-    constexpr std::uint32_t several = 0xffffffffu;
-    std::vector<std::uint32_t> looks(tree.nodes.size(), several);
-    const auto part_at = [&](std::uint32_t slot) -> const ContactPartT<T>& {
-        return parts[tree.primitive_ids[slot]];
-    };
-    for (std::size_t i = tree.nodes.size(); i-- > 0;) {
-        const auto& [box, first, count] = tree.nodes[i];
-        looks[i] = count == 0 ? looks[first] : part_at(first).look;
-        const std::uint32_t more = count == 0 ? 2 : count;
-        for (std::uint32_t k = 1; k < more; ++k)
-            if ((count == 0 ? looks[first + k] : part_at(first + k).look) != looks[i])
-                looks[i] = several;
-    }
-    std::vector<std::uint32_t> open;
-    for (const ContactPartT<T>& part : parts) {
-        open.assign(1, 0);
-        while (!open.empty()) {
-            if (--budget < 0) return;
-            const std::uint32_t at = open.back();
-            open.pop_back();
-            const auto& [box, first, count] = tree.nodes[at];
-            if (looks[at] == part.look || !overlap(box, part.box)) continue;
-            if (count == 0) open.insert(open.end(), {first, first + 1});
-            for (std::uint32_t slot = first; slot < first + count; ++slot)
-                if (const ContactPartT<T>& other = part_at(slot);
-                    part.look < other.look && overlap(part.box, other.box))
-                    visit(part, other);
-        }
-    }
-}
-
-/// Finds the contacts between parts of objects.
-/// \param parts   With boxes that contain them.
-/// \param piece   The surface of a part.
-/// \return Contacts by pairs of objects, each pair once, in the order of the search.
-template <std::floating_point T>
-[[nodiscard, gnu::cold]] ContactsT<T>
-contacts_between(const std::vector<ContactPartT<T>>& parts,
-                 FunctionRef<SurfacePiece(const ContactPartT<T>&)> piece) {
-    ContactsT<T> found;
-    const auto visit = [&](const ContactPartT<T>& a, const ContactPartT<T>& b) {
-        const T reach = reach_of(box_union(a.box, b.box));
-        const auto shared =
-            shared_place(piece(a), piece(b), double(contact_distance(reach)));
-        if (!shared) return;
-        const bool area = shared->over_area;
-        found.pairs.push_back(
-            {.pair{std::min(a.object, b.object), std::max(a.object, b.object)},
-             .box = widened(
-                 BoxT<T>{Vec3T<T>(shared->box.low), Vec3T<T>(shared->box.high)}, reach),
-             .over_area = area,
-             .alike = area && shared->alike,
-             .opposed = area && !shared->alike});
-    };
-    long long budget = 1'000'000'000;
-    overlapping_parts(parts, budget, visit);
-    found.complete = budget >= 0;
-    auto& pairs = found.pairs;
-    std::sort(pairs.begin(), pairs.end(),
-              [](const auto& a, const auto& b) { return a.pair < b.pair; });
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (i == 0 || pairs[i].pair != pairs[kept - 1].pair) {
-            pairs[kept++] = pairs[i];
-            continue;
-        }
-        ContactT<T>& same = pairs[kept - 1];
-        same.box = box_union(same.box, pairs[i].box);
-        same.over_area |= pairs[i].over_area;
-        same.alike |= pairs[i].alike;
-        same.opposed |= pairs[i].opposed;
-    }
-    pairs.resize(kept);
-    return found;
 }
 
 /// The bounding box of a shape: its own bounds(), or those of its bounding sphere.
@@ -238,63 +124,47 @@ inline constexpr bool has_triangles = requires(const G& mesh) {
     facet_of(mesh.triangle(mesh.size()));
 };
 
-/// The shapes of one type, behind functions that are compiled once per type, not once
-/// per scene. Each takes the list and a position in it.
-template <std::floating_point T>
-struct ContactShapesT {
-    const void* list; ///< A vector of shapes.
-    BoxT<T> (*box)(const void*, std::uint32_t);
-    double (*area)(const void*, std::uint32_t); ///< 0 if the shape does not know it.
-    std::uint32_t (*parts)(const void*, std::uint32_t); ///< 0: it is not compared.
-    SurfacePiece (*piece)(const void*, std::uint32_t, std::uint32_t part);
+/// Whether a shape is one facet.
+template <typename G>
+inline constexpr bool is_facet = requires(const G& shape) {
+    facet_of(shape);
 };
 
-/// A list of shapes for a search.
+/// The number of pieces of a shape; 0 if it is not compared with others.
 template <Shape G>
-[[nodiscard]] ContactShapesT<ScalarOf<G>> contact_shapes(const std::vector<G>& list) {
-    using T = ScalarOf<G>;
-    static constexpr auto at = [](const void* shapes, std::uint32_t i) -> const G& {
-        return (*static_cast<const std::vector<G>*>(shapes))[i];
-    };
-    constexpr bool flat = requires(const G& shape) {
-        facet_of(shape);
-    };
-    constexpr bool ball = std::is_same_v<G, SphereT<T>>;
-    return {
-        .list = &list,
-        .box = [](const void* all, std::uint32_t i) { return box_around(at(all, i)); },
-        .area =
-            []([[maybe_unused]] const void* all, [[maybe_unused]] std::uint32_t i) {
-                if constexpr (HasArea<G>)
-                    return double(area(at(all, i)));
-                else
-                    return 0.0;
-            },
-        .parts =
-            []([[maybe_unused]] const void* all, [[maybe_unused]] std::uint32_t i) {
-                if constexpr (has_triangles<G>)
-                    return static_cast<std::uint32_t>(at(all, i).size());
-                else
-                    return flat || ball ? 1u : 0u;
-            },
-        .piece =
-            []([[maybe_unused]] const void* all, [[maybe_unused]] std::uint32_t i,
-               [[maybe_unused]] std::uint32_t part) {
-                SurfacePiece piece;
-                if constexpr (flat)
-                    piece.facet = facet_of(at(all, i));
-                else if constexpr (has_triangles<G>)
-                    piece.facet = facet_of(at(all, i).triangle(part));
-                else if constexpr (ball)
-                    piece.sphere = {glm::dvec3(at(all, i).center),
-                                    double(at(all, i).radius)};
-                return piece;
-            }};
+[[nodiscard]] std::uint32_t piece_count([[maybe_unused]] const G& shape) noexcept {
+    if constexpr (has_triangles<G>)
+        return static_cast<std::uint32_t>(shape.size());
+    else
+        return is_facet<G> || std::is_same_v<G, SphereT<ScalarOf<G>>> ? 1 : 0;
 }
 
-/// What decides between surfaces in one place, in this order: kind, emission, index of
-/// refraction, absorption, area, what is reflected. The smaller list is met.
-using ContactKey = std::array<double, 15>;
+/// A piece of a shape.
+template <Shape G>
+[[nodiscard]] SurfacePiece piece_of([[maybe_unused]] const G& shape,
+                                    [[maybe_unused]] std::uint32_t number) {
+    if constexpr (has_triangles<G>)
+        return {.facet = facet_of(shape.triangle(number))};
+    else if constexpr (is_facet<G>)
+        return {.facet = facet_of(shape)};
+    else if constexpr (std::is_same_v<G, SphereT<ScalarOf<G>>>)
+        return {.facet{.corners{glm::dvec3(shape.center)}, .count = 1},
+                .radius = double(shape.radius)};
+    else
+        return {};
+}
+
+/// What a surface that does not emit is in a contact.
+template <Material M>
+[[nodiscard]] ContactKind kind_of([[maybe_unused]] const M& m) {
+    using T = typename M::Scalar;
+    if constexpr (requires { pass_through(m, Vec3T<T>{}, Vec3T<T>{}); })
+        return ContactKind::sheet;
+    else if constexpr (Refractive<M>)
+        return refractive_index(m) > T(0) ? ContactKind::body : ContactKind::opaque;
+    else
+        return MayAbsorb<M> ? ContactKind::body : ContactKind::opaque;
+}
 
 /// Writes a colour into a key: the brighter one is smaller.
 template <std::floating_point T>
@@ -304,212 +174,248 @@ void put_color(ContactKey& key, std::size_t at, const RgbT<T>& color) {
     key[at + 2] = -double(color.y);
 }
 
-/// The materials of one type, as ContactShapesT.
-struct ContactMaterials {
-    const void* list;                                ///< A vector of materials.
-    std::uint32_t count;                             ///< Its size.
-    ContactKind (*kind)(const void*, std::uint32_t); ///< Without emission.
-    void (*put)(const void*, std::uint32_t, ContactKey&);
-};
-
-/// A list of materials for a search.
+/// Writes a material into a key.
 template <Material M>
-[[nodiscard]] ContactMaterials contact_materials(const std::vector<M>& list) {
+[[gnu::cold]] void put_material(ContactKey& key, const M& m) {
     using T = typename M::Scalar;
-    static constexpr auto at = [](const void* all, std::uint32_t i) -> const M& {
-        return (*static_cast<const std::vector<M>*>(all))[i];
-    };
-    return {.list = &list,
-            .count = static_cast<std::uint32_t>(list.size()),
-            .kind =
-                []([[maybe_unused]] const void* all, [[maybe_unused]] std::uint32_t i) {
-                    if constexpr (requires(const M& m) {
-                                      pass_through(m, Vec3T<T>{}, Vec3T<T>{});
-                                  })
-                        return ContactKind::sheet;
-                    else if constexpr (Refractive<M>)
-                        return refractive_index(at(all, i)) > T(0)
-                                   ? ContactKind::body
-                                   : ContactKind::opaque;
-                    else
-                        return MayAbsorb<M> ? ContactKind::body : ContactKind::opaque;
-                },
-            .put =
-                [](const void* all, std::uint32_t i, ContactKey& key) {
-                    const M& m = at(all, i);
-                    if constexpr (Refractive<M>) key[4] = -double(refractive_index(m));
-                    if constexpr (MayAbsorb<M>) put_color(key, 5, absorption(m));
-                    const Vec3T<T> wo{T(0.6), T(0), T(0.8)}, up{T(0), T(0), T(1)};
-                    const auto& here = material_at(m, Vec3T<T>{T(0)}, Vec2T<T>{T(0.5)});
-                    put_color(key, 9, evaluate(here, wo, up));
-                    if (const auto next = sample(here, wo, Vec3T<T>{T(0.5)},
-                                                 Transport::flux, Lobes::all))
-                        put_color(key, 12, next->weight);
-                }};
+    if constexpr (Refractive<M>) key[4] = -double(refractive_index(m));
+    if constexpr (MayAbsorb<M>) put_color(key, 5, absorption(m));
+    const Vec3T<T> wo{T(0.6), T(0), T(0.8)}, up{T(0), T(0), T(1)};
+    const auto& here = material_at(m, Vec3T<T>{T(0)}, Vec2T<T>{T(0.5)});
+    put_color(key, 9, evaluate(here, wo, up));
+    if (const auto next =
+            sample(here, wo, Vec3T<T>{T(0.5)}, Transport::flux, Lobes::all))
+        put_color(key, 12, next->weight);
 }
 
-/// A search for contacts: what is known of a scene, and of each object.
-template <std::floating_point T>
-struct ContactSearchT {
-    std::span<const ContactShapesT<T>> shapes;        ///< By type.
-    std::span<const ContactMaterials> materials;      ///< By type.
-    std::span<const std::vector<ObjectT<T>>> objects; ///< By type of shape.
-    std::vector<ObjectId> ids{};                      ///< All objects.
-    std::vector<ContactKind> kinds{};                 ///< What they are.
-    std::vector<ContactPartT<T>> whole{};             ///< Their boxes and looks.
-    std::vector<std::uint32_t> before{0}; ///< Number of materials of the types before.
-
-    /// The number of a material.
-    [[nodiscard]] std::uint32_t number(MaterialId material) const {
-        return before[material.type] + material.index;
-    }
-    /// The properties of an object.
-    [[nodiscard]] const ObjectT<T>& object(ObjectId id) const {
-        return objects[id.type][id.index];
-    }
+/// An object in the search.
+struct ContactObject {
+    ObjectId id{};
+    ContactKind kind = ContactKind::opaque;
+    std::uint32_t material = 0; ///< Its number; of another one it differs.
+    std::uint32_t pieces = 0;   ///< 0: it is not compared.
+    double area = 0;            ///< 0 if the shape does not know it.
+    BoxT<double> box{};
 };
 
-/// Lists the objects of a search.
-template <std::floating_point T>
-void list_objects(ContactSearchT<T>& search) {
-    for (const ContactMaterials& list : search.materials)
-        search.before.push_back(search.before.back() + list.count);
-    for (std::uint32_t type = 0; type < search.shapes.size(); ++type)
-        for (std::uint32_t i = 0; i < search.objects[type].size(); ++i) {
-            const ObjectT<T>& object = search.objects[type][i];
-            const auto [of, which] = object.material;
-            const auto number = static_cast<std::uint32_t>(search.ids.size());
-            const ContactKind kind =
-                is_black(object.emission)
-                    ? search.materials[of].kind(search.materials[of].list, which)
-                    : ContactKind::lamp;
-            const BoxT<T> box = search.shapes[type].box(search.shapes[type].list, i);
-            search.ids.push_back({type, i});
-            search.kinds.push_back(kind);
-            search.whole.push_back({.box = widened(box, reach_of(box)),
-                                    .object = number,
-                                    .look = kind == ContactKind::opaque
-                                                ? search.number(object.material)
-                                                : search.before.back() + number});
-        }
+/// A search for contacts.
+struct ContactSearch {
+    const std::vector<ContactObject>& objects; ///< In the order of types and indices.
+    double epsilon;                            ///< Of the scene's precision.
+    FunctionRef<SurfacePiece(ObjectId, std::uint32_t)> piece;
+    FunctionRef<void(ContactKey&, ObjectId)> put; ///< Emission and material.
+};
+
+/// Finds the contacts of a scene, whose types it need not know.
+[[nodiscard, gnu::cold]] LJUS_CORE_INLINE Contacts
+contacts_of(const ContactSearch& search);
+
+#ifndef LJUS_CORE // otherwise defined in ljus::core
+
+/// The largest coordinate of a box.
+[[nodiscard, gnu::cold]] inline double reach_of(const BoxT<double>& box) noexcept {
+    return max_component(glm::max(glm::abs(box.low), glm::abs(box.high)));
 }
 
-/// The piece of a surface that is a part in a search.
-template <std::floating_point T>
-[[nodiscard]] SurfacePiece piece_of(const ContactSearchT<T>& search,
-                                    const ContactPartT<T>& part) {
-    const ObjectId id = search.ids[part.object];
-    const ContactShapesT<T>& shapes = search.shapes[id.type];
-    SurfacePiece piece = shapes.piece(shapes.list, id.index, part.part);
-    piece.inside_out = search.object(id).inside_out;
-    return piece;
+/// Surfaces within a box that are closer than this are in one place.
+[[nodiscard, gnu::cold]] inline double contact_distance(const BoxT<double>& box,
+                                                        double epsilon) noexcept {
+    return 8 * epsilon * reach_of(box);
 }
 
-/// The parts of objects that may touch another object.
-template <std::floating_point T>
-[[nodiscard]] std::vector<ContactPartT<T>> list_parts(const ContactSearchT<T>& search) {
-    std::vector<ContactPartT<T>> parts;
-    for (const ContactPartT<T>& object : search.whole) {
-        const ObjectId id = search.ids[object.object];
-        const ContactShapesT<T>& shapes = search.shapes[id.type];
-        const std::uint32_t count = shapes.parts(shapes.list, id.index);
-        if (count == 1) parts.push_back(object);
-        if (count <= 1) continue;
-        std::vector<BoxT<T>> others;
-        for (const ContactPartT<T>& other : search.whole)
-            if (other.look != object.look && overlap(other.box, object.box))
-                others.push_back(other.box);
-        const bool few = others.size() <= 64; // otherwise the search is faster
-        ContactPartT<T> part = object;
-        for (; part.part < count; ++part.part) {
-            const BoxT<double> box = box_of(piece_of(search, part));
-            part.box = {Vec3T<T>(box.low), Vec3T<T>(box.high)};
-            part.box = widened(part.box, reach_of(part.box));
-            const auto near = [&](const BoxT<T>& other) {
-                return overlap(other, part.box);
-            };
-            if (!few || std::any_of(others.begin(), others.end(), near))
-                parts.push_back(part);
+[[nodiscard, gnu::cold]] inline bool overlap(const Box& a, const Box& b) noexcept {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y &&
+           b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
+/// The pieces that are compared.
+struct ContactPieces {
+    /// For a tree. The unit is the largest coordinate of the scene, so that float has
+    /// the range; they are larger by the distance in float.
+    std::vector<Box> boxes{};
+    std::vector<std::uint32_t> object{}; ///< Whose each one is.
+    std::vector<std::uint32_t> number{}; ///< Within the object.
+};
+
+/// Lists the pieces of all objects; of meshes those that are close to other objects.
+/// \param looks  By object. What has one look need not be compared.
+[[nodiscard, gnu::cold]] inline ContactPieces
+list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks) {
+    double unit = std::numeric_limits<double>::min(); // all may lie at 0
+    for (const ContactObject& object : search.objects)
+        unit = std::max(unit, reach_of(object.box));
+    const auto in_units = [unit](const BoxT<double>& box) {
+        const double by = contact_distance(box, std::numeric_limits<float>::epsilon());
+        return Box{Vec3((box.low - by) / unit), Vec3((box.high + by) / unit)};
+    };
+    ContactPieces pieces;
+    std::vector<Box> whole(looks.size());
+    for (std::size_t i = 0; i < whole.size(); ++i)
+        whole[i] = in_units(search.objects[i].box);
+    for (std::uint32_t i = 0; i < whole.size(); ++i) {
+        const ContactObject& object = search.objects[i];
+        Box near; // what other objects have of the box
+        if (object.pieces == 1) near = whole[i];
+        for (std::size_t k = 0; k < whole.size() && object.pieces > 1; ++k)
+            if (looks[k] != looks[i] && overlap(whole[k], whole[i]))
+                near = box_union(near, {glm::max(whole[k].low, whole[i].low),
+                                        glm::min(whole[k].high, whole[i].high)});
+        for (std::uint32_t number = 0; number < object.pieces; ++number) {
+            const Box box = object.pieces == 1
+                                ? whole[i]
+                                : in_units(box_of(search.piece(object.id, number)));
+            if (!overlap(box, near)) continue;
+            pieces.boxes.push_back(box);
+            pieces.object.push_back(i);
+            pieces.number.push_back(number);
         }
     }
-    return parts;
+    return pieces;
 }
 
-/// The area of each material in a scene, by the material's number, in units of 2^-30 of
-/// the largest area of an object: sums of whole numbers do not depend on an order.
-template <std::floating_point T>
-[[nodiscard, gnu::cold]] std::vector<long long>
-covered_areas(const ContactSearchT<T>& search) {
-    std::vector<long long> covered(search.before.back());
-    double most = 0;
-    const auto area = [&](ObjectId id) {
-        const ContactShapesT<T>& shapes = search.shapes[id.type];
-        return shapes.area(shapes.list, id.index);
+/// The look of all pieces below each node of a tree; `several` if they differ.
+[[nodiscard, gnu::cold]] inline std::vector<std::uint32_t>
+looks_below(const BvhNodesT<float>& tree, const ContactPieces& pieces,
+            const std::vector<std::uint32_t>& looks) {
+    constexpr std::uint32_t several = 0xffffffffu;
+    std::vector<std::uint32_t> below(tree.nodes.size(), several);
+    for (std::size_t i = below.size(); i-- > 0;) { // children come after their parents
+        const auto& [box, first, count] = tree.nodes[i];
+        for (std::uint32_t k = 0; k < (count == 0 ? 2 : count); ++k) {
+            const std::uint32_t look =
+                count == 0 ? below[first + k]
+                           : looks[pieces.object[tree.primitive_ids[first + k]]];
+            if (k == 0)
+                below[i] = look;
+            else if (below[i] != look)
+                below[i] = several;
+        }
+    }
+    return below;
+}
+
+/// Finds the pairs of objects with pieces in one place; in `pair` stand their numbers.
+[[gnu::cold]] inline void find_pairs(Contacts& contacts, const ContactSearch& search,
+                                     const std::vector<std::uint32_t>& looks) {
+    const ContactPieces pieces = list_pieces(search, looks);
+    const BvhNodesT<float> tree = build_bvh<float>(pieces.boxes);
+    const std::vector<std::uint32_t> below = looks_below(tree, pieces, looks);
+    // The pair that was found last with each object; those of an object are found
+    // one after another.
+    std::vector<std::uint32_t> last(looks.size(), no_contact);
+    const auto compare = [&](std::uint32_t i, std::uint32_t k) {
+        const std::uint32_t one = pieces.object[i], other = pieces.object[k];
+        const auto a = search.piece(search.objects[one].id, pieces.number[i]);
+        const auto b = search.piece(search.objects[other].id, pieces.number[k]);
+        const double distance =
+            contact_distance(box_union(box_of(a), box_of(b)), search.epsilon);
+        const auto shared = shared_place(a, b, distance);
+        if (!shared) return;
+        auto& pairs = contacts.pairs;
+        if (last[other] == no_contact || pairs[last[other]].pair[0] != one) {
+            last[other] = static_cast<std::uint32_t>(pairs.size());
+            pairs.emplace_back().pair = {one, other};
+        }
+        Contact& contact = pairs[last[other]];
+        contact.box = box_union(
+            contact.box, {shared->box.low - distance, shared->box.high + distance});
+        contact.over_area |= shared->over_area;
+        contact.alike |= shared->over_area && shared->alike;
+        contact.opposed |= shared->over_area && !shared->alike;
     };
-    for (const ObjectId id : search.ids) most = std::max(most, area(id));
-    for (const ObjectId id : search.ids)
-        if (const double part = area(id) / most; part <= 1) // not where most is 0
-            covered[search.number(search.object(id).material)] +=
-                std::llround(std::ldexp(part, 30));
+    long long budget = 1'000'000'000; // nodes
+    std::array<std::uint32_t, bvh_depth + 2> open{};
+    for (std::uint32_t i = 0; i < pieces.boxes.size(); ++i) {
+        const Box& mine = pieces.boxes[i];
+        const std::uint32_t one = pieces.object[i];
+        for (std::size_t count_open = 1; count_open > 0;) { // open[0] is the root
+            if (--budget < 0) {
+                contacts.complete = false;
+                return;
+            }
+            const std::uint32_t at = open[--count_open];
+            const auto& [box, first, count] = tree.nodes[at];
+            if (below[at] == looks[one] || !overlap(box, mine)) continue;
+            if (count == 0) {
+                open[count_open++] = first;
+                open[count_open++] = first + 1;
+            }
+            for (std::uint32_t slot = first; slot < first + count; ++slot) {
+                const std::uint32_t k = tree.primitive_ids[slot];
+                const std::uint32_t other = pieces.object[k];
+                if (one < other && looks[one] != looks[other] &&
+                    overlap(mine, pieces.boxes[k]))
+                    compare(i, k);
+            }
+        }
+        open[0] = 0;
+    }
+}
+
+/// The area that each material covers, in units of 2^-30 of the largest area of an
+/// object: sums of whole numbers do not depend on an order.
+[[nodiscard, gnu::cold]] inline std::vector<double>
+covered_areas(const std::vector<ContactObject>& objects, std::size_t materials) {
+    std::vector<double> covered(materials);
+    double most = 0;
+    for (const ContactObject& object : objects) most = std::max(most, object.area);
+    for (const ContactObject& object : objects)
+        if (const double part = object.area / most; part <= 1) // not where most is 0
+            covered[object.material] += std::round(part * 0x1p30);
     return covered;
 }
 
-/// Completes contacts: the objects that take part, and which of them is met.
-/// \param contacts  Its pairs hold numbers of objects; they become positions.
-template <std::floating_point T>
-[[gnu::cold]] void rank_contacts(const ContactSearchT<T>& search,
-                                 ContactsT<T>& contacts) {
-    const std::vector<long long> covered = covered_areas(search);
-    for (const auto& list : search.objects)
-        contacts.position.emplace_back(list.size(), 0xffffffffu);
-    std::vector<ContactKey> keys;
-    for (ContactT<T>& contact : contacts.pairs) {
+/// Lists the objects that take part, with their keys and their contacts.
+[[gnu::cold]] inline void list_touching(Contacts& contacts, const ContactSearch& search,
+                                        std::size_t materials) {
+    const std::vector<double> covered = covered_areas(search.objects, materials);
+    contacts.position = std::vector<std::uint32_t>(search.objects.size(), no_contact);
+    for (std::uint32_t i = 0; i < search.objects.size(); ++i)
+        while (contacts.first.size() <= search.objects[i].id.type)
+            contacts.first.push_back(i);
+    for (std::uint32_t i = 0; i < contacts.pairs.size(); ++i) {
+        Contact& contact = contacts.pairs[i];
         contacts.box = box_union(contacts.box, contact.box);
-        for (std::uint32_t& one : contact.pair) { // becomes a position
-            const ObjectId id = search.ids[one];
-            std::uint32_t& at = contacts.position[id.type][id.index];
-            if (at == 0xffffffffu) {
-                at = static_cast<std::uint32_t>(keys.size());
-                const ContactKind kind = search.kinds[one];
-                contacts.objects.push_back({.object = id, .kind = kind});
-                const ObjectT<T>& object = search.object(id);
-                ContactKey& key = keys.emplace_back();
-                key[0] = double(kind);
-                put_color(key, 1, object.emission);
-                key[8] = double(covered[search.number(object.material)]);
-                const ContactMaterials& list = search.materials[object.material.type];
-                list.put(list.list, object.material.index, key);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const std::uint32_t number = contact.pair[k];
+            std::uint32_t& at = contacts.position[number];
+            if (at == no_contact) {
+                at = static_cast<std::uint32_t>(contacts.objects.size());
+                const ContactObject& object = search.objects[number];
+                TouchingObject& touching = contacts.objects.emplace_back();
+                touching.object = object.id;
+                touching.kind = object.kind;
+                touching.key[0] = double(object.kind);
+                touching.key[8] = covered[object.material];
+                touching.key[15] = double(number);
+                search.put(touching.key, object.id);
             }
-            one = at;
+            contact.pair[k] = at;
+            contact.next[k] = contacts.objects[at].contact;
+            contacts.objects[at].contact = i;
         }
-        for (std::size_t k = 0; k < 2; ++k)
-            contacts.objects[contact.pair[k]].others.emplace_back(contact.pair[1 - k],
-                                                                  contact.box);
     }
-    std::vector<std::uint32_t> order;
-    for (std::uint32_t at = 0; at < keys.size(); ++at) order.push_back(at);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
-    });
-    for (std::uint32_t rank = 0; rank < order.size(); ++rank)
-        contacts.objects[order[rank]].rank = rank;
 }
 
-/// The contacts of a search, which need not know the types of a scene.
-template <std::floating_point T>
-[[nodiscard, gnu::cold]] ContactsT<T> contacts_of(ContactSearchT<T> search) {
-    list_objects(search);
-    const auto one_look = [&](const auto& part) {
-        return part.look == search.whole[0].look;
-    };
-    if (std::all_of(search.whole.begin(), search.whole.end(), one_look)) return {};
-    const auto piece = [&](const ContactPartT<T>& part) {
-        return piece_of(search, part);
-    };
-    auto contacts = contacts_between<T>(list_parts(search), piece);
-    if (!contacts.pairs.empty()) rank_contacts(search, contacts);
+LJUS_CORE_INLINE Contacts contacts_of(const ContactSearch& search) {
+    Contacts contacts;
+    std::uint32_t materials = 0;
+    for (const ContactObject& object : search.objects)
+        materials = std::max(materials, object.material + 1);
+    std::vector<std::uint32_t> looks(search.objects.size(), materials);
+    bool one_look = true;
+    for (std::uint32_t i = 0; i < looks.size(); ++i) {
+        const ContactObject& object = search.objects[i]; // opaque: as its material
+        looks[i] = object.kind == ContactKind::opaque ? object.material : materials + i;
+        one_look = one_look && looks[i] == looks[0];
+    }
+    if (one_look) return contacts;
+    find_pairs(contacts, search, looks);
+    if (!contacts.pairs.empty()) list_touching(contacts, search, materials);
     return contacts;
 }
+
+#endif
 
 } // namespace detail
 
@@ -519,22 +425,44 @@ template <std::floating_point T>
 /// \cost O(n log n) boxes; less where neighbours are opaque and of one material.
 // [find_contacts]
 template <typename W>
-[[nodiscard, gnu::cold]] ContactsT<typename W::Scalar> find_contacts(const W& world) {
-    using T = typename W::Scalar;
-    return std::apply(
-        [&](const auto&... shapes) {
-            return std::apply(
-                [&](const auto&... materials) {
-                    const std::array<detail::ContactShapesT<T>, sizeof...(shapes)> s{
-                        detail::contact_shapes(shapes)...};
-                    const std::array<detail::ContactMaterials, sizeof...(materials)> m{
-                        detail::contact_materials(materials)...};
-                    return detail::contacts_of<T>(
-                        {.shapes = s, .materials = m, .objects = world.objects()});
-                },
-                world.materials());
-        },
-        world.shapes());
+[[nodiscard, gnu::cold]] Contacts find_contacts(const W& world) {
+    constexpr auto types = static_cast<std::uint32_t>(
+        std::tuple_size_v<std::remove_cvref_t<decltype(world.materials())>>);
+    std::vector<detail::ContactObject> objects(world.size());
+    auto next = objects.begin();
+    for (ObjectId id; id.type < world.objects().size(); ++id.type)
+        for (id.index = 0; id.index < world.objects()[id.type].size(); ++id.index) {
+            const auto& object = world.object(id);
+            detail::ContactObject& one = *next++;
+            one.id = id;
+            one.material = object.material.index * types + object.material.type;
+            one.kind = !is_black(object.emission)
+                           ? ContactKind::lamp
+                           : world.visit_material(object.material, [](const auto& m) {
+                                 return detail::kind_of(m);
+                             });
+            world.visit_shape(id, [&]<typename G>(const G& shape) {
+                const auto box = detail::box_around(shape);
+                one.box = {glm::dvec3(box.low), glm::dvec3(box.high)};
+                one.pieces = detail::piece_count(shape);
+                if constexpr (HasArea<G>) one.area = double(area(shape));
+            });
+        }
+    const auto piece = [&](ObjectId id, std::uint32_t number) {
+        SurfacePiece found = world.visit_shape(id, [number](const auto& shape) {
+            return detail::piece_of(shape, number);
+        });
+        found.inside_out = world.object(id).inside_out;
+        return found;
+    };
+    const auto put = [&](ContactKey& key, ObjectId id) {
+        const auto& object = world.object(id);
+        detail::put_color(key, 1, object.emission);
+        world.visit_material(object.material,
+                             [&key](const auto& m) { detail::put_material(key, m); });
+    };
+    return detail::contacts_of(
+        {objects, std::numeric_limits<typename W::Scalar>::epsilon(), piece, put});
 }
 // [find_contacts]
 

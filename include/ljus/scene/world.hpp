@@ -198,6 +198,8 @@ public:
             find_media();
         contacts_ = find_contacts(*this);
         has_contacts_ = !contacts_.pairs.empty();
+        contact_box_ = {Vec3T<Scalar>(contacts_.box.low),
+                        Vec3T<Scalar>(contacts_.box.high)};
     }
 
     /// All shapes, an array per type.
@@ -220,14 +222,12 @@ public:
     /// a medium: a path that leaves one of them may still be in the other.
     [[nodiscard]] bool has_nested_media() const noexcept { return nested_media_; }
     /// Which objects have surfaces in one place.
-    [[nodiscard]] const ContactsT<Scalar>& contacts() const noexcept {
-        return contacts_;
-    }
+    [[nodiscard]] const Contacts& contacts() const noexcept { return contacts_; }
     /// Whether surfaces of several objects may lie at a point of a ray.
     /// \cost A comparison in a scene without contacts.
     [[nodiscard]] bool may_share_place(const RayT<Scalar>& ray,
                                        Scalar t) const noexcept {
-        return has_contacts_ && detail::may_be_in(contacts_.box, ray, t);
+        return has_contacts_ && detail::may_be_in(contact_box_, ray, t);
     }
     /// The number of lights, including emissive objects; numbered in order of addition.
     [[nodiscard]] std::size_t light_count() const noexcept { return lights_.size(); }
@@ -365,7 +365,7 @@ private:
             ids_.push_back(all[primitive]);
     }
 
-    void find_media() {
+    [[gnu::cold]] void find_media() {
         struct Body {
             BoxT<Scalar> box;
             bool absorbs;
@@ -403,7 +403,7 @@ private:
         return {.center = box_.low + half, .radius = Scalar(1.001) * glm::length(half)};
     }
 
-    void close_lights(const S& scene) {
+    [[gnu::cold]] void close_lights(const S& scene) {
         const SphereT<Scalar> sphere = around();
         const auto keep = [&](auto& to, const auto& from) {
             for (const auto& light : from) {
@@ -423,7 +423,7 @@ private:
         choice_ = ljus::light_choice(powers_);
     }
 
-    void add_lamp(const S& scene, ObjectId id) {
+    [[gnu::cold]] void add_lamp(const S& scene, ObjectId id) {
         ObjectT<Scalar>& object = objects_[id.type][id.index];
         object.emission = scene.emission_of(object);
         object.light = no_light;
@@ -437,7 +437,7 @@ private:
         add_light({0, static_cast<std::uint32_t>(lamps_.size() - 1)});
     }
 
-    void add_light(LightId id) {
+    [[gnu::cold]] void add_light(LightId id) {
         lights_.push_back(id);
         powers_.push_back(visit_light(static_cast<std::uint32_t>(lights_.size() - 1),
                                       [](const auto& light) { return power(light); }));
@@ -454,6 +454,7 @@ private:
     BoxT<Scalar> media_{}; // of all absorbing bodies; empty if there are none
     bool nested_media_ = false;
     bool has_contacts_ = false;
+    BoxT<Scalar> contact_box_{};
     Tree tree_{};
     std::vector<ObjectId> ids_{};
     Kept kept_{};
@@ -461,7 +462,7 @@ private:
     std::vector<LightId> lights_{};
     std::vector<RgbT<Scalar>> powers_{};
     LightChoice choice_{};
-    ContactsT<Scalar> contacts_{};
+    Contacts contacts_{};
 };
 
 namespace detail {
@@ -514,8 +515,8 @@ template <typename S, typename Compute, std::floating_point T>
 [[nodiscard, gnu::noinline]] PlaceHitT<T>
 place_of(const World<S, Compute>& world, const RayT<T>& ray, const SceneHitT<T>& hit) {
     PlaceHitT<T> place{.met = hit};
-    const auto& objects = world.contacts().objects;
-    const TouchingObjectT<T>* const here = world.contacts().find(hit.object);
+    const Contacts& contacts = world.contacts();
+    const TouchingObject* const here = contacts.find(hit.object);
     if (here == nullptr) return place;
 
     const auto point_of = [&](const SceneHitT<T>& at) {
@@ -527,26 +528,31 @@ place_of(const World<S, Compute>& world, const RayT<T>& ray, const SceneHitT<T>&
     };
     std::optional<SurfacePointT<T>> point;
     RayT<T> near = ray; // only around the hit
-    std::uint32_t left = 0xffffffffu, entered = left, met = here->rank;
+    const TouchingObject *met = here, *left = nullptr, *entered = nullptr;
     SceneHitT<T> into{};
     bool shared = false;
-    const auto pass = [&](const TouchingObjectT<T>& object, const SceneHitT<T>& at,
+    const auto pass = [&](const TouchingObject& object, const SceneHitT<T>& at,
                           const Vec3T<T>& normal) {
         if (object.kind == ContactKind::body) {
             const bool front = glm::dot(ray.direction, normal) < T(0);
-            std::uint32_t& best = front ? entered : left;
-            if (object.rank < best) {
-                best = object.rank;
+            const TouchingObject*& best = front ? entered : left;
+            if (best == nullptr || object.key < best->key) {
+                best = &object;
                 (front ? place.entered : place.left) = world.object(at.object).material;
                 if (front) into = at;
             }
         }
-        if (object.rank <= met) {
-            met = object.rank;
+        if (object.key < met->key) {
+            met = &object;
             place.met = at;
         }
     };
-    for (const auto& [other, box] : here->others) {
+    for (std::uint32_t i = here->contact; i != no_contact;) {
+        const Contact& contact = contacts.pairs[i];
+        const std::size_t mine = &contacts.objects[contact.pair[0]] == here ? 0 : 1;
+        const TouchingObject& other = contacts.objects[contact.pair[1 - mine]];
+        i = contact.next[mine];
+        const BoxT<T> box{Vec3T<T>(contact.box.low), Vec3T<T>(contact.box.high)};
         if (!detail::may_be_in(box, ray, hit.at.t)) continue;
         if (!point) {
             point = point_of(hit);
@@ -558,24 +564,21 @@ place_of(const World<S, Compute>& world, const RayT<T>& ray, const SceneHitT<T>&
             near.t_max = glm::min(ray.t_max, hit.at.t + reach);
             pass(*here, hit, point->normal);
         }
-        const ObjectId id = objects[other].object;
-        const auto found = world.visit_shape(id, [&](const auto& shape) {
+        const auto found = world.visit_shape(other.object, [&](const auto& shape) {
             return detail::hit_of<Compute>(near, shape);
         });
         if (!found) continue;
-        const SceneHitT<T> at{*found, id};
+        const SceneHitT<T> at{*found, other.object};
         const SurfacePointT<T> there = point_of(at);
         const T apart =
             std::abs(glm::dot(point->normal, there.position - point->position));
         if (!(apart <= detail::leaving_distance(*point))) continue;
         shared = true;
         place.depth = glm::max(place.depth, apart);
-        pass(objects[other], at, there.normal);
+        pass(other, at, there.normal);
     }
     // Of a body that ends and one that begins, the path meets the one that begins.
-    if (place.entered != no_body &&
-        world.contacts().find(place.met.object)->kind == ContactKind::body)
-        place.met = into;
+    if (entered != nullptr && met->kind == ContactKind::body) place.met = into;
     place.met.shared = shared;
     return place;
 }
