@@ -36,7 +36,7 @@ namespace detail {
 // What the file says of a corner of a face: numbers, from 0, in its lists of positions,
 // texture coordinates, normals and names of materials; or no_number.
 using ObjCorner = std::array<std::uint32_t, 4>;
-inline constexpr std::size_t at_position = 0, at_uv = 1, at_normal = 2, at_material = 3;
+inline constexpr std::size_t of_position = 0, of_uv = 1, of_normal = 2, of_material = 3;
 inline constexpr auto no_number = std::numeric_limits<std::uint32_t>::max();
 
 // The number, from 0, that a number of the file means in a list of `count`.
@@ -109,7 +109,7 @@ public:
         std::vector<ObjFacesT<T>> parts;
         std::unordered_map<const ObjMaterial*, std::size_t> numbers; // of the parts
         const auto part_of = [&](const ObjCorner& corner) -> ObjFacesT<T>& {
-            const ObjMaterial* const material = known[corner[at_material]];
+            const ObjMaterial* const material = known[corner[of_material]];
             const auto [at, fresh] = numbers.try_emplace(material, parts.size());
             if (fresh) parts.push_back({material ? *material : ObjMaterial{}});
             return parts[at->second];
@@ -131,7 +131,7 @@ public:
             const auto [a, b, c] = whole_.triangles[i];
             ObjFacesT<T>& part = part_of(corners_[a]);
             part.data.triangles.push_back({vertices[a], vertices[b], vertices[c]});
-            if (part.has_uv && corners_[a][at_uv] == no_number &&
+            if (part.has_uv && corners_[a][of_uv] == no_number &&
                 part.without_uv != lines_[i])
                 report.add(ObjTrouble::no_uv, part.without_uv = lines_[i]);
         }
@@ -225,8 +225,8 @@ private:
             word.remove_prefix(std::min(end + 1, word.size()));
         }
         // A word that is written otherwise means no position.
-        if (!word.empty() || corner[at_position] == no_number)
-            missing[at_position] = true;
+        if (!word.empty() || corner[of_position] == no_number)
+            missing[of_position] = true;
         return corner;
     }
     void face(Words words) {
@@ -238,13 +238,13 @@ private:
             face_.push_back(corner_of(word, missing));
         }
         if (face_.size() < 3) return report.add(ObjTrouble::few_corners, line_);
-        if (missing[at_position]) return report.add(ObjTrouble::bad_index, line_);
-        if (missing[at_uv]) report.add(ObjTrouble::no_such_uv, line_);
-        if (missing[at_normal]) report.add(ObjTrouble::no_such_normal, line_);
+        if (missing[of_position]) return report.add(ObjTrouble::bad_index, line_);
+        if (missing[of_uv]) report.add(ObjTrouble::no_such_uv, line_);
+        if (missing[of_normal]) report.add(ObjTrouble::no_such_normal, line_);
         face_positions_.clear();
         for (const ObjCorner& corner : face_) {
-            if (!is_finite(position(corner[at_position]))) return; // said at the vertex
-            face_positions_.push_back(positions_[corner[at_position]]);
+            if (!is_finite(position(corner[of_position]))) return; // said at the vertex
+            face_positions_.push_back(positions_[corner[of_position]]);
         }
         keep_what_all_have();
         const CutPolygon cut = cut_polygon(face_positions_);
@@ -267,32 +267,32 @@ private:
             all_uv = all_uv && uv != no_number && has_place(uv_[uv]);
         }
         for (ObjCorner& corner : face_) {
-            if (!all_normals) corner[at_normal] = no_number;
-            if (!all_uv) corner[at_uv] = no_number;
+            if (!all_normals) corner[of_normal] = no_number;
+            if (!all_uv) corner[of_uv] = no_number;
         }
     }
     void count_face() {
         ObjContent& all = report.content;
-        const bool flat = face_[0][at_normal] == no_number;
+        const bool flat = face_[0][of_normal] == no_number;
         ++all.faces;
         all.polygons += face_.size() > 3 ? 1 : 0;
         all.flat_faces += flat ? 1 : 0;
         if (in_smooth_group_ && flat && settings_.normals == ObjNormals::file)
             report.add(ObjTrouble::not_smooth, line_);
-        all.no_uv_faces += face_[0][at_uv] == no_number ? 1 : 0;
+        all.no_uv_faces += face_[0][of_uv] == no_number ? 1 : 0;
     }
     // One triangle of a face; false if it has no area.
     bool add(std::array<ObjCorner, 3> corners) {
         const auto across = cross_of_edges(TriangleT<T>{
-            position(corners[0][at_position]), position(corners[1][at_position]),
-            position(corners[2][at_position])});
+            position(corners[0][of_position]), position(corners[1][of_position]),
+            position(corners[2][of_position])});
         if (!(glm::dot(across, across) > 0)) return false;
-        if (corners[0][at_normal] != no_number) {
+        if (corners[0][of_normal] != no_number) {
             Vec3T<T> sum{0};
-            for (const ObjCorner& corner : corners) sum += normals_[corner[at_normal]];
+            for (const ObjCorner& corner : corners) sum += normals_[corner[of_normal]];
             if (!(glm::dot(Vec3T<WideT<T>>(sum), across) > 0)) {
                 report.add(ObjTrouble::turned, line_);
-                for (ObjCorner& corner : corners) corner[at_normal] = no_number;
+                for (ObjCorner& corner : corners) corner[of_normal] = no_number;
             }
         }
         whole_.triangles.push_back(
@@ -303,7 +303,7 @@ private:
     // The vertex of a corner: one for equal corners, if it is among the latest at their
     // position.
     std::uint32_t vertex_of(const ObjCorner& corner) {
-        std::uint32_t& latest = latest_[corner[at_position]];
+        std::uint32_t& latest = latest_[corner[of_position]];
         std::uint32_t vertex = latest;
         for (int i = 0; i < 64 && vertex != no_number; ++i) {
             if (corners_[vertex] == corner) return vertex;
@@ -312,7 +312,7 @@ private:
         before_.push_back(latest);
         corners_.push_back(corner);
         latest = static_cast<std::uint32_t>(whole_.positions.size());
-        whole_.positions.push_back(position(corner[at_position]));
+        whole_.positions.push_back(position(corner[of_position]));
         return latest;
     }
 
