@@ -22,7 +22,7 @@
 namespace along {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wreturn-type" // main() is no main function here
-#include "along/12_caustic.cpp"
+#include "../examples/along/12_caustic.cpp"
 #pragma GCC diagnostic pop
 } // namespace along
 

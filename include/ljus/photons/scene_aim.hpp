@@ -138,7 +138,11 @@ struct SceneAimT {
     std::vector<bool> is_aimed{}; ///< One per light; none if none is aimed.
 
     /// A photon that leaves a light.
-    /// \param number  The light's number; the others are those of emit_photon().
+    /// \param number       The light's number.
+    /// \param light        The light.
+    /// \param u_point      For the point where it leaves, of the unit square.
+    /// \param u_direction  For its direction.
+    /// \param time         The time of a moving lamp.
     template <Light L>
     [[nodiscard]] LeavingPhotonT<T>
     operator()(std::uint32_t number, const L& light, const Vec2T<T>& u_point,
