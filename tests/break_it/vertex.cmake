@@ -90,7 +90,7 @@ ljus_break_it(NAME vertex-roulette-red HEADER path/path_state.hpp TEST vertex
 
 # Who leaves a bubble in glass is in air.
 ljus_break_it(NAME medium-nested HEADER path/continue_path.hpp TEST vertex
-    FROM "!(vertex.wo.z < T(0) && next.wi.z > T(0));"
+    FROM "!leaves_body<M>(vertex.wo, next.wi);"
     TO   "true;"
     CASES "vertex: where a path begins*")
 
