@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ljus/math/field_hash.hpp"
+#include "ljus/math/random.hpp"
 #include "ljus/math/vector.hpp"
 
 namespace ljus::detail {
@@ -25,9 +26,8 @@ first_equal_points(const std::vector<Vec3T<T>>& points) {
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         std::uint64_t hash = 0;
         for (int axis = 0; axis < 3; ++axis) // -0 + 0 is 0
-            hash = (hash ^ std::bit_cast<BitsOf<T>>(points[i][axis] + T(0))) *
-                   0x9e3779b97f4a7c15u;
-        std::size_t slot = (hash ^ hash >> 32) & (slots.size() - 1);
+            hash = mix_bits(hash ^ std::bit_cast<BitsOf<T>>(points[i][axis] + T(0)));
+        std::size_t slot = hash & (slots.size() - 1);
         while (slots[slot] != empty && points[slots[slot]] != points[i])
             slot = (slot + 1) & (slots.size() - 1);
         if (slots[slot] == empty) slots[slot] = i;

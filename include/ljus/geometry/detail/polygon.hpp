@@ -26,9 +26,8 @@ struct CutPolygon {
 };
 
 // Triangulates a polygon by cutting off ears: corners whose triangle contains no other
-// corner \cite meisters1975. A polygon that is not flat is projected along its
-// area vector. A polygon that crosses itself is cut arbitrarily, and
-// `crossed` is set.
+// corner \cite meisters1975. A polygon that is not flat is projected along its area
+// vector. A polygon that crosses itself is cut arbitrarily, and `crossed` is set.
 //
 // The corners are given counter-clockwise; n of them give n - 2 triangles. Fewer than
 // three corners, or no area, give none. Corners may coincide, as where a bridge
