@@ -231,7 +231,9 @@ TEST_CASE("photon dots: in pictures that are wider than high, and higher than wi
         return photon_in_sight(world, front(), photon_at(position, {0, 0, -1}), width,
                                height);
     };
-    for (const auto& [width, height] : {std::pair{100, 60}, {60, 100}}) {
+    for (const auto& size : {std::pair{100, 60}, {60, 100}}) {
+        const int width = size.first;
+        const int height = size.second;
         // Five units of the wall are half of the picture's height.
         const float per_unit = float(height) / 10;
         for (const float x : {-0.5f, 0.5f})

@@ -804,7 +804,7 @@ TEST_CASE(
             .x;
     };
     CHECK(estimate({.radius = 0.5f, .nearest = 512}) > 0);
-    for (const std::size_t nearest : {1, 513, 10'000}) {
+    for (const std::size_t nearest : {1u, 513u, 10'000u}) {
         CAPTURE(nearest);
         CHECK_THROWS_WITH_AS(estimate({.radius = 0.5f, .nearest = nearest}),
                              ("gather.nearest is " + std::to_string(nearest) +

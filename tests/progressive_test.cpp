@@ -601,7 +601,7 @@ TEST_CASE("progressive: a checkpoint comes back, and nothing else does") {
     CHECK(forged(24, 0, 4).find("block side is out") != std::string::npos); // width
     CHECK(forged(24, 0xffffffffu, 4).find("block side is out") != std::string::npos);
     CHECK(forged(24, 6, 4).find("do not match") != std::string::npos);
-    for (const std::uint64_t letters : {0, 11, 13}) // of the text, which has 12
+    for (const std::uint64_t letters : {0u, 11u, 13u}) // of the text, which has 12
         CHECK(forged(whole.size() - 20, letters, 8).find("do not match") !=
               std::string::npos);
     CHECK(forged(40, 0x7ff8000000000000u, 8).find("not finite") != std::string::npos);
