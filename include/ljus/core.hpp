@@ -6,9 +6,11 @@
 /// All of Ljus is in its headers, but code that does not depend on a scene's types can
 /// be compiled once for all programs. A program that defines `LJUS_CORE` and is linked
 /// with ljus::core uses the instantiations in this list, and the functions marked
-/// LJUS_CORE_INLINE. ljus.hpp then includes this list; core/core.cpp instantiates it.
+/// LJUS_CORE_INLINE. ljus.hpp then includes this list; core/core.cpp instantiates it,
+/// and compiles what is marked LJUS_CORE_CLONES for several generations of processors.
 /// To add an instantiation, add a line here.
 
+#include "ljus/accel/mesh.hpp"
 #include "ljus/inspect/survey.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/materials/glass.hpp"
@@ -51,6 +53,9 @@ detail::make_bvh8(const detail::BvhNodesT<float>&, std::uint32_t);
 LJUS_CORE_EXTERN template Bvh8::Bvh8(const std::vector<Box>&, const BvhSettings&,
                                      std::uint32_t);
 LJUS_CORE_EXTERN template KdTree8T<float>::KdTree8T(std::span<const Vec3>, int);
+LJUS_CORE_EXTERN template std::optional<ShapeHitT<float>> intersect(const Ray&,
+                                                                    const Mesh&);
+LJUS_CORE_EXTERN template bool meets(const Ray&, const Mesh&);
 
 // Paths.
 LJUS_CORE_EXTERN template SeenPointT<float> sample_towards(const Sphere&, const Vec3&,

@@ -36,3 +36,10 @@
 #define LJUS_CORE_INLINE inline
 #endif
 #endif
+
+/// Marks a search that ljus::core compiles for several generations of processors. The
+/// instructions that the processor at hand has are chosen when the program starts.
+/// Without ljus::core it means nothing.
+#ifndef LJUS_CORE_CLONES
+#define LJUS_CORE_CLONES
+#endif

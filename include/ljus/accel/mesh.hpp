@@ -115,8 +115,8 @@ using Mesh = MeshT<float>; ///< MeshT in float.
 /// \cost O(log n) triangles on average.
 // [intersect]
 template <typename Compute = void, std::floating_point T>
-[[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
-                                                    const MeshT<T>& mesh) {
+[[nodiscard]] LJUS_CORE_CLONES std::optional<ShapeHitT<T>>
+intersect(const RayT<T>& ray, const MeshT<T>& mesh) {
     const auto prepared = prepare<Compute>(ray);
     NearestHitT<T> nearest =
         nearest_hit(mesh.tree(), ray, [&](std::uint32_t slot, const RayT<T>& rest) {
@@ -133,7 +133,7 @@ template <typename Compute = void, std::floating_point T>
 /// \return Whether intersect() would return a hit.
 /// \cost O(log n) triangles on average, fewer than intersect().
 template <typename Compute = void, std::floating_point T>
-[[nodiscard]] bool meets(const RayT<T>& ray, const MeshT<T>& mesh) {
+[[nodiscard]] LJUS_CORE_CLONES bool meets(const RayT<T>& ray, const MeshT<T>& mesh) {
     const auto prepared = prepare<Compute>(ray);
     return mesh.tree().any(ray, [&](std::uint32_t slot) {
         return intersect<Compute>(ray, mesh.triangle_at(slot), prepared).has_value();

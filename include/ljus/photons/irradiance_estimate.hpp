@@ -124,7 +124,7 @@ struct NearestPhotons {
 /// \param wanted  Called as wanted(index, record); whether the photon counts. Photons
 ///                that are turned_away() never count.
 template <std::floating_point T, typename Wanted>
-[[nodiscard]] NearestPhotons
+[[nodiscard]] LJUS_CORE_CLONES NearestPhotons
 nearest_photons(const PhotonMapT<T>& map, const SurfacePointT<T>& point, T radius,
                 std::span<Neighbor> room, const Wanted& wanted) {
     const auto counts = [&](std::uint32_t i) {

@@ -205,7 +205,7 @@ private:
 /// \param gathered  Counts the photons in the disc, on either side.
 /// \return The sum of weight times flux; W.
 template <std::floating_point T, typename K>
-[[nodiscard]] RgbT<double>
+[[nodiscard]] LJUS_CORE_CLONES RgbT<double>
 flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
              const FluxDiscT<T, K>& disc, std::uint64_t& gathered) {
     DiscFluxT<T, K> flux(records, disc);
