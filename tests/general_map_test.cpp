@@ -812,6 +812,18 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
     CHECK(kinds(rays.maps().caustics) == caustic);
     CHECK(rays.maps().caustics_audit.emitted.x > 0);
     CHECK(rays.maps().general_audit.emitted.x == 0);
+    // A map without a photon for the light between surfaces says so.
+    for (const int bounces : {1, 10}) {
+        const auto map = make([&](auto& s) {
+            s.indirect = IndirectLight::photons;
+            s.general.max_bounces = bounces;
+        });
+        CHECK(map.maps().remarks ==
+              (bounces == 1 ? "of 3000 general photons only 0 landed twice or more: the "
+                              "light between surfaces is blurred over a large radius; "
+                              "trace more, or let rays carry it\n"
+                            : ""));
+    }
     for (const bool shadows : {true, false}) {
         const auto kept = make([&](auto& s) {
             s.keep_general_map = true;

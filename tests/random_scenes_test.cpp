@@ -10,6 +10,8 @@
 /// seeds. Of all comparisons of a run together one fails by chance in a thousand runs
 /// (Bonferroni).
 ///
+/// A carrier that says itself that it has too few photons is not compared.
+///
 /// A block whose reference is too noisy is undecided: its standard error is too large,
 /// or one seed alone makes most of its variance, as a few bright pixels do.
 ///
@@ -90,12 +92,18 @@ struct Carrier {
     const char* name;
     double bias;          ///< Of a block, part of its mean and the picture's together.
     double specular_bias; ///< The same in a scene with mirrors or glass.
+    bool blurs =
+        false; ///< Whether it needs indirect photons, and says if it lacks them.
 };
 constexpr std::array carriers{
-    Carrier{"rays", 0, 0.03},       Carrier{"map", 0.03, 0.03},
-    Carrier{"photons", 0.06, 0.06}, Carrier{"gather", 0.03, 0.03},
-    Carrier{"cache", 0.04, 0.04},   Carrier{"draft", 0.06, 0.06},
-    Carrier{"fast", 0.05, 0.05},    Carrier{"progressive", 0.08, 0.08},
+    Carrier{"rays", 0, 0.03},
+    Carrier{"map", 0.03, 0.03, true},
+    Carrier{"photons", 0.06, 0.06, true},
+    Carrier{"gather", 0.03, 0.03, true},
+    Carrier{"cache", 0.04, 0.04, true},
+    Carrier{"draft", 0.06, 0.06},
+    Carrier{"fast", 0.05, 0.05},
+    Carrier{"progressive", 0.08, 0.08, true},
 };
 
 constexpr auto listed = abilities<Gathering, StratifiedStream>;
@@ -115,21 +123,35 @@ Image by_preset(const DrawnScene& drawn, Preset preset, std::uint64_t seed) {
     return render(mapper, drawn.camera, picture).image;
 }
 
-/// One picture by a carrier.
-Image carried(const DrawnScene& drawn, const std::string& name, std::uint64_t seed) {
-    if (name == "draft") return by_preset(drawn, Preset::draft, seed);
-    if (name == "fast") return by_preset(drawn, Preset::fast, seed);
-    const IndirectLight indirect = name == "rays"     ? IndirectLight::rays
-                                   : name == "map"    ? IndirectLight::map
-                                   : name == "gather" ? IndirectLight::gather
-                                   : name == "cache"  ? IndirectLight::cache
-                                                      : IndirectLight::photons;
-    PhotonMappingSettings settings{.indirect = indirect};
+/// Photons for the carriers that are no preset.
+PhotonMappingSettings map_settings(const DrawnScene& drawn, std::uint64_t seed) {
+    PhotonMappingSettings settings;
     settings.direct = drawn.sharp ? DirectLight::mis : DirectLight::sampled;
     settings.caustics = {.photons = 20000, .seed = seed, .threads = 1};
     settings.general = {
         .photons = 20000, .seed = seed, .shadow_photons = false, .threads = 1};
     settings.caustics_estimate.radius = settings.general_estimate.radius = 0;
+    return settings;
+}
+
+/// Whether a mapper says that its few indirect photons blur the light.
+bool says_blurred(const DrawnScene& drawn, std::uint64_t seed) {
+    PhotonMappingSettings settings = map_settings(drawn, seed);
+    settings.indirect = IndirectLight::photons;
+    const PhotonMapper mapper(drawn.world, settings, listed);
+    return mapper.maps().remarks.find("is blurred over") != std::string::npos;
+}
+
+/// One picture by a carrier.
+Image carried(const DrawnScene& drawn, const std::string& name, std::uint64_t seed) {
+    if (name == "draft") return by_preset(drawn, Preset::draft, seed);
+    if (name == "fast") return by_preset(drawn, Preset::fast, seed);
+    PhotonMappingSettings settings = map_settings(drawn, seed);
+    settings.indirect = name == "rays"     ? IndirectLight::rays
+                        : name == "map"    ? IndirectLight::map
+                        : name == "gather" ? IndirectLight::gather
+                        : name == "cache"  ? IndirectLight::cache
+                                           : IndirectLight::photons;
     RenderSettings picture{
         .width = small, .height = small, .samples = 16, .seed = seed, .threads = 1};
     if (name == "progressive") {
@@ -149,7 +171,7 @@ Image carried(const DrawnScene& drawn, const std::string& name, std::uint64_t se
             [](const auto&) { return true; });
         return mean_image(state);
     }
-    if (indirect == IndirectLight::cache)
+    if (settings.indirect == IndirectLight::cache)
         picture.width = picture.height = large, picture.samples = 4;
     PhotonMapper mapper(drawn.world, settings, listed);
     mapper.fill_cache(drawn.camera, picture);
@@ -159,6 +181,7 @@ Image carried(const DrawnScene& drawn, const std::string& name, std::uint64_t se
 /// What was found over all scenes.
 struct Found {
     int compared = 0, undecided = 0, alarms = 0;
+    int said = 0; ///< Carriers that say themselves that they are wrong.
 };
 
 } // namespace
@@ -186,7 +209,12 @@ TEST_CASE("random scenes: every carrier of light agrees with path tracing") {
                            .image);
         if (show) std::printf("%lld %s\n", scene, drawn.what.c_str());
         std::uint64_t seed = key + 500;
+        const bool blurred = says_blurred(drawn, key);
         for (const Carrier& carrier : carriers) {
+            if (blurred && carrier.blurs) {
+                ++all.said;
+                continue;
+            }
             Blocks blocks_of;
             for (int s = 0; s < carried_seeds; ++s)
                 blocks_of.add(carried(drawn, carrier.name, ++seed));
@@ -221,6 +249,6 @@ TEST_CASE("random scenes: every carrier of light agrees with path tracing") {
         }
     }
     MESSAGE(all.compared, " compared, ", all.undecided, " undecided, ", all.alarms,
-            " alarms");
+            " alarms; ", all.said, " carriers said that they lack photons");
     CHECK(all.undecided < all.compared / 10);
 }

@@ -89,3 +89,10 @@ ljus_break_it(NAME general-map-irradiance-seed HEADER render/photon_mapping.hpp 
     FROM "settings_.general.seed, settings_"
     TO   "settings_.caustics.seed, settings_"
     CASES "general map: who is asked*")
+
+# A map with too few indirect photons is used without a word.
+ljus_break_it(NAME general-map-blurred HEADER render/photon_mapping.hpp
+    TEST general_map
+    FROM "if (blurred && !maps.starved)"
+    TO   "if (blurred && maps.starved)"
+    CASES "general map: which maps are made*")

@@ -130,7 +130,7 @@ template <std::floating_point T>
            2 * count_of(photons, PhotonKind::indirect);
 }
 
-/// A sentence about a general map with too few indirect photons.
+/// A sentence about a general map with so few indirect photons that paths are taken.
 /// \param indirect  Indirect photons that it kept.
 [[nodiscard, gnu::cold]] inline std::string
 starved_remark(long long indirect, const PhotonMappingSettings& settings) {
@@ -138,6 +138,16 @@ starved_remark(long long indirect, const PhotonMappingSettings& settings) {
                  to_text(indirect), " landed twice or more, fewer than ",
                  to_text(settings.irradiance.least),
                  ": paths carry the light between surfaces, not these"});
+}
+
+/// A sentence about a general map whose few indirect photons are used all the same.
+/// \param indirect  Indirect photons that it kept.
+[[nodiscard, gnu::cold]] inline std::string
+blurred_remark(long long indirect, const PhotonMappingSettings& settings) {
+    return join({"of ", to_text(settings.general.photons), " general photons only ",
+                 to_text(indirect),
+                 " landed twice or more: the light between surfaces is blurred over a "
+                 "large radius; trace more, or let rays carry it"});
 }
 
 /// Runs the photon passes: the maps that the plan asks for, and no others.
@@ -185,10 +195,12 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     if (verdicts) judge(photons);
     const long long indirect = count_of(photons, PhotonKind::indirect);
     maps.starved = run.irradiance && indirect < settings.irradiance.least;
-    if (maps.starved) {
-        maps.remarks.append(starved_remark(indirect, settings)).append("\n");
-        if (!settings.keep_general_map) return maps;
-    }
+    if (maps.starved) maps.remarks.append(starved_remark(indirect, settings) + "\n");
+    const bool blurred = run.general_map && kept.has(PhotonKind::indirect) &&
+                         indirect < std::min(1024LL, settings.general.photons / 10);
+    if (blurred && !maps.starved)
+        maps.remarks.append(blurred_remark(indirect, settings) + "\n");
+    if (maps.starved && !settings.keep_general_map) return maps;
     if (choose && lands_once(photons)) kept = light_kinds;
     if (verdicts || choose)
         std::erase_if(photons,
