@@ -284,7 +284,6 @@ void roulette(const std::string& folder, int samples) {
         for (int i = 0; i < samples; ++i) {
             const double c = Cosine::sample(next_1d<double>(stream));
             const double y = f(c) / Cosine::pdf(c);
-            // [roulette]
             const double q = chance(y);
             double value = 0;
             if (next_1d<double>(stream) < q) {
@@ -292,7 +291,6 @@ void roulette(const std::string& folder, int samples) {
                 ++looked;
             }
             add(all, value);
-            // [roulette]
         }
         const double cost = double(looked) / samples;
         const double relative = variance(all) / (truth * truth);

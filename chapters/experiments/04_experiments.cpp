@@ -136,7 +136,6 @@ using MattRoom = decltype(matt_room());
 
 /// The first bounce of Eq. 1, integrated over the area of the lamp: light from points
 /// x'' of the lamp, which x' sends on to the eye.
-// [area form]
 struct AreaForm {
     using Stream = ljus::RandomStream;
     const MattRoom& world;
@@ -163,7 +162,6 @@ Rgb radiance(const AreaForm& form, const ljus::Ray& ray, Context& context) {
     return here.object.emission +
            albedo / pi * Rgb{17, 13, 8} * cosines * g * float(area(lamp));
 }
-// [area form]
 
 ljus::Camera box_camera() {
     return ljus::look_at({.position{0, 1, 4.4f}, .target{0, 1, 0}, .vfov_degrees = 33});

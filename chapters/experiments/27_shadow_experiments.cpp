@@ -112,7 +112,6 @@ struct Probes {
     std::vector<double> seen{}; ///< In [0, 1].
     std::size_t everywhere = 0; ///< This many, first, over the whole floor.
 };
-// [probe]
 double part_seen(const Hall& hall, const Vec3& at, int n) {
     int seen = 0;
     for (int i = 0; i < n * n; ++i) {
@@ -127,7 +126,6 @@ double part_seen(const Hall& hall, const Vec3& at, int n) {
     }
     return double(seen) / (n * n);
 }
-// [probe]
 
 Probes make_probes(const Hall& hall, float radius, const examples::Options& options) {
     Probes probes;

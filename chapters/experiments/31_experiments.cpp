@@ -410,7 +410,6 @@ Result try_method(const Method& method, int rays, const examples::Oracle& oracle
 template <typename Draws>
 Image by_photons(const Box& room, const PhotonMappingSettings& settings,
                  const RenderSettings& picture, int more = 0) {
-    // [by_photons]
     PhotonMapper mapper(room.world, settings, abilities<Draws, Gathering>);
     mapper.fill_cache(room.camera, picture);
     if (more == 0) return render(mapper, room.camera, picture).image;
@@ -422,7 +421,6 @@ Image by_photons(const Box& room, const PhotonMappingSettings& settings,
                             .batches = 1,
                             .disagreement = PresetRays{}.disagreement})
         .image;
-    // [by_photons]
 }
 
 void methods(const examples::Options& options, const Sizes& sizes,

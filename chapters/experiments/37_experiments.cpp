@@ -38,14 +38,12 @@ struct Run {
     double noise = 0;                 ///< Error of another seed.
 };
 
-// [error]
 /// How far two pictures of the same rays are apart: relMSE without the worst pixels,
 /// which are single bright paths.
 template <typename T>
 double error_of(const ImageT<T>& image, const ImageT<double>& truth) {
     return trimmed_rel_mse(image, truth, 0.05);
 }
-// [error]
 
 // --- Pictures side by side ------------------------------------------------------------
 

@@ -41,7 +41,6 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 /// \param a  Estimate of one set.
 /// \param b  Estimate of the other set.
 /// \return The estimate of all samples, up to rounding.
-// [joined]
 [[nodiscard]] constexpr Estimate joined(const Estimate& a, const Estimate& b) noexcept {
     if (a.count == 0) return b;
     const double count = a.count + b.count, apart = b.mean - a.mean;
@@ -50,7 +49,6 @@ constexpr void add(Estimate& estimate, double x) noexcept {
             .squares =
                 a.squares + b.squares + apart * apart * (a.count * b.count / count)};
 }
-// [joined]
 
 /// The unbiased estimate of the variance of one sample.
 /// \param estimate  The estimate of n samples.
