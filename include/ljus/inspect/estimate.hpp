@@ -53,7 +53,6 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 /// The unbiased estimate of the variance of one sample.
 /// \param estimate  The estimate of n samples.
 /// \return Sum of (x - mean)^2 over n - 1; infinity for fewer than 2 samples.
-// [variance]
 [[nodiscard]] constexpr double variance(const Estimate& estimate) noexcept {
     if (estimate.count < 2) return std::numeric_limits<double>::infinity();
     return estimate.squares / (estimate.count - 1);
@@ -68,7 +67,6 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 [[nodiscard]] inline double standard_error(const Estimate& estimate) noexcept {
     return std::sqrt(variance(estimate) / estimate.count);
 }
-// [variance]
 
 /// \}
 
