@@ -96,15 +96,16 @@ echo 'Table t{.name = "table"}; Plot p{.name = "of-" + name}; path("plot.png");'
     >examples/01_page.cpp
 printf '// [%s]\n' shown shown >include/a.hpp
 "$tools/check_shown" . >../out.txt 2>../err.txt || wrong "what is shown is refused: $(cat ../err.txt)"
-touch chapters/kept/01/lost.csv
+mkdir -p chapters/measured
+touch chapters/kept/01/lost.csv chapters/measured/idle.csv
 echo 'Drawing d{.name = "drawn"}; path("picture.png");' >>examples/01_page.cpp
 printf '// [%s]\n' once unshown unshown >>include/a.hpp
 "$tools/check_shown" . >../out.txt 2>../err.txt && wrong "what no page shows is let through"
-for name in 'no page shows lost' 'no page shows drawn' 'no page shows picture' '\[once\] stands' \
-    'shows \[unshown\]'; do
+for name in 'no page shows lost' 'no page shows drawn' 'no page shows picture' 'quotes measured/idle' \
+    '\[once\] stands' 'shows \[unshown\]'; do
     grep -q "$name" ../err.txt || wrong "not said: $name"
 done
-[ "$(wc -l <../err.txt)" -eq 6 ] || wrong "$(cat ../err.txt)"
+[ "$(wc -l <../err.txt)" -eq 7 ] || wrong "$(cat ../err.txt)"
 cd ..
 
 # The table of the README is that of the book.
