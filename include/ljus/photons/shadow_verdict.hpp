@@ -139,23 +139,6 @@ verdict_at(const PhotonMapT<T>& map, const SurfacePointT<T>& point, int side,
     return detail::judge(found, skip.rule, photons_needed(skip));
 }
 
-/// An upper bound of the irradiance where no photon is found.
-///
-/// The number of photons in a disc has a Poisson distribution. If its mean is m, it is
-/// 0 with the probability \f$ e^{-m} \f$, which is below 5 % for m above 3. So, except
-/// with this probability,
-/// \f[ E \le \frac{3\,\Delta\Phi}{\pi r^2} \f]
-/// \param flux    Flux of a photon, in W.
-/// \param radius  Radius of the disc, in scene units; all of it on the surface.
-/// \param risk    Probability that the bound is wrong.
-/// \return W over squared scene units.
-template <std::floating_point T>
-[[nodiscard]] RgbT<T> unseen_irradiance(const RgbT<T>& flux, T radius,
-                                        T risk = T(0.05)) noexcept {
-    constexpr T pi = T(3.14159265358979323846L);
-    return -std::log(risk) / (pi * radius * radius) * flux;
-}
-
 /// \}
 
 } // namespace ljus
