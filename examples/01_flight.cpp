@@ -94,7 +94,6 @@ int main(int argc, char** argv) {
             .caustics_estimate{.radius = options.pick(0.2f, 0.07f, 0.02f)}};
         const auto world = ring_of_balls();
 
-        // [frames]
         const PhotonMapper mapper(world, settings); // no photon depends on the camera
         const int columns = std::min(frames, 4), rows = std::min(2, (frames + 3) / 4);
         Image sheet = make_image(columns * options.width, rows * options.height);
@@ -112,7 +111,6 @@ int main(int argc, char** argv) {
                 if (k * frames / (columns * rows) == i)
                     paste(sheet, seen.image, k % columns, k / columns);
         }
-        // [frames]
         save_png(sheet, options.path("flight.png"));
     });
 }

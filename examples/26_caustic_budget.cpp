@@ -21,7 +21,6 @@ int main(int argc, char** argv) {
                         .report{.width = 400, .height = 300, .samples = 16},
                         .reference{.width = 500, .height = 375, .samples = 64}});
 
-        // [two balls]
         Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass>, Lights<PointLight>>
             scene;
         scene.add(Quad{.corner{-3, 0, -3}, .edge_u{0, 0, 6}, .edge_v{6, 0, 0}},
@@ -34,7 +33,6 @@ int main(int argc, char** argv) {
         const World world(std::move(scene));
         const Camera camera = look_at(
             {.position{0, 2.4f, 2.9f}, .target{0, 0.45f, 0}, .vfov_degrees = 55});
-        // [two balls]
 
         PhotonMappingSettings settings{.split_glass = true,
                                        .indirect = IndirectLight::photons};

@@ -59,21 +59,8 @@ int main(int argc, char** argv) {
             scene_drawing(room.world, room.camera, options.width, options.height);
         const float radius = std::max(0.8f, float(options.width) / 250);
         const auto color = [](const Photon& point) { return dot_color(point); };
-        const long long seen =
-            add_photon_dots(drawing, room.world, room.camera, points,
-                            {.radius = radius, .brightness = 1}, color);
+        add_photon_dots(drawing, room.world, room.camera, points,
+                        {.radius = radius, .brightness = 1}, color);
         save_png(drawing, options.path("irradiance_cache-points.png"));
-
-        const std::string size =
-            std::to_string(options.width) + " x " + std::to_string(options.height);
-        const examples::Table table{
-            .name = "irradiance_cache-points-table",
-            .columns = {"pixels", "points", "of which in sight", "gather rays"},
-            .rows = {{size, std::to_string(points.size()), std::to_string(seen),
-                      std::to_string(cache.counts.bounce_rays)}}};
-        save_table(options.out, table);
-        if (options.quiet) return;
-        examples::print_row(table.columns, 18);
-        examples::print_rows(table, 18);
     });
 }

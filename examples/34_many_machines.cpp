@@ -52,7 +52,6 @@ std::vector<Photon> photons_of(const W& world, const PhotonPassSettings& pass,
 // [photons]
 
 /// The strips of rows that a rank renders, dealt out in turn to share the slow regions.
-// [strips]
 std::vector<RowRange> strips_of(const Rank& rank, int height) {
     constexpr int strip = 8; // rows
     std::vector<RowRange> strips;
@@ -60,7 +59,6 @@ std::vector<RowRange> strips_of(const Rank& rank, int height) {
         strips.push_back({row, std::min(row + strip, height)});
     return strips;
 }
-// [strips]
 
 void body(examples::CommandLine& line, Rank& rank) {
     PhotonPassSettings pass;

@@ -59,15 +59,6 @@ TEST_CASE("rays_per_pixel: the slope of a power law, and how sure it is") {
     CHECK(std::isnan(examples::fit_power({1}, {1}).slope));
 }
 
-TEST_CASE("rays_per_pixel: where a curve comes down to an error") {
-    const std::vector<double> x{1, 10, 100}, y{1, 0.1, 0.01};
-    CHECK(examples::reach(x, y, 0.1) == doctest::Approx(10));
-    CHECK(examples::reach(x, y, std::sqrt(0.001)) ==
-          doctest::Approx(std::sqrt(1000.0)));
-    CHECK(examples::reach(x, y, 5) == 1);
-    CHECK(std::isnan(examples::reach(x, y, 0.001)));
-}
-
 TEST_CASE("rays_per_pixel: sixteen times the rays, a sixteenth of the variance") {
     const auto room = ljus_test::make_room<float>(ljus_test::Ball::lambertian,
                                                   ljus_test::Lamp::quad, 1);

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -362,33 +361,6 @@ TEST_CASE("shadow photons: called lit at the tolerated share with the stated ris
         CHECK(std::abs(share - p) < 4 * std::sqrt(p * (1 - p) / trials));
         CHECK(p <= 0.05);
     }
-}
-
-TEST_CASE("shadow photons: the irradiance that no photon has seen") {
-    // At the bound itself the photons in the disc are Poisson distributed with the mean
-    // that it stands for: none with the stated risk.
-    const Rgb bound = unseen_irradiance(Rgb{0.01f, 0.02f, 0}, 0.1f);
-    const double area = std::numbers::pi * 0.01;
-    CHECK(bound.x == doctest::Approx(2.995732 * 0.01 / area));
-    CHECK(bound.y == doctest::Approx(2 * double(bound.x)));
-    CHECK(bound.z == 0);
-    CHECK(std::exp(-double(bound.x) * area / 0.01) == doctest::Approx(0.05));
-    // And by throwing photons: 5 % of 20 000, more than 4 standard errors off in
-    // 0.006 % of all runs.
-    const double mean = double(bound.x) * area / 0.01; // of the disc
-    int none = 0;
-    constexpr int trials = 20000;
-    for (int trial = 0; trial < trials; ++trial) {
-        auto stream =
-            random_stream(test_seed(3), Pass::general_photons, 0, std::uint64_t(trial));
-        bool seen = false; // 1000 photons on a floor 1000 / mean discs large
-        for (int i = 0; i < 1000; ++i)
-            seen = seen || double(next_1d<float>(stream)) < mean / 1000;
-        none += seen ? 0 : 1;
-    }
-    CHECK(std::abs(double(none) / trials - 0.05) <
-          4 * std::sqrt(0.05 * 0.95 / trials) +
-              0.0003); // a binomial is not quite Poisson
 }
 
 // --- In the renderer -----------------------------------------------------------------

@@ -294,9 +294,8 @@ TEST_CASE("side_by_side: what maps hold does not know who looks") {
     }
 }
 
-TEST_CASE("side_by_side: slopes, and when an error is reached") {
+TEST_CASE("side_by_side: slopes") {
     using examples::fit_power;
-    using examples::reach;
     const std::vector<double> x{1, 2, 4, 8};
     std::vector<double> y;
     for (const double at : x) y.push_back(3 / std::sqrt(at));
@@ -310,10 +309,6 @@ TEST_CASE("side_by_side: slopes, and when an error is reached") {
     CHECK(bent.error == doctest::Approx(std::sqrt(1.0 / 12)).epsilon(1e-9));
     CHECK(std::isnan(fit_power({1, 2}, {1, 2}).error));
     CHECK(std::isnan(fit_power({1, 2}, {1, -2}).slope));
-
-    CHECK(reach(x, y, 3 / std::sqrt(3.0)) == doctest::Approx(3).epsilon(1e-12));
-    CHECK(reach(x, y, 5) == 1);
-    CHECK(std::isnan(reach(x, y, 1)));
 }
 
 TEST_CASE("side_by_side: bias and noise of known sizes add up to relMSE") {

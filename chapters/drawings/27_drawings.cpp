@@ -1,12 +1,10 @@
 // smoke: --quality draft
 /// \file chapters/drawings/27_drawings.cpp
-/// \brief Chapter 27: three kinds of photons, and the disc of an estimate at an edge.
+/// \brief Chapter 27: three kinds of photons.
 
 #include <cmath>
 #include <string>
 #include <vector>
-
-#include <ljus/math/random.hpp>
 
 #include "common/command_line.hpp"
 #include "common/drawing.hpp"
@@ -59,46 +57,13 @@ void draw_kinds(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
-/// The disc in the middle of a floor, at an edge, and in a corner.
-void draw_disc(const std::string& folder) {
-    Drawing drawing{.name = "general-disc",
-                    .description = "The floor from above with its photons: a disc in "
-                                   "the middle is full, one at the edge is half empty, "
-                                   "one in the corner has a quarter",
-                    .low{-1.0, -1.0},
-                    .high{6.2, 3.4},
-                    .scale = 95};
-    const double w = 6, h = 3.2, r = 0.75;
-    auto stream = ljus::random_stream(6, ljus::Pass::user, 0, 0);
-    draw_line(drawing, {{0, 0}, {w, 0}, {w, h}, {0, h}, {0, 0}}, {.width = 2});
-    const Point centers[] = {{3.6, 1.75}, {4.9, 0}, {0, 0}};
-    int counts[3] = {};
-    for (int i = 0; i < 320; ++i) {
-        const ljus::Vec2 u = next_2d(stream);
-        const Point photon{w * double(u.x), h * double(u.y)};
-        bool is_in = false;
-        for (int k = 0; k < 3; ++k)
-            if (std::hypot(photon.x - centers[k].x, photon.y - centers[k].y) < r)
-                ++counts[k], is_in = true;
-        draw_dot(drawing, photon, is_in ? 3.5 : 2.2, is_in ? colors::red : "#808080");
-    }
-    for (int k = 0; k < 3; ++k) {
-        draw_area(drawing, examples::circle(centers[k], r), colors::blue);
-        draw_line(drawing, examples::circle(centers[k], r), {colors::blue, 2});
-        draw_label(drawing, {centers[k].x, centers[k].y - r - (k == 0 ? 0.2 : -0.45)},
-                   std::to_string(counts[k]), colors::red);
-    }
-    save_drawing(folder, drawing);
-}
-
 } // namespace
 
-/// Makes the chapter's drawings.
+/// Makes the drawing.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 27, the general map: drawings.");
+        line.about("Chapter 27, the general map: its drawing.");
         const examples::Options options = line.parse({});
         draw_kinds(options.path(""));
-        draw_disc(options.path(""));
     });
 }

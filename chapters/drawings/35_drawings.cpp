@@ -1,7 +1,6 @@
 // smoke: --quality draft
 /// \file chapters/drawings/35_drawings.cpp
-/// \brief Chapter 35: the parts of an error, three ways to end a path, and rays where the first
-/// ones disagree.
+/// \brief Chapter 35: the parts of an error, and three ways to end a path.
 
 #include <cmath>
 #include <string>
@@ -68,43 +67,6 @@ void draw_endings(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
-/// Pixels across an edge: two rays each, and more where the two disagree.
-void draw_pixels(const std::string& folder) {
-    Drawing drawing{.name = "recursion_depth-disagree",
-                    .description =
-                        "Pixels with two rays each. Where the two differ more "
-                        "rays are sent: along the edge",
-                    .low{-0.1, -0.1},
-                    .high{7.1, 4.1},
-                    .scale = 85};
-    const auto is_inside = [](const Point& p) {
-        return std::hypot(p.x - 2.4, p.y - 1.2) < 2.1;
-    };
-    draw_area(drawing, examples::circle({2.4, 1.2}, 2.1), colors::blue);
-    auto stream = ljus::random_stream(5, ljus::Pass::user, 0, 0);
-    for (int y = 0; y < 8; ++y)
-        for (int x = 0; x < 14; ++x) {
-            const auto ray = [&] {
-                const ljus::Vec2 u = next_2d(stream);
-                return Point{0.5 * (x + double(u.x)), 0.5 * (y + double(u.y))};
-            };
-            std::vector<Point> rays{ray(), ray()};
-            const bool disagree = is_inside(rays[0]) != is_inside(rays[1]);
-            for (int i = 0; disagree && i < 10; ++i) rays.push_back(ray());
-            const Point low{0.5 * x, 0.5 * y};
-            const std::vector<Point> pixel{low,
-                                           {low.x + 0.5, low.y},
-                                           {low.x + 0.5, low.y + 0.5},
-                                           {low.x, low.y + 0.5},
-                                           low};
-            if (disagree) draw_area(drawing, pixel, colors::orange);
-            draw_line(drawing, pixel, {.color = "#80808070", .width = 0.8});
-            for (const Point& at : rays)
-                draw_dot(drawing, at, 1.8, disagree ? colors::red : "#808080");
-        }
-    save_drawing(folder, drawing);
-}
-
 /// Bias and noise as the legs of a right triangle.
 void draw_triangle(const std::string& folder) {
     Drawing drawing{.name = "rays_per_pixel-parts",
@@ -141,7 +103,6 @@ int main(int argc, char** argv) {
         line.about("Chapter 35, when to stop: drawings.");
         const examples::Options options = line.parse({});
         draw_endings(options.path(""));
-        draw_pixels(options.path(""));
         draw_triangle(options.path(""));
     });
 }

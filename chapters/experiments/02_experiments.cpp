@@ -54,45 +54,6 @@ Estimate count(const Vec& from, int shots, std::uint64_t seed, Hits hits) {
     return share;
 }
 
-/// A number with its standard error.
-std::string with_error(double value, double error, const char* format) {
-    return text(value, format) + " ± " + text(error, format);
-}
-
-/// Table: solid angles by counting and by formula.
-void solid_angles(const std::string& folder, int shots) {
-    examples::Table table{
-        .name = "radiance-solid-angles",
-        .columns = {"seen from a point", "counted", "formula", "A cos θ / r²"}};
-    const auto add_row = [&](const std::string& name, const auto& shape, double right,
-                             double small) {
-        const Estimate share = count({0, 0, 0}, shots, 3, [&](const Ray& ray) {
-            return ljus::intersect(ray, shape).has_value();
-        });
-        table.rows.push_back(
-            {name,
-             with_error(4 * pi * share.mean, 4 * pi * standard_error(share), "%.4f"),
-             text(right, "%.4f"), text(small, "%.4f")});
-    };
-    const auto square = [](double side, double distance) {
-        return Quad{.corner{-side / 2, -side / 2, -distance},
-                    .edge_u{side, 0, 0},
-                    .edge_v{0, side, 0}};
-    };
-    const auto of_square = [](double side, double r) {
-        const double h = side / 2;
-        return 4 * std::atan(h * h / (r * std::sqrt(2 * h * h + r * r)));
-    };
-    for (const double r : {0.5, 1.0, 3.0})
-        add_row("a square of side 1, distance " + text(r), square(1, r),
-                of_square(1, r), 1 / (r * r));
-    for (const double r : {1.2, 2.0, 5.0})
-        add_row("a ball of radius 1, distance " + text(r),
-                Sphere{.center{0, 0, -r}, .radius = 1},
-                2 * pi * ljus::one_minus_cosine(1 / (r * r)), pi / (r * r));
-    save_table(folder, table);
-}
-
 /// A square patch of side 0.25 at a distance from the origin along x, tilted.
 Quad patch_at(double distance, double degrees) {
     constexpr double side = 0.25;
@@ -113,34 +74,19 @@ Estimate irradiance_counted(const Quad& patch, int shots, std::uint64_t seed) {
 }
 // [count]
 
-/// Plots and a table: a patch at changing distance, and at changing tilt.
+/// Plots: a patch at changing distance, and at changing tilt.
 void count_on_patches(const std::string& folder, int shots) {
     examples::Plot far{.name = "radiance-distance",
                        .columns = {"distance r (m)", "counted", "100 W / (4 pi r^2)"},
                        .y_label = "irradiance (W/m^2)",
                        .log_x = true,
                        .log_y = true};
-    examples::Table table{.name = "radiance-distance-table",
-                          .columns = {"r (m)", "rays that hit", "counted, W/m²",
-                                      "100 W / (4πr²)", "apart"}};
-    std::vector<double> x, y;
     for (const double r : {0.5, 1.0, 2.0, 4.0, 8.0}) {
         const Estimate e = irradiance_counted(patch_at(r, 0), shots, 11);
         const double right = 100 / (4 * pi * r * r);
         far.rows.push_back({r, e.mean, right});
-        if (r >= 1) x.push_back(r), y.push_back(e.mean);
-        table.rows.push_back(
-            {text(r), text(e.mean * area(patch_at(r, 0)) / 100 * shots, "%.0f"),
-             with_error(e.mean, standard_error(e), "%.3f"), text(right, "%.3f"),
-             text(100 * (e.mean / right - 1), "%+.1f %%")});
     }
     save_plot(folder, far);
-    save_table(folder, table);
-    const auto slope = examples::fit_power(x, y);
-    examples::save_table(folder, {.name = "radiance-slope",
-                                  .columns = {"law", "slope", "its error"},
-                                  .rows = {{"distance", text(slope.slope, "%.3f"),
-                                            text(slope.error, "%.3f")}}});
 
     examples::Plot tilt{.name = "radiance-tilt",
                         .columns = {"tilt (degrees)", "counted", "cosine"},
@@ -179,42 +125,6 @@ void near_the_lamp(const std::string& folder) {
             {text(r), text(100 * (1 / (r * r) / truth - 1), "%.3g %%")});
     }
     save_plot(folder, plot);
-    save_table(folder, table);
-}
-
-// --- Radiance along a ray -------------------------------------------------------------
-
-/// Table: the same lamp from further and further away.
-void step_back(const std::string& folder, int shots) {
-    examples::Table table{.name = "radiance-step-back",
-                          .columns = {"distance (m)", "radiance in the pixel",
-                                      "solid angle (sr)", "irradiance, W/m²",
-                                      "irradiance / solid angle"}};
-    const ljus::World world(
-        ljus::make_scene(placed(ljus::Sphere{.center{0, 0, 0}, .radius = 0.5f},
-                                ljus::Lambertian{.albedo = Rgb{0}}, Rgb{10})));
-    const ljus::PathTracer tracer(world);
-    for (const double r : {1.0, 2.0, 4.0, 20.0, 100.0}) {
-        const auto eye = ljus::look_at(
-            {.position{0, 0, float(r)}, .target{0, 0, 0}, .vfov_degrees = 0.01f});
-        const double seen_radiance =
-            double(render(tracer, eye, {.width = 1, .height = 1, .samples = 64})
-                       .image.pixels[0]
-                       .x);
-        // Cosine-weighted directions of the cone: E is the mean of L cos over p.
-        const double one_minus_cos = ljus::one_minus_cosine(0.25 / (r * r));
-        const double omega = 2 * pi * one_minus_cos;
-        auto stream = ljus::random_stream(17, ljus::Pass::user, 0, 0);
-        Estimate irradiance;
-        for (int i = 0; i < shots; ++i) {
-            const Vec d =
-                ljus::sample_uniform_cone(next_2d<double>(stream), one_minus_cos);
-            add(irradiance, 10 * d.z * omega);
-        }
-        table.rows.push_back({text(r), text(seen_radiance, "%.4f"), text(omega, "%.3g"),
-                              text(irradiance.mean, "%.3g"),
-                              text(irradiance.mean / omega, "%.3f")});
-    }
     save_table(folder, table);
 }
 
@@ -266,7 +176,7 @@ double sample_irradiance(Way way, const Lamp& lamp, ljus::RandomStream& stream) 
     return ljus::intersect(ray, lamp.ball) ? lamp.radiance * z.z / pdf : 0;
 }
 
-/// Plot and table: relative error against processor time.
+/// Plot: relative error against processor time.
 void trade(const std::string& folder, int most, int seeds) {
     const Lamp lamp;
     double over_patch = 0; // the first way has a patch, the others a point
@@ -279,9 +189,6 @@ void trade(const std::string& folder, int most, int seeds) {
                         .y_label = "relative error of the irradiance",
                         .log_x = true,
                         .log_y = true};
-    examples::Table table{.name = "radiance-trade-table",
-                          .columns = {"", "deviation of one sample, over the mean",
-                                      "ns per sample", "time for 1 %, µs"}};
     for (const char* name : way_names) plot.columns.emplace_back(name);
     for (std::size_t way = 0; way < ways; ++way) {
         const auto w = static_cast<Way>(way);
@@ -311,14 +218,11 @@ void trade(const std::string& folder, int most, int seeds) {
             plot.rows.push_back(row);
         }
         const double deviation = std::sqrt(variance(one)) / truth;
-        table.rows.push_back({way_names[way], text(deviation, "%.3g"), text(ns, "%.0f"),
-                              text(deviation * deviation * 1e4 * ns / 1000, "%.3g")});
         std::printf("%-28s %s of the truth, %.3g per sample, %.0f ns\n", way_names[way],
                     text(one.mean / truth, "%.4f").c_str(), deviation, ns);
         examples::stop_if_asked();
     }
     save_plot(folder, plot);
-    save_table(folder, table);
 }
 
 // --- Filters --------------------------------------------------------------------------
@@ -338,20 +242,17 @@ double passed(Filter filter, double frequency) {
     return sum * 4 / steps;
 }
 
-/// A renderer of waves: along x, of one frequency, or rings that become finer outwards.
+/// A renderer of rings that become finer outwards.
 struct Card {
     using Stream = ljus::RandomStream;
-    double frequency = 1.5; ///< In cycles per pixel; of rings, at the picture's edge.
-    double half = 1;        ///< Pixels from the middle of the picture to its edge.
-    bool rings = false;     ///< Or waves along x.
+    double frequency = 2; ///< In cycles per pixel, at the picture's edge.
+    double half = 1;      ///< Pixels from the middle of the picture to its edge.
 };
 template <typename Context>
 Rgb radiance(const Card& card, const ljus::Ray& ray, Context&) {
     const double x = double(ray.direction.x / -ray.direction.z) * card.half;
     const double y = double(ray.direction.y / -ray.direction.z) * card.half;
-    const double value =
-        card.rings ? std::cos(pi * card.frequency * (x * x + y * y) / card.half)
-                   : std::sin(2 * pi * card.frequency * x);
+    const double value = std::cos(pi * card.frequency * (x * x + y * y) / card.half);
     return Rgb(float(0.5 + 0.5 * value));
 }
 
@@ -367,16 +268,6 @@ ljus::Image picture_of(const Card& card, Filter filter, int samples, int pixels,
                    .threads = options.threads,
                    .filter = filter})
         .image;
-}
-
-/// The amplitude of a picture's waves over those of the card: the even pixels against
-/// the odd ones, as 1.5 cycles per pixel come out as half of one.
-double amplitude(const ljus::Image& image) {
-    double sum = 0;
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            sum += (double(pixel(image, x, y).x) - 0.5) * (x % 2 == 0 ? 2 : -2);
-    return std::abs(sum) / double(image.pixels.size());
 }
 
 /// Plots: the weights of the filters, and what passes of each frequency.
@@ -410,55 +301,21 @@ void plot_filters(const std::string& folder) {
     save_plot(folder, response);
 }
 
-/// The standard deviation of a pixel whose rays see +1 or -1 by chance.
-double deviation_of_noise(Filter filter, std::uint64_t number) {
-    Estimate white;
-    auto stream = ljus::random_stream(5, ljus::Pass::user, 0, number);
-    for (int k = 0; k < 200000; ++k) {
-        const auto at = ljus::sample_filter(filter, next_2d<double>(stream));
-        add(white, at.weight * (next_1d<double>(stream) < 0.5 ? -1 : 1));
-    }
-    return std::sqrt(variance(white));
-}
-
-/// The time that a filter takes to sample a point in the pixel.
-double nanoseconds_per_ray(Filter filter, std::uint64_t number) {
-    return examples::nanoseconds_a_call(20000.0, [&] {
-        float sum = 0;
-        auto numbers = ljus::random_stream(6, ljus::Pass::user, 0, number);
-        for (int k = 0; k < 20000; ++k) {
-            const auto at = ljus::sample_filter(filter, next_2d(numbers));
-            sum += at.place.x + at.place.y * at.weight;
-        }
-        return sum;
-    });
-}
-
-/// Table: what each filter passes, by the formula and in a picture; noise; and time.
-void table_of_filters(const examples::Options& options, int samples) {
+/// Table: what each filter passes of an alias.
+void table_of_filters(const std::string& folder) {
     examples::Table table{.name = "radiance-filter-table",
-                          .columns = {"", "passes at 0.25", "passes at 1.5", "measured",
-                                      "noise", "ns per ray"}};
-    // Waves of 1.5 whose crests are at the centres of every other pixel: +, -, +, ...
-    const int side = 32;
-    for (std::size_t i = 0; i < std::size(filters); ++i) {
-        const auto waves = picture_of({.frequency = 1.5, .half = side / 2.0},
-                                      filters[i], 16 * samples, side, options);
-        table.rows.push_back({filter_names[i],
-                              text(100 * passed(filters[i], 0.25), "%.1f %%"),
-                              text(100 * std::abs(passed(filters[i], 1.5)), "%.2f %%"),
-                              text(100 * amplitude(waves), "%.2f %%"),
-                              text(deviation_of_noise(filters[i], i), "%.2f"),
-                              text(nanoseconds_per_ray(filters[i], i), "%.1f")});
-        examples::stop_if_asked();
-    }
-    save_table(options.path(""), table);
+                          .columns = {"", "passes at 1.5"}};
+    for (std::size_t i = 0; i < std::size(filters); ++i)
+        table.rows.push_back(
+            {filter_names[i],
+             text(100 * std::abs(passed(filters[i], 1.5)), "%.2f %%")});
+    save_table(folder, table);
 }
 
 /// Rings that become finer outwards: by a ray through the middle of each pixel, and by
 /// each filter.
 void pictures_of_rings(const examples::Options& options, int pixels, int samples) {
-    const Card rings{.frequency = 2, .half = pixels / 2.0, .rings = true};
+    const Card rings{.half = pixels / 2.0};
     save_png(examples::by_middle_rays(rings, ljus::look_at({.vfov_degrees = 90}),
                                       pixels, pixels),
              options.path("radiance-rings-none.png"));
@@ -470,7 +327,7 @@ void pictures_of_rings(const examples::Options& options, int pixels, int samples
 /// Plots of weights and of what passes; a table; pictures of rings.
 void compare_filters(const examples::Options& options, int pixels, int samples) {
     plot_filters(options.path(""));
-    table_of_filters(options, samples);
+    table_of_filters(options.path(""));
     pictures_of_rings(options, pixels, samples);
 }
 
@@ -491,10 +348,8 @@ int main(int argc, char** argv) {
             sizes.shots = options.pick(400000, 10000000, 100000000);
         if (!line.given("--pixels")) sizes.pixels = options.pick(160, 400, 400);
         const std::string folder = options.path("");
-        solid_angles(folder, sizes.shots);
         count_on_patches(folder, sizes.shots);
         near_the_lamp(folder);
-        step_back(folder, std::min(sizes.shots, 1000000));
         trade(folder, options.pick(4096, 65536, 262144), options.pick(16, 64, 256));
         compare_filters(options, sizes.pixels, std::min(options.samples, 256));
     });

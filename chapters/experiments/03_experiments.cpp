@@ -97,10 +97,8 @@ double rms_error(Points points, int n, int seeds, double right, Value value) {
 
 // --- The estimator and its error ------------------------------------------------------
 
-/// Plots and a table: error against n for smooth values and for values with an edge.
+/// Plots: error against n for smooth values and for values with an edge.
 void error_against_n(const std::string& folder, const Sizes& sizes) {
-    examples::Table slopes{.name = "monte_carlo-slopes",
-                           .columns = {"", "random", "strata", "Owen"}};
     for (const bool edge : {false, true}) {
         const auto value = [edge](double u) { return !edge || u < 0.37 ? f(u) : 0.0; };
         double right = truth;
@@ -120,27 +118,17 @@ void error_against_n(const std::string& folder, const Sizes& sizes) {
         Estimate one;
         auto stream = stream_of(8);
         for (int i = 0; i < 100000; ++i) add(one, value(next_1d<double>(stream)));
-        std::array<std::vector<double>, 3> errors;
-        std::vector<double> counts;
         for (int n = 4; n <= sizes.most; n *= 4) {
             examples::Row row{double(n)};
-            if (n >= 256 || sizes.most < 4096) counts.push_back(n);
-            for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t k = 0; k < 3; ++k)
                 row.push_back(
                     rms_error(static_cast<Points>(k), n, sizes.seeds, right, value));
-                if (!counts.empty()) errors[k].push_back(row.back());
-            }
             row.push_back(std::sqrt(variance(one) / n));
             plot.rows.push_back(row);
             examples::stop_if_asked();
         }
         save_plot(folder, plot);
-        std::vector<std::string> row{edge ? "with an edge" : "smooth"};
-        for (std::size_t k = 0; k < 3; ++k)
-            row.push_back(text(examples::fit_power(counts, errors[k]).slope, "%.2f"));
-        slopes.rows.push_back(row);
     }
-    save_table(folder, slopes);
 }
 
 /// How often the truth lies within two standard errors of the estimate.
@@ -272,195 +260,29 @@ void multiple(const std::string& folder, int samples) {
     save_table(folder, table);
 }
 
-/// Table: samples that are evaluated only with some probability.
-void roulette(const std::string& folder, int samples) {
-    examples::Table table{.name = "monte_carlo-roulette",
-                          .columns = {"survives with", "samples looked at", "mean",
-                                      "sigma / I", "sigma² × samples looked at"}};
-    const auto add_row = [&](const std::string& name, auto chance, bool divided) {
-        auto stream = stream_of(41);
-        Estimate all;
-        int looked = 0;
-        for (int i = 0; i < samples; ++i) {
-            const double c = Cosine::sample(next_1d<double>(stream));
-            const double y = f(c) / Cosine::pdf(c);
-            // [roulette]
-            const double q = chance(y);
-            double value = 0;
-            if (next_1d<double>(stream) < q) {
-                value = y / (divided ? q : 1);
-                ++looked;
-            }
-            add(all, value);
-            // [roulette]
-        }
-        const double cost = double(looked) / samples;
-        const double relative = variance(all) / (truth * truth);
-        table.rows.push_back({name, text(100 * cost, "%.0f %%"), text(all.mean, "%.4f"),
-                              text(std::sqrt(relative), "%.3g"),
-                              text(relative * cost, "%.3g")});
-    };
-    add_row(
-        "1", [](double) { return 1.0; }, true);
-    add_row(
-        "0.5", [](double) { return 0.5; }, true);
-    add_row(
-        "0.1", [](double) { return 0.1; }, true);
-    add_row(
-        "Y / I, at most 1", [](double y) { return std::min(1.0, y / truth); }, true);
-    add_row(
-        "0.5, not divided", [](double) { return 0.5; }, false);
-    save_table(folder, table);
-}
-
-// --- The hemisphere -------------------------------------------------------------------
-
-/// A density of directions, and where its points of the square come from.
-struct HemisphereWay {
-    const char* name;
-    bool cosine;
-    ljus::Sampling sampling;
-};
-constexpr std::array hemisphere_ways{
-    HemisphereWay{"uniform random", false, ljus::Sampling::random},
-    HemisphereWay{"cosine random", true, ljus::Sampling::random},
-    HemisphereWay{"cosine strata", true, ljus::Sampling::jittered},
-    HemisphereWay{"cosine Owen", true, ljus::Sampling::sobol}};
-
-/// One term of the estimate: of R cos θ over all directions, or of cos θ alone.
-double hemisphere_term(const HemisphereWay& way, const ljus::Vec2T<double>& u,
-                       bool glass) {
-    const auto d = way.cosine ? ljus::sample_cosine_hemisphere(u)
-                              : ljus::sample_uniform_hemisphere(u);
-    const double pdf =
-        way.cosine ? ljus::pdf_cosine_hemisphere(d) : ljus::pdf_uniform_hemisphere(d);
-    return (glass ? ljus::schlick(r0, d.z) : 1) * d.z / pdf;
-}
-
-/// The relative rms error of n samples, over some seeds.
-double hemisphere_error(const HemisphereWay& way, int n, int seeds) {
-    const auto pattern = make_pattern(way.sampling, n);
-    double squares = 0;
-    for (int seed = 1; seed <= seeds; ++seed) {
-        double sum = 0;
-        for (int i = 0; i < n; ++i) {
-            ljus::StratifiedStream stream;
-            start_ray(stream, std::uint64_t(seed), 5, i, pattern);
-            sum += hemisphere_term(way, next_2d<double>(stream), true) / n;
-        }
-        squares += std::pow(sum / (pi * truth) - 1, 2) / seeds;
-    }
-    return std::sqrt(squares);
-}
-
-/// How fast errors fall, from numbers of samples on that are large enough for a law.
-struct ErrorLaws {
-    std::vector<double> counts{};
-    std::array<std::vector<double>, hemisphere_ways.size()> errors{};
-};
-
-/// Plot: the error of each way against the number of samples.
-ErrorLaws plot_hemisphere(const std::string& folder, const Sizes& sizes) {
-    examples::Plot plot{.name = "monte_carlo-hemisphere",
-                        .columns = {"samples n"},
-                        .y_label = "relative rms error",
-                        .log_x = true,
-                        .log_y = true};
-    for (const HemisphereWay& way : hemisphere_ways)
-        plot.columns.emplace_back(way.name);
-    ErrorLaws laws;
-    for (int n = 4; n <= std::min(sizes.most, 65536); n *= 4) {
-        examples::Row row{double(n)};
-        if (n >= 256 || sizes.most < 4096) laws.counts.push_back(n);
-        for (std::size_t k = 0; k < hemisphere_ways.size(); ++k) {
-            row.push_back(hemisphere_error(hemisphere_ways[k], n, sizes.seeds));
-            if (!laws.counts.empty()) laws.errors[k].push_back(row.back());
-            examples::stop_if_asked();
-        }
-        plot.rows.push_back(row);
-    }
-    save_plot(folder, plot);
-    return laws;
-}
-
-/// Plot and table: the same integral over directions, by points of the square.
-void hemisphere(const std::string& folder, const Sizes& sizes) {
-    const ErrorLaws laws = plot_hemisphere(folder, sizes);
-    examples::Table table{
-        .name = "monte_carlo-hemisphere-table",
-        .columns = {"", "sigma / π, of cos θ", "sigma / (π I), of R cos θ", "slope"}};
-    for (std::size_t k = 0; k < hemisphere_ways.size(); ++k) {
-        const HemisphereWay& way = hemisphere_ways[k];
-        Estimate one, glass;
-        auto stream = stream_of(53);
-        for (int i = 0; i < 200000; ++i) {
-            const auto u = next_2d<double>(stream);
-            add(one, hemisphere_term(way, u, false));
-            add(glass, hemisphere_term(way, u, true));
-        }
-        table.rows.push_back(
-            {way.name, text(std::sqrt(std::abs(variance(one))) / pi, "%.3f"),
-             text(std::sqrt(variance(glass)) / (pi * truth), "%.3f"),
-             text(examples::fit_power(laws.counts, laws.errors[k]).slope, "%.2f")});
-    }
-    save_table(folder, table);
-}
-
 // --- The trade ------------------------------------------------------------------------
 
-/// Error against time for all estimators of the chapter, as they are measured.
-struct Trade {
-    examples::Plot plot{.name = "monte_carlo-trade",
-                        .columns = {"time (microseconds)", "uniform", "cosine",
-                                    "32 steps", "balance", "strata", "Owen"},
-                        .y_label = "relative rms error",
-                        .log_x = true,
-                        .log_y = true};
-    examples::Table table{.name = "monte_carlo-trade-table",
-                          .columns = {"", "ns per sample",
-                                      "relative error, 1024 samples",
-                                      "time for 0.1 %, µs"}};
-};
-
-/// The time at which the error is 0.1 %: from the curve, or, if that ends earlier, by
-/// its fitted slope.
-double time_for_a_thousandth(const std::vector<double>& times,
-                             const std::vector<double>& errors) {
-    const auto law = examples::fit_power(times, errors);
-    const double time = examples::reach(times, errors, 1e-3);
-    return std::isnan(time)
-               ? times.back() * std::pow(1e-3 / errors.back(), 1 / law.slope)
-               : time;
-}
-
-/// Adds the next curve of the plot, and its row of the table.
+/// Adds a curve to the plot of error against time.
+/// \param column    Its column.
 /// \param estimate  The integral by n samples: of n, a seed, and a stream.
 template <typename Estimator>
-void add_curve(Trade& trade, const std::string& name, const Sizes& sizes,
+void add_curve(examples::Plot& plot, std::size_t column, const Sizes& sizes,
                Estimator estimate) {
-    const std::size_t column = trade.table.rows.size() + 1;
     auto clock_stream = stream_of(1);
     const double ns = examples::nanoseconds_a_call(
         4096.0, [&] { return estimate(4096, 1, clock_stream); });
-    std::vector<double> times, errors;
-    double at_1024 = std::nan("");
     for (int n = 16; n <= sizes.most; n *= 4) {
         double squares = 0;
         for (int seed = 1; seed <= sizes.seeds; ++seed) {
             auto stream = stream_of(seed, n);
             squares += std::pow(estimate(n, seed, stream) / truth - 1, 2) / sizes.seeds;
         }
-        examples::Row row(trade.plot.columns.size(), std::nan(""));
+        examples::Row row(plot.columns.size(), std::nan(""));
         row[0] = n * ns / 1000;
         row[column] = std::sqrt(squares);
-        if (n == 1024) at_1024 = row[column];
-        times.push_back(row[0]);
-        errors.push_back(row[column]);
-        trade.plot.rows.push_back(row);
+        plot.rows.push_back(row);
         examples::stop_if_asked();
     }
-    trade.table.rows.push_back({name, text(ns, "%.1f"), text(at_1024, "%.2g"),
-                                text(time_for_a_thousandth(times, errors), "%.3g")});
 }
 
 /// The estimator of a density, for add_curve().
@@ -489,20 +311,23 @@ void trade(const std::string& folder, const Sizes& sizes) {
     const Table steps;
     const Uniform uniform;
     const Cosine cosine;
-    Trade found;
-    add_curve(found, "uniform", sizes, by_density(uniform));
-    add_curve(found, "cosine", sizes, by_density(cosine));
-    add_curve(found, "32 steps", sizes, by_density(steps));
-    add_curve(found, "cosine and grazing, balance", sizes,
-              [](int n, int, ljus::RandomStream& stream) {
-                  double sum = 0;
-                  for (int i = 0; i < n / 2; ++i) sum += both(Weights::balance, stream);
-                  return sum / (n / 2);
-              });
-    add_curve(found, "cosine, strata", sizes, by_points(Points::strata));
-    add_curve(found, "cosine, Owen", sizes, by_points(Points::owen));
-    save_plot(folder, found.plot);
-    save_table(folder, found.table);
+    examples::Plot plot{.name = "monte_carlo-trade",
+                        .columns = {"time (microseconds)", "uniform", "cosine",
+                                    "32 steps", "balance", "strata", "Owen"},
+                        .y_label = "relative rms error",
+                        .log_x = true,
+                        .log_y = true};
+    add_curve(plot, 1, sizes, by_density(uniform));
+    add_curve(plot, 2, sizes, by_density(cosine));
+    add_curve(plot, 3, sizes, by_density(steps));
+    add_curve(plot, 4, sizes, [](int n, int, ljus::RandomStream& stream) {
+        double sum = 0;
+        for (int i = 0; i < n / 2; ++i) sum += both(Weights::balance, stream);
+        return sum / (n / 2);
+    });
+    add_curve(plot, 5, sizes, by_points(Points::strata));
+    add_curve(plot, 6, sizes, by_points(Points::owen));
+    save_plot(folder, plot);
 }
 
 // --- How errors are measured ----------------------------------------------------------
@@ -574,36 +399,13 @@ void damage(const examples::Options& options) {
     save_table(options.path(""), table);
 }
 
-/// Table: the variance of numbers far from 0, by the formula on paper and by Welford's.
-void far_means(const std::string& folder) {
-    examples::Table table{.name = "monte_carlo-far",
-                          .columns = {"samples", "sum of squares", "Welford", "right"}};
-    for (const double offset : {0.0, 1e4, 1e8, 1e10}) {
-        auto stream = stream_of(71);
-        Estimate e;
-        double sum = 0, squares = 0;
-        constexpr int n = 100000;
-        for (int i = 0; i < n; ++i) {
-            const double x = offset + next_1d<double>(stream);
-            add(e, x);
-            sum += x;
-            squares += x * x;
-        }
-        table.rows.push_back({text(offset, "%.0f") + " + u",
-                              text((squares - sum * sum / n) / (n - 1), "%.4g"),
-                              text(variance(e), "%.4g"), text(1 / 12.0, "%.4g")});
-    }
-    save_table(folder, table);
-}
-
 } // namespace
 
 /// Makes the figures of chapter 3.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about(
-            "Chapter 3: densities, strata, roulette, and how errors are measured.");
+        line.about("Chapter 3: densities, strata, and how errors are measured.");
         line.add("--seeds", sizes.seeds, "Runs behind each error", 2, 100000);
         line.add("--most", sizes.most, "Samples per run, at most", 64, 1 << 24);
         const examples::Options options =
@@ -618,10 +420,7 @@ int main(int argc, char** argv) {
         coverage(folder, options.pick(1000, 20000, 100000));
         importance(folder, samples);
         multiple(folder, samples);
-        roulette(folder, samples);
-        hemisphere(folder, sizes);
         trade(folder, sizes);
         damage(options);
-        far_means(folder);
     });
 }

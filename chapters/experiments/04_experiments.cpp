@@ -84,35 +84,18 @@ void bounces(const examples::Options& options) {
 /// What each way of rendering leaves out: the same picture, cut down to its paths.
 void truncations(const examples::Options& options) {
     struct Kind {
-        const char *name, *letters, *file;
+        const char *letters, *file;
     };
     constexpr Kind kinds[] = {
-        {"ray casting (Appel 1968)", "ED?L", "casting"},
-        {"Whitted 1980", "ES*D?L", "whitted"},
-        {"caustics alone (Arvo 1986)", "ES*DS+L", "caustics"},
-        {"radiosity (Goral 1984)", "ED*L", "radiosity"},
-        {"radiosity seen in mirrors", "ES*D*L", "two-pass"},
-        {"path tracing (Kajiya 1986)", "E(S|D)*L", "all"},
+        {"ED?L", "casting"},   {"ES*D?L", "whitted"},  {"ES*DS+L", "caustics"},
+        {"ED*L", "radiosity"}, {"ES*D*L", "two-pass"}, {"E(S|D)*L", "all"},
     };
     const auto room = ljus::cornell_box();
     const PathTracer tracer(room.world);
-    const auto picture = [&](const char* letters) {
-        return rendered(letters, OnlyPaths(tracer, letters), room.camera, options);
-    };
-    const Image all = picture("E(S|D)*L");
-    examples::Table table{
-        .name = "transport-truncations",
-        .columns = {"renderer", "paths", "share of the light", "relMSE", "FLIP"}};
-    for (const Kind& kind : kinds) {
-        const Image part = picture(kind.letters);
-        save_png(part, options.path(std::string("paths-") + kind.file + ".png"));
-        table.rows.push_back(
-            {kind.name, kind.letters,
-             examples::text(100 * mean_radiance(part) / mean_radiance(all), "%.0f %%"),
-             examples::text(rel_mse(part, all), "%.3f"),
-             examples::text(flip(part, all), "%.3f")});
-    }
-    save_table(options.path(""), table);
+    for (const Kind& kind : kinds)
+        save_png(rendered(kind.letters, OnlyPaths(tracer, kind.letters), room.camera,
+                          options),
+                 options.path(std::string("paths-") + kind.file + ".png"));
 }
 
 /// A room with only diffuse surfaces: walls, two balls, a lamp.
@@ -136,7 +119,6 @@ using MattRoom = decltype(matt_room());
 
 /// The first bounce of Eq. 1, integrated over the area of the lamp: light from points
 /// x'' of the lamp, which x' sends on to the eye.
-// [area form]
 struct AreaForm {
     using Stream = ljus::RandomStream;
     const MattRoom& world;
@@ -163,7 +145,6 @@ Rgb radiance(const AreaForm& form, const ljus::Ray& ray, Context& context) {
     return here.object.emission +
            albedo / pi * Rgb{17, 13, 8} * cosines * g * float(area(lamp));
 }
-// [area form]
 
 ljus::Camera box_camera() {
     return ljus::look_at({.position{0, 1, 4.4f}, .target{0, 1, 0}, .vfov_degrees = 33});

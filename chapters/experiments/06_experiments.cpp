@@ -1,6 +1,6 @@
 // smoke: --quality draft --cases 2000
 /// \file chapters/experiments/06_experiments.cpp
-/// \brief Chapter 6: the experiments behind its plots and its table: how often the
+/// \brief Chapter 6: the experiments behind its plot and its table: how often the
 /// printed formula fails, and what a better one costs.
 
 #include <algorithm>
@@ -104,7 +104,7 @@ std::vector<Errors> errors_at(double distance, std::size_t count, std::uint64_t 
             errors<robust>(rays, truths), errors<in_double>(rays, truths)};
 }
 
-/// Figures: wrong decisions and error in t against the distance.
+/// Plot: wrong decisions against the distance.
 void plot_errors(const std::string& folder, std::size_t count) {
     examples::Plot wrong{.name = "sphere-wrong",
                          .columns = {"distance of the origin in radii"},
@@ -113,24 +113,18 @@ void plot_errors(const std::string& folder, std::size_t count) {
                          .log_x = true,
                          .log_y = true};
     for (const char* name : way_names) wrong.columns.emplace_back(name);
-    examples::Plot largest = wrong;
-    largest.name = "sphere-error";
-    largest.y_label = "largest error of t, in radii";
     for (int step = 2; step <= 24; ++step) {
         const double distance = std::pow(10.0, step / 4.0);
         const auto all = errors_at(distance, count, static_cast<std::uint64_t>(step));
-        examples::Row wrong_row{distance}, largest_row{distance};
+        examples::Row row{distance};
         for (const Errors& e : all) {
             // A logarithmic axis has no 0: nothing is drawn there.
             const double nothing = std::numeric_limits<double>::quiet_NaN();
-            wrong_row.push_back(e.wrong > 0 ? 100 * e.wrong : nothing);
-            largest_row.push_back(e.largest_t > 0 ? e.largest_t : nothing);
+            row.push_back(e.wrong > 0 ? 100 * e.wrong : nothing);
         }
-        wrong.rows.push_back(wrong_row);
-        largest.rows.push_back(largest_row);
+        wrong.rows.push_back(row);
     }
     examples::save_plot(folder, wrong);
-    examples::save_plot(folder, largest);
 }
 
 /// Nanoseconds for one intersection in the loop of a small scene, which looks for the
@@ -189,11 +183,11 @@ void tabulate_trade(const std::string& folder, std::size_t count) {
 
 } // namespace
 
-/// Makes the chapter's plots and table.
+/// Makes the chapter's plot and table.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long cases = 0;
-        line.about("Chapter 6, the sphere: its plots and its table.");
+        line.about("Chapter 6, the sphere: its plot and its table.");
         line.add("--cases", cases, "Rays a distance", 1, 100000000);
         line.without({"--width", "--height", "--rays", "--seed", "--threads"});
         const examples::Options options = line.parse();

@@ -1,7 +1,7 @@
 // smoke: --quality draft --photons 3000 --cuts 2 --width 24 --height 16 --rays 1
 /// \file chapters/experiments/07_mesh_experiments.cpp
-/// \brief Chapter 7: the experiments behind its other plot and table: the effect of
-/// smooth normals on light, and what a mesh costs.
+/// \brief Chapter 7: the experiments behind its other plot: the effect of smooth normals
+/// on light.
 
 #include <cmath>
 #include <cstdio>
@@ -10,7 +10,6 @@
 
 #include "common/example.hpp"
 #include "ljus/accel/mesh.hpp"
-#include "ljus/io/load_obj.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
@@ -29,7 +28,7 @@ using Room = World<Open>;
 /// The options of this program, besides the common ones.
 struct Sizes {
     long long photons = 0; ///< Aimed at the glass.
-    int cuts = 0;          ///< Of the finest ball of the tables.
+    int cuts = 0;          ///< Of the finest ball of the plot.
 };
 
 /// A white floor, and a lamp of 0.6 x 0.6 that shines on it from the left.
@@ -194,47 +193,9 @@ void energy(const examples::Options& options, const Sizes& sizes) {
 
 // --- What it costs ------------------------------------------------------------------------
 
-void costs(const examples::Options& options, const Sizes& sizes) {
-    examples::Table table{
-        .name = "mesh-costs",
-        .columns = {"triangles", "bytes per triangle", "its tree, ms", "its file, ms"},
-        .rows = {}};
-    for (int cuts = 1; cuts <= sizes.cuts; ++cuts) {
-        const MeshData data = icosphere(Sphere{}, cuts);
-        examples::StopWatch watch;
-        const Mesh mesh(data);
-        const double build = watch.seconds();
-        double load = std::numeric_limits<double>::quiet_NaN();
-        std::string file;
-        const auto line = [&](const char* word, const Vec3& v) {
-            file += std::string(word) + examples::text(double(v.x), " %.9g") +
-                    examples::text(double(v.y), " %.9g") +
-                    examples::text(double(v.z), " %.9g") + "\n";
-        };
-        for (const Vec3& p : data.positions) line("v", p);
-        for (const Vec3& n : data.normals) line("vn", n);
-        for (const auto& corners : data.triangles) {
-            file += "f";
-            for (const std::uint32_t i : corners) {
-                const std::string number = std::to_string(i + 1);
-                file += std::string(" ") + number + "//" + number;
-            }
-            file += "\n";
-        }
-        const examples::StopWatch reading;
-        const LoadedObj loaded = read_obj(std::move(file), "ball.obj");
-        load = reading.seconds();
-        table.rows.push_back(
-            {std::to_string(mesh.size()),
-             examples::text(double(mesh.bytes()) / mesh.size(), "%.1f"),
-             examples::text(1e3 * build, "%.2f"), examples::text(1e3 * load, "%.1f")});
-    }
-    examples::save_table(options.out, table);
-}
-
 void body(examples::CommandLine& line) {
     Sizes sizes;
-    line.about("Chapter 7, meshes: their caustics, their energy, and their costs.");
+    line.about("Chapter 7, meshes: their caustics and their energy.");
     line.add("--photons", sizes.photons, "Aimed at the glass", 100, 100'000'000);
     line.add("--cuts", sizes.cuts, "Of the finest ball: 20 * 4^cuts triangles", 1, 8);
     const examples::Options options =
@@ -246,12 +207,11 @@ void body(examples::CommandLine& line) {
     if (!line.given("--cuts")) sizes.cuts = options.pick(5, 6, 7);
     caustic_pictures(options, sizes);
     energy(options, sizes);
-    costs(options, sizes);
 }
 
 } // namespace
 
-/// Makes the pictures of caustics, the plot and the table.
+/// Makes the pictures of caustics and the plot.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, body);
 }

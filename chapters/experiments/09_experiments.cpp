@@ -1,6 +1,6 @@
 // smoke: --quality draft --cases 200
 /// \file chapters/experiments/09_experiments.cpp
-/// \brief Chapter 9: the experiments behind its plots and its table: four solvers for
+/// \brief Chapter 9: the experiments behind its plot and its table: four solvers for
 /// the same rays.
 
 #include <algorithm>
@@ -176,25 +176,6 @@ void plot_grazing(const examples::Options& options, int count) {
     save_plot(options.path(""), plot);
 }
 
-/// Plot: time against the number of blobs.
-void plot_time(const examples::Options& options, int count) {
-    examples::Plot plot{.name = "metaballs-time",
-                        .columns = {"blobs"},
-                        .y_label = "ns per ray",
-                        .rows = {},
-                        .log_x = true,
-                        .log_y = true};
-    for (const char* name : way_names) plot.columns.emplace_back(name);
-    Numbers n{5};
-    for (const int blobs : {1, 2, 4, 8, 16, 32, 64, 128}) {
-        const auto all = times(made(count / 8, [&] { return heap(n, blobs); }));
-        examples::Row row{double(blobs)};
-        row.insert(row.end(), all.begin(), all.end());
-        plot.rows.push_back(row);
-    }
-    save_plot(options.path(""), plot);
-}
-
 /// Table: the cost and the errors of each solver.
 void tabulate(const examples::Options& options, int count) {
     Numbers n{7};
@@ -228,7 +209,7 @@ void tabulate(const examples::Options& options, int count) {
 
 } // namespace
 
-/// Makes the plots and the table.
+/// Makes the plot and the table.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         line.about("Chapter 9: four solvers for the same rays at metaballs.");
@@ -239,7 +220,6 @@ int main(int argc, char** argv) {
         const examples::Options options = line.parse();
         if (cases == 0) cases = options.pick(3000, 40000, 400000);
         plot_grazing(options, cases);
-        plot_time(options, cases);
         tabulate(options, cases);
     });
 }

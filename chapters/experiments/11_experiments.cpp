@@ -1,6 +1,6 @@
 // smoke: --quality draft --width 24 --height 16 --rays 1 --calls 1000
 /// \file chapters/experiments/11_experiments.cpp
-/// \brief Chapter 11: the experiments behind its table, plot and pictures: how well
+/// \brief Chapter 11: the experiments behind its plot and pictures: how well
 /// Snell's law is kept, and two mistakes.
 
 #include <algorithm>
@@ -173,39 +173,6 @@ void plot_errors(const std::string& folder, int calls) {
     save_plot(folder, plot);
 }
 
-/// Nanoseconds per call, the best of 21 runs; half of the rays go in, half go out.
-template <typename Refract>
-double nanoseconds(Refract refract) {
-    const std::vector<Vec3> into = passing(1 / 1.5, 2048), out = passing(1.5, 2048);
-    return examples::nanoseconds_a_call(20.0 * 2048, [&] {
-        Vec3 sum{0};
-        for (int round = 0; round < 10; ++round) {
-            for (const Vec3& d : into) sum += refract(d, 1 / 1.5f).value_or(Vec3{0});
-            for (const Vec3& d : out) sum += refract(d, 1.5f).value_or(Vec3{0});
-        }
-        return sum.x + sum.y + sum.z;
-    });
-}
-
-/// Table: time and error of each way.
-void tabulate_trade(const std::string& folder, int calls) {
-    const auto row = [&](const char* name, auto way) {
-        std::vector<std::string> cells{name, examples::text(nanoseconds(way), "%.1f")};
-        for (const double eta : {1 / 1.5, 1.5, 100.0})
-            cells.push_back(examples::text(largest_error(eta, calls, way), "%.3g u"));
-        std::printf("%-28s %6s ns  %s  %s  %s\n", name, cells[1].c_str(),
-                    cells[2].c_str(), cells[3].c_str(), cells[4].c_str());
-        return cells;
-    };
-    examples::save_table(
-        folder,
-        {.name = "refraction-trade",
-         .columns = {"in float", "ns", "into glass", "out of glass", "n_1/n_2 = 100"},
-         .rows = {row("by angles", by_angles), row("glm::refract", by_glm),
-                  row("ljus::refract", in_world),
-                  row("ljus::refract in the frame", in_frame)}});
-}
-
 } // namespace
 
 /// Makes the files of the experiments.
@@ -218,9 +185,7 @@ int main(int argc, char** argv) {
             line.parse({.draft{.width = 270, .height = 180, .samples = 32},
                         .report{.width = 600, .height = 400, .samples = 64},
                         .reference{.width = 900, .height = 600, .samples = 4096}});
-        const std::string folder = options.path("");
-        plot_errors(folder, calls);
-        tabulate_trade(folder, calls);
+        plot_errors(options.path(""), calls);
         picture(options, "refraction", Error::none);
         picture(options, "refraction-no-total", Error::total_reflection_ignored);
         picture(options, "refraction-swapped", Error::index_swapped);

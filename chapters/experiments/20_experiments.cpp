@@ -162,27 +162,16 @@ void in_the_room(const examples::Options& options, const Sizes& sizes) {
     print(table, options);
 }
 
-/// Table and pictures: a box whose walls all shine, so that lamps are infinitely close
-/// to its edges.
+/// Pictures: a box whose walls all shine, so that lamps are infinitely close to its
+/// edges.
 void in_the_box(const examples::Options& options) {
     const auto room = ljus::box_furnace(Rgb{0.25f}, Rgb{0.5f});
-    examples::Table table{
-        .name = "path_tracing-box",
-        .columns = {"way", "RMS noise", "brightest pixel (all are 0.5)"}};
-    for (std::size_t way = 0; way < 3; ++way) {
-        const ljus::PathTracer tracer(room.world, ways[way].settings);
-        const Noise noise = noise_of(
-            tracer, room.camera,
-            {options.width, options.height, options.samples, options.seed}, options);
-        float brightest = 0;
-        for (const Rgb& c : noise.image.pixels) brightest = std::max(brightest, c.x);
-        table.rows.push_back(
-            {ways[way].name, text(noise.rms, "%.4f"), text(double(brightest), "%.3f")});
-        save_png(noise.image, options.path(std::string("path_tracing-box-") +
-                                           ways[way].file + ".png"));
-    }
-    save_table(options.path(""), table);
-    print(table, options);
+    for (std::size_t way = 0; way < 3; ++way)
+        save_png(
+            rendered("box", ljus::PathTracer(room.world, ways[way].settings),
+                     room.camera, options)
+                .image,
+            options.path(std::string("path_tracing-box-") + ways[way].file + ".png"));
 }
 
 /// A path log that sums the light of one owner.
@@ -387,31 +376,9 @@ PathTracingSettings constant_chance(double p) {
             .roulette_max = p};
 }
 
-/// Plot and table: a constant probability, for which the variance has a closed form or
-/// is infinite.
+/// Table: a constant probability, for which the variance has a closed form or is
+/// infinite.
 void constant_chances(const examples::Options& options, const Sizes& sizes) {
-    examples::Plot plot{.name = "path_tracing-chance",
-                        .columns = {"chance p to go on", "albedo 0.9: closed form",
-                                    "albedo 0.9: measured", "albedo 0.5: closed form",
-                                    "albedo 0.5: measured"},
-                        .y_label = "variance x surfaces per path",
-                        .log_y = true,
-                        .more = "set xrange [0:1]\nset yrange [1:1e7]\n"};
-    for (int i = 1; i < 100; ++i) {
-        const double p = i / 100.0;
-        plot.rows.push_back({p});
-        for (const float albedo : {0.9f, 0.5f}) {
-            plot.rows.back().push_back(furnace_variance(double(albedo), p) / (1 - p));
-            double measured = nothing;
-            if (i % 5 == 0) {
-                const Mean seen = furnace_mean(albedo, constant_chance(p),
-                                               10 * sizes.paths, options.seed);
-                measured = seen.variance * seen.surfaces;
-            }
-            plot.rows.back().push_back(measured);
-        }
-    }
-    save_plot(options.path(""), plot);
 
     examples::Table table{
         .name = "path_tracing-catastrophe",
@@ -534,33 +501,6 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
          std::max(1, int(std::lround(rays))));
 }
 
-/// Table: rays per second, by one thread and by two.
-void speed(const examples::Options& options) {
-    const auto matt = matt_room();
-    const auto cornell = ljus::cornell_box();
-    examples::Table table{.name = "path_tracing-speed",
-                          .columns = {"room", "threads", "million rays per second",
-                                      "million paths per second"}};
-    const auto measure = [&](const char* name, const auto& room, int threads) {
-        const ljus::PathTracer tracer(room.world);
-        const examples::StopWatch watch;
-        const auto seen = rendered(
-            "speed", tracer, room.camera,
-            {options.width, options.height, options.samples, options.seed, threads},
-            options);
-        const double seconds = 1e6 * std::max(watch.seconds(), 1e-6);
-        table.rows.push_back({name, std::to_string(threads),
-                              text(double(seen.counts.rays()) / seconds, "%.2f"),
-                              text(double(seen.counts.camera_rays) / seconds, "%.2f")});
-    };
-    for (const int threads : {1, 2}) {
-        measure("diffuse", matt, threads);
-        measure("with mirror and glass", cornell, threads);
-    }
-    save_table(options.path(""), table);
-    print(table, options);
-}
-
 } // namespace
 
 /// Makes the files of the experiments.
@@ -587,6 +527,5 @@ int main(int argc, char** argv) {
         depths(options, sizes);
         constant_chances(options, sizes);
         roulette(options, sizes);
-        speed(options);
     });
 }

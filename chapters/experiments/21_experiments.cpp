@@ -13,7 +13,6 @@
 #include <vector>
 
 #include <ljus/inspect/metrics.hpp>
-#include <ljus/io/light_map_file.hpp>
 #include <ljus/ljus.hpp>
 #include <ljus/math/sum.hpp>
 #include <ljus/radiosity/exchange_area.hpp>
@@ -350,178 +349,23 @@ void room_pictures(const examples::Options& options, const Sizes& sizes) {
     if (!options.quiet) examples::print_rows(table, 18);
 }
 
-/// A mean over paths.
-struct Estimate {
-    double mean = 0;  ///< Irradiance over pi.
-    double error = 0; ///< Its standard error.
-};
-
-constexpr std::uint32_t wall_count = 5; ///< Of the room, before its blocks.
-
-/// One number for each quarter of each wall.
-template <typename Value>
-using Quarters = std::array<std::array<Value, 4>, wall_count>;
-
-/// The light on a quarter of a wall, by paths that start there.
-template <typename Tracer>
-Estimate traced_light(const Tracer& tracer, std::uint32_t wall, std::uint32_t quarter,
-                      int paths, std::uint64_t seed) {
-    constexpr std::array albedo{0.75, 0.75, 0.75, 0.06, 0.45}; // of the green channel
-    Counts counts;
-    double sum = 0, squares = 0;
-    for (int path = 0; path < paths; ++path) {
-        auto stream = random_stream(seed, Pass::user, 4 * wall + quarter,
-                                    static_cast<std::uint64_t>(path));
-        const Vec2 u = next_2d(stream);
-        const auto at =
-            point_at(std::get<0>(tracer.world().shapes())[wall],
-                     (float(quarter % 2) + u.x) / 2, (float(quarter / 2) + u.y) / 2);
-        // Seen from close by: albedo / pi of the light on the wall.
-        const Ray look{.origin = at.position + 0.0002f * at.normal,
-                       .direction = -at.normal};
-        auto context = context_of(stream, counts);
-        const double light = double(radiance(tracer, look, context).y) / albedo[wall];
-        sum += light;
-        squares += light * light;
-    }
-    examples::stop_if_asked();
-    const double mean = sum / paths;
-    return {mean, std::sqrt((squares / paths - mean * mean) / paths)};
-}
-
-/// The mean irradiance that a solution gives to each quarter of a wall.
-std::array<double, 4> quarters_of(const LightMap& map, std::uint32_t wall) {
-    // The fraction of a row or column of patches in one half of the wall; a row
-    // across the middle belongs to both halves.
-    const auto part = [](std::uint32_t i, std::uint32_t n, bool high) {
-        const double from = high ? 0.5 : 0, to = from + 0.5;
-        return std::max(0.0,
-                        std::min(to, (i + 1.0) / n) - std::max(from, double(i) / n));
-    };
-    const PatchGrid& grid = map.grids[wall];
-    std::array<double, 4> mean{};
-    for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
-        const CellPlace place = place_of(grid, cell);
-        for (std::size_t quarter = 0; quarter < 4; ++quarter)
-            mean[quarter] += 4 * part(place.column, grid.columns, quarter % 2 == 1) *
-                             part(place.row, grid.rows, quarter / 2 == 1) *
-                             map.irradiance[grid.first + cell].y;
-    }
-    return mean;
-}
-
-/// How far a solution is from the paths: mean squares over all quarters.
-struct Difference {
-    double relative = 0; ///< Of the light.
-    double error = 0;    ///< The paths' own relative standard error.
-    double over = 0;     ///< The difference over that standard error.
-};
-
-Difference difference(const LightMap& map, const Quarters<Estimate>& traced) {
-    Difference found;
-    for (std::uint32_t wall = 0; wall < wall_count; ++wall) {
-        const auto mean = quarters_of(map, wall);
-        for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-            const Estimate& right = traced[wall][quarter];
-            const double off = mean[quarter] / pi - right.mean;
-            found.relative += off * off / (right.mean * right.mean) / 20;
-            found.error += right.error * right.error / (right.mean * right.mean) / 20;
-            found.over += off * off / (right.error * right.error) / 20;
-        }
-    }
-    return found;
-}
-
-/// Table: the light on each quarter of each wall, by radiosity beside path tracing.
-void agreement(const examples::Options& options, const Sizes& sizes) {
-    const auto room = block_room();
-    const PathTracer tracer(room.world);
-    const int paths = options.pick(4000, 40000, 1000000);
-    Quarters<Estimate> traced{};
-    for (std::uint32_t wall = 0; wall < wall_count; ++wall)
-        for (std::uint32_t quarter = 0; quarter < 4; ++quarter)
-            traced[wall][quarter] =
-                traced_light(tracer, wall, quarter, paths, options.seed);
-    examples::Table table{.name = "radiosity-agreement",
-                          .columns = {"side of a patch", "patches", "difference",
-                                      "standard error of the paths",
-                                      "difference in standard errors"}};
-    for (int step = sizes.steps - 1; step >= options.pick(-1, 0, 0); --step) {
-        const double size = std::ldexp(sizes.patch, step);
-        const auto all = make_radiosity(
-            room.world,
-            {.patches = {.size = size},
-             .factors = {.analytic = false, .rays = options.pick(1024, 4096, 4096)}});
-        const Difference found = difference(all->map, traced);
-        table.rows.push_back(
-            {examples::text(size), std::to_string(all->factors.size()),
-             examples::text(100 * std::sqrt(found.relative), "%.2f %%"),
-             examples::text(100 * std::sqrt(found.error), "%.2f %%"),
-             examples::text(std::sqrt(found.over), "%.2f")});
-    }
-    save_table(options.out, table);
-    if (!options.quiet)
-        for (const auto& row : table.rows)
-            std::printf("agreement: side %s, %s patches: %s, paths %s, ratio %s\n",
-                        row[0].c_str(), row[1].c_str(), row[2].c_str(), row[3].c_str(),
-                        row[4].c_str());
-}
-
-/// Table and pictures: one solution, seen from five sides, and read from a file.
+/// Pictures: one solution, seen from five sides.
 void views(const examples::Options& options, const Sizes& sizes) {
     const auto room = block_room();
-    Lap lap;
-    const RadiositySettings settings{.patches = {.size = sizes.patch},
-                                     .factors = {.analytic = false, .rays = 1024}};
-    const auto all = make_radiosity(room.world, settings);
+    const auto all =
+        make_radiosity(room.world, {.patches = {.size = sizes.patch},
+                                    .factors = {.analytic = false, .rays = 1024}});
     const LightMapView view(room.world, all->map);
-    const double solved = lap();
     constexpr int count = 5;
-    double seen = 0;
     for (int i = 0; i < count; ++i) {
         const auto x = float(-0.8 + 1.6 * i / (count - 1));
         const Camera camera = look_at(View{.position{x, 1.0f + x / 2, 4.4f - x * x},
                                            .target{0, 1, 0},
                                            .up{0, 1, 0},
                                            .vfov_degrees = 33});
-        (void)lap();
-        const Image image = rendered("view", view, camera, options);
-        seen += lap() / count;
-        save_png(image, options.path("radiosity-view-" + std::to_string(i) + ".png"));
+        save_png(rendered("view", view, camera, options),
+                 options.path("radiosity-view-" + std::to_string(i) + ".png"));
     }
-    const std::string file = options.path("radiosity.light");
-    save_light_map(file, all->map);
-    (void)lap();
-    const LightMap map = load_light_map(file, light_map_key(room.world, settings));
-    const double loaded = lap();
-    const LightMapView again(room.world, map);
-    const bool same = rendered("again", again, room.camera, options).pixels ==
-                      rendered("again", view, room.camera, options).pixels;
-    (void)lap();
-    (void)rendered("paths", PathTracer(room.world), room.camera, options);
-    const double traced = lap();
-    examples::Table table{.name = "radiosity-views",
-                          .columns = {"", "s", "of the first view"}};
-    const auto add = [&](const std::string& what, double seconds) {
-        table.rows.push_back(
-            {what, examples::text(seconds, "%.3f"),
-             examples::text(100 * seconds / (solved + seen), "%.2f %%")});
-    };
-    add("first view, with " + std::to_string(all->factors.size()) + " patches to solve",
-        solved + seen);
-    add("each further view", seen);
-    add("light map from its file, " +
-            std::to_string(map.irradiance.size() * 24 / 1000) + " kB, " +
-            (same ? "the same picture" : "ANOTHER PICTURE"),
-        loaded);
-    add("path tracing, each view, " + std::to_string(options.samples) +
-            " paths per pixel",
-        traced);
-    save_table(options.out, table);
-    if (!options.quiet)
-        for (const auto& row : table.rows)
-            std::printf("%-50s %8s %s\n", row[0].c_str(), row[1].c_str(),
-                        row[2].c_str());
 }
 
 // --- Leaks ----------------------------------------------------------------------------
@@ -596,7 +440,6 @@ int main(int argc, char** argv) {
         progress(options);
         error_of_size(options, sizes);
         room_pictures(options, sizes);
-        agreement(options, sizes);
         views(options, sizes);
         leaks(options, sizes);
     });

@@ -1,7 +1,7 @@
 // smoke: --quality draft --photons 500 --paths 2000 --width 40 --height 40
 /// \file chapters/experiments/22_experiments.cpp
-/// \brief Chapter 22: roulette that loses no flux, and the savings of aiming; spots and
-/// suns, and photons that are spread evenly.
+/// \brief Chapter 22: roulette that loses no flux, the savings of aiming, and photons that
+/// are spread evenly.
 
 #include <algorithm>
 #include <array>
@@ -15,16 +15,11 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
-#include "common/convergence.hpp"
 #include "common/plot.hpp"
 #include "experiments/show_table.hpp"
-#include "experiments/white_floor.hpp"
 #include "ljus/geometry/shape.hpp"
-#include "ljus/inspect/census.hpp"
 #include "ljus/inspect/photon_dots.hpp"
 #include "ljus/io/png.hpp"
-#include "ljus/lights/spot_light.hpp"
-#include "ljus/lights/sun_light.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/scenes/report_rooms.hpp"
@@ -37,21 +32,16 @@ constexpr double pi = std::numbers::pi;
 
 /// The options of this program, besides the common ones.
 struct Sizes {
-    long long photons = 0; ///< Dots in the pictures.
+    long long photons = 0; ///< Ten for each that is sent for the pictures.
     long long paths = 0;   ///< Photons behind each number of the tables.
 };
 
 // --- Photons as dots ------------------------------------------------------------------
 
-/// Adds the photons of one kind that the camera can see, each as a dot in the colour of
-/// its flux.
-/// \return How many they are.
+/// Adds the photons that the camera can see, each as a dot in the colour of its flux.
 template <typename S>
-long long add_dots(Image& image, const Room<S>& room,
-                   const std::vector<Photon>& photons, PhotonKind kind) {
-    long long seen = 0;
+void add_dots(Image& image, const Room<S>& room, const std::vector<Photon>& photons) {
     for (const Photon& photon : photons) {
-        if (photon.kind != kind) continue;
         const auto place =
             project(room.camera, photon.position, image.width, image.height);
         if (!place) continue;
@@ -64,35 +54,8 @@ long long add_dots(Image& image, const Room<S>& room,
         const Ray ray{
             .origin = room.camera.position, .direction = way, .t_max = 0.999f};
         if (occluded(room.world, ray)) continue;
-        ++seen;
         pixel(image, x, y) += 0.8f / max_component(photon.flux) * photon.flux;
     }
-    return seen;
-}
-
-/// The number and the flux of the photons of either kind.
-void count_photons(const examples::Options& options, long long count) {
-    const auto room = final_room<float>();
-    const auto traced = trace_photons(
-        room.world, MapType::general,
-        {.photons = count, .seed = options.seed, .shadow_photons = false});
-    const PhotonCensus found = census(traced.photons);
-
-    examples::Table table{.name = "emission-census",
-                          .columns = {"photons", "stored", "in the picture", "power, W",
-                                      "of the emitted"},
-                          .rows = {}};
-    const double emitted = traced.audit.emitted.y;
-    for (const PhotonKind kind : {PhotonKind::direct, PhotonKind::indirect}) {
-        Image image = make_image(options.width, options.height);
-        const long long seen = add_dots(image, room, traced.photons, kind);
-        const PhotonCount& of_kind = found[kind];
-        table.rows.push_back({name_of(kind), std::to_string(of_kind.photons),
-                              std::to_string(seen),
-                              examples::text(of_kind.flux.y, "%.1f"),
-                              examples::text(of_kind.flux.y / emitted, "%.3f")});
-    }
-    examples::show_table(options, table);
 }
 
 // --- Roulette -------------------------------------------------------------------------
@@ -209,7 +172,6 @@ struct Brought {
     double mean = 0, squares = 0; ///< Of the flux of a photon sent, W.
     long long met = 0;            ///< Photons that met the glass first.
     double nanoseconds = 0;       ///< Per photon.
-    std::vector<float> each{};    ///< The flux of each photon, W.
 };
 
 /// Sends photons one by one.
@@ -217,7 +179,6 @@ struct Brought {
 template <typename OnePhoton>
 Brought send(const examples::Options& options, long long paths, OnePhoton one_photon) {
     Brought brought;
-    brought.each.reserve(static_cast<std::size_t>(paths));
     const examples::StopWatch watch;
     for (long long path = 0; path < paths; ++path) {
         RandomStream stream = random_stream(options.seed, Pass::user, 1,
@@ -226,7 +187,6 @@ Brought send(const examples::Options& options, long long paths, OnePhoton one_ph
         if (flux > 0) ++brought.met;
         brought.mean += flux / double(paths);
         brought.squares += flux * flux / double(paths);
-        brought.each.push_back(float(flux));
     }
     brought.nanoseconds = watch.seconds() * 1e9 / double(paths);
     return brought;
@@ -234,14 +194,13 @@ Brought send(const examples::Options& options, long long paths, OnePhoton one_ph
 
 /// The table: the flux to the glass by either way, and the cost of an error of 1 %.
 void tabulate_aims(const examples::Options& options, const Brought& everywhere,
-                   const Brought& aimed) {
+                   const Brought& aimed, double paths) {
     examples::Table table{.name = "emission-aim",
                           .columns = {"photons are sent", "meet glass first",
                                       "flux to the glass, W", "standard error, W",
                                       "photons for 1 %", "ns per photon", "ms for 1 %"},
                           .rows = {}};
     const auto row = [&](const char* name, const Brought& b) {
-        const auto paths = double(b.each.size());
         const double deviation = std::sqrt(b.squares - b.mean * b.mean);
         const double needed = std::pow(deviation / (0.01 * b.mean), 2);
         table.rows.push_back(
@@ -254,42 +213,6 @@ void tabulate_aims(const examples::Options& options, const Brought& everywhere,
     row("everywhere", everywhere);
     row("at the glass", aimed);
     examples::show_table(options, table);
-}
-
-/// How far the means of n photons are from the mean of all: relative, root mean square.
-double spread_of_means(const Brought& brought, std::size_t n) {
-    double squares = 0;
-    std::size_t means = 0;
-    for (std::size_t i = 0; i + n <= brought.each.size(); i += n, ++means) {
-        double mean = 0;
-        for (std::size_t k = i; k < i + n; ++k)
-            mean += double(brought.each[k]) / double(n);
-        squares += std::pow(mean / brought.mean - 1, 2);
-    }
-    return std::sqrt(squares / double(means));
-}
-
-/// Plot: the error of the flux to the glass against time.
-void plot_aims(const examples::Options& options, const Brought& everywhere,
-               const Brought& aimed) {
-    examples::Plot plot{.name = "emission-aim-error",
-                        .columns = {"milliseconds", "everywhere", "at the glass"},
-                        .y_label = "relative rms error of the flux to the glass",
-                        .rows = {},
-                        .log_x = true,
-                        .log_y = true};
-    const double nothing = std::nan("");
-    const auto milliseconds = [](const Brought& b, std::size_t n) {
-        return double(n) * b.nanoseconds * 1e-6;
-    };
-    // At least 16 means for each point.
-    for (std::size_t n = 1; 16 * n <= everywhere.each.size(); n *= 4)
-        plot.rows.push_back(
-            {milliseconds(everywhere, n), spread_of_means(everywhere, n), nothing});
-    for (std::size_t n = 1; 16 * n <= aimed.each.size(); n *= 4)
-        plot.rows.push_back(
-            {milliseconds(aimed, n), nothing, spread_of_means(aimed, n)});
-    examples::save_plot(options.out, plot);
 }
 
 /// Photons sent everywhere, and photons sent at the glass of the report's figure 11.
@@ -313,8 +236,7 @@ void compare_aims(const examples::Options& options, long long paths) {
         const auto hit = closest_hit(room.world, sent->photon.ray);
         return hit && hit->object == sent->target ? double(sent->photon.flux.y) : 0.0;
     });
-    tabulate_aims(options, everywhere, aimed);
-    plot_aims(options, everywhere, aimed);
+    tabulate_aims(options, everywhere, aimed, double(paths));
 }
 
 // --- A lamp far outside ---------------------------------------------------------------
@@ -340,9 +262,8 @@ auto under_far_lamp(float radii) {
 }
 
 /// Sends photons to their first surface, as the lamp emits them or aimed at the scene:
-/// pictures of where they land, and a table for lamps at several distances.
-void compare_far_lamps(const examples::Options& options, long long photons,
-                       long long paths) {
+/// pictures of where they land.
+void compare_far_lamps(const examples::Options& options, long long photons) {
     const auto land = [](const auto& room, const auto* aim, RandomStream& stream) {
         const auto sent = aim ? emit(room.world, aim->choice, stream, *aim)
                               : emit(room.world, room.world.light_choice(), stream);
@@ -366,67 +287,17 @@ void compare_far_lamps(const examples::Options& options, long long photons,
         }
         Image image =
             scene_drawing(room.world, room.camera, options.width, options.height);
-        add_dots(image, room, landed, PhotonKind::direct);
+        add_dots(image, room, landed);
         save_png(image, options.path(std::string("emission-far-") +
                                      (aimed ? "aimed" : "everywhere") + ".png"));
     }
-
-    examples::Table table{.name = "emission-far",
-                          .columns = {"distance, radii", "land", "land if aimed",
-                                      "flux, W", "flux if aimed, W", "photons for 1 %",
-                                      "for 1 % if aimed"},
-                          .rows = {}};
-    for (const int radii : {2, 8, 32, 128}) {
-        const auto far = under_far_lamp(float(radii));
-        const auto at_far = aim_at_scene(far.world, far.world.light_choice());
-        Brought ways[2];
-        for (const bool aimed : {false, true})
-            ways[aimed] = send(options, paths, [&](RandomStream& stream) {
-                return double(land(far, aimed ? &at_far : nullptr, stream).flux.y);
-            });
-        std::vector<std::string> row{std::to_string(radii)};
-        for (const Brought& b : ways)
-            row.push_back(
-                examples::text(100 * double(b.met) / double(paths), "%.3g %%"));
-        for (const Brought& b : ways) row.push_back(examples::text(b.mean, "%.3g"));
-        for (const Brought& b : ways)
-            row.push_back(
-                examples::text(1e4 * (b.squares / (b.mean * b.mean) - 1), "%.2g"));
-        table.rows.push_back(row);
-    }
-    examples::show_table(options, table);
 }
 
-// --- Spots and suns -------------------------------------------------------------------
+// --- Evenly spread photons ------------------------------------------------------------
 
-/// Photons of one light as dots on a floor, a wall and a ball.
-template <typename Light>
-void picture_of_light(const examples::Options& options, long long photons,
-                      const Light& light, const std::string& name) {
-    using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian>, Lights<Light>>;
-    Stage scene;
-    const auto white = scene.add(Lambertian{.albedo = Rgb{0.7f}});
-    scene.add(Quad{{-2, 0, -2}, {0, 0, 4}, {4, 0, 0}}, white);
-    scene.add(Quad{{-2, 0, -2}, {4, 0, 0}, {0, 2.5f, 0}}, white);
-    scene.add(Sphere{.center{0.3f, 0.5f, 0}, .radius = 0.5f}, white);
-    scene.add(light);
-    const Room<Stage> room{
-        World(std::move(scene)),
-        look_at(
-            View{.position{-1, 3, 5}, .target{0, 0.6f, -0.3f}, .vfov_degrees = 40})};
-    const auto traced = trace_photons(
-        room.world, MapType::general,
-        {.photons = photons, .seed = options.seed, .shadow_photons = false});
-    Image image = scene_drawing(room.world, room.camera, options.width, options.height);
-    add_dots(image, room, traced.photons, PhotonKind::direct);
-    save_png(image, options.path("emission-" + name + ".png"));
-}
-
-// --- The choice of a light ------------------------------------------------------------
-
-/// A closed grey room with a square lamp, a weak ball of light and a strong spot.
-auto small_room(bool lamp_only) {
-    Scene<Shapes<Sphere, Quad>, Materials<Lambertian>, Lights<SpotLight>> room;
+/// A closed grey room with a square lamp.
+auto small_room() {
+    Scene<Shapes<Quad>, Materials<Lambertian>> room;
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.7f}});
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
     const Vec3 x{2, 0, 0}, y{0, 2, 0}, z{0, 0, 2};
@@ -437,10 +308,6 @@ auto small_room(bool lamp_only) {
     room.add(Quad{{-1, -1, -1}, y, z}, grey);
     room.add(Quad{{1, -1, -1}, z, y}, grey);
     room.add(Quad{{-0.3f, 0.98f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}}, black, Rgb{4});
-    if (lamp_only) return World(std::move(room));
-    room.add(Sphere{.center{-0.7f, -0.6f, 0.6f}, .radius = 0.05f}, black, Rgb{1});
-    room.add(SpotLight{
-        .position{0.9f, 0.5f, 0}, .direction{-1, -1, 0}, .intensity = Rgb{30}});
     return World(std::move(room));
 }
 
@@ -514,91 +381,30 @@ Spread spread_of(const W& room, const LightChoice& choice, long long photons, in
     return spread;
 }
 
-void compare_choices(const examples::Options& options) {
-    const auto room = small_room(false);
-    const long long photons = 2000;
-    const int seeds = options.pick(48, 400, 2000);
-    examples::Table table{.name = "emission-choice",
-                          .columns = {"the light is chosen", "direct: mean, W",
-                                      "variance, % of the mean squared",
-                                      "one bounce: variance"},
-                          .rows = {}};
-    const auto row = [&](const char* name, const LightChoice& choice) {
-        const Spread s =
-            spread_of(room, choice, photons, seeds, [&](auto seed, auto path) {
-                return random_stream(options.seed, Pass::user, seed, path);
-            });
-        const auto percent = [](double deviation) {
-            return examples::text(100 * deviation * deviation, "%.2f");
-        };
-        table.rows.push_back({name, examples::text(s.mean[0], "%.3f"),
-                              percent(s.deviation[0]), percent(s.deviation[1])});
-    };
-    row("by power", room.light_choice());
-    row("each equally often", {.cumulative = {1, 2, 3}});
-    examples::show_table(options, table);
-}
-
-// --- Evenly spread photons ------------------------------------------------------------
-
-/// Plot: the error against the number of photons, random beside Sobol.
-examples::Plot plot_numbers(const examples::Options& options) {
-    const auto room = small_room(true);
-    const LightChoice choice = room.light_choice();
-    const int last = options.pick(13, 15, 17);
-    const int seeds = options.pick(16, 32, 64);
-    const double none = std::nan("");
-    examples::Plot plot{.name = "emission-numbers",
-                        .columns = {"photons emitted", "direct: random",
-                                    "direct: Sobol", "1 bounce: random",
-                                    "1 bounce: Sobol", "3 bounces: random",
-                                    "3 bounces: Sobol"},
-                        .y_label = "relative error of the flux to a patch",
-                        .rows = {},
-                        .log_x = true,
-                        .log_y = true};
-    for (int m = 7; m <= last; ++m) {
-        const long long photons = 1LL << m;
-        const Spread random =
-            spread_of(room, choice, photons, seeds, [&](auto seed, auto path) {
-                return random_stream(options.seed, Pass::user, seed, path);
-            });
-        const Spread sobol =
-            spread_of(room, choice, photons, seeds, [&](auto seed, auto path) {
-                return sobol_stream(options.seed, Pass::user, seed, path);
-            });
-        examples::Row row{double(photons)};
-        for (std::size_t k = 0; k < orders; ++k)
-            for (const Spread* s : {&random, &sobol})
-                row.push_back(s->deviation[k] > 0 ? s->deviation[k] : none);
-        plot.rows.push_back(row);
-    }
-    examples::save_plot(options.out, plot);
-    return plot;
-}
-
-/// Random numbers beside Sobol's, after none, one and three bounces.
+/// Table: the variance with random numbers over that with Sobol's, after none, one and
+/// three bounces.
 void compare_numbers(const examples::Options& options) {
-    const examples::Plot plot = plot_numbers(options);
+    const auto room = small_room();
+    const LightChoice choice = room.light_choice();
+    const long long photons = 1LL << options.pick(13, 15, 17);
+    const int seeds = options.pick(16, 32, 64);
+    const Spread random =
+        spread_of(room, choice, photons, seeds, [&](auto seed, auto path) {
+            return random_stream(options.seed, Pass::user, seed, path);
+        });
+    const Spread sobol =
+        spread_of(room, choice, photons, seeds, [&](auto seed, auto path) {
+            return sobol_stream(options.seed, Pass::user, seed, path);
+        });
     examples::Table table{.name = "emission-numbers-table",
-                          .columns = {"photons", "slope, random", "slope, Sobol",
-                                      "variance, random over Sobol"},
+                          .columns = {"photons", "variance, random over Sobol"},
                           .rows = {}};
-    const auto slope = [&](std::size_t column) {
-        std::vector<double> x, y;
-        for (const examples::Row& row : plot.rows) {
-            x.push_back(row[0]);
-            y.push_back(row[column]);
-        }
-        return examples::text(examples::fit_power(x, y).slope, "%.2f");
-    };
     const char* const names[] = {"direct", "after one bounce", "after three bounces"};
-    for (std::size_t k = 0; k < orders; ++k) {
-        const auto& end = plot.rows.back();
+    for (std::size_t k = 0; k < orders; ++k)
         table.rows.push_back(
-            {names[k], slope(1 + 2 * k), slope(2 + 2 * k),
-             examples::text(std::pow(end[1 + 2 * k] / end[2 + 2 * k], 2), "%.2g")});
-    }
+            {names[k],
+             examples::text(std::pow(random.deviation[k] / sobol.deviation[k], 2),
+                            "%.2g")});
     examples::show_table(options, table);
 }
 
@@ -639,60 +445,6 @@ void compare_probabilities(const examples::Options& options, long long paths) {
     examples::show_table(options, table);
 }
 
-// --- Error against number -------------------------------------------------------------
-
-/// Error of the irradiance under a lamp against the number of photons.
-void plot_error(const examples::Options& options) {
-    const Quad lamp{.corner{-0.5f, -0.5f, 1}, .edge_u{0, 1, 0}, .edge_v{1, 0, 0}};
-    Scene<Shapes<Quad>, Materials<Lambertian>> scene;
-    const auto white = scene.add(Lambertian{.albedo = Rgb{1}});
-    scene.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, white);
-    scene.add(lamp, scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{1});
-    const World world(std::move(scene));
-
-    const int last = options.pick(8, 10, 12); // N = 10^(last/2)
-    const int seeds = options.pick(4, 16, 32);
-    examples::Plot plot{
-        .name = "emission-error",
-        .columns = {"photons emitted", "r = 0.1", "r = 0.4", "r = 2.2 / N^(1/6)"},
-        .y_label = "error of the irradiance, rms",
-        .rows = {},
-        .log_x = true,
-        .log_y = true};
-    for (int step = 4; step <= last; ++step) {
-        const double count = std::round(std::pow(10.0, step / 2.0));
-        const std::array radii{0.1, 0.4, 2.2 / std::pow(count, 1.0 / 6)};
-        std::array<double, 3> squares{};
-        int places = 0;
-        for (int seed = 0; seed < seeds; ++seed) {
-            const auto traced = trace_photons(
-                world, MapType::general,
-                {.photons = static_cast<long long>(count),
-                 .seed = options.seed + static_cast<std::uint64_t>(seed)});
-            const auto map = make_photon_map(traced.photons);
-            for (int i = 0; i < 8; ++i)
-                for (int j = 0; j < 8; ++j) {
-                    const double x = (i + 0.5) / 4 - 1, y = (j + 0.5) / 4 - 1;
-                    ++places;
-                    const Vec3 at{float(x), float(y), 0};
-                    for (std::size_t k = 0; k < radii.size(); ++k) {
-                        const double read = examples::irradiance_read(
-                            map, at, Vec3{0, 0, 1}, {.radius = float(radii[k])},
-                            one_kind(PhotonKind::direct));
-                        const double error = read / examples::irradiance_from(
-                                                        lamp, {x, y, 0}, {0, 0, 1}) -
-                                             1;
-                        squares[k] += error * error;
-                    }
-                }
-        }
-        examples::Row row{count};
-        for (const double sum : squares) row.push_back(std::sqrt(sum / places));
-        plot.rows.push_back(row);
-    }
-    examples::save_plot(options.out, plot);
-}
-
 } // namespace
 
 /// Makes the pictures, plots and tables behind chapter 22.
@@ -702,8 +454,7 @@ void plot_error(const examples::Options& options) {
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about(
-            "Chapter 22, photons: roulette, aiming, lights, evenly spread numbers.");
+        line.about("Chapter 22, photons: roulette, aiming, evenly spread numbers.");
         line.add("--photons", sizes.photons, "Photons emitted for the pictures", 1,
                  100000000);
         line.add("--paths", sizes.paths, "Photons behind each number of the tables", 1,
@@ -714,21 +465,10 @@ int main(int argc, char** argv) {
             sizes.photons = options.pick(20000LL, 60000LL, 200000LL);
         if (!line.given("--paths"))
             sizes.paths = options.pick(20000LL, 500000LL, 5000000LL);
-        count_photons(options, sizes.photons);
         compare_roulettes(options, sizes.paths);
         compare_aims(options, sizes.paths);
-        compare_far_lamps(options, sizes.photons / 10, sizes.paths / 5);
-        picture_of_light(options, sizes.photons,
-                         SpotLight{.position{-1.5f, 2.5f, 1.5f},
-                                   .direction{1.6f, -2.2f, -1.6f},
-                                   .inner_degrees = 12,
-                                   .outer_degrees = 25},
-                         "spot");
-        picture_of_light(options, sizes.photons, SunLight{.direction{1, -1.3f, -0.7f}},
-                         "sun");
-        compare_choices(options);
+        compare_far_lamps(options, sizes.photons / 10);
         compare_numbers(options);
         compare_probabilities(options, sizes.paths);
-        plot_error(options);
     });
 }

@@ -1,7 +1,7 @@
 // smoke: --quality draft --photons 2000 --maps 2 --quiet
 /// \file chapters/experiments/23_experiments.cpp
-/// \brief Chapter 23: the experiments behind its drawings, plots and tables: what the
-/// laws of Flatland say and what is counted, the bias at a wall, and the error over k.
+/// \brief Chapter 23: the experiments behind its drawings and plots: the bias at a wall,
+/// and the error over k.
 
 #include <algorithm>
 #include <array>
@@ -12,10 +12,8 @@
 #include <vector>
 
 #include "flatland/density_estimate.hpp"
-#include "flatland/path_tracing.hpp"
 #include "flatland/room.hpp"
 
-#include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/drawing.hpp"
 
@@ -37,12 +35,6 @@ std::string color_of(PhotonKind kind) {
 /// A point of the floor, seen from above.
 SurfacePoint on_floor(double x) {
     return {.position{x, 0}, .normal{0, 1}};
-}
-
-/// A stream of numbers for one path of one experiment.
-ljus::RandomStream stream_of(std::uint64_t seed, int path) {
-    return ljus::random_stream(seed, ljus::Pass::camera, 0,
-                               static_cast<std::uint64_t>(path));
 }
 
 // --- Drawings ------------------------------------------------------------------------
@@ -185,92 +177,6 @@ void draw_places(const std::string& folder, const PhotonMap& map) {
     save_drawing(folder, figure);
 }
 
-// --- The laws ------------------------------------------------------------------------
-
-/// A mean and its standard error.
-struct Mean {
-    double sum = 0, squares = 0, count = 0;
-    void add(double x) {
-        sum += x;
-        squares += x * x;
-        count += 1;
-    }
-    [[nodiscard]] double mean() const { return sum / count; }
-    [[nodiscard]] double error() const {
-        const double variance = squares / count - mean() * mean();
-        return std::sqrt(std::max(0.0, variance) / (count - 1));
-    }
-};
-
-/// The walls of a square of side 1, their normals inwards.
-Scene furnace(double albedo, double emission) {
-    const Lambertian wall{albedo};
-    const Vec2 a{0, 0}, b{1, 0}, c{1, 1}, d{0, 1};
-    return {{{Segment{a, b}, wall, emission},
-             {Segment{b, c}, wall, emission},
-             {Segment{c, d}, wall, emission},
-             {Segment{d, a}, wall, emission},
-             {Circle{.center{0.6, 0.5}, .radius = 0.2}, Glass{1.5}},
-             {Segment{.from{0.1, 0.3}, .to{0.3, 0.2}}, Mirror{1}}}};
-}
-
-/// The mean radiance along a ray.
-Mean mean_radiance(const Scene& scene, const Ray& ray, int paths) {
-    Mean mean;
-    for (int i = 0; i < paths; ++i) {
-        auto stream = stream_of(2, i);
-        mean.add(radiance(scene, ray, stream));
-    }
-    return mean;
-}
-
-/// The fraction of a lamp's photons that hit a segment.
-Mean caught(const Segment& wall, const Object& lamp, int photons,
-            std::uint64_t seed = 3) {
-    const Scene scene{{{wall, Lambertian{0}}, lamp}};
-    Mean mean;
-    for (int i = 0; i < photons; ++i) {
-        auto stream = stream_of(seed, i);
-        PathState photon = emit_photon(scene, 1, stream);
-        const auto vertex = next_vertex(scene, photon, stream);
-        mean.add(vertex && vertex->id == 0 ? 1 : 0);
-    }
-    return mean;
-}
-
-/// Table: what the laws of the plane say, and what rays count.
-void tabulate_laws(const std::string& folder, int paths) {
-    examples::Table table{
-        .name = "flatland-laws",
-        .columns = {"", "by formula", "counted", "error of the mean"}};
-    const auto add = [&](const std::string& what, double right, const Mean& mean) {
-        table.rows.push_back(
-            {what, text(right), text(mean.mean()), text(mean.error(), "%.1g")});
-    };
-    const Circle lamp{.center{0, 0}, .radius = 0.02};
-    for (const double r : {1.0, 2.0, 4.0}) { // a screen that faces the lamp
-        const Segment screen{.from{-0.1, -r}, .to{0.1, -r}};
-        Mean mean = caught(screen, {lamp, Lambertian{0}, radiance_of(lamp, 1)},
-                           10 * paths, static_cast<std::uint64_t>(10 * r));
-        mean.sum /= 0.2; // flux to irradiance
-        mean.squares /= 0.04;
-        add("irradiance at " + text(r) + " m from a lamp of 1 W, W/m",
-            std::atan(0.1 / r) / pi / 0.2, mean);
-    }
-    const Segment floor{.from{0, 0}, .to{1, 0}}, ceiling{.from{1, 1}, .to{0, 1}};
-    add("form factor of two sides of a square", std::numbers::sqrt2 - 1,
-        caught(floor, {ceiling, Lambertian{0}, 1.0}, paths));
-    const Scene closed = furnace(0.6, 0.5);
-    const Vec2 across = glm::normalize(Vec2{1, 0.1});
-    add("radiance in a furnace, W/(m rad)", 0.5 / 0.4,
-        mean_radiance(closed, {.origin{0.2, 0.6}, .direction = -across}, paths));
-    add("the same, seen through a disc of glass", 0.5 / 0.4,
-        mean_radiance(closed, {.origin{0.2, 0.5}, .direction = across}, paths));
-    add("the same, inside the glass", 1.5 * 0.5 / 0.4,
-        mean_radiance(closed, {.origin{0.6, 0.5}, .direction = across}, paths));
-    examples::save_table(folder, table);
-}
-
 // --- Along the floor -----------------------------------------------------------------
 
 constexpr int bins = 200;
@@ -293,8 +199,7 @@ std::vector<double> count_floor(const Scene& scene, long long photons) {
     return irradiance;
 }
 
-/// Plots: one map, and the mean over many maps, beside the truth. Table: where the mean
-/// is wrong.
+/// Plots: one map, and the mean over many maps, beside the truth.
 void plot_floor(const std::string& folder, const Scene& scene,
                 const std::vector<double>& truth, int photons, int maps) {
     examples::Plot one{.name = "flatland-floor",
@@ -314,7 +219,6 @@ void plot_floor(const std::string& folder, const Scene& scene,
     };
     const auto place = [](int i) { return -1 + 2 * (i + 0.5) / bins; };
     std::vector<std::array<double, 2>> mean(bins);
-    std::array<double, 2> at_wall{};
     for (int m = 0; m < maps; ++m) {
         examples::stop_if_asked();
         const PhotonMap map = trace_photons(
@@ -327,31 +231,12 @@ void plot_floor(const std::string& folder, const Scene& scene,
                 one.rows.push_back(
                     {x, truth[std::size_t(i)], sharp, by(map, x, 0.05, 0)});
         }
-        at_wall[0] += by(map, -1, 0.5, 40) / maps;
-        at_wall[1] += by(map, -1, 0.5, 400) / maps;
     }
     for (int i = 0; i < bins; ++i)
         bias.rows.push_back({place(i), truth[std::size_t(i)], mean[std::size_t(i)][0],
                              mean[std::size_t(i)][1]});
     save_plot(folder, one);
     save_plot(folder, bias);
-
-    examples::Table table{
-        .name = "flatland-bias-table",
-        .columns = {"place", "x, m", "truth, W/m", "k = 40", "k = 400"}};
-    const auto add = [&](const std::string& name, double x, double right,
-                         const std::array<double, 2>& found) {
-        table.rows.push_back({name, text(x), text(right, "%.3g"),
-                              text(100 * found[0] / right, "%.0f %%"),
-                              text(100 * found[1] / right, "%.0f %%")});
-    };
-    add("at the wall", -1, truth[0], at_wall);
-    add("under the lamp", place(55), truth[55], mean[55]);
-    const auto brightest =
-        std::size_t(std::max_element(truth.begin(), truth.end()) - truth.begin());
-    add("brightest of the caustic", place(int(brightest)), truth[brightest],
-        mean[brightest]);
-    save_table(folder, table);
 }
 
 // --- The trade -----------------------------------------------------------------------
@@ -361,17 +246,9 @@ double irradiance_under(double x) {
     return 1 / (2 * pi * (x * x + 1));
 }
 
-/// The best of some k.
-struct Best {
-    double k = 0;     ///< Which.
-    double error = 0; ///< Relative.
-};
-
 /// The error over k, for several numbers of photons: points within half a metre of the
 /// middle, many maps. Relative, root mean square.
-/// \return The best k and its error for the first and the last number.
-std::array<Best, 2> plot_trade(const std::string& folder,
-                               const std::vector<int>& counts, int maps) {
+void plot_trade(const std::string& folder, const std::vector<int>& counts, int maps) {
     const Circle lamp{.center{0, 1}, .radius = 0.02};
     const Scene scene{{{Segment{.from{-3, 0}, .to{3, 0}}, Lambertian{0}},
                        {lamp, Lambertian{0}, radiance_of(lamp, 1)}}};
@@ -380,26 +257,18 @@ std::array<Best, 2> plot_trade(const std::string& folder,
                         .y_label = "relative error of the irradiance",
                         .log_x = true,
                         .log_y = true};
-    examples::Table table{
-        .name = "flatland-trade-table",
-        .columns = {"photons", "best k", "error", "emission, ms", "one estimate, µs"}};
-    std::array<Best, 2> ends{};
     std::vector<std::size_t> ks;
     for (double k = 4; k < 40000; k *= 1.5) ks.push_back(std::size_t(k));
     for (const std::size_t k : ks) plot.rows.push_back({double(k)});
     for (const int photons : counts) {
         plot.columns.push_back(std::to_string(photons) + " photons");
         std::vector<double> squares(ks.size());
-        double least_ms = 1e9, least_us = 1e9;
         constexpr int points = 11;
         for (int m = 0; m < maps; ++m) {
             examples::stop_if_asked();
-            const examples::StopWatch emission;
             const PhotonMap map = trace_photons(
                 scene, {.photons = photons, .seed = 7 + static_cast<std::uint64_t>(m)});
-            least_ms = std::min(least_ms, 1e3 * emission.seconds());
-            for (std::size_t i = 0; i < ks.size(); ++i) {
-                const examples::StopWatch estimate;
+            for (std::size_t i = 0; i < ks.size(); ++i)
                 for (int p = 0; p < points; ++p) {
                     const double x = -0.5 + double(p) / (points - 1);
                     const double e =
@@ -409,48 +278,14 @@ std::array<Best, 2> plot_trade(const std::string& folder,
                     const double part = e / irradiance_under(x) - 1;
                     squares[i] += part * part / (points * maps);
                 }
-                least_us = std::min(least_us, 1e6 * estimate.seconds() / points);
-            }
         }
-        std::size_t best = 0;
         for (std::size_t i = 0; i < ks.size(); ++i) {
             // A third of the photons come to the floor near the lamp.
             const bool enough = 4 * ks[i] < std::size_t(photons);
             plot.rows[i].push_back(enough ? std::sqrt(squares[i]) : std::nan(""));
-            if (enough && squares[i] < squares[best]) best = i;
         }
-        const Best here{double(ks[best]), std::sqrt(squares[best])};
-        if (photons == counts.front()) ends[0] = here;
-        if (photons == counts.back()) ends[1] = here;
-        table.rows.push_back({std::to_string(photons), std::to_string(ks[best]),
-                              text(here.error, "%.2g"), text(least_ms, "%.2g"),
-                              text(least_us, "%.2g")});
     }
     save_plot(folder, plot);
-    save_table(folder, table);
-    return ends;
-}
-
-/// Table: the error with more photons, by theory in both worlds, and as measured.
-void tabulate_slope(const std::string& folder, const std::vector<int>& counts,
-                    const std::array<Best, 2>& ends) {
-    const double ratio = double(counts.back()) / counts.front();
-    const auto power = [&](double exponent) {
-        return text(std::pow(ratio, exponent), "%.1f");
-    };
-    examples::Table table{.name = "flatland-slope",
-                          .columns = {"", "in space", "in Flatland", "measured"}};
-    table.rows = {
-        {"best radius", "N^(-1/6)", "N^(-1/5)", ""},
-        {"best k", "N^(2/3)", "N^(4/5)", ""},
-        {"error", "N^(-1/3)", "N^(-2/5)", ""},
-        {"best k with " + text(ratio) + " times the photons", power(2.0 / 3) + " times",
-         power(0.8) + " times", text(ends[1].k / ends[0].k, "%.1f") + " times"},
-        {"error with " + text(ratio) + " times the photons", "1/" + power(1.0 / 3),
-         "1/" + power(0.4), "1/" + text(ends[0].error / ends[1].error, "%.1f")},
-        {"photons for half the error", "8 times",
-         text(std::pow(2, 2.5), "%.1f") + " times", ""}};
-    save_table(folder, table);
 }
 
 /// Plot: the floor under a lamp, as four mistakes have it.
@@ -486,7 +321,7 @@ int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long reference = 0;
         int maps = 0;
-        line.about("Chapter 23, Flatland: its drawings, plots and tables.");
+        line.about("Chapter 23, Flatland: its drawings and plots.");
         line.add("--photons", reference, "Photons of the reference along the floor",
                  1000, 1000000000);
         line.add("--maps", maps, "Photon maps of which the mean is taken", 1, 10000);
@@ -504,10 +339,8 @@ int main(int argc, char** argv) {
         const PhotonMap small = trace_photons(scene, {.photons = 800});
         draw_disc(folder, trace_photons(scene, {.photons = 3000}));
         draw_places(folder, small);
-        tabulate_laws(folder, options.pick(5000, 100000, 1000000));
         plot_floor(folder, scene, count_floor(scene, reference), 3000, maps);
-        const std::vector<int> counts{1000, 10000, 100000};
-        tabulate_slope(folder, counts, plot_trade(folder, counts, maps));
+        plot_trade(folder, {1000, 10000, 100000}, maps);
         plot_mistakes(folder, 100000);
     });
 }

@@ -1,7 +1,7 @@
 // smoke: --quality draft
 /// \file chapters/experiments/25_lamp_experiments.cpp
 /// \brief Chapter 25: the error of density estimates by radius and number of photons,
-/// and what they cost, where light is smooth: under a square lamp.
+/// where light is smooth: under a square lamp.
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "common/clock.hpp"
 #include "common/command_line.hpp"
-#include "common/convergence.hpp"
 #include "common/plot.hpp"
-#include "experiments/show_table.hpp"
 #include "experiments/white_floor.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/photons/density_estimate.hpp"
@@ -43,17 +40,16 @@ double irradiance_from(const Quad& lamp, const Point& at) {
 /// reference.
 using Estimates = std::vector<std::vector<std::vector<double>>>;
 
-/// Variance and squared bias of a radius, over all seeds but one (-1: over all).
+/// Variance and squared bias of a radius, over all seeds.
 struct Parts {
     double variance = 0, bias2 = 0;
 };
-Parts parts_of(const std::vector<std::vector<double>>& seeds, int left_out = -1) {
+Parts parts_of(const std::vector<std::vector<double>>& seeds) {
     Parts parts;
     const std::size_t places = seeds.front().size();
     for (std::size_t place = 0; place < places; ++place) {
         double count = 0, mean = 0, squares = 0;
         for (std::size_t seed = 0; seed < seeds.size(); ++seed) {
-            if (int(seed) == left_out) continue;
             const double before = seeds[seed][place] - mean;
             mean += before / ++count;
             squares += before * (seeds[seed][place] - mean);
@@ -65,46 +61,14 @@ Parts parts_of(const std::vector<std::vector<double>>& seeds, int left_out = -1)
     return parts;
 }
 
-/// A slope of a logarithm over a logarithm, with its 95 % band from leaving out each
-/// seed in turn (the jackknife).
-struct Slope {
-    double value = 0, band = 0;
-};
-template <typename Y>
-Slope slope_of(const std::vector<double>& x, int seeds, Y y) {
-    const auto fit = [&](int left_out) {
-        std::vector<double> values;
-        for (std::size_t i = 0; i < x.size(); ++i)
-            values.push_back(std::max(y(i, left_out), 1e-30));
-        return examples::fit_power(x, values).slope;
-    };
-    double mean = 0, squares = 0;
-    std::vector<double> fits;
-    for (int seed = 0; seed < seeds; ++seed) fits.push_back(fit(seed));
-    for (const double f : fits) mean += f / seeds;
-    for (const double f : fits) squares += (f - mean) * (f - mean);
-    // Student's t, 15 degrees of freedom.
-    return {fit(-1), 2.13 * std::sqrt(squares * (seeds - 1) / seeds)};
-}
-
-/// The cost of a map of one number of photons, the least of all seeds: the machine may
-/// be busy.
-struct Cost {
-    double trace = 1e30, build = 1e30; ///< In seconds.
-    double megabytes = 0, stored = 0;  ///< Of the map; its photons.
-    std::vector<double> query;         ///< Nanoseconds, for each radius.
-};
-
 /// A lamp over a floor, its light estimated with many radii in maps of many sizes.
 struct Experiment {
     std::vector<double> numbers;  ///< Photons emitted.
     std::vector<double> radii;    ///< Of the estimates.
     std::vector<Estimates> found; ///< [number][radius], over the true irradiance.
-    std::vector<Cost> costs;      ///< [number].
-
-    /// The mean square error, of all runs but one; -1: of all.
-    double error2(std::size_t number, std::size_t radius, int left_out = -1) const {
-        const Parts parts = parts_of(found[number][radius], left_out);
+    /// The mean square error of all runs.
+    double error2(std::size_t number, std::size_t radius) const {
+        const Parts parts = parts_of(found[number][radius]);
         return parts.variance + parts.bias2;
     }
     /// The radius with the least error.
@@ -117,24 +81,17 @@ struct Experiment {
 };
 constexpr int seeds = 16;
 
-/// Adds the estimates of one map at all points, and its cost.
+/// Adds the estimates of one map at all points.
 void add_map(const PhotonMap& map, const Quad& lamp, const std::vector<double>& radii,
-             Estimates& estimates, Cost& cost) {
+             Estimates& estimates) {
     std::vector<Point> places;
     for (int i = 0; i < 49; ++i)
         places.push_back({0.2 * (i % 7) - 0.6, 0, 0.2 * (i / 7) - 0.6});
-    cost.megabytes =
-        1e-6 * double(map.tree.bytes() +
-                      map.records.blocks().size() * sizeof(map.records.blocks()[0]));
     for (std::size_t r = 0; r < radii.size(); ++r) {
-        const examples::StopWatch ask;
         std::vector<double> row;
         for (const Point& place : places)
-            row.push_back(irradiance(map, place, radii[r]));
-        cost.query[r] =
-            std::min(cost.query[r], ask.seconds() * 1e9 / double(places.size()));
-        for (std::size_t p = 0; p < places.size(); ++p)
-            row[p] /= irradiance_from(lamp, places[p]);
+            row.push_back(irradiance(map, place, radii[r]) /
+                          irradiance_from(lamp, place));
         estimates[r].push_back(row);
     }
 }
@@ -153,24 +110,17 @@ Experiment run_experiment(const examples::Options& options) {
     for (int i = 0; i < 14; ++i) all.radii.push_back(0.05 * std::pow(2, i / 3.0));
     for (const double number : all.numbers) {
         Estimates estimates(all.radii.size());
-        Cost cost{.query = std::vector<double>(all.radii.size(), 1e30)};
         for (int seed = 0; seed < seeds; ++seed) {
-            const examples::StopWatch trace;
             const auto traced =
                 trace_photons(world, MapType::general,
                               {.photons = static_cast<long long>(number),
                                .seed = options.seed + static_cast<std::uint64_t>(seed),
                                .shadow_photons = false,
                                .threads = options.threads});
-            cost.trace = std::min(cost.trace, trace.seconds());
-            cost.stored = double(traced.photons.size());
-            const examples::StopWatch build;
-            const PhotonMap map = make_photon_map(traced.photons, options.threads);
-            cost.build = std::min(cost.build, build.seconds());
-            add_map(map, lamp, all.radii, estimates, cost);
+            add_map(make_photon_map(traced.photons, options.threads), lamp, all.radii,
+                    estimates);
         }
         all.found.push_back(estimates);
-        all.costs.push_back(cost);
     }
     return all;
 }
@@ -196,48 +146,8 @@ void save_by_radius(const Experiment& all, const examples::Options& options) {
     examples::save_plot(options.out, plot);
 }
 
-/// The exponents of number and radius, beside those of the theory.
-void save_slopes(const Experiment& all, const examples::Options& options) {
-    const auto& numbers = all.numbers;
-    const auto& radii = all.radii;
-    const std::size_t middle = 6; // r = 0.2
-    const Slope with_number =
-        slope_of(numbers, seeds, [&](std::size_t n, int left_out) {
-            return parts_of(all.found[n][middle], left_out).variance;
-        });
-    const std::vector<double> narrow(radii.begin(), radii.begin() + 8); // r <= 0.25
-    const Slope with_radius = slope_of(narrow, seeds, [&](std::size_t r, int left_out) {
-        return parts_of(all.found[numbers.size() / 2][r], left_out).variance;
-    });
-    const std::vector<double> wide(radii.begin() + 7, radii.begin() + 12); // to 0.63
-    const Slope of_bias = slope_of(wide, seeds, [&](std::size_t r, int left_out) {
-        return parts_of(all.found.back()[r + 7], left_out).bias2;
-    });
-    const Slope of_best = slope_of(numbers, seeds, [&](std::size_t n, int left_out) {
-        double least = 1e30;
-        for (std::size_t r = 0; r < radii.size(); ++r)
-            least = std::min(least, all.error2(n, r, left_out));
-        return least;
-    });
-    examples::Table table{
-        .name = "density-lamp-slopes",
-        .columns = {"what", "against", "theory", "measured", "95 % band"},
-        .rows = {}};
-    const auto add = [&](const char* what, const char* against, const char* theory,
-                         const Slope& slope) {
-        table.rows.push_back({what, against, theory,
-                              examples::text(slope.value, "%.3f"),
-                              examples::text(slope.band, "± %.3f")});
-    };
-    add("variance, r = 0.2", "N", "-1", with_number);
-    add("variance, r to 0.25", "r", "-2", with_radius);
-    add("bias squared, r from 0.25 to 0.63", "r", "4", of_bias);
-    add("mean square error at the best r", "N", "-2/3", of_best);
-    examples::show_table(options, table);
-}
-
-/// The cost of a smaller error.
-void save_trade(const Experiment& all, const examples::Options& options) {
+/// The error at the best radius, against the number of photons.
+void save_by_number(const Experiment& all, const examples::Options& options) {
     examples::Plot plot{.name = "density-lamp-best",
                         .columns = {"photons emitted", "at the best radius", "N^(-2/3)",
                                     "r = 0.1", "r = 0.4"},
@@ -245,11 +155,6 @@ void save_trade(const Experiment& all, const examples::Options& options) {
                         .rows = {},
                         .log_x = true,
                         .log_y = true};
-    examples::Table table{.name = "density-lamp-trade",
-                          .columns = {"photons", "best radius", "error, rms",
-                                      "tracing, ms", "tree, ms", "query, µs", "MB",
-                                      "bytes per photon"},
-                          .rows = {}};
     const auto& numbers = all.numbers;
     const std::size_t half = numbers.size() / 2;
     const double anchor = all.error2(half, all.best_radius(half)) *
@@ -259,24 +164,13 @@ void save_trade(const Experiment& all, const examples::Options& options) {
         plot.rows.push_back({numbers[n], all.error2(n, best),
                              anchor / std::pow(numbers[n], 2.0 / 3), all.error2(n, 3),
                              all.error2(n, 9)});
-        const Cost& cost = all.costs[n];
-        table.rows.push_back(
-            {examples::text(numbers[n], "%.0f"),
-             examples::text(all.radii[best], "%.2f"),
-             examples::text(100 * std::sqrt(all.error2(n, best)), "%.2f %%"),
-             examples::text(1e3 * cost.trace, "%.1f"),
-             examples::text(1e3 * cost.build, "%.1f"),
-             examples::text(1e-3 * cost.query[best], "%.2f"),
-             examples::text(cost.megabytes, "%.2f"),
-             examples::text(1e6 * cost.megabytes / cost.stored, "%.1f")});
     }
     examples::save_plot(options.out, plot);
-    examples::show_table(options, table);
 }
 
 } // namespace
 
-/// Makes the plots and tables of chapter 25 for a lamp.
+/// Makes the plots of chapter 25 for a lamp.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; after an exception 2, with one sentence on stderr.
@@ -287,7 +181,6 @@ int main(int argc, char** argv) {
         const examples::Options options = line.parse({});
         const Experiment all = run_experiment(options);
         save_by_radius(all, options);
-        save_slopes(all, options);
-        save_trade(all, options);
+        save_by_number(all, options);
     });
 }

@@ -12,13 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include <ljus/image/flip.hpp>
 #include <ljus/inspect/bias_variance.hpp>
 #include <ljus/inspect/estimate.hpp>
 #include <ljus/ljus.hpp>
-#include <ljus/path/light_transport.hpp>
 #include <ljus/render/budgeting.hpp>
-#include <ljus/scenes/report_rooms.hpp>
 
 #include "common/convergence.hpp"
 #include "common/drawing.hpp"
@@ -36,11 +33,6 @@ struct Sizes {
     int seeds = 0;         ///< Maps behind each error.
 };
 
-constexpr std::array budgets{CausticBudget::as_seen, CausticBudget::equal,
-                             CausticBudget::flux, CausticBudget::area,
-                             CausticBudget::brightness};
-constexpr std::array budget_names{"as seen", "equal", "flux", "area", "brightness"};
-
 // --- Two balls -----------------------------------------------------------------------
 
 using Stage =
@@ -49,28 +41,16 @@ constexpr float floor_albedo = 0.5f;
 const Vec3 lamp{0, 4, 0};
 constexpr float watts = 10; // a steradian
 
-/// Two balls of one size under one light, indices 1.05 and 1.5, on a floor: in the
-/// void, or in a box whose walls have a colour.
-Room<Stage> two_balls(float albedo) {
+/// Two balls of one size under one light, indices 1.05 and 1.5, on a floor in the void.
+World<Stage> two_balls() {
     Stage stage;
-    const Vec3 low{-3, 0, -3}, x{6, 0, 0}, y{0, 5, 0}, z{0, 0, 6};
-    stage.add(Quad{low, z, x}, stage.add(Lambertian{.albedo = Rgb{floor_albedo}}));
-    if (albedo > 0) {
-        const auto walls = stage.add(Lambertian{.albedo = Rgb{albedo}});
-        for (const Quad& wall :
-             {Quad{low + y, x, z}, Quad{low, x, y}, Quad{low + z, y, x},
-              Quad{low, y, z}, Quad{low + x, z, y}})
-            stage.add(wall, walls);
-    }
+    stage.add(Quad{{-3, 0, -3}, {0, 0, 6}, {6, 0, 0}},
+              stage.add(Lambertian{.albedo = Rgb{floor_albedo}}));
     for (const auto& [at, index] : {std::pair{-1.0f, 1.05f}, std::pair{1.0f, 1.5f}})
         stage.add(Sphere{.center{at, 0.8f, 0}, .radius = 0.5f},
                   stage.add(Glass{.index = index}));
     stage.add(PointLight{.position = lamp, .intensity = Rgb{watts}});
-    const Camera camera = look_at(View{.position{0, 2.4f, 2.9f},
-                                       .target{0, 0.45f, 0},
-                                       .up{0, 1, 0},
-                                       .vfov_degrees = 55});
-    return {World(std::move(stage)), camera};
+    return World(std::move(stage));
 }
 
 /// The part of the floor in view.
@@ -139,24 +119,22 @@ PhotonMap caustics_of(const World<Stage>& stage, long long photons, std::uint64_
 /// light and relative to the mean light of the caustic on that half of the floor.
 struct Errors {
     BiasVariance absolute, relative, own;
-    double flip = 0;
 };
 
-/// A room and its references.
+/// The two balls and their references.
 struct Known {
-    std::string name;
-    Room<Stage> room;
+    World<Stage> world = two_balls();
     Image rest{};    ///< All light but the caustics.
     Image truth{};   ///< All light.
-    double gain = 1; ///< Exposure for FLIP.
+    double gain = 1; ///< Exposure for relative errors.
     std::vector<CausticPilot> pilots = {};
 };
 
-Known known_room(const std::string& name, float albedo, const Grid& grid, float radius,
-                 const Sizes& sizes, const examples::Options& options) {
-    Known known{.name = name, .room = two_balls(albedo), .rest = direct_light(grid)};
+Known known_balls(const Grid& grid, float radius, const Sizes& sizes,
+                  const examples::Options& options) {
+    Known known{.rest = direct_light(grid)};
     const long long many = options.pick(50, 300, 1000) * sizes.photons;
-    const auto general = trace_photons(known.room.world, MapType::general,
+    const auto general = trace_photons(known.world, MapType::general,
                                        {.photons = std::min(many, 2000000LL),
                                         .seed = 91,
                                         .shadow_photons = false,
@@ -165,13 +143,13 @@ Known known_room(const std::string& name, float albedo, const Grid& grid, float 
     known.rest = known.rest + floor_light(make_photon_map(general), grid, 0.2f,
                                           one_kind(PhotonKind::indirect));
     known.truth =
-        known.rest + floor_light(caustics_of(known.room.world, many, 92, {}, options),
-                                 grid, 0.5f * radius, all_kinds);
+        known.rest + floor_light(caustics_of(known.world, many, 92, {}, options), grid,
+                                 0.5f * radius, all_kinds);
     double mean = 0;
     for (const Rgb& c : known.truth.pixels)
         mean += double(c.x) / double(known.truth.pixels.size());
     known.gain = 1 / mean; // the epsilon of relative errors assumes that
-    known.pilots = pilot_caustics(known.room.world,
+    known.pilots = pilot_caustics(known.world,
                                   PhotonPassSettings{.photons = sizes.photons,
                                                      .seed = options.seed,
                                                      .threads = options.threads},
@@ -188,16 +166,10 @@ Errors errors_of(const Known& known, const std::vector<double>& shares,
         for (Rgb& c : image.pixels) c *= float(gain);
         return image;
     };
-    const auto shown = [&](const Image& image) {
-        return scaled(image, 0.3 * known.gain);
-    };
-    const Image truth = shown(known.truth);
     for (int seed = 1; seed <= sizes.seeds; ++seed) {
-        const auto map = caustics_of(known.room.world, sizes.photons,
-                                     std::uint64_t(seed), shares, options);
+        const auto map = caustics_of(known.world, sizes.photons, std::uint64_t(seed),
+                                     shares, options);
         runs.push_back(known.rest + floor_light(map, grid, radius, all_kinds));
-        if (seed <= 4)
-            errors.flip += flip(shown(runs.back()), truth) / std::min(4, sizes.seeds);
         examples::stop_if_asked();
     }
     errors.absolute = bias_variance(runs, known.truth);
@@ -219,54 +191,9 @@ Errors errors_of(const Known& known, const std::vector<double>& shares,
     return errors;
 }
 
-/// The table of all budgets in both rooms.
-void two_rooms(const std::vector<Known>& rooms, const Grid& grid, float radius,
-               const Sizes& sizes, const examples::Options& options) {
-    examples::Table table{.name = "budget-two-balls",
-                          .columns = {"room", "budget", "photons for index 1.05",
-                                      "for index 1.5", "squared bias", "variance",
-                                      "variance relative to own caustic",
-                                      "variance relative to all light",
-                                      "squared bias relative to all light", "FLIP"}};
-    for (const Known& known : rooms)
-        for (std::size_t b = 0; b < budgets.size(); ++b) {
-            const auto shares = caustic_shares(budgets[b], known.pilots);
-            const auto found = errors_of(known, shares, grid, radius, sizes, options);
-            const double left = shares.empty() ? 0.5 : shares[0];
-            table.rows.push_back({known.name, budget_names[b],
-                                  examples::text(100 * left, "%.0f %%"),
-                                  examples::text(100 - 100 * left, "%.0f %%"),
-                                  examples::text(found.absolute.bias_squared, "%.3g"),
-                                  examples::text(found.absolute.variance, "%.3g"),
-                                  examples::text(found.own.variance, "%.3g"),
-                                  examples::text(found.relative.variance, "%.3g"),
-                                  examples::text(found.relative.bias_squared, "%.3g"),
-                                  examples::text(found.flip, "%.4f")});
-            if (!options.quiet) {
-                examples::print_row(table.rows.back(), 11);
-            }
-        }
-    save_table(options.out, table);
-
-    examples::Table found{.name = "budget-pilot",
-                          .columns = {"room", "index", "photons stored in the pilot",
-                                      "flux, W", "area, m²", "a for flux", "a for area",
-                                      "a for brightness"}};
-    for (const Known& known : rooms)
-        for (std::size_t k = 0; k < known.pilots.size(); ++k) {
-            const CausticPilot& p = known.pilots[k];
-            found.rows.push_back(
-                {known.name, k == 0 ? "1.05" : "1.5", std::to_string(p.stored),
-                 examples::text(p.flux, "%.3f"), examples::text(p.area, "%.2f"),
-                 examples::text(p.absolute, "%.3f"), examples::text(p.relative, "%.2f"),
-                 examples::text(p.visible, "%.2f")});
-        }
-    save_table(options.out, found);
-}
-
-/// Variance in the dark against the fraction of the light glass, beside theory.
-void by_share(const std::vector<Known>& rooms, const Grid& grid, float radius,
-              const Sizes& sizes, const examples::Options& options) {
+/// Variance against the fraction of the light glass, beside theory.
+void by_share(const Known& known, const Grid& grid, float radius, const Sizes& sizes,
+              const examples::Options& options) {
     examples::Plot plot{
         .name = "budget-shares",
         .columns = {"share of the ball of index 1.05", "in W/m²", "predicted in W/m²",
@@ -279,12 +206,12 @@ void by_share(const std::vector<Known>& rooms, const Grid& grid, float radius,
     };
     const auto variances = [&](double share) {
         const auto errors =
-            errors_of(rooms[0], {share, 1 - share}, grid, radius, sizes, options);
+            errors_of(known, {share, 1 - share}, grid, radius, sizes, options);
         return std::array{errors.absolute.variance, errors.own.variance,
                           errors.relative.variance};
     };
     const auto half = variances(0.5);
-    const CausticPilot &l = rooms[0].pilots[0], &r = rooms[0].pilots[1];
+    const CausticPilot &l = known.pilots[0], &r = known.pilots[1];
     for (const double share : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95}) {
         const auto found = variances(share);
         plot.rows.push_back({share, found[0] / half[0],
@@ -293,35 +220,6 @@ void by_share(const std::vector<Known>& rooms, const Grid& grid, float radius,
                              law(l.visible, r.visible, share)});
     }
     save_plot(options.out, plot);
-}
-
-/// The pictures of the lit room: few photons, divided as lights see the objects, and by
-/// area.
-void pictures(const examples::Options& options) {
-    for (const auto& [how, budget] : {std::pair{"seen", CausticBudget::as_seen},
-                                      std::pair{"area", CausticBudget::area}}) {
-        const auto room = two_balls(0.8f);
-        PhotonMappingSettings settings{.split_glass = true,
-                                       .indirect = IndirectLight::photons,
-                                       .caustic_budget = budget};
-        settings.caustics = {
-            .photons = 3000, .seed = options.seed, .threads = options.threads};
-        settings.general = {.photons = options.pick(100000LL, 400000LL, 1000000LL),
-                            .shadow_photons = false,
-                            .threads = options.threads};
-        settings.caustics_estimate.radius = 0.06f;
-        settings.general_estimate.radius = 0.3f;
-        const PhotonMapper mapper(room.world, settings, abilities<Budgeting>);
-        auto image = render(mapper, room.camera,
-                            {.width = options.width,
-                             .height = options.height * 3 / 4,
-                             .samples = options.samples,
-                             .threads = options.threads})
-                         .image;
-        for (Rgb& c : image.pixels) c *= 0.8f;
-        save_png(image, options.path(std::string("budget-lit-") + how + ".png"));
-        examples::stop_if_asked();
-    }
 }
 
 /// Rays through balls of two indices by Snell's law, and where they land.
@@ -353,150 +251,6 @@ void draw_rays(const examples::Options& options) {
         draw_label(figure, {middle, -0.99}, "n = " + examples::text(index));
     }
     save_drawing(options.out, figure);
-}
-
-// --- The report's four balls ---------------------------------------------------------
-
-/// The four balls of figure 11, and the settings of their light.
-struct FourBalls {
-    decltype(four_glass_room()) room = four_glass_room();
-    float radius = 0.15f;          ///< Of the estimate.
-    PhotonPassSettings pass{};     ///< Of a caustics map.
-    PhotonPassSettings rest{};     ///< Of a general map.
-    std::vector<Photon> general{}; ///< The light of all but caustics.
-    std::vector<CausticPilot> pilots{};
-    std::array<std::vector<double>, budgets.size()> shares{}; ///< By each budget.
-};
-
-FourBalls known_balls(const examples::Options& options, const Sizes& sizes) {
-    FourBalls balls{.pass = {.photons = sizes.photons,
-                             .seed = options.seed,
-                             .threads = options.threads},
-                    .rest = {.photons = options.pick(50000LL, 400000LL, 1000000LL),
-                             .shadow_photons = false,
-                             .threads = options.threads}};
-    balls.general =
-        trace_photons(balls.room.world, MapType::general, balls.rest).photons;
-    balls.pilots =
-        pilot_caustics(balls.room.world, balls.pass, balls.radius, balls.general, 0.5f);
-    for (std::size_t b = 0; b < budgets.size(); ++b)
-        balls.shares[b] = caustic_shares(budgets[b], balls.pilots);
-    return balls;
-}
-
-/// How often each object of glass is aimed at as lights see it.
-std::vector<double> aimed_as_seen(const FourBalls& balls,
-                                  const std::vector<ObjectId>& targets) {
-    const auto choice = balls.room.world.light_choice();
-    std::vector<double> seen(targets.size());
-    for (std::uint64_t path = 0; path < 20000; ++path) {
-        auto stream = random_stream(7, Pass::caustics_photons, 0, path);
-        const auto aimed = aim(balls.room.world, choice, targets, stream);
-        for (std::size_t k = 0; aimed && k < targets.size(); ++k)
-            if (targets[k] == aimed->target) seen[k] += 1 / 20000.0;
-    }
-    return seen;
-}
-
-/// The pilot's results for each ball, and its fraction by each budget.
-void four_balls_shares(const FourBalls& balls, const examples::Options& options) {
-    examples::Table table{.name = "budget-four-balls",
-                          .columns = {"ball", "index", "flux, W", "area, m²", "as seen",
-                                      "by flux", "by area", "by brightness"}};
-    constexpr std::array names{"large, right", "thin, left", "middle", "yellow, above"};
-    constexpr std::array indices{"1.97", "1", "1.6", "1.7"}; // the report's
-    const auto targets = specular_objects(balls.room.world);
-    const auto seen = aimed_as_seen(balls, targets);
-    const auto percent = [](double x) { return examples::text(100 * x, "%.0f %%"); };
-    for (std::size_t k = 0; k < targets.size(); ++k) {
-        // Glass may come before or after mixtures: the ball is known by its position.
-        const float z = balls.room.world.visit_shape(targets[k], [](const auto& shape) {
-            return bounding_sphere(shape).center.z;
-        });
-        const std::size_t name = z > 0 ? 0 : z == -3.5f ? 1 : z == -2.5f ? 2 : 3;
-        const CausticPilot& pilot = balls.pilots[k];
-        table.rows.push_back({names[name], indices[name],
-                              examples::text(pilot.flux, "%.2f"),
-                              examples::text(pilot.area, "%.2f"), percent(seen[k]),
-                              percent(balls.shares[2][k]), percent(balls.shares[3][k]),
-                              percent(balls.shares[4][k])});
-    }
-    save_table(options.out, table);
-}
-
-/// A picture of the caustics alone.
-Image caustics_seen(const FourBalls& balls, long long photons, std::uint64_t seed,
-                    const std::vector<double>& shares, const RenderSettings& picture) {
-    PhotonMappingSettings settings{.indirect = IndirectLight::none};
-    settings.caustics = balls.pass;
-    settings.caustics.photons = photons;
-    settings.caustics.seed = seed;
-    settings.caustics.shares = shares;
-    settings.caustics_estimate.radius = balls.radius;
-    const PhotonMapper mapper(balls.room.world, settings);
-    auto image = render(OnlyPaths(mapper, "ES*DS+L"), balls.room.camera, picture).image;
-    examples::stop_if_asked();
-    return image;
-}
-
-/// A picture of all light but the caustics, the general map seen.
-Image rest_seen(const FourBalls& balls, const RenderSettings& picture) {
-    PhotonMappingSettings settings{.indirect = IndirectLight::photons,
-                                   .keep_general_map = true};
-    settings.caustics.photons = 0;
-    settings.general = balls.rest;
-    settings.general_estimate.radius = 0.4f;
-    return render(PhotonMapper(balls.room.world, settings), balls.room.camera, picture)
-        .image;
-}
-
-/// The errors of each budget: caustics of many maps, in a picture whose other light is
-/// always the same.
-void four_balls_errors(const FourBalls& balls, const examples::Options& options,
-                       const Sizes& sizes) {
-    const RenderSettings picture{.width = options.width,
-                                 .height = options.height,
-                                 .samples = 4,
-                                 .threads = options.threads};
-    RenderSettings fine = picture;
-    fine.samples = options.pick(16, 64, 256);
-    const Image expected = caustics_seen(
-        balls, options.pick(20, 100, 200) * sizes.photons, 99, {}, picture);
-    const Image rest = rest_seen(balls, fine);
-    const Image truth = rest + expected;
-    examples::Table table{.name = "budget-four-balls-errors",
-                          .columns = {"budget", "variance", "relative variance", "FLIP",
-                                      "processor seconds"}};
-    for (std::size_t b = 0; b < budgets.size(); ++b) {
-        std::vector<Image> runs;
-        const double begin = examples::processor_seconds();
-        for (int seed = 1; seed <= sizes.seeds; ++seed)
-            runs.push_back(rest + caustics_seen(balls, sizes.photons,
-                                                std::uint64_t(seed), balls.shares[b],
-                                                picture));
-        const double seconds = (examples::processor_seconds() - begin) / sizes.seeds;
-        const std::size_t judged = std::min<std::size_t>(4, runs.size());
-        double seen_error = 0;
-        for (std::size_t i = 0; i < judged; ++i)
-            seen_error += flip(runs[i], truth) / double(judged);
-        const auto split = bias_variance(runs, truth);
-        const auto relative = examples::relative_split(runs, block_means(truth, 1));
-        table.rows.push_back({budget_names[b], examples::text(split.variance, "%.3g"),
-                              examples::text(relative.variance, "%.3g"),
-                              examples::text(seen_error, "%.4f"),
-                              examples::text(seconds, "%.3f")});
-        if (!options.quiet)
-            std::printf("four balls, %s: %.3g, relative %.3g, FLIP %.4f\n",
-                        budget_names[b], split.variance, relative.variance, seen_error);
-    }
-    save_table(options.out, table);
-}
-
-/// The photons of each ball of figure 11, and their effect on the picture.
-void four_balls(const examples::Options& options, const Sizes& sizes) {
-    const FourBalls balls = known_balls(options, sizes);
-    four_balls_shares(balls, options);
-    four_balls_errors(balls, options, sizes);
 }
 
 // --- Several lamps -------------------------------------------------------------------
@@ -565,7 +319,7 @@ void several_lamps(const examples::Options& options, const Sizes& sizes) {
 
 } // namespace
 
-/// Makes the figures of chapter 30.
+/// Makes the plot and the table about the photons of each object, and a drawing.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; after an exception 2, with one sentence on stderr.
@@ -585,13 +339,8 @@ int main(int argc, char** argv) {
         const float radius = 0.03f;
         const Grid grid{options.pick(48, 96, 192), options.pick(36, 72, 144)};
         draw_rays(options);
-        pictures(options);
-        std::vector<Known> rooms;
-        rooms.push_back(known_room("dark", 0, grid, radius, sizes, options));
-        rooms.push_back(known_room("lit", 0.8f, grid, radius, sizes, options));
-        two_rooms(rooms, grid, radius, sizes, options);
-        by_share(rooms, grid, radius, sizes, options);
-        four_balls(options, sizes);
+        by_share(known_balls(grid, radius, sizes, options), grid, radius, sizes,
+                 options);
         several_lamps(options, sizes);
     });
 }

@@ -139,7 +139,6 @@ void profile(const examples::Options& options, long long photons) {
 /// The caustics without a radius: each photon is connected to the pinhole, and counted
 /// in the pixel that sees it. A pixel's radiance is the mean over its solid angle. An
 /// area dA around the photon covers cos dA / d^2 of that angle.
-// [light image]
 template <typename S>
 Image light_image(const Room<S>& room, const RenderSettings& picture,
                   long long photons) {
@@ -179,7 +178,6 @@ Image light_image(const Room<S>& room, const RenderSettings& picture,
     }
     return image;
 }
-// [light image]
 
 /// The squared error of a picture in some of its pixels, mean over channels.
 double squared_error(const Image& image, const Image& truth,

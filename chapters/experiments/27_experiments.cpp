@@ -164,23 +164,9 @@ using examples::Boxes;
 constexpr double leak_radius = 0.15; ///< Of the estimates.
 constexpr int leak_steps = 120;      ///< Along the floor, from wall to wall.
 
-/// A point on the floor of the two rooms.
-struct FloorPlace {
-    const char* name;
-    Point at;
-};
-constexpr std::array<FloorPlace, 6> floor_places{
-    {{"in the middle of the left room", {-0.5, 0, 0.5}},
-     {"at the foot of the left wall", {-1, 0, 0.5}},
-     {"in its corner with the back wall", {-1, 0, 0}},
-     {"at the wall between, lit side", {-1e-6, 0, 0.5}},
-     {"at the wall between, dark side", {1e-6, 0, 0.5}},
-     {"half a radius into the dark", {0.075, 0, 0.5}}}};
-
 /// The estimates on the floor, as a mean over several maps.
 struct FloorEstimates {
     std::array<double, leak_steps + 1> along{}; ///< From the left wall to the right.
-    std::array<double, floor_places.size()> at_places{};
 };
 
 FloorEstimates estimate_floor(const examples::TwoRooms& rooms, long long photons,
@@ -200,9 +186,6 @@ FloorEstimates estimate_floor(const examples::TwoRooms& rooms, long long photons
             found.along[std::size_t(i)] +=
                 irradiance(map, {2.0 * i / leak_steps - 1, 0, 0.5}, leak_radius) /
                 seeds / 8;
-        for (std::size_t i = 0; i < floor_places.size(); ++i)
-            found.at_places[i] +=
-                irradiance(map, floor_places[i].at, leak_radius) / seeds / 8;
     }
     return found;
 }
@@ -225,22 +208,6 @@ void plot_floor(const examples::TwoRooms& rooms, const FloorEstimates& found,
             {x, exact_on_floor(rooms, {x, 0, 0.5}), found.along[std::size_t(i)]});
     }
     examples::save_plot(options.out, plot);
-}
-
-void table_of_floor(const examples::TwoRooms& rooms, const FloorEstimates& found,
-                    const examples::Options& options) {
-    examples::Table table{.name = "general-edges-table",
-                          .columns = {"on the floor", "exact", "estimate", "ratio"},
-                          .rows = {}};
-    for (std::size_t i = 0; i < floor_places.size(); ++i) {
-        const double right = exact_on_floor(rooms, floor_places[i].at);
-        const double estimate = found.at_places[i];
-        table.rows.push_back(
-            {floor_places[i].name, examples::text(right, "%.4f"),
-             examples::text(estimate, "%.4f"),
-             right > 0 ? examples::text(estimate / right, "%.3f") : std::string("-")});
-    }
-    examples::show_table(options, table);
 }
 
 /// The two rooms as pictures, with indirect light: by the map, and by path
@@ -275,7 +242,6 @@ void failures(const examples::Options& options) {
     const long long photons = options.pick(50'000LL, 400'000LL, 4'000'000LL);
     const FloorEstimates found = estimate_floor(rooms, photons, options);
     plot_floor(rooms, found, options);
-    table_of_floor(rooms, found, options);
     leak_pictures(rooms, photons, options);
 }
 

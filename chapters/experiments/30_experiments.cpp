@@ -1,12 +1,11 @@
 // smoke: --quality draft --width 16 --height 16 --rays 4 --photons 2000 --seeds 2
 /// \file chapters/experiments/30_experiments.cpp
-/// \brief Chapter 30: estimates at edges and at photons; error against time for photons
-/// seen directly, gathered, and precomputed.
+/// \brief Chapter 30: estimates at edges; error against time for photons seen directly,
+/// gathered, and precomputed.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,8 +25,6 @@
 using namespace ljus;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// The options of this program, besides the common ones.
 struct Sizes {
@@ -69,53 +66,20 @@ PhotonMap even_photons(int count, std::uint64_t seed) {
 /// Lets every photon count, for estimate_irradiance().
 constexpr auto all_photons = [](std::uint32_t) { return true; };
 
-/// A mean, and its standard error.
+/// A mean.
 struct Mean {
-    double count = 0, sum = 0, squares = 0;
+    double count = 0, sum = 0;
 
-    void add(double x) { ++count, sum += x, squares += x * x; }
+    void add(double x) { ++count, sum += x; }
     double mean() const { return sum / count; }
-    double error() const {
-        return std::sqrt(std::max(0.0, squares / count - mean() * mean()) /
-                         std::max(1.0, count - 1));
-    }
-    std::string text() const {
-        return examples::text(mean(), "%.3f") + " +- " +
-               examples::text(error(), "%.3f");
-    }
 };
-
-/// The fraction of Epanechnikov's kernel in a corner whose edges lie at s and t, over
-/// the radius, by the midpoint rule.
-double corner_by_rule(double s, double t) {
-    constexpr int n = 200;
-    double sum = 0;
-    for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) {
-            const double x = 2 * (i + 0.5) / n - 1, y = 2 * (j + 0.5) / n - 1;
-            if (x * x + y * y < 1 && x < s && y < t)
-                sum += 2 / pi * (1 - x * x - y * y) * 4 / (double(n) * n);
-        }
-    return sum;
-}
 
 constexpr float border_radius = 0.1f; ///< Of the disc that photons are counted in.
 constexpr int border_steps = 24;      ///< From the edge to the distance of the radius.
 
-/// A point on the square, and the estimates there.
-struct Place {
-    const char* name;
-    float x, y;
-    const char* part; ///< Of the disc, as the table has it.
-    Mean plain{}, corrected{};
-};
-
 /// The estimates by several maps under an even light.
 struct Borders {
     std::vector<Mean> with, without; ///< The correction, step by step from an edge.
-    std::vector<Place> places{{"in the middle", 0.5f, 0.5f, "1"},
-                              {"at an edge", 0.5f, 1e-4f, "1/2"},
-                              {"in a corner", 1e-4f, 1e-4f, "1/4"}};
 };
 
 Borders measure_borders(int maps, std::uint64_t seed) {
@@ -140,10 +104,6 @@ Borders measure_borders(int maps, std::uint64_t seed) {
                 found.with[std::size_t(i)].add(estimate(x, y, corrected));
                 found.without[std::size_t(i)].add(estimate(x, y, plain));
             }
-        for (Place& place : found.places) {
-            place.plain.add(estimate(place.x, place.y, plain));
-            place.corrected.add(estimate(place.x, place.y, corrected));
-        }
     }
     return found;
 }
@@ -164,122 +124,6 @@ void plot_edge(const Borders& found, const examples::Options& options) {
             {s, kernel_part(s), found.without[k].mean(), found.with[k].mean()});
     }
     save_plot(options.out, plot);
-}
-
-/// The largest error of the product of two edges' fractions as that of a corner.
-double worst_product() {
-    double worst = 0;
-    for (double s = 0; s < 1; s += 0.1)
-        for (double t = 0; t < 1; t += 0.1)
-            worst = std::max(
-                worst,
-                std::abs(kernel_part(s) * kernel_part(t) / corner_by_rule(s, t) - 1));
-    return worst;
-}
-
-/// The estimates under an even light near an edge and in a corner.
-void borders(const examples::Options& options) {
-    const Borders found = measure_borders(options.pick(32, 128, 512), options.seed);
-    plot_edge(found, options);
-    examples::Table table{
-        .name = "final-gathering-corner",
-        .columns = {"where", "part of the disc", "photons, uncorrected", "corrected"}};
-    for (const Place& place : found.places)
-        table.rows.push_back(
-            {place.name, place.part, place.plain.text(), place.corrected.text()});
-    table.rows.push_back(
-        {"near a corner, at worst", "product of two", "",
-         "off by " + examples::text(100 * worst_product(), "%.1f %%")});
-    examples::show_table(options, table);
-}
-
-/// By how many percent the points of one map are too bright under an even light.
-struct Deviation {
-    double at_points = 0; ///< The mean over the points.
-    double over_surface =
-        0; ///< The mean over the surface, each place taking its point's.
-};
-
-/// Finds the deviation of points that are chosen in one of three ways.
-/// \param map     Photons of an even light of 1 W/m^2.
-/// \param how     How many photons an estimate takes.
-/// \param chosen  Whether the photon of a record becomes a point.
-/// \param wanted  Whether the second record's photon counts at the first one's point.
-/// \param share   The fraction of all photons that counts.
-template <typename Chosen, typename Wanted>
-Deviation deviation(const PhotonMap& map, const IrradiancePointSettings& how,
-                    const Chosen& chosen, const Wanted& wanted, double share) {
-    const Flat square = unit_square();
-    const Vec3 up{0, 0, 1};
-    std::vector<Vec3> places;
-    std::vector<double> known;
-    for (std::uint32_t i = 0; i < map.records.size(); ++i) {
-        const Vec3 p = map.tree.point(i);
-        if (!chosen(i) || std::max(std::abs(p.x - 0.5f), std::abs(p.y - 0.5f)) > 0.4f)
-            continue;
-        places.push_back(p);
-        known.push_back(
-            double(estimate_irradiance(square, map, square_vertex(square, p.x, p.y), up,
-                                       how, 0.15f,
-                                       [&](std::uint32_t k) { return wanted(i, k); })
-                       .x) /
-            share);
-    }
-    Deviation result;
-    for (const double e : known)
-        result.at_points += 100 * (e - 1) / double(known.size());
-    const KdTree8 tree(places);
-    constexpr int side = 60; // of the lookups
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) {
-            const auto nearest = tree.nearest(
-                Vec3{0.2f + 0.01f * float(x), 0.2f + 0.01f * float(y), 0}, 1.0f);
-            const double e = known[tree.point_ids()[nearest->index]];
-            result.over_surface += 100 * (e - 1) / (side * side);
-        }
-    return result;
-}
-
-/// What estimates at photons find, with those photons counted and without.
-void own_photon(const examples::Options& options) {
-    const int maps = options.pick(16, 64, 256);
-    constexpr std::size_t every = 8;
-    examples::Table table{.name = "final-gathering-own",
-                          .columns = {"k", "2 / (k - 2)", "all photons: at the points",
-                                      "own left out: at the points",
-                                      "own left out: over the surface",
-                                      "all points' left out: over the surface"}};
-    for (const std::size_t k : {16u, 64u, 256u}) {
-        const IrradiancePointSettings how{.nearest = k};
-        Mean counted, own, own_surface, free_surface;
-        for (int m = 0; m < maps; ++m) {
-            const PhotonMap map = even_photons(20000, options.seed + std::uint64_t(m));
-            const auto& ids = map.tree.point_ids();
-            const auto in_order = [](std::uint32_t i) { return i % every == 0; };
-            const auto by_chance = [&](std::uint32_t i) { return ids[i] % every == 0; };
-            counted.add(deviation(
-                            map, how, in_order, [](auto, auto) { return true; }, 1)
-                            .at_points);
-            const Deviation without = deviation(
-                map, how, in_order, [](auto i, auto other) { return other != i; }, 1);
-            own.add(without.at_points);
-            own_surface.add(without.over_surface);
-            free_surface.add(deviation(
-                                 map, how, by_chance,
-                                 [&](auto, auto other) { return !by_chance(other); },
-                                 1 - 1.0 / every)
-                                 .over_surface);
-        }
-        const auto percent = [](const Mean& m) {
-            return examples::text(m.mean(), "%.1f") + " +- " +
-                   examples::text(m.error(), "%.1f") + " %";
-        };
-        table.rows.push_back({std::to_string(k),
-                              examples::text(200 / (double(k) - 2), "%.1f %%"),
-                              percent(counted), percent(own), percent(own_surface),
-                              percent(free_surface)});
-    }
-    examples::show_table(options, table);
 }
 
 // --- The trade -----------------------------------------------------------------------
@@ -337,46 +181,39 @@ std::vector<Runs> compare(const Room& room,
     return runs;
 }
 
-/// The result of one way to gather, for some number of photons and of rays.
-struct Setting {
-    std::size_t way;             ///< 0: photons, 1: map, 2: gather.
-    double seconds, error, seen; ///< Processor seconds, relMSE, FLIP.
-};
-
-/// For each way the settings that no faster one of the same way beats, or comes near.
-template <typename Error>
-examples::Plot frontier(const std::string& name, const std::string& label,
-                        const std::vector<Setting>& by_time, const Error& error) {
-    examples::Plot plot{.name = name,
-                        .columns = {"processor seconds", "photons", "map", "gather"},
-                        .y_label = label,
-                        .log_x = true,
-                        .log_y = true};
-    std::array best{1e300, 1e300, 1e300};
-    for (const Setting& setting : by_time) {
-        if (error(setting) > 0.95 * best[setting.way]) continue;
-        best[setting.way] = error(setting);
-        examples::Row row{setting.seconds, std::nan(""), std::nan(""), std::nan("")};
-        row[setting.way + 1] = error(setting);
-        plot.rows.push_back(row);
-    }
-    return plot;
-}
-
 constexpr std::array way_names{"photons", "map", "gather"};
 constexpr std::array way_kinds{IndirectLight::photons, IndirectLight::map,
                                IndirectLight::gather};
 
-/// All settings that were tried, as the plots and the table show them.
+/// The result of one way to gather, for some number of photons and of rays.
+struct Setting {
+    std::size_t way;       ///< 0: photons, 1: map, 2: gather.
+    double seconds, error; ///< Processor seconds, relMSE.
+};
+
+/// Plot: for each way the settings that no faster one of the same way beats, or comes
+/// near.
+void plot_frontier(std::vector<Setting> tried, const examples::Options& options) {
+    std::sort(tried.begin(), tried.end(),
+              [](const Setting& a, const Setting& b) { return a.seconds < b.seconds; });
+    examples::Plot plot{.name = "final-gathering-trade",
+                        .columns = {"processor seconds", "photons", "map", "gather"},
+                        .y_label = "relMSE",
+                        .log_x = true,
+                        .log_y = true};
+    std::array best{1e300, 1e300, 1e300};
+    for (const Setting& setting : tried) {
+        if (setting.error > 0.95 * best[setting.way]) continue;
+        best[setting.way] = setting.error;
+        examples::Row row{setting.seconds, std::nan(""), std::nan(""), std::nan("")};
+        row[setting.way + 1] = setting.error;
+        plot.rows.push_back(row);
+    }
+    save_plot(options.out, plot);
+}
+
+/// All settings that were tried, as the plot and the table show them.
 struct Trade {
-    examples::Plot split{.name = "final-gathering-split",
-                         .columns = {"photons", "photons: squared bias",
-                                     "photons: variance", "map: squared bias",
-                                     "map: variance", "gather: squared bias",
-                                     "gather: variance"},
-                         .y_label = "part of relMSE, most rays",
-                         .log_x = true,
-                         .log_y = true};
     examples::Table table{.name = "final-gathering-table",
                           .columns = {"photons", "rays per pixel", "way",
                                       "first pass, s", "second pass, s", "relMSE",
@@ -385,9 +222,8 @@ struct Trade {
 };
 
 /// Adds the result of one way with some photons and rays.
-/// \return Its bias and variance.
-BiasVariance add_way(Trade& trade, std::size_t way, long long photons, int samples,
-                     const Runs& runs, const examples::Oracle& oracle) {
+void add_way(Trade& trade, std::size_t way, long long photons, int samples,
+             const Runs& runs, const examples::Oracle& oracle) {
     const auto split =
         examples::relative_split(runs.images, oracle.truth, oracle.noise);
     double seen = 0;
@@ -395,13 +231,12 @@ BiasVariance add_way(Trade& trade, std::size_t way, long long photons, int sampl
         seen += flip(image, oracle.truth) / double(runs.images.size());
     const double first = median(runs.first), second = median(runs.second);
     const double error = split.bias_squared + split.variance;
-    trade.tried.push_back({way, first + second, error, seen});
+    trade.tried.push_back({way, first + second, error});
     trade.table.rows.push_back(
         {std::to_string(photons), std::to_string(samples), way_names[way],
          examples::text(first, "%.2f"), examples::text(second, "%.2f"),
          examples::text(error, "%.2g"), examples::text(split.bias_squared, "%.2g"),
          examples::text(split.variance, "%.2g"), examples::text(seen, "%.3f")});
-    return split;
 }
 
 /// Tries the three ways with each number of photons and of rays.
@@ -416,15 +251,8 @@ Trade try_settings(const Room& room, const examples::Oracle& oracle,
             for (const IndirectLight kind : way_kinds)
                 ways.push_back(gather_settings(kind, photons, 1, options));
             const auto runs = compare(room, ways, samples, sizes.seeds, options);
-            examples::Row row{double(photons)};
-            for (std::size_t w = 0; w < ways.size(); ++w) {
-                const auto split = add_way(trade, w, photons, samples, runs[w], oracle);
-                row.push_back(split.bias_squared > 0 ? split.bias_squared
-                                                     : std::nan(""));
-                row.push_back(split.variance);
-            }
-            const bool most = 4LL * samples > options.samples;
-            if (most) trade.split.rows.push_back(row);
+            for (std::size_t w = 0; w < ways.size(); ++w)
+                add_way(trade, w, photons, samples, runs[w], oracle);
         }
     return trade;
 }
@@ -434,15 +262,9 @@ void trade(const examples::Options& options, const Sizes& sizes) {
     const auto room = matt_cornell_box();
     const auto oracle = examples::find_oracle("matt-cornell", room, options.width,
                                               sizes.truth, options);
-    auto [split, table, tried] = try_settings(room, oracle, options, sizes);
-    std::sort(tried.begin(), tried.end(),
-              [](const Setting& a, const Setting& b) { return a.seconds < b.seconds; });
-    save_plot(options.out, frontier("final-gathering-trade", "relMSE", tried,
-                                    [](const Setting& s) { return s.error; }));
-    save_plot(options.out, frontier("final-gathering-flip", "FLIP", tried,
-                                    [](const Setting& s) { return s.seen; }));
-    save_plot(options.out, split);
-    examples::show_table(options, table);
+    const Trade found = try_settings(room, oracle, options, sizes);
+    plot_frontier(found.tried, options);
+    examples::show_table(options, found.table);
 }
 
 /// Processor seconds in which the points of precomputed irradiance are made.
@@ -490,48 +312,17 @@ void table_of_ratios(const Room& room, const examples::Oracle& oracle,
     examples::show_table(options, table);
 }
 
-/// Lookup points at every second photon, every fourth, and so on.
-template <typename Room>
-void table_of_every(const Room& room, const examples::Oracle& oracle,
-                    const examples::Options& options, const Sizes& sizes) {
-    examples::Table every{.name = "final-gathering-every",
-                          .columns = {"photons per point", "points", "first pass, s",
-                                      "second pass, s", "relMSE", "squared bias"}};
-    std::vector<PhotonMappingSettings> ways;
-    for (const int n : {2, 4, 8, 16, 64, 256, 1024}) {
-        ways.push_back(
-            gather_settings(IndirectLight::gather, sizes.photons, 1, options));
-        ways.back().irradiance.every = n;
-    }
-    const int few = std::min(sizes.seeds, 8);
-    const auto runs = compare(room, ways, options.pick(4, 25, 25), few, options);
-    for (std::size_t w = 0; w < ways.size(); ++w) {
-        const auto split =
-            examples::relative_split(runs[w].images, oracle.truth, oracle.noise);
-        const PhotonMapper mapper(room.world, ways[w], abilities<Gathering>);
-        every.rows.push_back(
-            {std::to_string(ways[w].irradiance.every),
-             std::to_string(mapper.template state<Gathering>().points.records.size()),
-             examples::text(median(runs[w].first), "%.2f"),
-             examples::text(median(runs[w].second), "%.2f"),
-             examples::text(split.bias_squared + split.variance, "%.2g"),
-             examples::text(split.bias_squared, "%.2g")});
-    }
-    examples::show_table(options, every);
-}
-
-/// Precomputed irradiance: what it saves, and how many points it takes.
+/// What precomputed irradiance saves.
 void ratio(const examples::Options& options, const Sizes& sizes) {
     const auto room = matt_cornell_box();
     const auto oracle = examples::find_oracle("matt-cornell", room, options.width,
                                               sizes.truth, options);
     table_of_ratios(room, oracle, options, sizes);
-    table_of_every(room, oracle, options, sizes);
 }
 
 } // namespace
 
-/// Makes the plots and tables of chapter 28.
+/// Makes the plots and tables of chapter 30.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; after an exception 2, with one sentence on stderr.
@@ -551,8 +342,7 @@ int main(int argc, char** argv) {
             sizes.photons = options.pick(20000LL, 200000LL, 1000000LL);
         if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
         if (!line.given("--truth")) sizes.truth = options.pick(512, 4096, 65536);
-        borders(options);
-        own_photon(options);
+        plot_edge(measure_borders(options.pick(32, 128, 512), options.seed), options);
         trade(options, sizes);
         ratio(options, sizes);
     });

@@ -97,8 +97,7 @@ IrradianceCacheT<double> exact_cache(int run, std::uint64_t seed) {
 
 /// The errors of interpolation with one reach at all points, as means over the runs.
 struct AtCorner {
-    std::array<double, corner_places> squares{};  ///< Of the relative error.
-    std::array<double, corner_places> gathered{}; ///< Lookups without a near point.
+    std::array<double, corner_places> squares{}; ///< Of the relative error.
 };
 
 /// Adds the errors of one cache, which is one of `runs`.
@@ -109,10 +108,7 @@ void add_run(AtCorner& corner, const IrradianceCacheT<double>& cache, double rea
         const double exact = beside_wall(corner_place(i));
         const auto found = interpolate(cache, Vec3T<double>{corner_place(i), 0, 0},
                                        Vec3T<double>{0, 0, 1}, reach);
-        if (!found) {
-            corner.gathered[slot] += 1.0 / runs; // exact
-            continue;
-        }
+        if (!found) continue; // gathered anew, and exact
         const double e = found->x / exact - 1;
         corner.squares[slot] += e * e / runs;
     }
@@ -139,31 +135,6 @@ void plot_corner(const Corner& corner, const examples::Options& options) {
     save_plot(options.out, plot);
 }
 
-/// The mean errors near the wall and farther away.
-void table_of_corner(const Corner& corner, const examples::Options& options) {
-    examples::Table table{.name = "irradiance_cache-corner-table",
-                          .columns = {"reach", "error within a step of the wall",
-                                      "farther out", "gathered anew within a step",
-                                      "farther out"}};
-    for (std::size_t k = 0; k < reaches.size(); ++k) {
-        std::array<double, 2> error{}, anew{}, count{};
-        for (int i = 0; i < corner_places; ++i) {
-            const std::size_t part = corner_place(i) < corner_step ? 0 : 1;
-            error[part] += corner[k].squares[static_cast<std::size_t>(i)];
-            anew[part] += corner[k].gathered[static_cast<std::size_t>(i)];
-            count[part] += 1;
-        }
-        table.rows.push_back({text(reaches[k])});
-        for (const std::size_t part : {0u, 1u})
-            table.rows.back().push_back(
-                text(100 * std::sqrt(error[part] / count[part]), "%.2f %%"));
-        for (const std::size_t part : {0u, 1u})
-            table.rows.back().push_back(
-                text(100 * anew[part] / count[part], "%.1f %%"));
-    }
-    examples::show_table(options, table);
-}
-
 /// Exact records without noise: the error is that of the interpolation alone.
 void corner(const examples::Options& options) {
     const int runs = options.pick(32, 400, 2000);
@@ -174,7 +145,6 @@ void corner(const examples::Options& options) {
             add_run(found[k], cache, reaches[k], runs);
     }
     plot_corner(found, options);
-    table_of_corner(found, options);
 }
 
 // --- Each knob -----------------------------------------------------------------------
@@ -228,15 +198,14 @@ examples::Oracle oracle_of(const std::function<Image(int, std::uint64_t)>& shot,
     return oracle;
 }
 
-/// The box as all settings of the cache see it: with the same photons, beside two
-/// references of its indirect light.
+/// The box as all settings of the cache see it: with the same photons, beside a
+/// reference of its indirect light.
 struct Bench {
     const Box& room;
     const examples::Options& options;
     const Sizes& sizes;
     PhotonMappingSettings settings; ///< The preset `fast`.
-    examples::Oracle twin{};   ///< Gathered at every vertex, from the same photons.
-    examples::Oracle traced{}; ///< By path tracing.
+    examples::Oracle twin{}; ///< Gathered at every vertex, from the same photons.
 
     [[nodiscard]] RenderSettings picture(int samples, std::uint64_t seed) const {
         return {.width = sizes.side,
@@ -247,8 +216,8 @@ struct Bench {
     }
 };
 
-/// The references of the bench.
-void add_oracles(Bench& bench) {
+/// The reference of the bench.
+void add_oracle(Bench& bench) {
     const int side = bench.sizes.side, truth = bench.sizes.truth;
     auto one_by_one = bench.settings;
     one_by_one.indirect = IndirectLight::gather;
@@ -258,42 +227,30 @@ void add_oracles(Bench& bench) {
             return indirect_light(bench.room, mapper, bench.picture(rays, seed));
         },
         4 * truth, side);
-    const PathTracer tracer(bench.room.world);
-    bench.traced = oracle_of(
-        [&](int rays, std::uint64_t seed) {
-            return indirect_light(bench.room, tracer, bench.picture(rays, seed));
-        },
-        truth, side);
 }
 
 /// A way to gather, and which curve of the plot it belongs to.
 struct Knob {
-    std::string name;
     GatherSettings gather{};
-    std::size_t curve = 0; ///< Which column; 0: none.
-    bool cached = true;    ///< Or gathered at every vertex.
+    std::size_t curve = 0; ///< Which column.
 };
 
 /// Each setting of the cache varied, with the others fixed.
 std::vector<Knob> all_knobs() {
-    std::vector<Knob> all{Knob{.name = "tile 3, 25 rays, 6 nearest, reach 1"}};
-    for (const int tile : {2, 3, 4, 6})
-        all.push_back({"tile " + std::to_string(tile), {.tile = tile}, 1});
-    for (const int rays : {9, 16, 25, 49, 100})
-        all.push_back({std::to_string(rays) + " gather rays", {.rays = rays}, 2});
+    std::vector<Knob> all;
+    for (const int tile : {2, 3, 4, 6}) all.push_back({{.tile = tile}, 1});
+    for (const int rays : {9, 16, 25, 49, 100}) all.push_back({{.rays = rays}, 2});
     for (const std::size_t nearest : {3u, 6u, 10u, 20u})
-        all.push_back({std::to_string(nearest) + " nearest", {.nearest = nearest}, 3});
+        all.push_back({{.nearest = nearest}, 3});
     for (const float reach : {0.3f, 0.5f, 1.0f, 2.0f, 4.0f})
-        all.push_back({"reach " + text(double(reach), "%.1f"), {.reach = reach}, 4});
-    all.push_back({"25 rays at every vertex, no cache", {}, 0, false});
+        all.push_back({{.reach = reach}, 4});
     return all;
 }
 
 /// The result of one setting, over several seeds.
 struct Turned {
-    double seconds = 0, mean = 0, flip = 0;
-    std::size_t points = 0;
-    BiasVariance from_twin{}, from_traced{}, blocks{};
+    double seconds = 0;
+    BiasVariance error{};
 };
 
 Turned turn(const Bench& bench, const Knob& knob) {
@@ -307,30 +264,12 @@ Turned turn(const Bench& bench, const Knob& knob) {
         const RenderSettings picture =
             bench.picture(9, static_cast<std::uint64_t>(seed));
         const double start = examples::processor_seconds();
-        if (knob.cached) mapper.fill_cache(bench.room.camera, picture);
-        found.points = mapper.state<Gathering>().cache.records.size();
+        mapper.fill_cache(bench.room.camera, picture);
         runs.push_back(indirect_light(bench.room, mapper, picture));
         found.seconds += (examples::processor_seconds() - start) / seeds;
-        found.flip += flip(runs.back(), bench.traced.truth) / seeds;
-        found.mean += mean_error(runs.back(), bench.traced.truth) / seeds;
     }
-    const examples::Oracle &twin = bench.twin, &traced = bench.traced;
-    found.from_twin = examples::relative_split(runs, twin.truth, twin.noise);
-    found.from_traced = examples::relative_split(runs, traced.truth, traced.noise);
-    found.blocks = examples::relative_split(runs, traced.truth, traced.block_noise, 10);
+    found.error = examples::relative_split(runs, bench.twin.truth, bench.twin.noise);
     return found;
-}
-
-/// The references, and their errors.
-void table_of_oracles(const Bench& bench) {
-    examples::show_table(
-        bench.options,
-        {.name = "irradiance_cache-truth",
-         .columns = {"reference", "rays per pixel", "its own relMSE"},
-         .rows = {{"gathered at every vertex, the same photons",
-                   std::to_string(bench.twin.rays), text(bench.twin.noise, "%.2g")},
-                  {"path tracing", std::to_string(bench.traced.rays),
-                   text(bench.traced.noise, "%.2g")}}});
 }
 
 /// Indirect light alone, one setting after the other.
@@ -338,11 +277,7 @@ void knobs(const examples::Options& options, const Sizes& sizes) {
     const Box room = cornell_box();
     const auto settings = fast(sizes.side, options.seed, options.threads);
     Bench bench{room, options, sizes, settings};
-    add_oracles(bench);
-    examples::Table table{
-        .name = "irradiance_cache-knobs",
-        .columns = {"", "processor seconds", "points", "bias² of interpolating",
-                    "noise", "bias² with the photons'", "blocks", "mean", "FLIP"}};
+    add_oracle(bench);
     examples::Plot plot{
         .name = "irradiance_cache-knobs-plot",
         .columns = {"processor seconds", "tile", "gather rays", "nearest", "reach"},
@@ -350,22 +285,13 @@ void knobs(const examples::Options& options, const Sizes& sizes) {
         .rows = {}};
     for (const Knob& knob : all_knobs()) {
         const Turned found = turn(bench, knob);
-        const auto& [bias, noise] = found.from_twin;
-        table.rows.push_back(
-            {knob.name, text(found.seconds, "%.3f"), std::to_string(found.points),
-             text(bias, "%.2g"), text(noise, "%.2g"),
-             text(found.from_traced.bias_squared, "%.2g"),
-             text(found.blocks.bias_squared + found.blocks.variance, "%.2g"),
-             text(100 * found.mean, "%+.2f %%"), text(found.flip, "%.3f")});
-        if (knob.curve == 0) continue;
         examples::Row row(plot.columns.size(), nothing);
         row[0] = found.seconds;
-        row[knob.curve] = std::max(bias + noise, 1e-9);
+        row[knob.curve] =
+            std::max(found.error.bias_squared + found.error.variance, 1e-9);
         plot.rows.push_back(row);
     }
-    examples::show_table(options, table);
     save_plot(options.out, plot);
-    table_of_oracles(bench);
 }
 
 // --- Whole pictures ------------------------------------------------------------------
@@ -410,7 +336,6 @@ Result try_method(const Method& method, int rays, const examples::Oracle& oracle
 template <typename Draws>
 Image by_photons(const Box& room, const PhotonMappingSettings& settings,
                  const RenderSettings& picture, int more = 0) {
-    // [by_photons]
     PhotonMapper mapper(room.world, settings, abilities<Draws, Gathering>);
     mapper.fill_cache(room.camera, picture);
     if (more == 0) return render(mapper, room.camera, picture).image;
@@ -422,7 +347,6 @@ Image by_photons(const Box& room, const PhotonMappingSettings& settings,
                             .batches = 1,
                             .disagreement = PresetRays{}.disagreement})
         .image;
-    // [by_photons]
 }
 
 void methods(const examples::Options& options, const Sizes& sizes,
@@ -544,7 +468,6 @@ void ladder(const examples::Options& options, const Sizes& sizes,
 /// What "three seconds" looks like.
 void fast_picture(const examples::Options& options) {
     const Box room = cornell_box();
-    const double start = examples::processor_seconds();
     const Image image = by_photons<StratifiedStream>(
         room, fast(options.width, options.seed, options.threads),
         {.width = options.width,
@@ -553,12 +476,6 @@ void fast_picture(const examples::Options& options) {
          .seed = options.seed,
          .threads = options.threads},
         8);
-    examples::show_table(
-        options, {.name = "irradiance_cache-fast-table",
-                  .columns = {"pixels", "processor seconds of both passes"},
-                  .rows = {{std::to_string(options.width) + " x " +
-                                std::to_string(options.height),
-                            text(examples::processor_seconds() - start, "%.2f")}}});
     save_png(image, options.path("irradiance_cache-fast.png"));
 }
 
@@ -566,20 +483,14 @@ void fast_picture(const examples::Options& options) {
 
 using Stage = Scene<Shapes<Quad>, Materials<Lambertian>>;
 
-/// A square lamp over a floor.
-struct Lamp {
-    const char* name;
-    float side, height;
-};
-constexpr std::array lamps{Lamp{"side 2, 1 above the floor", 2, 1},
-                           Lamp{"that of the box: side 0.5, 2 above", 0.5f, 2}};
+constexpr float lamp_side = 2, lamp_height = 1; ///< Of a square lamp over a floor.
 
 /// A floor, a lamp, and halfway between them half a ceiling whose edge is over x = 0.
-World<Stage> penumbra_stage(const Lamp& lamp) {
+World<Stage> penumbra_stage() {
     Stage stage;
     const auto white = stage.add(Lambertian{.albedo = Rgb{1}});
     const auto black = stage.add(Lambertian{.albedo = Rgb{0}});
-    const float h = lamp.height, s = lamp.side;
+    const float h = lamp_height, s = lamp_side;
     stage.add(Quad{.corner{-4, 0, -4}, .edge_u{0, 0, 8}, .edge_v{8, 0, 0}}, white);
     stage.add(Quad{.corner{-8, h / 2, -8}, .edge_u{8, 0, 0}, .edge_v{0, 0, 16}}, black);
     stage.add(Quad{.corner{-s / 2, h, -s / 2}, .edge_u{s, 0, 0}, .edge_v{0, 0, s}},
@@ -593,14 +504,14 @@ constexpr std::array shadow_rays{1, 2, 4, 9};
 /// lamp's; one value for each number of shadow rays.
 struct InPenumbra {
     double x = 0; ///< Position; the penumbra is -1 to 1.
-    std::array<double, shadow_rays.size()> bias{}, noise{}, sampled{};
+    std::array<double, shadow_rays.size()> bias{};
 };
 
-InPenumbra measure_penumbra(const World<Stage>& stage, const Lamp& lamp, double place,
+InPenumbra measure_penumbra(const World<Stage>& stage, double place,
                             std::uint64_t number, long long trials,
                             std::uint64_t seed) {
     InPenumbra here{.x = place};
-    const float h = lamp.height, s = lamp.side, x = float(place) * s / 2;
+    const float h = lamp_height, s = lamp_side, x = float(place) * s / 2;
     const Ray down{.origin{x, h / 4, 0}, .direction{0, -1, 0}};
     const auto vertex = vertex_at(stage, down, *closest_hit(stage, down));
     const Lambertian white{.albedo = Rgb{1}};
@@ -614,31 +525,20 @@ InPenumbra measure_penumbra(const World<Stage>& stage, const Lamp& lamp, double 
             form_factor_from(at.position, at.normal, part, false).value_or(0));
     };
     const double whole = from(-s / 2), exact = from(std::max(-s / 2, -x));
-    for (std::size_t k = 0; k < shadow_rays.size(); ++k)
-        for (const DirectLight how : {DirectLight::analytic, DirectLight::sampled}) {
-            double sum = 0, squares = 0;
-            for (long long t = 0; t < trials; ++t) {
-                auto stream =
-                    random_stream(seed, Pass::gathering, 1 + k,
-                                  number * std::uint64_t(trials) + std::uint64_t(t));
-                Counts counts;
-                auto context = context_of(stream, counts);
-                const double value =
-                    double(sample_all_lights(stage, vertex, white,
-                                             {how, shadow_rays[k]}, context)
-                               .x) /
-                    whole;
-                sum += value / double(trials);
-                squares += value * value / double(trials);
-            }
-            const double spread = std::sqrt(std::max(0.0, squares - sum * sum));
-            if (how == DirectLight::analytic) {
-                here.bias[k] = sum - exact / whole;
-                here.noise[k] = spread;
-            } else {
-                here.sampled[k] = spread;
-            }
+    for (std::size_t k = 0; k < shadow_rays.size(); ++k) {
+        double sum = 0;
+        for (long long t = 0; t < trials; ++t) {
+            auto stream =
+                random_stream(seed, Pass::gathering, 1 + k,
+                              number * std::uint64_t(trials) + std::uint64_t(t));
+            Counts counts;
+            auto context = context_of(stream, counts);
+            const Rgb value = sample_all_lights(
+                stage, vertex, white, {DirectLight::analytic, shadow_rays[k]}, context);
+            sum += double(value.x) / whole / double(trials);
         }
+        here.bias[k] = sum - exact / whole;
+    }
     return here;
 }
 
@@ -649,45 +549,20 @@ void penumbra(const examples::Options& options) {
         .name = "irradiance_cache-penumbra",
         .columns = {"place; the penumbra is from -1 to 1", "1 ray", "2", "4", "9"},
         .y_label = "bias, % of the whole lamp's light"};
-    examples::Table table{.name = "irradiance_cache-penumbra-table",
-                          .columns = {"lamp", "shadow rays", "largest bias",
-                                      "its standard error", "noise, closed form",
-                                      "noise, sampled", "in full light: closed form",
-                                      "sampled"}};
-    const auto percent = [](double share) { return text(100 * share, "%.2f %%"); };
-    for (const Lamp& lamp : lamps) {
-        const World stage = penumbra_stage(lamp);
-        std::vector<InPenumbra> found(static_cast<std::size_t>(places));
-        const auto at_place = [&](long long i) {
-            found[static_cast<std::size_t>(i)] = measure_penumbra(
-                stage, lamp, 1.2 * (2 * (double(i) + 0.5) / places - 1),
-                static_cast<std::uint64_t>(i), trials, options.seed);
-        };
-        (void)parallel_blocks(places, at_place, {.threads = options.threads});
-        examples::stop_if_asked();
-        if (plot.rows.empty())
-            for (const InPenumbra& f : found) {
-                plot.rows.push_back({f.x});
-                for (const double b : f.bias) plot.rows.back().push_back(100 * b);
-            }
-        for (std::size_t k = 0; k < shadow_rays.size(); ++k) {
-            double largest = 0, its = 0, noise = 0, sampled = 0;
-            for (const InPenumbra& f : found) {
-                if (std::abs(f.bias[k]) > std::abs(largest)) {
-                    largest = f.bias[k];
-                    its = f.noise[k] / std::sqrt(double(trials));
-                }
-                noise = std::max(noise, f.noise[k]);
-                sampled = std::max(sampled, f.sampled[k]);
-            }
-            table.rows.push_back({lamp.name, std::to_string(shadow_rays[k]),
-                                  percent(largest), percent(its), percent(noise),
-                                  percent(sampled), percent(found.back().noise[k]),
-                                  percent(found.back().sampled[k])});
-        }
+    const World stage = penumbra_stage();
+    std::vector<InPenumbra> found(static_cast<std::size_t>(places));
+    const auto at_place = [&](long long i) {
+        found[static_cast<std::size_t>(i)] =
+            measure_penumbra(stage, 1.2 * (2 * (double(i) + 0.5) / places - 1),
+                             static_cast<std::uint64_t>(i), trials, options.seed);
+    };
+    (void)parallel_blocks(places, at_place, {.threads = options.threads});
+    examples::stop_if_asked();
+    for (const InPenumbra& f : found) {
+        plot.rows.push_back({f.x});
+        for (const double b : f.bias) plot.rows.back().push_back(100 * b);
     }
     save_plot(options.out, plot);
-    examples::show_table(options, table);
 }
 
 } // namespace

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include <ljus/image/flip.hpp>
 #include <ljus/ljus.hpp>
 #include <ljus/render/progressive.hpp>
 #include <ljus/scenes/cornell_box.hpp>
@@ -21,10 +20,6 @@
 #include "common/drawing.hpp"
 #include "common/example.hpp"
 #include "experiments/window.hpp"
-
-#if __has_include(<sys/resource.h>)
-#include <sys/resource.h>
-#endif
 
 using namespace ljus;
 
@@ -35,17 +30,6 @@ struct Sizes {
     long long passes = 0; ///< How many.
     int seeds = 0;        ///< Runs behind each bias and variance.
 };
-
-/// The peak memory of this program; NaN if the system does not report it.
-double peak_megabytes() {
-#if __has_include(<sys/resource.h>)
-    struct ::rusage usage = {};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return double(usage.ru_maxrss) / 1024;
-#else
-    return std::nan("");
-#endif
-}
 
 // --- The laws, where light is known --------------------------------------------------
 
@@ -158,47 +142,6 @@ std::vector<BiasVariance> split_of(const Series& series) {
     return split;
 }
 
-/// "-0.667 +- 0.010": the slope of a mean square over the passes, after the first ones.
-/// \param square  Of a BiasVariance: what is fitted.
-template <typename Square>
-std::string fitted_slope(const std::vector<BiasVariance>& split,
-                         const std::vector<long long>& stops, Square square) {
-    std::vector<double> n, y;
-    for (std::size_t i = 0; i < stops.size(); ++i) {
-        if (stops[i] * 60 < stops.back()) continue; // where it has settled
-        n.push_back(double(stops[i]));
-        y.push_back(square(split[i]));
-    }
-    const auto fit = examples::fit_power(n, y);
-    return examples::text(fit.slope, "%.3f") + " +- " +
-           examples::text(fit.error, "%.3f");
-}
-
-/// The slopes of one series beside the laws: a row of the table.
-std::vector<std::string> slopes_row(const Series& series,
-                                    const std::vector<BiasVariance>& split,
-                                    const std::vector<long long>& stops, bool quiet) {
-    const double a = series.alpha;
-    const double bias_law = series.strip.first < 0 ? -2 * (1 - a) : -(1 - a) / 2;
-    const std::string variance =
-        fitted_slope(split, stops, [](const auto& at) { return at.variance; });
-    const std::string bias =
-        fitted_slope(split, stops, [](const auto& at) { return at.bias_squared; });
-    const std::string both = fitted_slope(
-        split, stops, [](const auto& at) { return at.variance + at.bias_squared; });
-    if (!quiet)
-        std::printf("%s alpha %.2f: variance %s (law %.3f), bias^2 %s (law %.3f)\n",
-                    series.strip.name, a, variance.c_str(), -a, bias.c_str(), bias_law);
-    return {series.strip.name,
-            a < 0.5 ? "1/3" : "2/3",
-            examples::text(-a, "%.3f"),
-            variance,
-            examples::text(bias_law, "%.3f"),
-            bias,
-            examples::text(std::max(-a, bias_law), "%.3f"),
-            both};
-}
-
 /// Bias and variance against the passes, for alpha = 2/3: in the middle of the light,
 /// with the variance as the passes estimate it, and across its edge.
 void plot_laws(const Series& middle, const Series& edge,
@@ -220,26 +163,16 @@ void plot_laws(const Series& middle, const Series& edge,
     save_plot(options.out, plot);
 }
 
-/// Slopes of bias and variance, and the estimated error beside the true one.
+/// Bias and variance, and the estimated error beside the true one.
 void laws(const examples::Options& options, const Sizes& sizes) {
     constexpr long long photons = 500;
     const auto stops =
         milestones(options.pick(sizes.passes / 5 + 1, sizes.passes, sizes.passes));
     std::vector<Series> all;
     for (const Strip& strip : strips)
-        for (const double alpha : {1.0 / 3, 2.0 / 3})
-            all.push_back({strip, alpha, strip.first < 0 ? 1.2 : 0.6});
+        all.push_back({strip, 2.0 / 3, strip.first < 0 ? 1.2 : 0.6});
     run_series(all, photons, stops, 4 * sizes.seeds);
-
-    examples::Table table{.name = "progressive-slopes",
-                          .columns = {"where", "alpha", "variance: law", "measured",
-                                      "squared bias: law", "measured", "both: law",
-                                      "measured"}};
-    for (const Series& series : all)
-        table.rows.push_back(
-            slopes_row(series, split_of(series), stops, options.quiet));
-    plot_laws(all[1], all[3], stops, options);
-    save_table(options.out, table);
+    plot_laws(all[0], all[1], stops, options);
 }
 
 /// Squared bias and variance of some runs together.
@@ -413,9 +346,8 @@ RenderSettings frame_of(const examples::Options& options, int samples,
 
 /// The reference of the box, by many paths.
 struct Reference {
-    Image image = {};          ///< The mean of two halves.
-    ImageT<double> exact = {}; ///< The same in double.
-    double noise = 0;          ///< Its variance, as the relMSE that it makes.
+    Image image = {}; ///< The mean of two halves.
+    double noise = 0; ///< Its variance, as the relMSE that it makes.
 };
 
 /// Two halves: their difference gives their own noise.
@@ -433,11 +365,10 @@ Reference reference_of(const Box& box, const examples::Options& options) {
     Reference truth{.image = halves[0]};
     for (std::size_t p = 0; p < truth.image.pixels.size(); ++p)
         truth.image.pixels[p] = 0.5f * (halves[0].pixels[p] + halves[1].pixels[p]);
-    truth.exact = block_means(truth.image, 1);
     for (std::size_t p = 0; p < truth.image.pixels.size(); ++p) {
         const RgbT<double> d = 0.5 * (RgbT<double>(halves[0].pixels[p]) -
                                       RgbT<double>(halves[1].pixels[p]));
-        const RgbT<double> r = truth.exact.pixels[p];
+        const RgbT<double> r(truth.image.pixels[p]);
         const RgbT<double> e = d * d / (r * r + default_epsilon);
         truth.noise += (e.x + e.y + e.z) / 3 / double(truth.image.pixels.size());
     }
@@ -447,21 +378,15 @@ Reference reference_of(const Box& box, const examples::Options& options) {
 /// The box after some passes.
 struct Milestone {
     long long passes = 0;
-    std::vector<Image> runs = {}; ///< One per seed that reached it.
-    double seconds = 0;           ///< Of the first seed.
-    double megabytes = 0;         ///< Peak memory so far.
-    double estimate = 0;          ///< Of its error.
-    double radius = 0;            ///< As a fraction of the first radius.
-    double faster = 0;            ///< relMSE with the exponent that suits edges.
+    double error = 0;  ///< relMSE.
+    double faster = 0; ///< The same with the exponent that suits edges.
 };
 
-/// Runs passes up to the last milestone within a limit, and calls at(milestone, state)
-/// at each.
+/// Runs passes up to the last milestone, and calls at(milestone, state) at each.
 template <typename Pass, typename At>
-void run_to(std::vector<Milestone>& milestones, long long limit, ProgressiveState state,
-            Pass pass, examples::ProgressBar bar, At at) {
+void run_to(std::vector<Milestone>& milestones, ProgressiveState state, Pass pass,
+            examples::ProgressBar bar, At at) {
     for (Milestone& milestone : milestones) {
-        if (milestone.passes > limit) break;
         (void)run_progressive(state, milestone.passes, pass, [&](const auto& now) {
             return bar(now.passes, milestones.back().passes);
         });
@@ -470,48 +395,27 @@ void run_to(std::vector<Milestone>& milestones, long long limit, ProgressiveStat
     }
 }
 
-/// The first seed runs to the end; the others as far as bias and variance are needed.
-void run_seeds(std::vector<Milestone>& milestones, const Box& box,
-               const examples::Options& options, int seeds, long long split_at) {
-    for (int seed = 1; seed <= seeds; ++seed) {
-        const auto number = std::uint64_t(seed);
-        const auto pass = [&](long long i, double scale) {
-            return photon_mapping_pass(box.world, box.camera,
-                                       pass_settings(options, number),
-                                       frame_of(options, 1, number), i, scale);
-        };
-        const double begin = examples::processor_seconds();
-        const auto keep = [&](Milestone& at, const ProgressiveState& state) {
-            at.runs.push_back(mean_image(state));
-            if (seed > 1) return;
-            at.seconds = examples::processor_seconds() - begin;
-            at.megabytes = peak_megabytes();
-            at.estimate = estimate_error(state).pixels;
-            at.radius = std::sqrt(state.shrink);
-        };
-        run_to(milestones, seed == 1 ? milestones.back().passes : split_at, {}, pass,
-               examples::ProgressBar("seed " + std::to_string(seed), options.quiet),
-               keep);
-    }
-}
-
-/// The same passes with the exponent that suits edges.
-void run_faster(std::vector<Milestone>& milestones, const Box& box,
+/// Passes of the box with two exponents: their errors at the milestones.
+void run_passes(std::vector<Milestone>& milestones, const Box& box,
                 const examples::Options& options, const Reference& truth) {
     const auto pass = [&](long long i, double scale) {
         return photon_mapping_pass(box.world, box.camera,
                                    pass_settings(options, options.seed),
                                    frame_of(options, 1, options.seed), i, scale);
     };
-    run_to(milestones, milestones.back().passes, {.alpha = 1.0 / 3}, pass,
+    const auto error = [&](const ProgressiveState& state) {
+        return rel_mse(mean_image(state), truth.image) - truth.noise;
+    };
+    run_to(milestones, {.alpha = 2.0 / 3}, pass,
+           examples::ProgressBar("alpha 2/3", options.quiet),
+           [&](Milestone& at, const ProgressiveState& now) { at.error = error(now); });
+    run_to(milestones, {.alpha = 1.0 / 3}, pass,
            examples::ProgressBar("alpha 1/3", options.quiet),
-           [&](Milestone& at, const ProgressiveState& state) {
-               at.faster = rel_mse(mean_image(state), truth.image) - truth.noise;
-           });
+           [&](Milestone& at, const ProgressiveState& now) { at.faster = error(now); });
 }
 
 /// The error of the box against the number of passes.
-void save_errors(const std::vector<Milestone>& milestones, const Reference& truth,
+void save_errors(const std::vector<Milestone>& milestones,
                  const examples::Options& options) {
     examples::Plot plot{
         .name = "progressive-picture",
@@ -519,114 +423,28 @@ void save_errors(const std::vector<Milestone>& milestones, const Reference& trut
         .y_label = "relMSE of the box",
         .log_x = true,
         .log_y = true};
-    examples::Table table{.name = "progressive-picture-table",
-                          .columns = {"passes", "processor seconds", "radius", "relMSE",
-                                      "squared bias", "variance", "FLIP",
-                                      "estimated error per pixel", "peak memory, MB"}};
-    double first = 0;
+    const double first = milestones.front().error;
     for (const Milestone& at : milestones) {
-        const auto split =
-            at.runs.size() > 1
-                ? examples::relative_split(at.runs, truth.exact, truth.noise)
-                : BiasVariance{std::nan(""), std::nan("")};
-        const double error = rel_mse(at.runs[0], truth.image) - truth.noise;
         const auto n = double(at.passes);
-        if (plot.rows.empty()) first = error;
-        plot.rows.push_back({n, error, at.faster, first * std::pow(n, -2.0 / 3),
+        plot.rows.push_back({n, at.error, at.faster, first * std::pow(n, -2.0 / 3),
                              first * std::pow(n, -1.0 / 3)});
-        table.rows.push_back(
-            {std::to_string(at.passes), examples::text(at.seconds, "%.2f"),
-             examples::text(at.radius, "%.2f"), examples::text(error, "%.2g"),
-             examples::text(split.bias_squared, "%.2g"),
-             examples::text(split.variance, "%.2g"),
-             examples::text(flip(at.runs[0], truth.image), "%.3f"),
-             at.passes > 1 ? examples::text(at.estimate, "%.2g") : "",
-             examples::text(at.megabytes, "%.0f")});
-        if (!options.quiet) examples::print_row(table.rows.back(), 10);
     }
     save_plot(options.out, plot);
-    save_table(options.out, table);
 }
 
-/// As many photons and rays at once, with radii that one must choose.
-void beside_one_map(const Box& box, long long passes, const Reference& truth,
-                    const examples::Options& options, int seeds) {
-    examples::Table table{.name = "progressive-beside",
-                          .columns = {"how", "processor seconds", "relMSE",
-                                      "squared bias", "variance", "FLIP"}};
-    // All seeds of one way, and the time of the first.
-    const auto try_way = [&](const std::string& how, auto make) {
-        std::vector<Image> runs;
-        double time = 0, seen = 0;
-        for (int seed = 1; seed <= seeds; ++seed) {
-            const double begin = examples::processor_seconds();
-            runs.push_back(make(std::uint64_t(seed)));
-            if (seed == 1) time = examples::processor_seconds() - begin;
-            examples::stop_if_asked();
-        }
-        const auto split = examples::relative_split(runs, truth.exact, truth.noise);
-        for (const Image& run : runs)
-            seen += flip(run, truth.image) / double(runs.size());
-        table.rows.push_back(
-            {how, examples::text(time, "%.2f"),
-             examples::text(split.bias_squared + split.variance, "%.2g"),
-             examples::text(split.bias_squared, "%.2g"),
-             examples::text(split.variance, "%.2g"), examples::text(seen, "%.3f")});
-        if (!options.quiet) examples::print_row(table.rows.back(), 10);
-    };
-    const auto settings_of = [&](double scale, long long times, std::uint64_t seed) {
-        auto settings = pass_settings(options, seed);
-        settings.caustics.photons *= times;
-        settings.general.photons *= times;
-        settings.caustics_estimate.radius *= float(scale);
-        settings.general_estimate.radius *= float(scale);
-        return settings;
-    };
-    const std::string count = std::to_string(passes) + " passes, first radius ";
-    for (const double scale : {1.0, 0.5, 0.35})
-        try_way(count + examples::text(scale, "%.2f"), [&](std::uint64_t seed) {
-            ProgressiveState state;
-            const auto pass = [&](long long i, double shrunk) {
-                return photon_mapping_pass(box.world, box.camera,
-                                           settings_of(scale, 1, seed),
-                                           frame_of(options, 1, seed), i, shrunk);
-            };
-            (void)run_progressive(state, passes, pass,
-                                  [](const auto&) { return true; });
-            return mean_image(state);
-        });
-    for (const double scale : {1.0, 0.5, 0.35, 0.25})
-        try_way("one map, radius " + examples::text(scale, "%.2f"),
-                [&](std::uint64_t seed) {
-                    const auto settings = settings_of(scale, passes, seed);
-                    const PhotonMapper mapper(box.world, settings);
-                    return render(mapper, box.camera,
-                                  frame_of(options, int(passes), seed))
-                        .image;
-                });
-    save_table(options.out, table);
-}
-
-/// The box after more and more passes, and beside one map of as many photons.
+/// The box after more and more passes.
 void pictures(const examples::Options& options, const Sizes& sizes) {
     const Box box = cornell_box();
     const Reference truth = reference_of(box, options);
-    const long long split_at = options.pick(4, 64, 256);
     std::vector<Milestone> all;
     for (const long long passes : milestones(sizes.passes)) all.push_back({passes});
-    run_seeds(all, box, options, sizes.seeds, split_at);
-    run_faster(all, box, options, truth);
-    save_errors(all, truth, options);
-
-    long long compared = all.front().passes; // the last milestone of all seeds
-    for (const Milestone& at : all)
-        if (at.passes <= split_at) compared = at.passes;
-    beside_one_map(box, compared, truth, options, sizes.seeds);
+    run_passes(all, box, options, truth);
+    save_errors(all, options);
 }
 
 } // namespace
 
-/// Makes the tables and plots of chapter 31.
+/// Makes the plots and the table of chapter 32.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; after an exception 2, with one sentence on stderr.

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 16 --height 16 --rungs 2 --seeds 2 --truth 16
 /// \file chapters/experiments/33_experiments.cpp
-/// \brief Chapter 33: two rooms by all renderers: error against time, the same time,
-/// the same error, bias and noise, and which light paths each carries.
+/// \brief Chapter 33: two rooms by all renderers: error against time, the same time, bias
+/// and noise, and which light paths each carries.
 
 #include <algorithm>
 #include <array>
@@ -111,7 +111,6 @@ std::size_t bytes_of(const PhotonMap& map) {
 
 /// The photon maps' efforts: photons in proportion to the rays, and
 /// a radius that shrinks with their sixth root, so that bias and noise fall together.
-// [photon effort]
 PhotonMappingSettings photon_settings(IndirectLight indirect, double effort,
                                       std::uint64_t seed) {
     const bool direct = indirect == IndirectLight::photons;
@@ -124,7 +123,6 @@ PhotonMappingSettings photon_settings(IndirectLight indirect, double effort,
             .caustics_estimate{.radius = 0.15f * smaller},
             .general_estimate{.radius = (direct ? 0.35f : 0.5f) * smaller}};
 }
-// [photon effort]
 
 using Cameras = std::vector<Camera>;
 
@@ -212,7 +210,6 @@ struct Rung {
     double photons = 0;    ///< Emitted.
     BiasVariance pixels{}; ///< The two parts of relMSE.
     BiasVariance blocks{}; ///< The same for means of 10 x 10 pixels.
-    Image image{};         ///< Of the first seed.
 
     [[nodiscard]] double error(bool block) const {
         const BiasVariance& parts = block ? blocks : pixels;
@@ -248,7 +245,6 @@ Rgb lamps_and_caustics(const Judge& judge, const VertexT<float>& at,
                                      light_kinds, context.counts.map_photons);
 }
 
-// [judge]
 Rgb radiance(const Judge& judge, const Ray& ray, auto& context) {
     Rgb sum{0};
     PathState path{.ray = ray};
@@ -271,7 +267,6 @@ Rgb radiance(const Judge& judge, const Ray& ray, auto& context) {
     }
     return sum;
 }
-// [judge]
 
 /// A room by the renderer of the reference.
 /// \param photons  Of the caustics map.
@@ -351,7 +346,6 @@ void climb(Study& study, const std::vector<Method>& all,
             result.pixels = examples::relative_split(images, study.truth, study.noise);
             result.blocks =
                 examples::relative_split(images, study.truth, study.block_noise, 10);
-            result.image = images[0];
             if (!options.quiet)
                 std::printf("%s, %s, effort %.0f: %.3f s, %.0f rays, %.0f photons, "
                             "relMSE %.5f (bias^2 %.5f), blocks %.6f (bias^2 %.6f)\n",
@@ -445,7 +439,7 @@ void split_table(const Study& study, const std::vector<Method>& all,
                     std::sqrt(smallest / study.noise));
 }
 
-// --- The same time, the same error ----------------------------------------------------
+// --- The same time --------------------------------------------------------------------
 
 /// A picture of a method for a panel.
 Shot panel(const Study& study, const Method& method, double effort,
@@ -504,52 +498,6 @@ void equal_time(const Study& study, const std::vector<Method>& all,
                      block_error(shot.image, study.truth) - study.block_noise, "%.6f"),
                  examples::text(flip(shot.image, study.truth), "%.3f")});
         }
-    examples::show_table(options, table);
-}
-
-/// Time and rays that each needs for an error, and pictures by the effort for one of
-/// them.
-void equal_error(const Study& study, const std::vector<Method>& all,
-                 const std::vector<Method>& larger, const examples::Options& options) {
-    examples::Table table{.name = "side_by_side-" + study.name + "-error",
-                          .columns = {""}};
-    struct Target {
-        bool block;
-        double error;
-    };
-    const std::array targets{Target{false, 0.1}, Target{false, 0.03},
-                             Target{true, 0.003}, Target{true, 0.001}};
-    for (const Target& target : targets)
-        table.columns.push_back((target.block ? std::string("blocks ") : "relMSE ") +
-                                examples::text(target.error));
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const auto& rungs = study.runs[k];
-        std::vector<std::string> row{all[k].name};
-        for (const Target& target : targets) {
-            const auto error = errors(rungs, target.block);
-            const double seconds = examples::reach(times(rungs), error, target.error);
-            const double rays =
-                examples::reach(column(rungs, [](const Rung& r) { return r.rays; }),
-                                error, target.error);
-            row.push_back(std::isnan(seconds)
-                              ? "not by " +
-                                    examples::text(rungs.back().seconds, "%.2f") +
-                                    " s: " + examples::text(error.back(), "%.2g")
-                              : examples::text(seconds, "%.3f") + " s, " +
-                                    examples::text(rays / 1000, "%.0f") + "k rays");
-        }
-        table.rows.push_back(row);
-        if (study.name != "matt") continue;
-        // The panel: the run with the first error, or the closest one.
-        const double effort =
-            examples::reach(column(rungs, [](const Rung& r) { return r.effort; }),
-                            errors(rungs, targets[1].block), targets[1].error);
-        const Shot shot =
-            panel(study, larger[k], std::isnan(effort) ? rungs.back().effort : effort,
-                  options);
-        save_png(shot.image, options.path("side_by_side-" + study.name + "-error-" +
-                                          all[k].file + ".png"));
-    }
     examples::show_table(options, table);
 }
 
@@ -690,8 +638,7 @@ void class_table(const Study& study, const examples::Options& options,
 
 /// The cost of the first view and of each further one, and the memory kept.
 void views(const Study& study, const std::vector<Method>& all,
-           const std::vector<Method>& larger, const examples::Options& options,
-           const Sizes& sizes) {
+           const examples::Options& options, const Sizes& sizes) {
     constexpr int count = 5;
     std::vector<Camera> cameras;
     for (int i = 0; i < count; ++i) {
@@ -706,8 +653,7 @@ void views(const Study& study, const std::vector<Method>& all,
                                       "a further view over the first", "kept",
                                       "while it is made"}};
     const double effort = std::pow(4.0, sizes.rungs - 1);
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const Method& method = all[k];
+    for (const Method& method : all) {
         if (method.file == "whitted" || method.file == "distributed") continue;
         const auto shots =
             method.shoot(study.room.world, cameras, effort, options.seed);
@@ -724,21 +670,13 @@ void views(const Study& study, const std::vector<Method>& all,
                               examples::text(view, "%.3f"),
                               examples::text(view / (solution + view), "%.2f"),
                               size(shots[0].memory), size(shots[0].working)});
-        if (method.file == "seen" || method.file == "radiosity") {
-            const auto shown =
-                larger[k].shoot(study.room.world, cameras, effort, options.seed);
-            for (int i = 0; i < count; i += 2)
-                save_png(shown[std::size_t(i)].image,
-                         options.path("side_by_side-" + study.name + "-view-" +
-                                      method.file + "-" + std::to_string(i) + ".png"));
-        }
     }
     examples::show_table(options, table);
 }
 
 } // namespace
 
-/// Makes the plots, tables and further pictures of chapter 21.
+/// Makes the plots, tables and further pictures of chapter 33.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; after an exception 2, with one sentence on stderr.
@@ -769,11 +707,10 @@ int main(int argc, char** argv) {
             find_truth(study, sizes.truth, options, panels);
             climb(study, all, options, sizes);
             plots(study, all, options);
-            split_table(study, all, options);
+            if (matt) split_table(study, all, options);
             equal_time(study, all, larger, options);
-            equal_error(study, all, larger, options);
             class_table(study, options, sizes);
-            if (matt) views(study, all, larger, options, sizes);
+            if (matt) views(study, all, options, sizes);
         }
     });
 }

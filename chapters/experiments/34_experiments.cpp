@@ -1,8 +1,7 @@
-// smoke: --quality draft --width 16 --height 16 --most 10 --repeats 1 --truth 64
+// smoke: --quality draft --width 16 --height 16 --most 10 --repeats 1
 /// \file chapters/experiments/34_experiments.cpp
 /// \brief Chapter 34: the experiments behind its tables and plots: the model behind the
-/// times of table 1, the cost of a loop and a thread, and the same bytes for any number
-/// of threads.
+/// times of table 1, schedules, and the same bytes for any number of threads.
 
 #include <algorithm>
 #include <array>
@@ -29,7 +28,6 @@ using examples::text;
 struct Sizes {
     int most = 0;    ///< The largest number of rays of table 1 that is tried.
     int repeats = 0; ///< Pairs of one thread and several.
-    int truth = 0;   ///< Rays per pixel of the reference.
 };
 
 /// The columns of a table of times.
@@ -154,20 +152,6 @@ Line save_lines(const Times& measured, const FirstPass& alone, const FirstPass& 
     once("build the k-d tree, 1 thread", alone.tree.wall);
     save_table(options.path(""), lines);
     return loop;
-}
-
-/// The reference of table 1.
-template <typename R>
-void save_truth(const R& room, const examples::Options& options, const Sizes& sizes) {
-    const int side = std::min(options.pick(20, 64, 100), options.width);
-    const auto oracle =
-        examples::find_oracle("four-glass", room, side, sizes.truth, options);
-    const examples::Table truth{
-        .name = "parallel-truth",
-        .columns = {"reference", "rays per pixel", "its own relMSE"},
-        .rows = {{"path tracing, no limit of depth", std::to_string(oracle.rays),
-                  text(oracle.noise, "%.2g")}}};
-    save_table(options.path(""), truth);
 }
 
 /// The straight lines through the times of table 1.
@@ -340,9 +324,6 @@ void schedules(const Image& costs, const examples::Options& options) {
                         .y_label = "speed-up over the number of threads",
                         .log_x = true,
                         .more = "set format x '%g'\nset yrange [0.6:1.02]\n"};
-    examples::Table table{.name = "parallel-schedule-table",
-                          .columns = {"threads", "strips, dynamic", "rows, dynamic",
-                                      "rows, static", "column by column"}};
     for (const int threads : {1, 2, 3, 4, 8, 16, 32, 64}) {
         const auto strips = strips_of(costs, 16), rows = strips_of(costs, costs.width);
         const std::array speed{all / dynamic_schedule(strips, threads).end,
@@ -351,12 +332,8 @@ void schedules(const Image& costs, const examples::Options& options) {
                                all / column_by_column(costs, threads)};
         plot.rows.push_back({double(threads)});
         for (const double s : speed) plot.rows.back().push_back(s / threads);
-        std::vector<std::string> row{std::to_string(threads)};
-        for (const double s : speed) row.push_back(text(s, "%.2f"));
-        table.rows.push_back(row);
     }
     save_plot(options.path(""), plot);
-    save_table(options.path(""), table);
 }
 
 // --- Amdahl's law --------------------------------------------------------------------
@@ -369,10 +346,6 @@ void amdahl(const FirstPass& first, const Line& loop,
                         .log_x = true,
                         .log_y = true,
                         .more = "set format xy '%g'\n"};
-    examples::Table table{.name = "parallel-amdahl-table",
-                          .columns = {"rays per pixel", "shared out, s",
-                                      "not shared, s",
-                                      "limit for any number of threads"}};
     for (int threads = 1; threads <= 1024; threads *= 2) {
         examples::Row row{double(threads)};
         for (const int rays : {1, 10, 100, 1000}) {
@@ -382,14 +355,7 @@ void amdahl(const FirstPass& first, const Line& loop,
         }
         plot.rows.push_back(row);
     }
-    for (const int rays : {1, 10, 100, 1000}) {
-        const double shared = first.emission.wall + loop.each * rays;
-        table.rows.push_back({std::to_string(rays), text(shared, "%.3g"),
-                              text(first.tree.wall, "%.3g"),
-                              text(1 + shared / first.tree.wall, "%.3g")});
-    }
     save_plot(options.path(""), plot);
-    save_table(options.path(""), table);
 }
 
 // --- The same bytes ------------------------------------------------------------------
@@ -463,129 +429,26 @@ bool same_bytes(const R& room, const examples::Options& options) {
     }
     save_table(options.path(""), table);
 
-    // Strips of rows, as machines would render them.
-    const PhotonMappingSettings settings = report_settings(options.threads);
-    const PhotonMapper mapper(room.world, settings);
-    const RenderSettings picture{size, size, 4, options.seed, options.threads};
-    examples::Table machines{.name = "parallel-strips",
-                             .columns = {"strips", "picture"}};
-    for (const int strips : {1, 2, 3, 16}) {
-        std::vector<Rgb> whole;
-        for (int i = 0; i < strips; ++i) {
-            const auto part = render_rows(mapper, room.camera, picture,
-                                          {size * i / strips, size * (i + 1) / strips});
-            whole.insert(whole.end(), part.image.pixels.begin(),
-                         part.image.pixels.end());
-        }
-        machines.rows.push_back(
-            {std::to_string(strips), examples::hex_text(examples::hash_of(whole))});
-        same = same && machines.rows.back()[1] == table.rows[0][2];
-    }
-    save_table(options.path(""), machines);
     return same;
-}
-
-// --- What threads cost ---------------------------------------------------------------
-
-/// More threads than processors: the same work, in turns.
-template <typename R>
-void oversubscribed(const R& room, const examples::Options& options, int repeats) {
-    const PhotonMappingSettings settings = report_settings(0);
-    const PhotonMapper mapper(room.world, settings);
-    examples::Table table{
-        .name = "parallel-threads",
-        .columns = {"threads", "seconds", "speed-up", "total processor time"}};
-    const std::array counts{1, 2, 3, 4, 8, 16, 64};
-    std::array<std::vector<double>, counts.size()> wall, work;
-    for (int repeat = 0; repeat < std::max(3, repeats); ++repeat)
-        for (std::size_t i = 0; i < counts.size(); ++i) {
-            const Timing took = timed([&] {
-                (void)render(mapper, room.camera,
-                             {options.width, options.height, options.pick(1, 4, 4),
-                              options.seed, counts[i]});
-            });
-            wall[i].push_back(took.wall);
-            work[i].push_back(took.work);
-            examples::stop_if_asked();
-        }
-    for (std::size_t i = 0; i < counts.size(); ++i)
-        table.rows.push_back({std::to_string(counts[i]), text(median(wall[i]), "%.3g"),
-                              text(median(wall[0]) / median(wall[i]), "%.2f"),
-                              text(median(work[i]) / median(work[0]), "%.2f")});
-    save_table(options.path(""), table);
-}
-
-/// An empty loop: the cost of waking the threads, and of a block.
-void empty_loops(const examples::Options& options, int threads) {
-    examples::Table table{.name = "parallel-empty",
-                          .columns = {"threads", "loop of 2 blocks, microseconds",
-                                      "ns per further block"}};
-    for (const int by : {1, threads}) {
-        const auto loop = [by](long long blocks) {
-            std::vector<double> taken;
-            for (int i = 0; i < 101; ++i) {
-                const examples::StopWatch watch;
-                parallel_blocks(blocks, [](long long) {}, {.threads = by});
-                taken.push_back(watch.seconds());
-            }
-            return median(taken);
-        };
-        const double few = loop(2), many = loop(100002);
-        table.rows.push_back({std::to_string(by), text(1e6 * few, "%.3g"),
-                              text(1e9 * (many - few) / 100000, "%.3g")});
-    }
-    save_table(options.path(""), table);
-}
-
-// --- On many machines, on paper ------------------------------------------------------
-
-/// The limits of many machines, from the times above and a network of a gigabyte
-/// per second.
-void machines(const FirstPass& first, const Line& loop, std::size_t photons,
-              const examples::Options& options) {
-    constexpr double network = 1e9; // bytes per second
-    examples::Table table{.name = "parallel-machines",
-                          .columns = {"ranks", "photons, s", "joining them, s",
-                                      "tree, s", "64 rays per pixel, s", "picture, s",
-                                      "in all, s", "speed-up"}};
-    const double bytes = double(photons) * sizeof(Photon);
-    const double pixels = double(options.width) * options.height;
-    const double alone = first.emission.wall + first.tree.wall + 64 * loop.each;
-    for (const int ranks : {1, 16, 256, 4096}) {
-        // Joining: every rank receives all photons but its own, in a ring.
-        const double join = ranks == 1 ? 0 : bytes * (ranks - 1) / ranks / network;
-        const double gather = ranks == 1 ? 0 : pixels * sizeof(Rgb) / network;
-        const double emission = first.emission.wall / ranks,
-                     view = 64 * loop.each / ranks;
-        const double all = emission + join + first.tree.wall + view + gather;
-        table.rows.push_back({std::to_string(ranks), text(emission, "%.2g"),
-                              text(join, "%.2g"), text(first.tree.wall, "%.2g"),
-                              text(view, "%.2g"), text(gather, "%.2g"),
-                              text(all, "%.2g"), text(alone / all, "%.3g")});
-    }
-    save_table(options.path(""), table);
 }
 
 } // namespace
 
-/// Makes the tables and figures of chapter 32.
+/// Makes the tables and figures of chapter 34.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 34, many threads: what they cost, and the same bytes.");
+        line.about("Chapter 34, many threads: schedules, and the same bytes.");
         line.add("--most", sizes.most, "The largest number of rays that is timed", 10,
                  1000);
         line.add("--repeats", sizes.repeats, "Pairs of one thread and several", 1,
                  1000);
-        line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8,
-                 100000000);
         const examples::Options options =
             line.parse({.draft{.width = 48, .height = 48, .samples = 4},
                         .report{.width = 400, .height = 400, .samples = 64},
                         .reference{.width = 400, .height = 400, .samples = 64}});
         if (!line.given("--most")) sizes.most = options.pick(100, 1000, 1000);
         if (!line.given("--repeats")) sizes.repeats = options.pick(3, 3, 5);
-        if (!line.given("--truth")) sizes.truth = options.pick(512, 32768, 262144);
         const int processors = int(std::thread::hardware_concurrency());
         const int threads =
             std::max(2, options.threads > 0 ? options.threads : processors);
@@ -593,7 +456,6 @@ int main(int argc, char** argv) {
         const auto room = four_glass_room();
         Line loop;
         const FirstPass first = lines(room, options, sizes, threads, loop);
-        save_truth(room, options, sizes);
 
         const PhotonMappingSettings settings = report_settings(options.threads);
         const PhotonMapper mapper(room.world, settings);
@@ -606,12 +468,9 @@ int main(int argc, char** argv) {
                                 .image;
         schedules(costs, options);
         amdahl(first, loop, options);
-        machines(first, loop, mapper.maps().caustics.records.size(), options);
         const bool same = same_bytes(room, options);
-        oversubscribed(room, options, sizes.repeats);
-        empty_loops(options, threads);
         if (!options.quiet)
-            std::printf("1, 2, 3 and 8 threads, and 1 to 16 strips: %s\n",
+            std::printf("1, 2, 3 and 8 threads: %s\n",
                         same ? "the same bytes" : "NOT the same bytes");
         if (!same)
             throw std::runtime_error("the number of threads has changed the picture");

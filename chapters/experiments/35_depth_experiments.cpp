@@ -86,67 +86,6 @@ void furnace_by_depth(int rays, const examples::Options& options) {
     save_plot(options.path(""), plot);
 }
 
-/// A mean over runs.
-struct Mean {
-    double value = 0;
-    double error = 0; ///< Its standard error.
-};
-
-/// The light of a furnace, by paths that end in some way: four runs.
-template <typename Paths>
-Mean light_of(const Paths& paths, const Camera& camera, int rays, int threads) {
-    std::vector<Image> runs;
-    for (std::uint64_t seed = 1; seed <= 4; ++seed)
-        runs.push_back(render(paths, camera,
-                              {.width = 32,
-                               .height = 32,
-                               .samples = rays,
-                               .seed = seed,
-                               .threads = threads})
-                           .image);
-    const double mean = mean_of(runs);
-    double squares = 0;
-    for (const Image& run : runs) {
-        const double off = mean_of({run}) - mean;
-        squares += off * off;
-    }
-    return {mean, std::sqrt(squares / 3 / 4)};
-}
-
-/// The light that each way to end a path loses in a room with a known solution.
-void furnace_by_ending(int rays, const examples::Options& options) {
-    examples::Table table{.name = "recursion_depth-furnace-table",
-                          .columns = {"albedo", "depth 4", "threshold 0.1",
-                                      "threshold 0.01", "roulette",
-                                      "its standard error"}};
-    for (const float albedo : {0.5f, 0.75f, 0.9f}) {
-        const auto room = sphere_furnace<float>(Rgb{1}, Rgb{albedo});
-        const double all = 1 / (1 - double(albedo));
-        std::vector<std::string> row{text(double(albedo))};
-        Mean light;
-        const auto add = [&](Ending ending, int depth, double threshold) {
-            light = light_of(
-                examples::make_ended_paths(room.world, ending, depth, threshold),
-                room.camera, rays, options.threads);
-            row.push_back(percent(light.value, all));
-        };
-        add(Ending::depth, 4, 1);
-        add(Ending::threshold, 0, 0.1);
-        add(Ending::threshold, 0, 0.01);
-        add(Ending::roulette, 4, 1);
-        row.push_back(text(100 * light.error / all, "%.2g %%"));
-        table.rows.push_back(row);
-    }
-    save_table(options.path(""), table);
-}
-
-/// The light that is lost in a room with a known solution.
-void furnace(const examples::Options& options) {
-    const int rays = options.pick(16, 64, 256);
-    furnace_by_depth(rays, options);
-    furnace_by_ending(4 * rays, options);
-}
-
 // --- Depth, threshold, roulette: error against time ----------------------------------
 
 void endings(const Room4& room, const examples::Oracle& oracle,
@@ -210,14 +149,11 @@ struct Sharing {
 
 /// The results of a way: means over the seeds.
 struct Shared {
-    double rays = 0;           ///< Per pixel, in the mean.
-    double seconds = 0;        ///< Processor time.
-    double error = 0;          ///< relMSE.
-    double block = 0;          ///< Of the means of 10 x 10 pixels.
-    double trimmed = 0;        ///< Without the worst hundredth.
-    double estimate = 0;       ///< The renderer's own relMSE.
-    double mean = 0;           ///< Light.
-    std::vector<Image> runs{}; ///< The pictures.
+    double rays = 0;     ///< Per pixel, in the mean.
+    double error = 0;    ///< relMSE.
+    double trimmed = 0;  ///< Without the worst hundredth.
+    double estimate = 0; ///< The renderer's own relMSE.
+    double mean = 0;     ///< Light.
 };
 
 template <typename Renderer>
@@ -231,7 +167,6 @@ Shared share(const Renderer& renderer, const Camera& camera, const Sharing& way,
                                      .samples = samples,
                                      .seed = std::uint64_t(seed),
                                      .threads = options.threads};
-        const double start = examples::processor_seconds();
         Image image;
         double rays = samples;
         if (way.rule) {
@@ -243,15 +178,12 @@ Shared share(const Renderer& renderer, const Camera& camera, const Sharing& way,
         } else {
             image = render(renderer, camera, picture).image;
         }
-        found.seconds += (examples::processor_seconds() - start) / seeds;
         found.rays += rays / seeds;
         found.error += rel_mse(image, truth) / seeds;
-        found.block += block_error(image, truth) / seeds;
         found.trimmed += trimmed_rel_mse(image, truth) / seeds;
-        found.runs.push_back(image);
+        found.mean += mean_of({image}) / seeds;
         examples::stop_if_asked();
     }
-    found.mean = mean_of(found.runs);
     return found;
 }
 
@@ -277,7 +209,6 @@ ImageT<double> own_truth(const Renderer& renderer, const Camera& camera, int siz
 /// A renderer with which ways to distribute rays are tried.
 template <typename Renderer>
 struct Trial {
-    std::string name; ///< In names of files.
     const Renderer& renderer;
     const Camera& camera;
     const examples::Options& options;
@@ -310,32 +241,19 @@ template <typename Renderer>
 void error_of_sharing(const Trial<Renderer>& trial) {
     const auto& options = trial.options;
     const std::vector<Sharing> ways = sharings();
-    examples::Plot plot{.name = "recursion_depth-adaptive-" + trial.name,
+    examples::Plot plot{.name = "recursion_depth-adaptive-photons",
                         .columns = {"rays per pixel"},
                         .y_label = "relMSE",
                         .log_x = true,
                         .log_y = true};
     for (const Sharing& way : ways) plot.columns.push_back(way.name);
-    examples::Table table{.name = "recursion_depth-adaptive-" + trial.name + "-table",
-                          .columns = {"rays", "", "relMSE", "estimated relMSE",
-                                      "trimmed", "blocks", "light", "s"}};
-    const double level = mean_of(trial.truth);
     const int most = options.pick(64, 256, 1024);
     for (int samples = 16; samples <= most; samples *= 4) {
         examples::Row row{double(samples)};
-        for (const Sharing& way : ways) {
-            const Shared found = trial(way, samples);
-            row.push_back(found.error);
-            table.rows.push_back(
-                {text(found.rays, "%.1f"), way.name, text(found.error, "%.2g"),
-                 way.rule ? text(found.estimate, "%.2g") : "",
-                 text(found.trimmed, "%.2g"), text(found.block, "%.2g"),
-                 percent(found.mean, level), text(found.seconds, "%.2g")});
-        }
+        for (const Sharing& way : ways) row.push_back(trial(way, samples).error);
         plot.rows.push_back(row);
     }
-    if (trial.name == "photons") save_plot(options.path(""), plot);
-    save_table(options.path(""), table);
+    save_plot(options.path(""), plot);
 }
 
 /// Where the rays went: the picture, and a map of their number.
@@ -349,7 +267,7 @@ void map_of_rays(const Trial<Renderer>& trial) {
                                        .seed = options.seed,
                                        .threads = options.threads},
                                       {.first = 8, .more = 8, .block = 4});
-    save_png(seen.image, options.path("recursion_depth-" + trial.name + ".png"));
+    save_png(seen.image, options.path("recursion_depth-photons.png"));
     ImageT<double> rays = make_image<double>(seen.rays.width, seen.rays.height);
     double largest = 0;
     for (std::size_t i = 0; i < rays.pixels.size(); ++i) {
@@ -357,13 +275,13 @@ void map_of_rays(const Trial<Renderer>& trial) {
         largest = std::max(largest, rays.pixels[i].x);
     }
     save_png(error_picture(rays, examples::Ramp::heat, 0, std::min(largest, 256.0)),
-             options.path("recursion_depth-" + trial.name + "-rays.png"));
+             options.path("recursion_depth-photons-rays.png"));
 }
 
 /// Rays until each block estimates that its error is small enough.
 template <typename Renderer>
 void stop_at_error(const Trial<Renderer>& trial) {
-    examples::Table table{.name = "recursion_depth-stop-" + trial.name,
+    examples::Table table{.name = "recursion_depth-stop-photons",
                           .columns = {"stop at relMSE", "", "rays per pixel",
                                       "estimated relMSE", "relMSE", "trimmed",
                                       "light"}};
@@ -387,41 +305,14 @@ void stop_at_error(const Trial<Renderer>& trial) {
     save_table(trial.options.path(""), table);
 }
 
-/// Two rays, and more where they disagree, beside the same number everywhere.
-template <typename Renderer>
-void more_where_two_disagree(const Trial<Renderer>& trial) {
-    examples::Table table{.name = "recursion_depth-pairs-" + trial.name,
-                          .columns = {"8 more rays above", "rays per pixel", "relMSE",
-                                      "relMSE, the same everywhere", "trimmed",
-                                      "trimmed, the same everywhere", "light"}};
-    for (const double limit : {1.0, 0.5, 0.25, 0.1}) {
-        const Sharing way{"", [limit](int) {
-                              return AdaptiveSettings{.first = 2,
-                                                      .more = 8,
-                                                      .batches = 1,
-                                                      .disagreement = limit};
-                          }};
-        const Shared found = trial(way, 10);
-        const int many = std::max(1, static_cast<int>(std::lround(found.rays)));
-        const Shared alike = trial({"", {}}, many);
-        table.rows.push_back(
-            {text(limit), text(found.rays, "%.2f"), text(found.error, "%.2g"),
-             text(alike.error, "%.2g") + " (" + std::to_string(many) + ")",
-             text(found.trimmed, "%.2g"), text(alike.trimmed, "%.2g"),
-             percent(found.mean, mean_of(trial.truth))});
-    }
-    save_table(trial.options.path(""), table);
-}
-
 /// A trial of one renderer, judged by its own picture with many rays.
 template <typename Renderer>
-Trial<Renderer> trial_of(const std::string& name, const Renderer& renderer,
-                         const Camera& camera, const examples::Options& options,
-                         const Sizes& sizes) {
+Trial<Renderer> trial_of(const Renderer& renderer, const Camera& camera,
+                         const examples::Options& options, const Sizes& sizes) {
     const int size = std::min(options.pick(24, 96, 128), options.width);
     const int rays = std::max(16, sizes.truth / options.pick(1, 4, 4));
-    return {name,    renderer,    camera,
-            options, sizes.seeds, own_truth(renderer, camera, size, rays, options)};
+    return {renderer, camera, options, sizes.seeds,
+            own_truth(renderer, camera, size, rays, options)};
 }
 
 /// The bias of choosing by the rays that are averaged, in closed form: a bright spot
@@ -454,7 +345,7 @@ void spot(const examples::Options& options) {
 
 } // namespace
 
-/// Makes the tables and figures of chapter 34.
+/// Makes the tables and figures of chapter 35 on depth and on adaptive sampling.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
@@ -470,18 +361,12 @@ int main(int argc, char** argv) {
         if (!line.given("--truth")) sizes.truth = options.pick(512, 32768, 262144);
 
         spot(options);
-        furnace(options);
+        furnace_by_depth(options.pick(16, 64, 256), options);
         const auto room = four_glass_room();
         const int side = std::min(options.pick(20, 64, 100), options.width);
         const auto oracle =
             examples::find_oracle("four-glass", room, side, sizes.truth, options);
         endings(room, oracle, options, sizes);
-        examples::Table truth{
-            .name = "recursion_depth-truth",
-            .columns = {"reference", "rays per pixel", "its own relMSE", "of blocks"},
-            .rows = {{"path tracing, no limit of depth", std::to_string(oracle.rays),
-                      text(oracle.noise, "%.2g"), text(oracle.block_noise, "%.2g")}}};
-        save_table(options.path(""), truth);
 
         // Without split_glass a few fireflies would decide all errors.
         PhotonMappingSettings settings{.split_glass = true};
@@ -490,15 +375,9 @@ int main(int argc, char** argv) {
         settings.caustics.threads = options.threads;
         settings.caustics_estimate.radius = 0.05f; // the report's
         const PhotonMapper mapper(room.world, settings);
-        const auto photons = trial_of("photons", mapper, room.camera, options, sizes);
+        const auto photons = trial_of(mapper, room.camera, options, sizes);
         error_of_sharing(photons);
         map_of_rays(photons);
         stop_at_error(photons);
-        more_where_two_disagree(photons);
-
-        const PathTracer tracer(room.world);
-        const auto paths = trial_of("paths", tracer, room.camera, options, sizes);
-        error_of_sharing(paths);
-        stop_at_error(paths);
     });
 }

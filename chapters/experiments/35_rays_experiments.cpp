@@ -45,88 +45,6 @@ PhotonMappingSettings settings_with(bool fixed_depth, std::uint64_t seed, int th
 
 using Room3 = decltype(all_materials_room());
 
-// --- Why one over the root -----------------------------------------------------------
-
-/// The luminance of each of many rays through one pixel: one of the floor,
-/// where the lamp is large and no glass is near.
-std::vector<double> values_of_pixel(const Room3& room,
-                                    const examples::Options& options) {
-    const auto settings = settings_with(false, options.seed, options.threads);
-    const PhotonMapper mapper(room.world, settings);
-    const RenderSettings picture{.width = 400,
-                                 .height = 400,
-                                 .samples = options.pick(1 << 14, 1 << 18, 1 << 18),
-                                 .seed = options.seed,
-                                 .sampling = Sampling::random};
-    const PictureRays rays(picture);
-    std::vector<double> values(static_cast<std::size_t>(picture.samples));
-    constexpr int block = 4096; // rays
-    const auto trace = [&](long long number) {
-        for (int i = 0; i < block; ++i) {
-            const int ray = int(number) * block + i;
-            Counts counts;
-            const auto found =
-                trace_pixel(mapper, room.camera, rays, {200, 330, ray}, counts);
-            values[std::size_t(ray)] = double(luminance(found.weight * found.radiance));
-        }
-    };
-    parallel_blocks(picture.samples / block, trace, {.threads = options.threads});
-    return values;
-}
-
-/// The means of groups of n values, over the mean of all.
-std::vector<double> means_of(const std::vector<double>& values, std::size_t n) {
-    double mean = 0;
-    for (const double value : values) mean += value / double(values.size());
-    std::vector<double> means;
-    for (std::size_t i = 0; i + n <= values.size(); i += n) {
-        means.push_back(0);
-        for (std::size_t k = i; k < i + n; ++k)
-            means.back() += values[k] / double(n) / mean;
-    }
-    return means;
-}
-
-/// Adds a column to a histogram from 0 to 2: a density, whose integral is 1.
-void add_histogram(std::vector<examples::Row>& rows, const std::vector<double>& means) {
-    const int bins = static_cast<int>(rows.size());
-    std::vector<double> count(rows.size(), 0.0);
-    for (const double m : means) {
-        const int bin = static_cast<int>(std::floor(m / 2 * bins));
-        if (bin >= 0 && bin < bins) count[std::size_t(bin)] += 1;
-    }
-    for (int bin = 0; bin < bins; ++bin) {
-        auto& row = rows[std::size_t(bin)];
-        if (row.empty()) row.push_back((bin + 0.5) * 2 / bins);
-        row.push_back(count[std::size_t(bin)] / double(means.size()) * bins / 2);
-    }
-}
-
-/// The means of n rays through one pixel, repeated: their distribution.
-void one_pixel(const Room3& room, const examples::Options& options) {
-    const auto values = values_of_pixel(room, options);
-    examples::Plot plot{
-        .name = "rays_per_pixel-spread",
-        .columns = {"mean of n rays over the true one", "n = 4", "16", "64", "256"},
-        .y_label = "probability density",
-        .rows = std::vector<examples::Row>(60)};
-    examples::Table table{
-        .name = "rays_per_pixel-spread-table",
-        .columns = {"rays", "standard deviation over the mean", "times √n"}};
-    for (const std::size_t n : {1u, 4u, 16u, 64u, 256u}) {
-        const auto means = means_of(values, n);
-        double squares = 0;
-        for (const double m : means)
-            squares += (m - 1) * (m - 1) / double(means.size());
-        table.rows.push_back({std::to_string(n), text(std::sqrt(squares), "%.3f"),
-                              text(std::sqrt(squares * double(n)), "%.3f")});
-        // One ray finds light or shadow, and little in between.
-        if (n > 1) add_histogram(plot.rows, means);
-    }
-    save_plot(options.path(""), plot);
-    save_table(options.path(""), table);
-}
-
 // --- Errors --------------------------------------------------------------------------
 
 /// The results of a number of rays, over several seeds.
@@ -178,50 +96,6 @@ std::vector<Rung> climb(const Method& method, const std::vector<int>& rays,
     return rungs;
 }
 
-/// The factor of a 95 % band for a slope through some points: Student's t.
-double student_95(std::size_t points) {
-    constexpr std::array<double, 9> t{0,     0,     0,     12.71, 4.303,
-                                      3.182, 2.776, 2.571, 2.447};
-    return points < 3 ? nothing : points < t.size() ? t[points] : 2.2;
-}
-
-/// "-1.02 +- 0.05": a slope and its 95 % band.
-std::string slope_text(const std::vector<double>& x, const std::vector<double>& y) {
-    const auto law = examples::fit_power(x, y);
-    const double band = law.error * student_95(x.size());
-    return std::isnan(band) ? text(law.slope, "%.2f")
-                            : text(law.slope, "%.2f") + " ± " + text(band, "%.2f");
-}
-
-/// The error that a method has after some seconds, by straight lines between rungs; NaN
-/// before the first one.
-double error_at(const std::vector<double>& seconds, const std::vector<double>& errors,
-                double when) {
-    for (std::size_t i = 1; i < seconds.size(); ++i)
-        if (seconds[i - 1] <= when && when <= seconds[i]) {
-            const double t =
-                std::log(when / seconds[i - 1]) / std::log(seconds[i] / seconds[i - 1]);
-            return errors[i - 1] * std::pow(errors[i] / errors[i - 1], t);
-        }
-    return nothing;
-}
-
-/// The results of one method as lists, one per quantity.
-struct Lists {
-    std::vector<double> rays{}, seconds{}, noise{}, errors{};
-};
-
-Lists lists_of(const std::vector<Rung>& rungs) {
-    Lists lists;
-    for (const Rung& rung : rungs) {
-        lists.rays.push_back(rung.rays);
-        lists.seconds.push_back(rung.seconds);
-        lists.noise.push_back(rung.rays_alone);
-        lists.errors.push_back(rung.error());
-    }
-    return lists;
-}
-
 /// Error against time, and the parts of each point's error.
 void show_errors(const std::vector<Method>& methods,
                  const std::vector<std::vector<Rung>>& runs,
@@ -251,71 +125,6 @@ void show_errors(const std::vector<Method>& methods,
         }
     save_plot(options.path(""), plot);
     save_table(options.path(""), split);
-}
-
-/// How fast the noise of rays falls, and the error that remains.
-void show_slopes(const std::vector<Method>& methods,
-                 const std::vector<std::vector<Rung>>& runs,
-                 const examples::Options& options) {
-    examples::Table table{.name = "rays_per_pixel-slopes",
-                          .columns = {"", "slope of the rays' noise", "bias²",
-                                      "noise of the photons", "bias² of blocks"}};
-    for (std::size_t m = 0; m < methods.size(); ++m) {
-        const Lists lists = lists_of(runs[m]);
-        const Rung& last = runs[m].back();
-        table.rows.push_back({methods[m].name, slope_text(lists.rays, lists.noise),
-                              text(last.pixels.bias_squared, "%.2g"),
-                              methods[m].has_map
-                                  ? text(last.pixels.variance - last.rays_alone, "%.2g")
-                                  : "none",
-                              text(last.blocks.bias_squared, "%.2g")});
-    }
-    save_table(options.path(""), table);
-}
-
-/// The growth of the error if only half of the time is given.
-void show_half_time(const std::vector<Method>& methods,
-                    const std::vector<std::vector<Rung>>& runs,
-                    const examples::Options& options) {
-    examples::Table table{.name = "rays_per_pixel-half", .columns = {"rays"}};
-    for (const Method& method : methods) table.columns.push_back(method.name);
-    for (std::size_t i = 1; i < runs[0].size(); ++i) {
-        std::vector<std::string> row{std::to_string(runs[0][i].rays)};
-        for (const auto& rungs : runs) {
-            const Lists lists = lists_of(rungs);
-            const double before =
-                error_at(lists.seconds, lists.errors, lists.seconds[i] / 2);
-            row.push_back(std::isnan(before)
-                              ? "no picture yet"
-                              : text(before / lists.errors[i], "%.2f") + " times");
-        }
-        table.rows.push_back(row);
-    }
-    save_table(options.path(""), table);
-}
-
-/// Seconds and rays until an error is reached.
-void equal_error(const std::vector<Method>& methods,
-                 const std::vector<std::vector<Rung>>& runs,
-                 const examples::Options& options) {
-    examples::Table table{.name = "rays_per_pixel-error", .columns = {"relMSE"}};
-    for (const Method& method : methods) table.columns.push_back(method.name);
-    for (const double target : {0.3, 0.1, 0.03, 0.01, 0.003}) {
-        std::vector<std::string> row{text(target)};
-        for (const auto& rungs : runs) {
-            const auto& [rays, seconds, noise, errors] = lists_of(rungs);
-            const double when = examples::reach(seconds, errors, target);
-            row.push_back(
-                std::isnan(when)
-                    ? "not reached with " + text(rays.back()) + " rays (" +
-                          text(errors.back(), "%.2g") + ")"
-                    : text(when, "%.2g") + " s, " +
-                          text(examples::reach(rays, errors, target), "%.3g") +
-                          " rays");
-        }
-        table.rows.push_back(row);
-    }
-    save_table(options.path(""), table);
 }
 
 /// The three ways that are compared, small pictures of the room.
@@ -361,15 +170,6 @@ std::vector<Method> methods_of(Contest& contest) {
              }}};
 }
 
-void table_of_truth(const examples::Oracle& oracle, const examples::Options& options) {
-    const examples::Table table{
-        .name = "rays_per_pixel-truth",
-        .columns = {"reference", "rays per pixel", "its own relMSE", "of blocks"},
-        .rows = {{"path tracing, no limit of depth", std::to_string(oracle.rays),
-                  text(oracle.noise, "%.2g"), text(oracle.block_noise, "%.2g")}}};
-    save_table(options.path(""), table);
-}
-
 /// The gain of a ray: three ways, against a reference.
 void errors_of_rays(Contest& contest, const std::vector<int>& rays,
                     const examples::Oracle& oracle, const Sizes& sizes,
@@ -382,14 +182,11 @@ void errors_of_rays(Contest& contest, const std::vector<int>& rays,
     for (const Method& method : methods)
         runs.push_back(climb(method, rays, oracle, sizes.seeds, first_pass));
     show_errors(methods, runs, contest.options);
-    show_slopes(methods, runs, contest.options);
-    show_half_time(methods, runs, contest.options);
-    equal_error(methods, runs, contest.options);
 }
 
 } // namespace
 
-/// Makes the tables and figures of chapter 33.
+/// Makes the table and the plot of chapter 35 on rays per pixel.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
@@ -407,7 +204,6 @@ int main(int argc, char** argv) {
         if (!line.given("--truth")) sizes.truth = options.pick(512, 32768, 262144);
 
         const auto room = all_materials_room();
-        one_pixel(room, options);
         const double start = examples::processor_seconds();
         const PhotonMapper first(room.world,
                                  settings_with(true, options.seed, options.threads));
@@ -419,7 +215,6 @@ int main(int argc, char** argv) {
         const int size = std::min(options.pick(24, 64, 100), options.width);
         const auto oracle =
             examples::find_oracle("all-materials", room, size, sizes.truth, options);
-        table_of_truth(oracle, options);
         Contest contest{.room = room, .options = options, .size = size};
         errors_of_rays(contest, rays, oracle, sizes, first_pass);
     });

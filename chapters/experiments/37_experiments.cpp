@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 12 --height 12 --rays 1
 /// \file chapters/experiments/37_experiments.cpp
-/// \brief Chapter 37: the experiments behind its tables and plots: what is asked, what
-/// float makes of it, what double does, and what the program says.
+/// \brief Chapter 37: the experiments behind its pictures, tables and plots, in float and
+/// in double.
 
 #include <algorithm>
 #include <cmath>
@@ -38,14 +38,12 @@ struct Run {
     double noise = 0;                 ///< Error of another seed.
 };
 
-// [error]
 /// How far two pictures of the same rays are apart: relMSE without the worst pixels,
 /// which are single bright paths.
 template <typename T>
 double error_of(const ImageT<T>& image, const ImageT<double>& truth) {
     return trimmed_rel_mse(image, truth, 0.05);
 }
-// [error]
 
 // --- Pictures side by side ------------------------------------------------------------
 
@@ -78,20 +76,6 @@ private:
     std::vector<Image> pictures_{};
 };
 
-// --- The table ------------------------------------------------------------------------
-
-/// One line of the table.
-struct Asked {
-    std::string what;       ///< In words.
-    Extreme how{};          ///< What is extreme.
-    bool same_room = false; ///< The picture must be that of the room as it is.
-};
-
-/// The first of several lines, or "nothing".
-std::string first_line(const std::string& lines) {
-    return lines.empty() ? "nothing" : lines.substr(0, lines.find('\n'));
-}
-
 /// Finite, and no sample left out.
 template <typename T>
 bool whole(const RenderedT<T>& rendered) {
@@ -100,106 +84,39 @@ bool whole(const RenderedT<T>& rendered) {
                        [](const auto& color) { return is_finite(color); });
 }
 
-/// Renders what is asked in both precisions: a row of the table.
-/// \param sheet  Where the picture in float goes; null: nowhere.
-void add_row(const Run& run, const Asked& asked, examples::Table& table, Sheet* sheet) {
-    const auto single = render_extreme<float>(asked.how, run.picture);
-    const auto twice = render_extreme<double>(asked.how, run.picture);
-    if (!whole(single.rendered) || !whole(twice.rendered))
-        throw std::runtime_error(asked.what + ": a sample is not finite");
-    // What cannot be compared with the room as it is, is compared with double.
-    const ImageT<double>& truth = asked.same_room ? run.plain : twice.rendered.image;
-    const auto error = [&](const auto& image) {
-        return text(error_of(image, truth), "%.1e");
-    };
-    table.rows.push_back({asked.what, error(single.rendered.image),
-                          asked.same_room ? error(twice.rendered.image) : "",
-                          first_line(single.remarks), first_line(twice.remarks)});
-    if (sheet != nullptr) sheet->add(single.rendered.image);
+/// The picture of a room in float.
+Image pictured(const Extreme& how, const ExtremeSettings& settings) {
+    const auto rendered = render_extreme<float>(how, settings).rendered;
+    if (!whole(rendered)) throw std::runtime_error("a sample is not finite");
+    return rendered.image;
 }
 
-/// Other sizes and positions: the picture must be the same.
-void same_rooms(const Run& run) {
-    examples::Table table{.name = "extremes-same",
-                          .columns = {"the room", "error, float", "error, double",
-                                      "remarks, float", "remarks, double"}};
-    Sheet scales(5);
+/// Rooms of other sizes.
+void sizes(const Run& run) {
+    Sheet sheet(5);
     for (const double scale : {1e-6, 1e-3, 1.0, 1e3, 1e6})
-        add_row(run, {text(scale, "%.0e") + " times the size", {.scale = scale}, true},
-                table, &scales);
-    for (const double far : {1e2, 1e4, 1e5, 1e6, 1e7})
-        add_row(run, {text(far, "%.0e") + " away", {.moved = Vec3T<double>(far)}, true},
-                table, nullptr);
-    add_row(run,
-            {"a millionth, 1 away", {.scale = 1e-6, .moved = Vec3T<double>(1.0)}, true},
-            table, nullptr);
-    add_row(run, {"1e+12 away", {.moved = Vec3T<double>(1e12)}, true}, table, nullptr);
-    add_row(run, {"1e+15 away", {.moved = Vec3T<double>(1e15)}, true}, table, nullptr);
-    add_row(run, {"1e+10 times the size", {.scale = 1e10}, true}, table, nullptr);
-    table.rows.push_back({"as it is, another seed", text(run.noise, "%.1e"),
-                          text(run.noise, "%.1e"), "", ""});
-    save_table(run.options.out, table);
-    scales.save(run.options.path("extremes-scales.png"));
+        sheet.add(pictured({.scale = scale}, run.picture));
+    sheet.save(run.options.path("extremes-scales.png"));
 }
 
-/// Lamps, albedos, roughness, glass: other pictures, in float against double.
+/// Lamps, albedos, roughness, glass.
 void other_rooms(const Run& run) {
-    examples::Table table{.name = "extremes-other",
-                          .columns = {"the room", "float against double", "",
-                                      "remarks, float", "remarks, double"}};
     Sheet lamps(5), surfaces(5), glasses(5);
-    const auto lamp = [&](const std::string& what, double radius) {
-        add_row(run, {what, {.lamp = radius}}, table, &lamps);
-    };
-    lamp("lamp: a point", 0);
-    lamp("lamp: a ball of radius 1e-6", 1e-6);
-    lamp("lamp: a ball of radius 0.01", 0.01);
-    lamp("lamp: a ball of radius 0.9", 0.9);
-    lamp("lamp: the ceiling", Extreme::ceiling);
-    const auto surface = [&](const std::string& what, const Extreme& how) {
-        add_row(run, {what, how}, table, &surfaces);
-    };
-    surface("albedo 0", {.albedo = 0});
-    surface("albedo 1", {.albedo = 1});
-    surface("diffuse, roughness 1", {.matt = 1});
-    surface("mirror, roughness 0.01", {.gloss = 0.01});
-    surface("mirror, roughness 1", {.gloss = 1});
+    for (const double radius : {0.0, 1e-6, 0.01, 0.9, Extreme::ceiling})
+        lamps.add(pictured({.lamp = radius}, run.picture));
+    for (const Extreme& how :
+         {Extreme{.albedo = 0}, Extreme{.albedo = 1}, Extreme{.matt = 1},
+          Extreme{.gloss = 0.01}, Extreme{.gloss = 1}})
+        surfaces.add(pictured(how, run.picture));
     for (const double index : {1.0, 1.0 + 1e-6, 1.5, 10.0, 1000.0})
-        add_row(run, {"glass, index " + text(index, "%.7g"), {.index = index}}, table,
-                &glasses);
-    for (auto& row : table.rows) row.erase(row.begin() + 2);
-    table.columns.erase(table.columns.begin() + 2);
-    save_table(run.options.out, table);
+        glasses.add(pictured({.index = index}, run.picture));
     lamps.save(run.options.path("extremes-lamps.png"));
     surfaces.save(run.options.path("extremes-surfaces.png"));
     glasses.save(run.options.path("extremes-glasses.png"));
 }
 
-/// The mean of a picture's pixels and channels, as a cell of the table.
-template <typename T>
-std::string mean_text(const ImageT<T>& image) {
-    double sum = 0;
-    for (const auto& c : image.pixels)
-        sum += (double(c.x) + double(c.y) + double(c.z)) / 3;
-    return text(sum / double(image.pixels.size()), "%.3f");
-}
-
-/// Renders the room as it is with other numbers in both precisions: a row of the table.
-/// \param sheet  Where the picture goes; null: nowhere.
-void add_numbers(examples::Table& table, Sheet* sheet, const std::string& what,
-                 const ExtremeSettings& settings) {
-    const auto single = render_extreme<float>({}, settings);
-    const auto twice = render_extreme<double>({}, settings);
-    if (!whole(single.rendered) || !whole(twice.rendered))
-        throw std::runtime_error(what + ": a sample is not finite");
-    table.rows.push_back({what, mean_text(single.rendered.image),
-                          mean_text(twice.rendered.image),
-                          std::to_string(single.photons), first_line(single.remarks)});
-    if (sheet != nullptr) sheet->add(single.rendered.image);
-}
-
 /// From no photon to ten million.
-void numbers_of_photons(const Run& run, examples::Table& table, Sheet& sheet) {
+void numbers_of_photons(const Run& run) {
     const auto with = [&run](long long count, std::size_t nearest) {
         ExtremeSettings now = run.picture;
         now.photons = count;
@@ -207,71 +124,17 @@ void numbers_of_photons(const Run& run, examples::Table& table, Sheet& sheet) {
         if (nearest > 0) now.radius = 1;
         return now;
     };
-    add_numbers(table, &sheet, "0 photons", with(0, 0));
-    add_numbers(table, &sheet, "1 photon", with(1, 0));
+    Sheet sheet(5);
+    sheet.add(pictured({}, with(0, 0)));
+    sheet.add(pictured({}, with(1, 0)));
     const std::size_t kept = render_extreme<float>({}, with(200, 0)).photons;
-    add_numbers(table, &sheet, "k - 1 photons for an estimate of k",
-                with(200, kept + 1));
-    add_numbers(table, &sheet,
-                std::to_string(run.picture.photons) + " photons, 50 per estimate",
-                with(run.picture.photons, 50));
-    // Ten million take their time, and memory: in float only.
+    sheet.add(pictured({}, with(200, kept + 1)));
+    sheet.add(pictured({}, with(run.picture.photons, 50)));
     ExtremeSettings many =
         with(run.options.pick(100'000LL, 10'000'000LL, 10'000'000LL), 0);
     many.radius = 0.05;
-    const auto most = render_extreme<float>({}, many);
-    if (!whole(most.rendered)) throw std::runtime_error("a sample is not finite");
-    sheet.add(most.rendered.image);
-    table.rows.push_back({std::to_string(many.photons) + " photons",
-                          mean_text(most.rendered.image), "",
-                          std::to_string(most.photons), first_line(most.remarks)});
-}
-
-/// One pixel, one ray, and pictures that are a line.
-void numbers_of_pixels(const Run& run, examples::Table& table) {
-    ExtremeSettings now = run.picture;
-    now.width = now.height = now.samples = 1;
-    add_numbers(table, nullptr, "1 x 1 pixel, 1 ray", now);
-    now.samples = run.options.pick(1000, 100'000, 100'000);
-    add_numbers(table, nullptr, "1 x 1 pixel, " + std::to_string(now.samples) + " rays",
-                now);
-    now = run.picture;
-    now.width = 1;
-    now.height = 1000;
-    add_numbers(table, nullptr, "1 x 1000 pixels", now);
-    std::swap(now.width, now.height);
-    add_numbers(table, nullptr, "1000 x 1 pixels", now);
-}
-
-/// Numbers of photons, rays and pixels.
-void numbers(const Run& run) {
-    examples::Table table{
-        .name = "extremes-numbers",
-        .columns = {"asked", "mean, float", "mean, double", "photons kept", "remarks"}};
-    Sheet sheet(5);
-    numbers_of_photons(run, table, sheet);
-    numbers_of_pixels(run, table);
-    save_table(run.options.out, table);
+    sheet.add(pictured({}, many));
     sheet.save(run.options.path("extremes-photons.png"));
-}
-
-/// Threads: all pictures must have the same bytes.
-void threads(const Run& run) {
-    examples::Table table{.name = "extremes-threads",
-                          .columns = {"threads", "float", "double"}};
-    for (const int count : {1, 2, 3, 7, 16, 64}) {
-        ExtremeSettings settings = run.picture;
-        settings.threads = count;
-        const auto hash = [&]<typename T>(T) {
-            return examples::hex_text(examples::hash_of(
-                render_extreme<T>({}, settings).rendered.image.pixels));
-        };
-        table.rows.push_back({std::to_string(count), hash(0.0f), hash(0.0)});
-        if (table.rows.back()[1] != table.rows.front()[1] ||
-            table.rows.back()[2] != table.rows.front()[2])
-            throw std::runtime_error("the number of threads has changed the picture");
-    }
-    save_table(run.options.out, table);
 }
 
 /// Powers of two: no digit is lost, and the bytes must be the same.
@@ -465,10 +328,9 @@ void body(examples::CommandLine& line) {
         if (!options.quiet) std::printf("  %s\n", name);
         make(run);
     };
-    step("sizes and places", same_rooms);
+    step("sizes", sizes);
     step("lamps, surfaces, glass", other_rooms);
-    step("photons, rays, pixels", numbers);
-    step("threads", threads);
+    step("photons", numbers_of_photons);
     step("powers of two", powers);
     step("plots", plots);
     step("slivers", slivers);

@@ -19,7 +19,6 @@
 #define LJUS_HAS_MISTAKES
 #endif
 
-#include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/drawing.hpp"
 #include "common/error_map.hpp"
@@ -278,16 +277,12 @@ void table_of_mutants(const examples::Options& options) {
 void gallery(const examples::Options& options, const Eye& eye,
              const std::string& only) {
     std::map<Image (*)(const Eye&), Image> right; // shared by several mistakes
-    examples::Table list{.name = "break_it-list",
-                         .columns = {"row", "header", "test", "brightness",
-                                     "largest difference", "seconds"}};
     examples::ProgressBar bar("mistakes", options.quiet);
     std::vector<double> ratios;
     long long done = 0;
     for (const Mistake& mistake : mistakes) {
         (void)bar(done++, static_cast<long long>(mistakes.size()));
         if (!only.empty() && only != mistake.row) continue;
-        const examples::StopWatch clock;
         const int number = ljus_break_it::number_of(mistake.row);
         ljus_break_it::row = 0;
         if (!right.contains(mistake.picture))
@@ -307,22 +302,15 @@ void gallery(const examples::Options& options, const Eye& eye,
         const double ratio = mean(wrong) / mean(good);
         ratios.push_back(ratio);
         const auto& row = ljus_break_it::told[static_cast<std::size_t>(number)];
-        list.rows.push_back({mistake.row, row.header, row.test,
-                             examples::text(ratio, "%.2f"),
-                             examples::text(largest, "%+.2f"),
-                             examples::text(clock.seconds(), "%.2f")});
+        const std::string brightness = examples::text(ratio, "%.2f");
+        const std::string difference = examples::text(largest, "%+.2f");
         examples::save_text(options.path(name + ".html"),
-                            told(row, list.rows.back()[3], list.rows.back()[4]));
+                            told(row, brightness, difference));
+        if (!only.empty())
+            std::printf("%s: brightness %s, largest difference %s\n", mistake.row,
+                        brightness.c_str(), difference.c_str());
     }
-    if (only.empty()) {
-        save_table(options.out, list);
-        save_brightness(options, ratios);
-    } else {
-        for (const auto& line : list.rows)
-            std::printf("%s: brightness %s, largest difference %s, %s s\n",
-                        line[0].c_str(), line[3].c_str(), line[4].c_str(),
-                        line[5].c_str());
-    }
+    if (only.empty()) save_brightness(options, ratios);
 }
 
 #endif

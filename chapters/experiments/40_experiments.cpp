@@ -32,7 +32,6 @@ double smith(double alpha, const Vec3& w) {
 
 /// The same by the facets as they lie, seen from above, as Walter et al. choose them.
 /// \param wo  With z > 0.
-// [all normals]
 double by_all_normals(const Glass& glass, const Vec3& wo, const Vec3& u) {
     const double alpha = glass.roughness * glass.roughness;
     const double slope = alpha * std::sqrt(u.y / (1 - u.y)); // tan(theta)
@@ -49,7 +48,6 @@ double by_all_normals(const Glass& glass, const Vec3& wo, const Vec3& u) {
     const double g2 = reflected ? 1 / (1 / g1 + 1 / g1_in - 1) : g1 * g1_in;
     return c * g2 / (wo.z * h.z);
 }
-// [all normals]
 
 /// Statistics of weights.
 struct Weights {

@@ -283,7 +283,6 @@ void measure(Measured line, const Room& room, const Setting& setting,
     };
     std::vector<ljus::Image> runs, of_maps;
     std::vector<double> seconds, photons;
-    // [measure]
     for (int seed = 1; seed <= how.seeds; ++seed) {
         const auto seen = shot(how.size, seed, seed);
         seconds.push_back(seen.photons + seen.rest);
@@ -306,7 +305,6 @@ void measure(Measured line, const Room& room, const Setting& setting,
     line.noise = parts.variance;
     line.block = blocks.bias_squared + blocks.variance;
     if (setting.of_maps) line.maps = relative_split(of_maps, oracle.truth).variance;
-    // [measure]
     line.flip = flip(runs[0], oracle.truth);
     notebook.add(line);
 }

@@ -48,24 +48,6 @@ struct PowerLaw {
     return {slope, n >= 3 ? std::sqrt(off / (n - 2) / uu) : nan};
 }
 
-/// The x at which a curve first falls to a value, by linear interpolation on two
-/// logarithmic axes.
-/// \param x       Increasing, above 0.
-/// \param y       As many values, above 0.
-/// \param target  The value.
-/// \return x; the first one if y begins at or below the target, and NaN if y never
-///         falls to it. Nothing is extrapolated.
-[[nodiscard]] inline double reach(const std::vector<double>& x,
-                                  const std::vector<double>& y, double target) {
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        if (!(y[i] <= target)) continue;
-        if (i == 0) return x[0];
-        const double t = std::log(y[i - 1] / target) / std::log(y[i - 1] / y[i]);
-        return x[i - 1] * std::pow(x[i] / x[i - 1], t);
-    }
-    return std::numeric_limits<double>::quiet_NaN();
-}
-
 /// A picture divided by sqrt(r^2 + epsilon), so that squared differences are relative,
 /// as in rel_mse().
 /// \param image      The picture.

@@ -63,14 +63,12 @@ inline constexpr int max_slices = 65536;
 /// The rows of a slice; if there are more slices than rows, some have none.
 /// \param slice   Which one.
 /// \param height  Of the whole picture.
-// [rows]
 [[nodiscard]] inline ljus::RowRange rows_of(const SliceNumber& slice, int height) {
     const auto begin = [&](long long number) {
         return static_cast<int>(height * number / slice.count);
     };
     return {begin(slice.number - 1), begin(slice.number)};
 }
-// [rows]
 
 /// Rows of a picture, and everything that identifies the picture.
 struct PictureSlice {
@@ -215,7 +213,6 @@ struct MergedPicture {
 /// \return The picture, bit for bit as one process would have rendered it.
 /// \throws std::runtime_error  with one sentence if a slice is missing, given twice, of
 ///         another picture, or unreadable.
-// [merge]
 [[nodiscard]] inline MergedPicture merge_slices(const std::vector<std::string>& paths) {
     if (paths.empty()) throw std::runtime_error("there is no slice to merge");
     const auto fail = [](const std::string& why) { throw std::runtime_error(why); };
@@ -272,6 +269,5 @@ struct MergedPicture {
     merged.settings = json.dump(2) + "\n";
     return merged;
 }
-// [merge]
 
 } // namespace examples

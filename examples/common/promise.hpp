@@ -122,7 +122,6 @@ struct Choice {
 /// \param promise   Seconds, or an error.
 /// \param left      The promised seconds minus those of the pilot.
 /// \return If no recipe can keep it: the quickest, or the one with the least bias.
-// [choose]
 [[nodiscard]] inline Choice choose(const std::vector<Forecast>& found,
                                    const Promise& promise, double left = 0) {
     Choice best{.possible = false};
@@ -149,7 +148,6 @@ struct Choice {
     }
     return best;
 }
-// [choose]
 
 /// A number with two significant digits: "0.012".
 [[nodiscard]] inline std::string two_digits(double value) {

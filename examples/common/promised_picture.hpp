@@ -309,7 +309,6 @@ keep(const W& world, const C& camera, ljus::RenderSettings picture,
     if (!quiet) picture.progress = draw;
     ljus::ProgressiveState state{.alpha = 1};
     const std::uint64_t seed = picture.seed;
-    // [keep]
     for (bool done = false; !done;) {
         picture.seed = seed_of(seed, kept.pictures);
         auto shot = shoot(world, camera, kept.recipe, picture, now);
@@ -326,7 +325,6 @@ keep(const W& world, const C& camera, ljus::RenderSettings picture,
         done = promise.seconds > 0 ? kept.seconds + one / 2 > promise.seconds
                                    : noise <= room_for_noise(found, promise.error);
     }
-    // [keep]
     kept.rendered.image = ljus::mean_image<T>(state);
     return kept;
 }

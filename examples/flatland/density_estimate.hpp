@@ -21,7 +21,6 @@ using ljus::Kernel;
 /// \param x       Squared distance over squared radius, in [0, 1].
 /// \return At least 0.
 /// \report{Section 3.2.6}
-// [kernel]
 [[nodiscard]] inline double kernel_weight(Kernel kernel, double x) noexcept {
     switch (kernel) {
     case Kernel::box:
@@ -38,7 +37,6 @@ using ljus::Kernel;
     }
     return 0;
 }
-// [kernel]
 
 /// Settings of an estimate.
 struct DensityEstimateSettings {
@@ -68,13 +66,11 @@ struct Estimate {
 /// turned by less than 60 degrees, and came from the side of the normal.
 /// \param photon  The photon.
 /// \param point   A point of a surface.
-// [counts]
 [[nodiscard]] inline bool counts_at(const Photon& photon,
                                     const SurfacePoint& point) noexcept {
     return glm::dot(photon.normal, point.normal) > 0.5 &&
            glm::dot(photon.direction, point.normal) < 0;
 }
-// [counts]
 
 /// The irradiance at a point, estimated from the photons around it:
 ///

@@ -102,7 +102,6 @@ struct LampPoint {
 /// \param u       Chooses the point of the lamp.
 /// \return Radiance, W/(m rad); its mean is the direct light.
 /// \report{Section 3.2.3}
-// [direct_light]
 [[nodiscard]] inline double direct_light(const Scene& scene, const Vertex& vertex,
                                          const Vec2& u) {
     const LampPoint chosen = sample_lamp(scene, u);
@@ -117,7 +116,6 @@ struct LampPoint {
                        pdf_from_length(from, chosen.point, length(chosen.lamp->shape));
     return f * std::abs(wi.y) * chosen.lamp->emission / pdf;
 }
-// [direct_light]
 
 /// Emits a photon: the lamp is chosen by its flux, the point uniformly over the
 /// length, the direction by the cosine; so all photons carry the same flux.
@@ -127,7 +125,6 @@ struct LampPoint {
 /// \param stream  Three numbers are drawn.
 /// \return A path without a vertex.
 /// \report{Section 3.2.2}
-// [emit_photon]
 [[nodiscard]] inline PathState emit_photon(const Scene& scene, double flux,
                                            RandomStream& stream) {
     const LampPoint from = sample_lamp(scene, next_2d<double>(stream));
@@ -136,6 +133,5 @@ struct LampPoint {
                  .direction = to_world(from.point.normal, out)},
             .throughput = flux};
 }
-// [emit_photon]
 
 } // namespace flatland

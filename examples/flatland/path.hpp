@@ -57,7 +57,6 @@ struct PathState {
 /// \param path    The path; its depth is updated.
 /// \param stream  Moved to the start of the bounce.
 /// \return The vertex; nothing if the path leaves the scene.
-// [next_vertex]
 [[nodiscard]] inline std::optional<Vertex>
 next_vertex(const Scene& scene, PathState& path, RandomStream& stream) {
     start_bounce(stream, static_cast<std::uint64_t>(++path.depth));
@@ -71,7 +70,6 @@ next_vertex(const Scene& scene, PathState& path, RandomStream& stream) {
     vertex.wo = to_local(vertex.point.normal, -path.ray.direction);
     return vertex;
 }
-// [next_vertex]
 
 /// Continues a path in a direction that the material samples, unless Russian roulette
 /// ends it: a path survives with the probability of its reflection, and keeps its
@@ -82,7 +80,6 @@ next_vertex(const Scene& scene, PathState& path, RandomStream& stream) {
 /// \param stream     Two numbers are drawn.
 /// \return False if the path ends here: its light is absorbed.
 /// \report{Section 3.2.2}
-// [continue_path]
 [[nodiscard]] inline bool continue_path(PathState& path, const Vertex& vertex,
                                         Transport transport, RandomStream& stream) {
     const Vec2 u = next_2d<double>(stream);
@@ -97,6 +94,5 @@ next_vertex(const Scene& scene, PathState& path, RandomStream& stream) {
                 .direction = to_world(vertex.point.normal, next->wi)};
     return true;
 }
-// [continue_path]
 
 } // namespace flatland

@@ -87,7 +87,6 @@ inline void store_photon(const PathState& path, const Vertex& vertex, PhotonMap&
 /// \return The photons, in the order of their paths.
 /// \throws std::invalid_argument  if nothing emits, or check() refuses the scene.
 /// \report{Section 3.2.2}
-// [trace_photons]
 [[nodiscard]] inline PhotonMap trace_photons(const Scene& scene,
                                              const PhotonPassSettings& pass) {
     check(scene);
@@ -105,6 +104,5 @@ inline void store_photon(const PathState& path, const Vertex& vertex, PhotonMap&
     }
     return map;
 }
-// [trace_photons]
 
 } // namespace flatland

@@ -30,7 +30,6 @@ inline constexpr double room_height = 1.1;
 /// Makes the room. The floor is its first object.
 /// \param settings  The settings.
 /// \return The scene.
-// [room]
 [[nodiscard]] inline Scene make_room(const RoomSettings& settings = {}) {
     const Lambertian wall{settings.albedo};
     const Circle lamp{settings.lamp, settings.lamp_size};
@@ -43,6 +42,5 @@ inline constexpr double room_height = 1.1;
              {room_disc, Glass{settings.index}},
              {lamp, Lambertian{0}, radiance_of(lamp, settings.flux)}}};
 }
-// [room]
 
 } // namespace flatland

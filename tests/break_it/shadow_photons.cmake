@@ -64,12 +64,6 @@ ljus_break_it(NAME shadow-photons-verdict HEADER photons/verdict_grid.hpp TEST s
     TO   "lit + shadow"
     CASES "shadow photons: the grid says*,shadow photons: fewer*")
 
-# The bound for the mean of one photon in the disc, not of three.
-ljus_break_it(NAME shadow-photons-bound HEADER photons/shadow_verdict.hpp TEST shadow_photons
-    FROM "return -std::log(risk) / (pi * radius * radius) * flux;"
-    TO   "return T(1) / (pi * radius * radius) * flux; (void)risk;"
-    CASES "shadow photons: the irradiance*")
-
 # Only the brick of an indirect photon is made: beside it all is called dark.
 ljus_break_it(NAME shadow-photons-near HEADER photons/detail/verdict_bits.hpp TEST shadow_photons
     FROM "for (int corner = 0; indirect && corner < 8; ++corner)"

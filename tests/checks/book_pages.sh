@@ -86,6 +86,28 @@ rm -f html/*.html
 python3 "$tools/check_words" chapters html >out.txt 2>err.txt && wrong "a wording is let through"
 grep -q "01-page.md:1: 'rays a pixel': write \"per pixel\"" err.txt || wrong "$(cat err.txt)"
 
+# What is made for a page is shown on one.
+mkdir -p shown/{chapters/kept/01,include,examples,tests,benchmarks}
+cd shown
+printf '%s\n' '\number{table, 1, 2} \htmlinclude plot.svg' '\snippet{lineno} a.hpp shown' \
+    >chapters/01-page.md
+touch README.md chapters/kept/01/{table.csv,plot.gp,plot.csv}
+echo 'Table t{.name = "table"}; Plot p{.name = "of-" + name}; path("plot.png");' \
+    >examples/01_page.cpp
+printf '// [%s]\n' shown shown >include/a.hpp
+"$tools/check_shown" . >../out.txt 2>../err.txt || wrong "what is shown is refused: $(cat ../err.txt)"
+mkdir -p chapters/measured
+touch chapters/kept/01/lost.csv chapters/measured/idle.csv
+echo 'Drawing d{.name = "drawn"}; path("picture.png");' >>examples/01_page.cpp
+printf '// [%s]\n' once unshown unshown >>include/a.hpp
+"$tools/check_shown" . >../out.txt 2>../err.txt && wrong "what no page shows is let through"
+for name in 'no page shows lost' 'no page shows drawn' 'no page shows picture' 'quotes measured/idle' \
+    '\[once\] stands' 'shows \[unshown\]'; do
+    grep -q "$name" ../err.txt || wrong "not said: $name"
+done
+[ "$(wc -l <../err.txt)" -eq 7 ] || wrong "$(cat ../err.txt)"
+cd ..
+
 # The table of the README is that of the book.
 cell() { awk -F, -v r="$1" -v m="$2" -v c="$3" '$1 == r && $2 == m { print $c }' \
     "$LJUS_ROOT/chapters/measured/two_pass-trade-table.csv"; }

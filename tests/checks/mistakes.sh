@@ -3,7 +3,7 @@
 # clang++ take at most 20 lines, which name a line of the user's file, and the first error is
 # in that file or is a sentence of the library. At the head of the file, "// says: PATTERN"
 # gives what must be said, and "// long: REASON" allows clang++ more lines. The page "When it
-# does not compile" shows these files.
+# does not compile" shows most of these files.
 . "$(dirname "$0")/common.sh"
 status=0
 problem() { echo "$*"; sed 's/^/    /' "$scratch/said"; status=1; }

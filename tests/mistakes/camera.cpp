@@ -1,7 +1,6 @@
 // A camera that takes no random stream.
 // says: This is no camera: it has a type Scalar and camera_ray\(camera, pixel, width
 
-// [mistake]
 #include <ljus/ljus.hpp>
 using namespace ljus;
 
@@ -19,4 +18,3 @@ int main() {
     const World world(std::move(scene));
     const auto picture = render(PathTracer(world), Parallel{}, {.samples = 4});
 }
-// [mistake]

@@ -2,8 +2,6 @@
 // says: Ljus needs C\+\+20: add -std=c\+\+20
 // flags: -std=c++17
 
-// [mistake]
 #include <ljus/geometry/sphere.hpp>
 
 int main() { return intersect(ljus::Ray{}, ljus::Sphere{}) ? 0 : 1; }
-// [mistake]

@@ -1,7 +1,6 @@
 // A ray of doubles, and a sphere of floats.
 // says: The ray and the shape have two precisions
 
-// [mistake]
 #include <ljus/ljus.hpp>
 
 int main() {
@@ -9,4 +8,3 @@ int main() {
     const ljus::RayT<double> ray{.origin = {0, 0, 3}};
     return intersect(ray, ball) ? 0 : 1;
 }
-// [mistake]

@@ -1,7 +1,6 @@
 // A type that is no shape: of the four functions it has one, with the arguments the wrong way round.
 // says: Shape<S>|does not satisfy 'Shape'
 
-// [mistake]
 #include <ljus/ljus.hpp>
 using namespace ljus;
 
@@ -15,4 +14,3 @@ std::optional<float> intersect(const Plane& plane, const Ray& ray) {
 int main() {
     Scene<Shapes<Plane>, Materials<Lambertian>> scene;
 }
-// [mistake]

@@ -1,7 +1,6 @@
 // A material that the scene does not list.
 // says: Neither a light nor listed: Scene<..., Materials<...>>
 
-// [mistake]
 #include <ljus/ljus.hpp>
 using namespace ljus;
 
@@ -10,4 +9,3 @@ int main() {
     const auto mirror = scene.add(Mirror{});
     scene.add(Sphere{}, mirror);
 }
-// [mistake]

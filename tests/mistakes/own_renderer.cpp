@@ -1,7 +1,6 @@
 // A renderer that names no stream.
 // says: it has a type Stream and radiance\(renderer, ray, context\)
 
-// [mistake]
 #include <ljus/ljus.hpp>
 using namespace ljus;
 
@@ -16,4 +15,3 @@ Rgb radiance(const Sky& sky, const Ray& ray, Context&) {
 int main() {
     const auto picture = render(Sky{}, look_at({}), {.samples = 4});
 }
-// [mistake]

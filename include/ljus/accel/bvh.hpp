@@ -56,7 +56,6 @@ using NearestHit = NearestHitT<float>; ///< NearestHitT in float.
 /// \param ask   Called as ask(slot, ray) for primitives that the ray may hit, with a
 ///              ray that ends at the nearest hit so far; returns an optional ShapeHitT.
 /// \return The same hit as a loop over all primitives.
-// [nearest_hit]
 template <typename Tree, std::floating_point T, typename Ask>
 [[nodiscard]] NearestHitT<T> nearest_hit(const Tree& tree, const RayT<T>& ray,
                                          Ask&& ask) {
@@ -68,7 +67,6 @@ template <typename Tree, std::floating_point T, typename Ask>
     });
     return nearest;
 }
-// [nearest_hit]
 
 /// A binary bounding volume hierarchy over primitives that have boxes \cite rubin1980.
 /// The caller keeps the primitives. A traversal calls back with a *slot*, a position in

@@ -31,7 +31,6 @@ namespace detail {
 /// \f$ x^2 + y^2 + z^2 \f$, rounded in the same way everywhere. A compiler may fuse a
 /// product with a sum in one call and not in another; then a point on the border of a
 /// ball would lie inside for one caller only. Machines that can fuse do so explicitly.
-// [sum of squares]
 [[nodiscard]] inline double sum_of_squares(double x, double y, double z) noexcept {
 #ifdef FP_FAST_FMA
     return std::fma(z, z, std::fma(y, y, x * x));
@@ -42,7 +41,6 @@ namespace detail {
     return x2 + y2 + z2;
 #endif
 }
-// [sum of squares]
 
 } // namespace detail
 

@@ -78,7 +78,6 @@ separated(const Facet& facet, const SurfacePiece& other, double distance) noexce
 /// \param one, other  The pieces.
 /// \param distance    Surfaces within this distance count as in one place; scene units.
 /// \return The place; nothing if they cross, or only share an edge or a corner.
-// [shared_place]
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_place(const SurfacePiece& one, const SurfacePiece& other,
              double distance) noexcept {
@@ -120,7 +119,6 @@ shared_place(const SurfacePiece& one, const SurfacePiece& other,
                        .alike = (glm::dot(a, b) < 0) !=
                                 (one.inside_out == other.inside_out)};
 }
-// [shared_place]
 
 /// \}
 

@@ -98,7 +98,6 @@ using FilterTable = std::array<double, 65>;
 /// \param filter  Not the box.
 /// \param u       In [0, 1]; the position grows with u, so that strata are kept.
 /// \return x: the distance from the pixel's centre; y: the weight, filter over pdf.
-// [sample axis]
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> sample_filter_axis(Filter filter, T u) noexcept {
     const T v = std::abs(T(2) * u - T(1)); // by symmetry
@@ -114,7 +113,6 @@ template <std::floating_point T>
     const double density = share / (2 * width);
     return {side * T(x), T(filter_weight(filter, x) / density)};
 }
-// [sample axis]
 
 } // namespace detail
 

@@ -37,7 +37,6 @@ template <std::floating_point T, std::floating_point U>
                                     std::to_string(runs.size()) + ".");
     for (const ImageT<T>& run : runs) detail::require_same_size(run, reference);
 
-    // [bias_variance]
     const double count = static_cast<double>(runs.size());
     std::vector<double> biases(reference.pixels.size());
     std::vector<double> variances(reference.pixels.size());
@@ -53,7 +52,6 @@ template <std::floating_point T, std::floating_point U>
         variances[i] = squares / (count - 1.0);
         biases[i] = glm::dot(shift, shift) / 3.0 - variances[i] / count;
     }
-    // [bias_variance]
     return {.bias_squared = detail::mean(biases), .variance = detail::mean(variances)};
 }
 

@@ -46,7 +46,6 @@ template <std::floating_point T>
     const int width = blocks.front().width, height = blocks.front().height;
     BlockStatistics result{make_image<double>(width, height),
                            make_image<double>(width, height), runs.size()};
-    // [standard error]
     for (std::size_t i = 0; i < result.mean.pixels.size(); ++i) {
         RgbT<double>& mean = result.mean.pixels[i];
         for (const auto& block : blocks) mean += block.pixels[i] / count;
@@ -57,7 +56,6 @@ template <std::floating_point T>
         }
         result.standard_error.pixels[i] = glm::sqrt(squares / (count - 1.0) / count);
     }
-    // [standard error]
     return result;
 }
 

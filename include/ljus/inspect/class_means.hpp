@@ -53,7 +53,6 @@ struct ClassesLog {
 /// \throws std::invalid_argument  if the size or the number of rays is below 1.
 /// \cost One picture, and a few bit operations per letter and class.
 /// \report{Section 2}
-// [class_means]
 template <typename R, CameraLike C>
 [[nodiscard]] std::vector<RgbT<double>>
 class_means(const R& renderer, const C& camera, const RenderSettings& picture,
@@ -87,7 +86,6 @@ class_means(const R& renderer, const C& camera, const RenderSettings& picture,
         for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += sums[k] / all;
     return mean;
 }
-// [class_means]
 
 /// \}
 

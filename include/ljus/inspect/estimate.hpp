@@ -41,7 +41,6 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 /// \param a  Estimate of one set.
 /// \param b  Estimate of the other set.
 /// \return The estimate of all samples, up to rounding.
-// [joined]
 [[nodiscard]] constexpr Estimate joined(const Estimate& a, const Estimate& b) noexcept {
     if (a.count == 0) return b;
     const double count = a.count + b.count, apart = b.mean - a.mean;
@@ -50,12 +49,10 @@ constexpr void add(Estimate& estimate, double x) noexcept {
             .squares =
                 a.squares + b.squares + apart * apart * (a.count * b.count / count)};
 }
-// [joined]
 
 /// The unbiased estimate of the variance of one sample.
 /// \param estimate  The estimate of n samples.
 /// \return Sum of (x - mean)^2 over n - 1; infinity for fewer than 2 samples.
-// [variance]
 [[nodiscard]] constexpr double variance(const Estimate& estimate) noexcept {
     if (estimate.count < 2) return std::numeric_limits<double>::infinity();
     return estimate.squares / (estimate.count - 1);
@@ -70,7 +67,6 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 [[nodiscard]] inline double standard_error(const Estimate& estimate) noexcept {
     return std::sqrt(variance(estimate) / estimate.count);
 }
-// [variance]
 
 /// \}
 

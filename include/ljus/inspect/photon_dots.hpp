@@ -69,7 +69,6 @@ template <std::floating_point T>
 /// that faces the camera. An occluder must be nearer by a thousandth of the distance.
 /// \return The position in pixels, from the upper left corner; nothing if it is hidden.
 /// \cost One ray.
-// [photon_in_sight]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<Vec2T<T>>
 photon_in_sight(const W& world, const CameraT<T>& camera, const PhotonT<T>& photon,
@@ -87,7 +86,6 @@ photon_in_sight(const W& world, const CameraT<T>& camera, const PhotonT<T>& phot
         return std::nullopt;
     return place;
 }
-// [photon_in_sight]
 
 namespace detail {
 

@@ -150,7 +150,6 @@ void check(const EnvironmentLightT<T>& light) {
 
 /// Prepares a checked environment for its scene.
 /// \cost A sum over all pixels; 8 bytes a pixel beside the picture.
-// [in_scene]
 template <std::floating_point T>
 [[nodiscard]] EnvironmentInSceneT<T> in_scene(const EnvironmentLightT<T>& light,
                                               const SphereT<T>& around) {
@@ -173,7 +172,6 @@ template <std::floating_point T>
     made.sum = RgbT<T>(sum);
     return made;
 }
-// [in_scene]
 
 /// The flux into the sphere around the scene, in W: the radiance over all directions,
 /// each through the disc pi R^2.

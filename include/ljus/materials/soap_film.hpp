@@ -52,7 +52,6 @@ inline constexpr T max_film_thickness = T(1e6);
 
 /// The thickness of a film at a point.
 /// \return In nm, in [0, 1 mm].
-// [thickness_at]
 template <std::floating_point T>
 [[nodiscard]] T thickness_at(const SoapFilmT<T>& film,
                              const Vec3T<T>& position) noexcept {
@@ -64,7 +63,6 @@ template <std::floating_point T>
     return thickness < detail::max_film_thickness<T> ? thickness
                                                      : detail::max_film_thickness<T>;
 }
-// [thickness_at]
 
 /// The reflectance of a film, for a cosine of either sign and a thickness in nm.
 /// \return R for each channel, in [0, 1].
@@ -108,13 +106,11 @@ template <std::floating_point T>
 /// The transmittance of a film at a point. A material with this function is a thin
 /// sheet.
 /// \return T = 1 - R for each channel.
-// [pass_through]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> pass_through(const SoapFilmT<T>& film, const Vec3T<T>& position,
                                    const Vec3T<T>& wo) noexcept {
     return RgbT<T>{T(1)} - reflectance(film, wo.z, thickness_at(film, position));
 }
-// [pass_through]
 
 /// The mirror direction, with the reflectance at the point as weight. Transmission is
 /// not sampled; see pass_through().

@@ -31,7 +31,6 @@ struct PiecewiseConstant2D {
 /// \param height  Number of rows, at least 1.
 /// \param weight  Called as weight(x, y) for each cell; returns at least 0.
 /// \throws std::invalid_argument  if the sum of all weights is 0 or not finite.
-// [make_piecewise_constant]
 template <typename Weight>
 [[nodiscard]] PiecewiseConstant2D make_piecewise_constant(int width, int height,
                                                           const Weight& weight) {
@@ -49,7 +48,6 @@ template <typename Weight>
     require_positive("the sum of all weights", all);
     return made;
 }
-// [make_piecewise_constant]
 
 /// A cell, and a point in it.
 template <std::floating_point T>

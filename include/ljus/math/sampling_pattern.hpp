@@ -143,7 +143,6 @@ namespace detail {
 /// \param key      The pixel's key.
 /// \return The strip, in [0, points); each once.
 /// \cost Two calls of shuffled() and five divisions.
-// [broken_row]
 [[nodiscard]] constexpr std::uint32_t
 strip_of_broken(const Pattern& pattern, std::uint32_t i, std::uint64_t key) noexcept {
     const auto all = static_cast<std::uint32_t>(pattern.points);
@@ -163,7 +162,6 @@ strip_of_broken(const Pattern& pattern, std::uint32_t i, std::uint64_t key) noex
         column * full + before(column) + shuffled(row, points, ~key);
     return static_cast<std::uint32_t>((strip + step) % all);
 }
-// [broken_row]
 
 /// A point of a correlated multi-jittered pattern.
 /// The points lie in a grid of m columns and n rows, where the last row may be

@@ -64,7 +64,6 @@ template <AnyWorld W, std::floating_point T>
 /// \param place     Called as place(i) for the i-th sample's point of the unit square.
 /// \return Radiance towards wo.
 /// \cite heitz2018shadows
-// [analytic_light]
 template <AnyWorld W, std::floating_point T, typename Place>
 [[nodiscard]] RgbT<T>
 analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
@@ -83,7 +82,6 @@ analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
         if (sent[c] > T(0)) result[c] = all[c] * arrived[c] / sent[c];
     return result;
 }
-// [analytic_light]
 
 /// The emission that a ray sampled by the material finds, of lamps and of the sky, with
 /// its weight of multiple importance sampling. The ray ends there; it carries no other
@@ -91,7 +89,6 @@ analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
 /// \param rays      Shadow rays per light.
 /// \param context   Three numbers are drawn; the ray is counted.
 /// \return Radiance towards wo.
-// [found_light]
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> found_light(const W& world, const VertexT<T>& vertex,
                                   const M& material, int rays, Context& context) {
@@ -125,7 +122,6 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
         }
     return sum;
 }
-// [found_light]
 
 /// Unknown visibility of all lights: every shadow ray is cast.
 struct NoVerdicts {
@@ -155,7 +151,6 @@ struct DirectLightSettings {
 /// \param verdicts  Called with a light's index; returns its known visibility.
 /// \return Radiance towards wo.
 /// \report{Section 3.2.3}
-// [sample_all_lights]
 template <AnyWorld W, std::floating_point T, Material M, typename Context,
           typename Verdicts = detail::NoVerdicts>
 [[nodiscard]] RgbT<T> sample_all_lights(const W& world, const VertexT<T>& vertex,
@@ -202,7 +197,6 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
     if (both) sum += detail::found_light(world, vertex, material, rays, context);
     return sum;
 }
-// [sample_all_lights]
 
 /// \}
 

@@ -412,7 +412,6 @@ template <AnyWorld W>
 /// \return Per scene unit; 0 outside all bodies.
 /// \cost A comparison outside the bounding box of all absorbing objects; inside it a
 ///       ray per surface up to the end of the body.
-// [medium_at]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> medium_at(const W& world, RayT<T> ray) {
     if (!detail::lists_media<W> || !world.may_be_in_medium(ray.origin))
@@ -441,7 +440,6 @@ template <AnyWorld W, std::floating_point T>
     }
     return RgbT<T>{T(0)};
 }
-// [medium_at]
 
 /// Advances a path to its next vertex. Its throughput is attenuated by media and thin
 /// surfaces. medium_at() finds the medium at the start of a path, and where the path

@@ -270,7 +270,6 @@ aim(const W& world, const LightChoice& choice, std::span<const ObjectId> targets
                             .light = static_cast<std::uint16_t>(chosen.light)},
                            aimed->target};
 }
-// [aim]
 
 /// Refuses fractions that do not add up to 1.
 /// \param shares  One per target or light, or none at all.
@@ -299,7 +298,6 @@ inline void check_shares(std::span<const double> shares, std::size_t count,
 /// \param shares   Probabilities, as check_shares() accepts; if empty, as aim().
 /// \param stream   One number more is drawn than by aim().
 /// \return As aim().
-// [aim_by_share]
 template <AnyWorld W, StreamLike Stream>
 [[nodiscard]] std::optional<AimedPhotonT<typename W::Scalar>>
 aim_by_share(const W& world, const LightChoice& choice,
@@ -319,7 +317,6 @@ aim_by_share(const W& world, const LightChoice& choice,
     if (aimed) aimed->photon.flux /= static_cast<T>(shares[chosen]);
     return aimed;
 }
-// [aim_by_share]
 
 /// \}
 

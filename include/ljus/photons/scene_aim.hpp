@@ -20,7 +20,6 @@ namespace ljus {
 /// \param world  The closed scene.
 /// \return Larger by 0.1 %, against rounding; nothing if all objects are lamps.
 /// \cost Four passes over the objects.
-// [lit_sphere]
 template <AnyWorld W, std::floating_point T = typename W::Scalar>
 [[nodiscard]] std::optional<SphereT<T>> lit_sphere(const W& world) {
     const auto sphere_around = [&](const auto& counts) -> std::optional<SphereT<T>> {
@@ -54,7 +53,6 @@ template <AnyWorld W, std::floating_point T = typename W::Scalar>
                glm::distance(bound.center, matt->center) <= bound.radius + matt->radius;
     });
 }
-// [lit_sphere]
 
 namespace detail {
 
@@ -102,7 +100,6 @@ template <NearLight L, std::floating_point T>
 /// aiming pays if \f$ E[w] > E[w^2] \f$. It does not for a spot that shines on a part
 /// of the sphere, nor for a lamp that faces it from nearby.
 /// \param sphere  As of lit_sphere().
-// [part_of_flux_in]
 template <AnyWorld W, NearLight L, std::floating_point T>
 [[nodiscard]] std::optional<double> part_of_flux_in(const W& world, const L& light,
                                                     const SphereT<T>& sphere) {
@@ -125,7 +122,6 @@ template <AnyWorld W, NearLight L, std::floating_point T>
     if (!(sum > squares)) return std::nullopt;
     return sum / samples;
 }
-// [part_of_flux_in]
 
 } // namespace detail
 

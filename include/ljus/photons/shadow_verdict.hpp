@@ -52,7 +52,6 @@ inline void check(const SkipSettings& skip) {
 /// \f$ (1-\tau)^n \f$. This is at most the risk alpha for
 /// \f$ n \ge \ln\alpha / \ln(1-\tau) \f$.
 /// \return At least 1.
-// [photons_needed]
 [[nodiscard]] inline std::uint32_t photons_needed(const SkipSettings& skip) noexcept {
     if (skip.rule == SkipRule::report) return 50;
     if (skip.rule != SkipRule::enough) return 1;
@@ -60,7 +59,6 @@ inline void check(const SkipSettings& skip) {
     const double n = std::ceil(std::log(double(skip.risk)) / std::log1p(-tau));
     return n < 4e9 ? static_cast<std::uint32_t>(n) : 4000000000u;
 }
-// [photons_needed]
 
 namespace detail {
 
@@ -94,14 +92,12 @@ inline constexpr std::uint64_t report_ratio = 1200;
 /// \param x,y,z  Magnitudes of the normal's coordinates in these steps.
 /// \param side   +1 for the side of the normal, -1 for the other.
 /// \return 0 to 5: x, y, z, then the same for negative directions.
-// [facing]
 template <typename N>
 [[nodiscard]] constexpr int facing(int x, int y, int z, const N& n, int side) noexcept {
     const int larger = x >= y ? x : y;
     const int axis = larger >= z ? (x >= y ? 0 : 1) : 2;
     return (n[axis] < 0) == (side < 0) ? axis : axis + 3;
 }
-// [facing]
 
 /// The facing of a side, from a photon's normal.
 [[nodiscard]] inline int facing(const SmallNormal& n, int side) noexcept {
@@ -124,7 +120,6 @@ template <std::floating_point T>
 /// \param light   Index of the light.
 /// \param radius  Search radius, in scene units.
 /// \param skip    The rule.
-// [verdict_at]
 template <std::floating_point T>
 [[nodiscard]] Verdict
 verdict_at(const PhotonMapT<T>& map, const SurfacePointT<T>& point, int side,
@@ -142,24 +137,6 @@ verdict_at(const PhotonMapT<T>& map, const SurfacePointT<T>& point, int side,
     };
     map.tree.visit_within(point.position, radius, count);
     return detail::judge(found, skip.rule, photons_needed(skip));
-}
-// [verdict_at]
-
-/// An upper bound of the irradiance where no photon is found.
-///
-/// The number of photons in a disc has a Poisson distribution. If its mean is m, it is
-/// 0 with the probability \f$ e^{-m} \f$, which is below 5 % for m above 3. So, except
-/// with this probability,
-/// \f[ E \le \frac{3\,\Delta\Phi}{\pi r^2} \f]
-/// \param flux    Flux of a photon, in W.
-/// \param radius  Radius of the disc, in scene units; all of it on the surface.
-/// \param risk    Probability that the bound is wrong.
-/// \return W over squared scene units.
-template <std::floating_point T>
-[[nodiscard]] RgbT<T> unseen_irradiance(const RgbT<T>& flux, T radius,
-                                        T risk = T(0.05)) noexcept {
-    constexpr T pi = T(3.14159265358979323846L);
-    return -std::log(risk) / (pi * radius * radius) * flux;
 }
 
 /// \}

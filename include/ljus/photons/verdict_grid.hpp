@@ -114,7 +114,6 @@ template <std::floating_point T>
 /// Replaces unknown verdicts by those of a coarser grid. Its neighbourhoods contain
 /// those of the finer grid, so a cell with photons of both kinds stays unknown.
 /// \param coarse  Its cells are twice or four times as large.
-// [fill_from]
 template <std::floating_point T>
 void fill_from(VerdictBitsT<T>& fine, const VerdictBitsT<T>& coarse, int times) {
     for (std::size_t b = 0; b < fine.table.size(); ++b) {
@@ -136,7 +135,6 @@ void fill_from(VerdictBitsT<T>& fine, const VerdictBitsT<T>& coarse, int times) 
         }
     }
 }
-// [fill_from]
 
 /// Copies the verdicts of one light to all, for the report's rule.
 template <std::floating_point T>
@@ -157,7 +155,6 @@ void copy_to_all_lights(VerdictBitsT<T>& grid) {
 /// \return The grid, the same for any number of threads; empty without photons, and for
 ///         SkipRule::none without indirect rays.
 /// \throws std::invalid_argument  if a setting is out of range.
-// [make_verdict_grid]
 template <std::floating_point T>
 [[nodiscard]] VerdictGridT<T>
 make_verdict_grid(const std::vector<PhotonT<T>>& photons, std::size_t lights,
@@ -184,7 +181,6 @@ make_verdict_grid(const std::vector<PhotonT<T>>& photons, std::size_t lights,
     if (skip.rule == SkipRule::report) detail::copy_to_all_lights(grid.known);
     return grid;
 }
-// [make_verdict_grid]
 
 /// \}
 

@@ -213,7 +213,6 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
 gather_irradiance(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
                   const VertexT<T>& vertex, const M& material,
                   const GatherSettings& settings, Context& context) {
-    // [gather_irradiance]
     GatheredT<T> gathered{.normal = detail::seen_normal(vertex)};
     constexpr bool lambertian = std::same_as<M, LambertianT<T>>;
     const T side = std::copysign(T(1), vertex.wo.z);
@@ -260,7 +259,6 @@ gather_irradiance(const W& world, const std::type_identity_t<GatherLookupT<T>>& 
                 weights[c] > T(0) ? std::numbers::pi_v<T> / weights[c] : T(0);
     gathered.distance = T(settings.rays) / inverse;
     return gathered;
-    // [gather_irradiance]
 }
 
 /// The same for a Lambertian surface.

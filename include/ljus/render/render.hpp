@@ -171,7 +171,6 @@ render_rows(const R& renderer, const C& camera, const RenderSettings& picture,
     const int tiles = (picture.width - 1) / detail::strip_width + 1;
     std::vector<Counts> counts(static_cast<std::size_t>(tiles) *
                                static_cast<std::size_t>(result.image.height));
-    // [strip]
     const auto strip = [&](long long number) {
         const int row = static_cast<int>(number / tiles);
         const int first = static_cast<int>(number % tiles) * detail::strip_width;
@@ -191,7 +190,6 @@ render_rows(const R& renderer, const C& camera, const RenderSettings& picture,
                 RgbT<T>(sums[std::size_t(x - first)].sum / double(picture.samples));
         counts[static_cast<std::size_t>(number)] = cost;
     };
-    // [strip]
     result.complete =
         parallel_blocks(static_cast<long long>(counts.size()), strip,
                         {.threads = picture.threads, .progress = picture.progress});

@@ -423,7 +423,6 @@ LJUS_CORE_INLINE Contacts contacts_of(const ContactSearch& search) {
 /// \param world  A World; of its members, shapes, objects and materials are used.
 /// \return The contacts; only their own order depends on the order of addition.
 /// \cost O(n log n) boxes; less where neighbours are opaque and of one material.
-// [find_contacts]
 template <typename W>
 [[nodiscard, gnu::cold]] Contacts find_contacts(const W& world) {
     constexpr auto types = static_cast<std::uint32_t>(
@@ -464,7 +463,6 @@ template <typename W>
     return detail::contacts_of(
         {objects, std::numeric_limits<typename W::Scalar>::epsilon(), piece, put});
 }
-// [find_contacts]
 
 /// \}
 

@@ -510,7 +510,6 @@ struct PlaceHitT {
 /// \param hit    A hit of the ray.
 /// \return The hit itself, and no bodies, unless its object shares the place.
 /// \cost One intersection for each object that may share the place.
-// [place_of]
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard, gnu::noinline]] PlaceHitT<T>
 place_of(const World<S, Compute>& world, const RayT<T>& ray, const SceneHitT<T>& hit) {
@@ -582,7 +581,6 @@ place_of(const World<S, Compute>& world, const RayT<T>& ray, const SceneHitT<T>&
     place.met.shared = shared;
     return place;
 }
-// [place_of]
 
 /// The first object that a ray meets, by a loop over all shapes: the plain twin of
 /// closest_hit().

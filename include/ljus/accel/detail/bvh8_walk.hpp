@@ -231,7 +231,6 @@ private:
 ///               Called once with a null pointer if the ray cannot be prepared.
 /// \param watch  Called with the index of each visited node.
 /// \return Whether a leaf returned true.
-// [walk]
 template <bool any, typename Leaf, typename Watch>
 bool walk(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& watch) {
     const Bvh8Start start = begin_walk(wide, ray, leaf);
@@ -254,7 +253,6 @@ bool walk(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& watch) {
         if (!waiting.next(wide, at, ray.t_max)) return false;
     }
 }
-// [walk]
 /// \}
 
 } // namespace ljus::detail

@@ -163,7 +163,6 @@ template <std::floating_point T>
 ///     bool leaf(tree, center, first, last) // takes the blocks first to last - 1;
 ///                                          // true ends the search
 /// \return Whether a leaf ended the search.
-// [walk]
 template <std::floating_point T, typename Results>
 bool walk(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, Results& results) {
     const KdTree8Shape& shape = tree.shape;
@@ -225,7 +224,6 @@ bool walk(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, Results& results
         }
     }
 }
-// [walk]
 
 /// A block of eight points, some of which lie in a ball.
 struct BallBlock {
@@ -262,7 +260,6 @@ struct BallBlocks {
 ///                prefetch its payload.
 /// \param found   Receives the blocks: for each ball those of visit_blocks(), in its
 ///                order.
-// [find_in_balls]
 template <std::floating_point T, typename Center, typename Expect>
 void find_in_balls(const KdTree8PartsT<T>& tree, std::size_t balls, Center center,
                    T radius, Expect expect, BallBlocks& found) {
@@ -302,7 +299,6 @@ void find_in_balls(const KdTree8PartsT<T>& tree, std::size_t balls, Center cente
             }
     }
 }
-// [find_in_balls]
 
 /// \}
 

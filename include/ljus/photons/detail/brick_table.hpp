@@ -51,7 +51,6 @@ struct CellsT {
     T length = T(0);       ///< Length of a cell, in scene units.
 
     /// The cell of a point; nothing outside the grid.
-    // [cell_of]
     [[nodiscard]] std::optional<VerdictCell> cell_of(const Vec3T<T>& point,
                                                      int way) const noexcept {
         const Vec3T<T> c = (point - corner) * (T(1) / length);
@@ -62,7 +61,6 @@ struct CellsT {
         return VerdictCell{std::int32_t(c.x), std::int32_t(c.y), std::int32_t(c.z),
                            way};
     }
-    // [cell_of]
 };
 
 /// Bricks by key: a hash table with open addressing, at most half full.
@@ -85,14 +83,12 @@ public:
     }
 
     /// The index of a brick, or `none`.
-    // [find]
     [[nodiscard]] std::uint32_t find(std::uint64_t key) const noexcept {
         for (std::size_t i = start(key);; i = (i + 1) & (entries_.size() - 1)) {
             if (entries_[i].key == key) return entries_[i].brick;
             if (entries_[i].key == 0) return none;
         }
     }
-    // [find]
 
     /// The index of a brick; inserts it if it is new.
     std::uint32_t insert(std::uint64_t key) {

@@ -45,7 +45,6 @@ void set_place(EstimatePlaceT<T>& place, const VertexT<T>& vertex,
 /// \param found     Reusable buffer of the search.
 /// \param give      Called as give(place, radiance) in the order of the requests,
 ///                  except for those without a photon.
-// [estimates_together]
 template <std::floating_point T, KernelLike<T> K, typename Give>
 void estimates_together(const PhotonMapT<T>& map,
                         std::span<const EstimatePlaceT<T>> places,
@@ -77,7 +76,6 @@ void estimates_together(const PhotonMapT<T>& map,
         give(place, per_area<T>(sum, r2));
     }
 }
-// [estimates_together]
 
 /// \}
 

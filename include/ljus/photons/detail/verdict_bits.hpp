@@ -52,7 +52,6 @@ template <std::floating_point T>
 /// average the needed number of photons of a light. A coarse grid measures the area on
 /// which the photons lie.
 /// \return In scene units; 0 if all photons lie at one point.
-// [cell_length]
 template <std::floating_point T>
 [[nodiscard]] T cell_length(const std::vector<PhotonT<T>>& photons, const BoxT<T>& box,
                             std::size_t lights, const SkipSettings& skip) {
@@ -76,7 +75,6 @@ template <std::floating_point T>
         std::sqrt(wanted * area * double(lights) / (9 * std::max(witnesses, 1.0)));
     return std::max(T(length), least);
 }
-// [cell_length]
 
 /// A counted photon: its cell, and whether it is a shadow photon.
 struct Witness {
@@ -151,13 +149,11 @@ counts_around(const BrickTable& table, std::uint32_t brick,
 /// Sums each cell of a brick with its 26 neighbours, axis by axis.
 /// \param sums  What counts_around() returned. Afterwards the sum of the cell (x, y,
 ///              z), each from 0 to 3, is at x + 6 y + 36 z.
-// [add_neighbors]
 constexpr void add_neighbors(CountsAround& sums) noexcept {
     for (const std::size_t step : {1u, 6u, 36u})
         for (std::size_t i = 0; i + 2 * step < sums.size(); ++i)
             sums[i] += sums[i + step] + sums[i + 2 * step];
 }
-// [add_neighbors]
 
 /// Converts sums into bits.
 /// \param needed  photons_needed() by this rule.
@@ -178,7 +174,6 @@ judge_brick(const CountsAround& sums, SkipRule rule, std::uint32_t needed) noexc
 
 /// Computes the bits of all bricks.
 /// \throws std::invalid_argument  if there would be more than most_bricks.
-// [make_bits]
 template <std::floating_point T>
 [[nodiscard]] VerdictBitsT<T> make_bits(const std::vector<PhotonT<T>>& photons,
                                         const CellsT<T>& cells, std::size_t lights,
@@ -211,7 +206,6 @@ template <std::floating_point T>
     }
     return grid;
 }
-// [make_bits]
 
 /// \}
 
