@@ -279,7 +279,9 @@ TEST_CASE("vertex merging: in a sphere each strategy has its share") {
         }
         expected["all"] = 2;
         const auto found = shares(room.world, settings, 60, 1000, anywhere);
-        for (const auto& [name, mean] : found) {
+        for (const auto& term : found) {
+            const std::string& name = term.first;
+            const Mean& mean = term.second;
             CAPTURE(name);
             CAPTURE(radius);
             CAPTURE(mean.mean);

@@ -43,7 +43,8 @@ inline void check(const LightPathSettings& settings) {
             "the merging radius", settings.radius, "finite and at least 0");
 }
 
-/// A vertex of a light path: a photon that knows its surface and its weights.
+/// A vertex of a light path: a photon that knows its surface and its weights
+/// \cite lafortune1993.
 template <std::floating_point T>
 struct LightVertexT {
     VertexT<T> vertex{};      ///< The surface, which is not only specular.
@@ -107,7 +108,8 @@ template <AnyWorld W, StreamLike Stream>
 template <AnyWorld W, StreamLike Stream, std::floating_point T>
 void trace_light_path(const W& world, const LightPathSettings& settings, Stream stream,
                       std::vector<LightVertexT<T>>& out) {
-    auto [path, start, light] = start_light_path(world, stream);
+    LightStartT<T> start = start_light_path(world, stream);
+    PathStateT<T>& path = start.path;
     path.throughput /= T(settings.paths);
     const Vec3T<T> direction = path.ray.direction;
     SubpathWeights weights;
@@ -117,9 +119,9 @@ void trace_light_path(const W& world, const LightPathSettings& settings, Stream 
         const auto x = next_vertex(world, path, stream);
         if (!x || is_black(path.throughput)) return;
         if (path.depth == 1)
-            weights = started(
-                light_end(world, light.light, start, direction, x->point.position),
-                light.probability);
+            weights = started(light_end(world, start.light.light, start.point,
+                                        direction, x->point.position),
+                              start.light.probability);
         weights = arrived(weights, path, *x);
         const bool goes_on = visit_material_at(world, *x, [&](const auto& m) {
             const T landing = landing_factor(*x, path.ray.direction);

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/render/vertex_merging.hpp
-/// \brief Vertex connection and merging: paths from the eye and photons with their paths
-/// are joined in four ways, each weighted by how likely it finds a path.
+/// \brief Vertex connection and merging: paths from the eye and from the lights, joined
+/// in four ways, each weighted by how likely it is to find a path.
 
 #include "ljus/path/direct_light.hpp"
 #include "ljus/path/path_log.hpp"
