@@ -1,0 +1,265 @@
+#pragma once
+
+/// \file ljus/render/vertex_merging.hpp
+/// \brief Vertex connection and merging: paths from the eye and from the lights, joined
+/// in four ways, each weighted by how likely it is to find a path.
+
+#include "ljus/path/direct_light.hpp"
+#include "ljus/path/path_log.hpp"
+#include "ljus/photons/light_paths.hpp"
+#include "ljus/render/render.hpp"
+
+namespace ljus {
+
+/// \defgroup vertex_merging Vertex connection and merging
+/// \brief Path tracing, bidirectional path tracing and photon mapping in one estimate
+/// \cite georgiev2012 \cite hachisuka2012. Chapter: \ref ch_both_ends.
+///
+/// | term       | from the light      | how the two paths are joined                  |
+/// |------------|---------------------|-----------------------------------------------|
+/// | emission   | nothing             | the camera path hits the lamp                 |
+/// | shadow ray | a point of a light  | by a ray to the point                         |
+/// | connection | a path with a bounce| by a ray to one of its vertices               |
+/// | merging    | a path with a bounce| a vertex lies within the radius, as a photon  |
+///
+/// Of light that several of them can find each gets a share, by the balance heuristic.
+/// With radius 0 the renderer is bidirectional path tracing, which has no bias.
+/// \{
+
+/// Light paths of a world, which must outlive them, and their joints with camera paths:
+///
+///     const VertexMerger merger(world, {.paths = 100000, .radius = 0.02f});
+///
+/// Suns, skies and moving shapes are refused. What it does not carry: the absorption of
+/// an outer body where a joining ray leaves an inner one through rough glass; and the
+/// light of photons that smooth meshes absorb at grazing angles.
+template <typename W>
+class VertexMerger {
+public:
+    using Scalar = typename W::Scalar; ///< The precision.
+    using Stream = RandomStream;       ///< The random stream that render() passes.
+
+    /// Traces the light paths.
+    /// \param world     Must outlive the merger.
+    /// \param settings  Number of paths, radius, limits.
+    /// \throws std::invalid_argument  as trace_light_paths().
+    explicit VertexMerger(WorldRef<W> world, const LightPathSettings& settings = {})
+        : world_(world), settings_(settings),
+          lights_(trace_light_paths(world.get(), settings)) {}
+    /// What is rendered.
+    [[nodiscard]] const W& world() const noexcept { return world_.get(); }
+    /// Number of paths, radius, limits.
+    [[nodiscard]] const LightPathSettings& settings() const noexcept {
+        return settings_;
+    }
+    /// The light paths.
+    [[nodiscard]] const LightPathsT<Scalar>& lights() const noexcept { return lights_; }
+
+private:
+    WorldRef<W> world_;
+    LightPathSettings settings_;
+    LightPathsT<Scalar> lights_;
+};
+/// Deduces the world.
+template <typename W>
+VertexMerger(const W&, const LightPathSettings& = {}) -> VertexMerger<W>;
+
+namespace detail {
+
+/// A vertex of a camera path, its material, and the weights of the subpath.
+template <std::floating_point T, Material M>
+struct CameraVertex {
+    const VertexT<T>& at;          ///< The vertex.
+    const M& material;             ///< Its material.
+    const SubpathWeights& weights; ///< At the vertex.
+    int depth;                     ///< Surfaces from the eye to here.
+};
+/// Deduces the types.
+template <std::floating_point T, Material M>
+CameraVertex(const VertexT<T>&, const M&, const SubpathWeights&, int)
+    -> CameraVertex<T, M>;
+
+/// Radiance of a lamp that the camera path hits, times the weight.
+// [emission]
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] RgbT<T> hit_lamp(const VertexMerger<W>& merger, const PathStateT<T>& path,
+                               const VertexT<T>& lamp, const SubpathWeights& weights) {
+    if (path.depth == 1) return lamp.object.emission;
+    const std::uint32_t light = lamp.object.light;
+    const LightEnd end = light_end(merger.world(), light, lamp.point,
+                                   -path.ray.direction, path.previous);
+    const double sum = others_of_emission(
+        weights, end, probability_of<double>(merger.world().light_choice(), light));
+    return T(weight_against(sum)) * lamp.object.emission;
+}
+// [emission]
+
+/// Light of one light, by a shadow ray, times the weight.
+// [shadow ray]
+template <AnyWorld W, std::floating_point T, Material M, typename Context>
+[[nodiscard]] RgbT<T> ask_light(const VertexMerger<W>& merger,
+                                const CameraVertex<T, M>& x, Context& context) {
+    const W& world = merger.world();
+    const auto [light, probability] =
+        choose_light(world.light_choice(), next_1d<T>(context.stream));
+    const Vec2T<T> u = next_2d<T>(context.stream);
+    const RgbT<T> arrived =
+        direct_light(world, light, x.at, x.material, u, MisT<T>{}, context.counts);
+    if (is_black(arrived)) return arrived;
+
+    const Vec3T<T>& here = x.at.point.position;
+    const auto lamp = sample_light(world, light, here, u, x.at.time); // the same point
+    const auto by = turn(x.at, x.material, lamp->wi, Transport::radiance);
+    const LightEnd end = light_end(world, light, lamp->point, -lamp->wi, here);
+    const Vec3T<T> way = lamp->point.position - here;
+    const double sum =
+        others_of_shadow_ray(x.weights, end, probability, by.pdf, by.back, by.cosine,
+                             glm::dot(way, way), merger.settings().merging());
+    return arrived * (T(weight_against(sum)) / probability);
+}
+// [shadow ray]
+
+/// Light of a light path, by a ray to one of its vertices, times the weight.
+// [connection]
+template <AnyWorld W, std::floating_point T, Material M>
+[[nodiscard]] RgbT<T> connect(const VertexMerger<W>& merger,
+                              const CameraVertex<T, M>& x, const LightVertexT<T>& y,
+                              Counts& counts) {
+    const Vec3T<T> way = y.vertex.point.position - x.at.point.position;
+    const T distance = glm::length(way);
+    const Vec3T<T> wi = way / distance;
+    const auto here = turn(x.at, x.material, wi, Transport::radiance);
+    if (is_black(here.f)) return here.f;
+    const auto there = visit_material_at(merger.world(), y.vertex, [&](const auto& m) {
+        return turn(y.vertex, m, -wi, Transport::flux);
+    });
+    if (is_black(there.f)) return there.f;
+    ++counts.shadow_rays;
+    const RgbT<T> visible = visibility(merger.world(), x.at.point, y.vertex.point);
+    if (is_black(visible)) return visible;
+
+    const double merging = merger.settings().merging(),
+                 d2 = double(distance * distance);
+    const double sum =
+        others(y.weights, here.pdf * there.cosine / d2, there.back, merging) +
+        others(x.weights, there.pdf * here.cosine / d2, here.back, merging);
+    const RgbT<T> medium =
+        medium_beyond(x.at.medium, x.material, x.at.wo, to_local(x.at.frame, wi));
+    // The flux is a fraction 1/N, but one path of N is asked.
+    const double factor = double(merger.settings().paths) * weight_against(sum);
+    return here.f * there.f * y.flux * visible * transmittance(medium, distance) *
+           (here.shading * T(there.cosine / d2 * factor));
+}
+// [connection]
+
+/// Light of the photons around a vertex, each times its weight.
+/// \param add  Receives letters and radiance.
+// [merging]
+template <AnyWorld W, std::floating_point T, Material M, typename Add>
+void merge(const VertexMerger<W>& merger, const CameraVertex<T, M>& x, Counts& counts,
+           const Add& add) {
+    const LightPathSettings& settings = merger.settings();
+    const LightPathsT<T>& lights = merger.lights();
+    const double merging = settings.merging();
+    ++counts.map_queries;
+    const auto visit = [&](std::uint32_t i, double) {
+        const LightVertexT<T>& y = lights.vertices[lights.tree.point_ids()[i]];
+        if (x.depth + y.depth - 1 > settings.max_depth) return;
+        if (glm::dot(y.vertex.point.normal, x.at.point.normal) < T(0.5)) return;
+        const Vec3T<T> wi = to_world(y.vertex.frame, y.vertex.wo);
+        const auto by = turn(x.at, x.material, wi, Transport::radiance);
+        if (is_black(by.f)) return;
+        ++counts.map_photons;
+        const double sum = others_merged(x.weights, by.back, merging) +
+                           others_merged(y.weights, by.pdf, merging);
+        const double area = merging / double(settings.paths); // pi r^2
+        add(y.letters, by.f * y.flux * T(weight_against(sum) / area));
+    };
+    lights.tree.visit_within(x.at.point.position, T(settings.radius), visit);
+}
+// [merging]
+
+} // namespace detail
+
+/// The radiance that one camera path finds, with one light path for connections and all
+/// of them for merging.
+/// \param merger   World and light paths.
+/// \param ray      A primary ray.
+/// \param context  The random stream of this path; counts its rays, logs its terms.
+/// \return Radiance, W/(m^2 sr).
+// [radiance]
+template <AnyWorld W, std::floating_point T, typename Context>
+[[nodiscard]] RgbT<T> radiance(const VertexMerger<W>& merger, const RayT<T>& ray,
+                               Context& context) {
+    const W& world = merger.world();
+    const LightPathSettings& settings = merger.settings();
+    RgbT<T> sum{T(0)};
+    auto path = camera_path(world, ray, context.stream);
+    const RadianceSum terms{sum, path.throughput, context.log};
+    const auto partner = merger.lights().choose(next_1d<double>(context.stream));
+    SubpathWeights weights;
+    context.log.begin();
+    while (const auto at = next_vertex(world, path, context.stream)) {
+        detail::log_arrival(context.log, at->point.position);
+        weights = detail::arrived(weights, path, *at);
+        if (at->emits())
+            terms("emission", "L", detail::hit_lamp(merger, path, *at, weights));
+        if (detail::cut_if(path.depth > settings.max_depth, context.counts)) break;
+
+        const bool goes_on = visit_material_at(world, *at, [&](const auto& material) {
+            const detail::CameraVertex x{*at, material, weights, path.depth};
+            if (has(lobes(material), Lobes::non_specular) && world.light_count() > 0) {
+                terms("shadow ray", "DL", detail::ask_light(merger, x, context));
+                for (const LightVertexT<T>& y : partner)
+                    if (x.depth + y.depth <= settings.max_depth)
+                        terms("connection", y.letters.c_str(),
+                              detail::connect(merger, x, y, context.counts));
+                detail::merge(merger, x, context.counts,
+                              [&](const std::string& letters, const RgbT<T>& light) {
+                                  terms("merging", letters.c_str() + 1, light);
+                              });
+            }
+            if (!continue_path(path, *at, material, Transport::radiance, Lobes::all,
+                               context.stream))
+                return false;
+            weights =
+                detail::scattered(weights, path, *at, material, settings.merging());
+            return true;
+        });
+        if (!goes_on) break;
+        detail::log_vertex(context.log, path);
+        if (is_black(path.throughput)) break;
+        if (path.depth > 4 &&
+            !survives(path.throughput, path.eta_scale, next_1d<T>(context.stream)))
+            break;
+        ++context.counts.bounce_rays;
+    }
+    return sum;
+}
+// [radiance]
+
+/// One pass with light paths and camera rays of its own, for progressive_mean() and
+/// run_progressive(): then the radius shrinks, and the bias with it.
+/// \param world     The closed scene.
+/// \param camera    Any camera.
+/// \param settings  Light paths *of one pass*; the radius of the first.
+/// \param picture   Size; rays per pixel in one pass.
+/// \param pass      Its number, from 1.
+/// \param scale     Factor of the radius, in (0, 1].
+/// \return The picture; not complete if a progress callback stopped it.
+// [pass]
+template <AnyWorld W, CameraLike C>
+[[nodiscard]] RenderedT<typename C::Scalar>
+vertex_merging_pass(const W& world, const C& camera, LightPathSettings settings,
+                    RenderSettings picture, long long pass, double scale) {
+    settings.iteration = static_cast<std::uint64_t>(pass);
+    settings.radius *= static_cast<float>(scale);
+    picture.seed = mix_bits(mix_bits(picture.seed) + settings.iteration);
+    const VertexMerger merger(world, settings);
+    return render(merger, camera, picture);
+}
+// [pass]
+
+/// \}
+
+} // namespace ljus
