@@ -19,7 +19,6 @@ using namespace ljus;
 constexpr std::array names{"emission", "shadow ray", "connection", "merging"};
 
 /// A log that adds up the terms of each strategy.
-// [log]
 struct TermLog {
     std::array<Rgb, names.size()> sums{}; ///< One for each of `names`.
 
@@ -33,7 +32,6 @@ struct TermLog {
             if (owner == names[i]) sums[i] += value;
     }
 };
-// [log]
 
 /// A glass ball on a floor before a mirror, lit by a small lamp.
 auto mirror_room() {
@@ -73,7 +71,6 @@ int main(int argc, char** argv) {
                                   make_image(options.width, options.height));
         examples::ProgressBar bar("passes", options.quiet);
         double shrink = 1; // of the radius, squared
-        // [passes]
         for (int pass = 1; pass <= passes; ++pass) {
             const VertexMerger merger(world,
                                       {.paths = options.pick(20000, 40000, 60000),
@@ -101,7 +98,6 @@ int main(int argc, char** argv) {
             bar(pass, passes);
             examples::stop_if_asked();
         }
-        // [passes]
         auto whole = make_image(options.width, options.height);
         for (std::size_t k = 0; k < names.size(); ++k) {
             for (std::size_t p = 0; p < whole.pixels.size(); ++p)

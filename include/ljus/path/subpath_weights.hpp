@@ -123,7 +123,6 @@ others_of_shadow_ray(const SubpathWeights& at, const LightEnd& end, double proba
 /// \param at       The weights at x.
 /// \param back     Density of the direction from x to the vertex before.
 /// \param merging  \f$\eta\f$, above 0.
-// [merged]
 [[nodiscard]] inline double others_merged(const SubpathWeights& at, double back,
                                           double merging) noexcept {
     return (at.join + back * at.further) / merging;
@@ -135,7 +134,6 @@ others_of_shadow_ray(const SubpathWeights& at, const LightEnd& end, double proba
 [[nodiscard]] inline double weight_against(double sum) noexcept {
     return std::isfinite(sum) ? 1 / (1 + sum) : 0;
 }
-// [merged]
 
 namespace detail {
 

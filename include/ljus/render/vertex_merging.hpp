@@ -247,7 +247,6 @@ template <AnyWorld W, std::floating_point T, typename Context>
 /// \param pass      Its number, from 1.
 /// \param scale     Factor of the radius, in (0, 1].
 /// \return The picture; not complete if a progress callback stopped it.
-// [pass]
 template <AnyWorld W, CameraLike C>
 [[nodiscard]] RenderedT<typename C::Scalar>
 vertex_merging_pass(const W& world, const C& camera, LightPathSettings settings,
@@ -258,7 +257,6 @@ vertex_merging_pass(const W& world, const C& camera, LightPathSettings settings,
     const VertexMerger merger(world, settings);
     return render(merger, camera, picture);
 }
-// [pass]
 
 /// \}
 
