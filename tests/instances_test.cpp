@@ -296,6 +296,9 @@ TEST_CASE("instances: points are uniform over the area in the scene") {
         center += heron(t) / whole * glm::dvec3(t.v1 + t.v2 + t.v3) / 3.0;
     }
     CHECK(glm::distance(mean, center) < 0.005);
+    const Instance thrice(mesh, then(turn({0, 0.6, 0.8}, 1), stretch({3, -3, 3})));
+    CHECK(area(thrice) == doctest::Approx(9 * area(mesh)));
+    CHECK(area_sums(thrice).empty());
     // Without the sums the same points.
     CHECK(sample_area(instance, {0.3f, 0.6f}).position ==
           sample_area(instance, {0.3f, 0.6f}, sums).position);

@@ -18,14 +18,14 @@ ljus_break_it(NAME instances-mirror HEADER accel/instances.hpp TEST instances
 
 # The rounding of the ray at the mesh is forgotten.
 ljus_break_it(NAME instances-rounding HEADER accel/instances.hpp TEST instances
-    FROM "Wide(local.error + rounding_bound<T>(4) * reach)"
-    TO   "Wide(0)"
+    FROM "at_mesh(local.error + rounding_bound<T>(4) * reach)"
+    TO   "at_mesh(0)"
     CASES "instances: a surface does not*")
 
 # And where a shadow ray ends.
 ljus_break_it(NAME instances-shadow HEADER accel/instances.hpp TEST instances
     FROM "point.error += Vec3T<T>("
-    TO   "point.error += 0 * Vec3T<T>("
+    TO   "point.error += T(0) * Vec3T<T>("
     CASES "instances: a surface does not*")
 
 # A stretched lamp is brighter where it was stretched.
@@ -38,7 +38,7 @@ ljus_break_it(NAME instances-areas HEADER accel/instances.hpp TEST instances
 ljus_break_it(NAME instances-area HEADER accel/instances.hpp TEST instances
     FROM "double(scale_ * scale_) *"
     TO   "1.0 *"
-    CASES "instances: a placement*")
+    CASES "instances: points are uniform*")
 
 # A moving instance is where it was at first.
 ljus_break_it(NAME instances-moving HEADER accel/instances.hpp TEST instances
