@@ -3,6 +3,9 @@
 /// \file ljus/accel/instances.hpp
 /// \brief A mesh that is placed many times by affine maps, one tree below another.
 
+#include <array>
+#include <string>
+
 #include "ljus/accel/mesh.hpp"
 #include "ljus/math/affine.hpp"
 #include "ljus/ref.hpp"
@@ -67,6 +70,12 @@ class InstanceT {
 public:
     using Wide = WideT<T>; ///< Of the inverse map, so that it is as good as the map.
 
+    /// What an instance is made of.
+    struct Data {
+        const MeshDataT<T>& mesh;          ///< Vertices and triangles.
+        std::array<Vec3T<T>, 4> columns{}; ///< Of the map.
+    };
+
     /// Places a mesh.
     /// \param mesh   It must outlive the instance; a scene keeps it by Scene::add().
     /// \param place  From the mesh to the scene. A map that mirrors keeps the outside
@@ -115,6 +124,10 @@ public:
     [[nodiscard]] Wide scale() const noexcept { return scale_; }
     /// The area in the scene, in squared scene units.
     [[nodiscard]] T area() const noexcept { return area_; }
+    /// What it is made of, for the key of a light map.
+    [[nodiscard]] Data data() const noexcept {
+        return {mesh().data(), {place_[0], place_[1], place_[2], place_[3]}};
+    }
     /// The number of triangles.
     [[nodiscard]] std::uint32_t size() const noexcept { return mesh().size(); }
     /// The triangle of a hit's `part`, in the scene, rounded to T. It faces outwards;
