@@ -558,6 +558,33 @@ TEST_CASE("contacts: a search among thousands finds what a loop finds") {
     CHECK(world.contacts().complete);
 }
 
+TEST_CASE("contacts: the neighbours of an object are found by a tree") {
+    // A row of boxes that overlap the next one, each with a look of its own, except that
+    // every third shares that of the one before.
+    std::vector<Box> boxes;
+    std::vector<std::uint32_t> looks;
+    constexpr std::uint32_t count = 20000;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const float x = float(i) / count;
+        boxes.push_back({{x, 0, 0}, {x + 1.2f / count, 1, 1}});
+        looks.push_back(i % 3 == 2 ? i - 1 : i);
+    }
+    const detail::LookTree tree(boxes, looks);
+    long long budget = 100 * count; // nodes; a comparison of all pairs is 2e8 each way
+    bool right = true;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        std::vector<std::uint32_t> found, expected;
+        right &= tree.each_overlap(i, budget, [&](auto k) { found.push_back(k); });
+        if (i > 0 && i % 3 != 2) expected.push_back(i - 1);
+        if (i + 1 < count && i % 3 != 1) expected.push_back(i + 1);
+        std::sort(found.begin(), found.end());
+        right &= found == expected;
+    }
+    CHECK(right);
+    long long spent = 0;
+    CHECK(!tree.each_overlap(0, spent, [](auto) {}));
+}
+
 TEST_CASE("contacts: the survey says what lies in one place, and which rule decides") {
     const auto remarks = [](const auto& add) {
         Everything<float> scene;

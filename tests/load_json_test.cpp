@@ -101,7 +101,7 @@ using Wallpaper = Textured<Lambertian, PictureTextureT<float, detail::FileMapT<f
 } // namespace
 
 TEST_CASE("load_json: everything in the file is in the scene") {
-    const LoadedScene loaded = read_json_scene(good, "a.json");
+    LoadedScene loaded = read_json_scene(good, "a.json");
     CHECK(loaded.name == "four things");
     CHECK(loaded.width == 30);
     CHECK(loaded.height == 20);
@@ -121,14 +121,6 @@ TEST_CASE("load_json: everything in the file is in the scene") {
     CHECK(spheres[0].radius == 0.75f);
     CHECK(triangles[0].v2 == Vec3{-1.5f, 1, 0.5f});
 
-    const World world(scene);
-    CHECK(world
-              .visit_material(world.object({0, 0}).material,
-                              [](const auto& m) {
-                                  return evaluate(m, Vec3{0, 0, 1}, Vec3{0, 0, 1}) *
-                                         std::numbers::pi_v<float>;
-                              })
-              .x == doctest::Approx(0.75));
     const auto& rough = std::get<1>(scene.materials);
     REQUIRE(rough.size() == 1);
     CHECK(rough[0].sigma == doctest::Approx(std::numbers::pi / 6));
@@ -138,11 +130,19 @@ TEST_CASE("load_json: everything in the file is in the scene") {
     const auto& glasses = std::get<3>(scene.materials);
     REQUIRE(glasses.size() == 1);
     CHECK(glasses[0].index == 1.5f);
+    const World world(std::move(loaded.scene));
+    CHECK(world
+              .visit_material(world.object({0, 0}).material,
+                              [](const auto& m) {
+                                  return evaluate(m, Vec3{0, 0, 1}, Vec3{0, 0, 1}) *
+                                         std::numbers::pi_v<float>;
+                              })
+              .x == doctest::Approx(0.75));
 }
 
 TEST_CASE("load_json: a lamp of two triangles is one light") {
-    const LoadedScene loaded = read_json_scene(good, "a.json");
-    const World world(loaded.scene);
+    LoadedScene loaded = read_json_scene(good, "a.json");
+    const World world(std::move(loaded.scene));
     REQUIRE(world.light_count() == 1);
     world.visit_light(0, [](const auto& light) {
         if constexpr (requires { light.lamp; })
@@ -369,12 +369,11 @@ TEST_CASE("load_json: the report's sliders") {
 TEST_CASE("load_json: each name makes its own material") {
     // The type of the material of the ball, as the scene numbers them, and f there.
     const auto f = [](const std::string& material) {
-        const LoadedScene loaded = read_json_scene(with(material), "a.json");
-        return World(loaded.scene)
-            .visit_material(loaded.scene.object({1, 0}).material, [](const auto& m) {
-                const Vec3 tilted{0.6f, 0, 0.8f}, back{-0.48f, 0.36f, 0.8f};
-                return evaluate(m, tilted, back);
-            });
+        const World world(read_json_scene(with(material), "a.json").scene);
+        return world.visit_material(world.object({1, 0}).material, [](const auto& m) {
+            const Vec3 tilted{0.6f, 0, 0.8f}, back{-0.48f, 0.36f, 0.8f};
+            return evaluate(m, tilted, back);
+        });
     };
     const Vec3 wo{0.6f, 0, 0.8f}, wi{-0.48f, 0.36f, 0.8f};
     const std::pair<const char*, RoughModel> models[]{
@@ -585,7 +584,7 @@ TEST_CASE("load_json: an environment is a constant, a gradient or a picture") {
 }
 
 TEST_CASE("load_json: points, spots and suns") {
-    const LoadedScene loaded = read_json_scene(
+    LoadedScene loaded = read_json_scene(
         lit(R"({"type": "point", "position": [0, 2, 1], "intensity": [1, 2, 3]},
                {"type": "spot", "position": [0, 2, 1], "direction": [0, -2, 0],
                 "intensity": [1, 1, 1], "inner_deg": 10, "outer_deg": 60},
@@ -602,7 +601,7 @@ TEST_CASE("load_json: points, spots and suns") {
     CHECK(suns[0].irradiance == Rgb{4, 4, 3});
     CHECK(skies.empty());
     // In the scene they come after the lamp, in the order of the file.
-    const World world(loaded.scene);
+    const World world(std::move(loaded.scene));
     REQUIRE(world.light_count() == 4);
     CHECK(world.can_be_met(0));
     world.visit_light(2, [](const auto& light) {
@@ -668,7 +667,8 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
          "materials.glass.tint is not known; the fields here are type, ior and "
          "absorption."},
         {"\"type\": \"sphere\"", "\"type\": \"cube\"",
-         "objects[2].type is \"cube\"; it must be sphere, triangles or mesh."},
+         "objects[2].type is \"cube\"; it must be sphere, triangles, mesh or "
+         "instances."},
         {"\"type\": \"sphere\", ", "", "objects[2].type is missing."},
         {"\"material\": \"glass\"", "\"material\": \"gold\"",
          "objects[2].material is \"gold\"; it must be one of the materials glass, "
@@ -824,12 +824,12 @@ TEST_CASE("load_json: garbage is refused, or gives a scene that can be used") {
     int accepted = 0;
     const auto try_it = [&](const std::string& text) {
         try {
-            const LoadedScene loaded = read_json_scene(text, "a.json");
+            LoadedScene loaded = read_json_scene(text, "a.json");
             ++accepted;
             REQUIRE(loaded.scene.light_count() > 0);
             REQUIRE(loaded.width >= 1);
             REQUIRE(is_finite(loaded.camera.forward));
-            const World world(loaded.scene);
+            const World world(std::move(loaded.scene));
             const auto hit =
                 closest_hit(world, primary_ray(loaded.camera, Vec2{0.5f, 0.5f},
                                                loaded.width, loaded.height));
@@ -1034,6 +1034,64 @@ TEST_CASE("load_json: a mesh file is read once for each scale and normals") {
         sentence(objects(10, "")) ==
         "a.json: objects[9].file is named once more; meshes that are named again have "
         "at most 4194304 triangles together.");
+}
+
+TEST_CASE("load_json: instances place a mesh that is read once") {
+    int calls = 0;
+    std::uint32_t triangles = 1;
+    const auto load = [&](const std::string&, double scale, const std::string&) {
+        ++calls;
+        MeshData data{.positions{{0, 0, 0}, {float(scale), 0, 0}, {0, 1, 0}}};
+        data.triangles.resize(triangles, {0, 1, 2});
+        std::vector<Mesh> meshes;
+        meshes.emplace_back(data);
+        return meshes;
+    };
+    const auto with = [](const std::string& places, int count = 1) {
+        std::string text;
+        for (int i = 0; i < count; ++i)
+            text += R"({"type": "instances", "file": "m.obj", "material": "matt", )"
+                    R"("places": )" +
+                    places + "}, ";
+        return changed("\"objects\": [", "\"objects\": [" + text);
+    };
+    const std::string two = "[[1, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7], "
+                            "[0, 2, 0, 0, 1, 0, 0, 0, 0, 0, 3, 0]]";
+    auto loaded = read_json_scene(with(two, 3), "a.json", load);
+    CHECK(calls == 1);
+    const World world(std::move(loaded.scene));
+    const auto& placed = std::get<std::vector<Instance>>(world.shapes());
+    REQUIRE(placed.size() == 6);
+    for (const Instance& one : placed) CHECK(&one.mesh() == &placed[0].mesh());
+    CHECK(placed[0].triangle(0).v1 == Vec3(5, 6, 7));
+    CHECK(placed[0].triangle(0).v2 == Vec3(6, 6, 7));
+    CHECK(placed[1].place()[0] == Vec3(0, 1, 0)); // the first column
+    CHECK(placed[1].place()[1] == Vec3(2, 0, 0));
+    CHECK(placed[1].place()[2] == Vec3(0, 0, 3));
+
+    const auto sentence = [&](const std::string& text) -> std::string {
+        try {
+            (void)read_json_scene(text, "a.json", load);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    CHECK(sentence(with("[]")) == "accepted");
+    CHECK(sentence(with("[[1, 0, 0]]")) ==
+          "a.json: objects[0].places[0] is [1,0,0]; it must be a list of twelve "
+          "numbers, the rows of a 3 x 4 matrix.");
+    CHECK(sentence(with("[[1,0,0,0, 0,0,0,0, 0,0,1,0]]")) ==
+          "a.json: objects[0].places[0] cannot be used: the determinant of an "
+          "instance's map is 0; it must be other than 0: a mesh without thickness has "
+          "no inside.");
+    triangles = 1 << 20;
+    const std::string same = "[1,0,0,0, 0,1,0,0, 0,0,1,0]";
+    std::string many = same;
+    for (int i = 1; i < 1025; ++i) many += "," + same;
+    CHECK(sentence(with("[" + many + "]")) ==
+          "a.json: objects[0].places has too many entries; instances have at most "
+          "1073741824 triangles together.");
 }
 
 TEST_CASE("load_json: counts are right to the last one") {

@@ -529,7 +529,7 @@ TEST_CASE("load_obj: texture coordinates and the picture of a material") {
     CHECK(at(1, 0.5f) == Rgb{0, 0, 1});
     CHECK(at(3, 0.5f) == Rgb{1, 1, 1});
     // A scene file may paint the mesh with a picture of its own.
-    const auto json = read_json_scene(
+    auto json = read_json_scene(
         R"({"camera": {"position": [0, 0, 4], "look_at": [0, 0, 0], "up": [0, 1, 0],
             "vfov_deg": 40}, "image": {"width": 8, "height": 8},
             "materials": {"m": {"type": "picture", "file": "four.png", "map": "uv"}},
@@ -538,7 +538,7 @@ TEST_CASE("load_obj: texture coordinates and the picture of a material") {
                         "irradiance": [1, 1, 1]}]})",
         folder.file("s.json"), ObjMeshes{});
     const Ray green{.origin{3, 1.5f, 3}, .direction{0, 0, -1}};
-    const World hung(json.scene);
+    const World hung(std::move(json.scene));
     const auto surface = vertex_at(hung, green, *closest_hit(hung, green));
     const Vec3 up{0, 0, 1};
     visit_material_at(hung, surface, [&](const auto& m) {

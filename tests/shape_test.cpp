@@ -298,11 +298,12 @@ TEST_CASE("shape: what there is without more said") {
 namespace reader {
 
 /// The rows of the table of hooks, in their order.
-constexpr std::array<std::string_view, 16> rows{
+constexpr std::array<std::string_view, 18> rows{
     "bounds",      "meets",          "shading_normal",      "area",
     "sample_area", "sample_towards", "pdf_towards",         "center_sample",
     "normal",      "point_at",       "form_factor_from",    "facet_of",
-    "patch_grid",  "corners_of",     "texture_coordinates", "translated"};
+    "patch_grid",  "corners_of",     "texture_coordinates", "translated",
+    "area_sums",   "prototype"};
 /// The number of a row.
 constexpr std::size_t row(std::string_view name) {
     std::size_t i = 0;
@@ -415,6 +416,14 @@ requires(R == row("texture_coordinates")) Vec2
 template <std::size_t R>
 requires(R == row("translated")) One<R> translated(const One<R>& s, const Vec3&) {
     return s;
+}
+template <std::size_t R>
+requires(R == row("area_sums")) std::vector<double> area_sums(const One<R>&) {
+    return {};
+}
+template <std::size_t R>
+requires(R == row("prototype")) const Sphere& prototype(const One<R>& s) {
+    return s.ball;
 }
 
 } // namespace reader

@@ -302,7 +302,8 @@ TEST_CASE("survey: a hook that is misspelt shows") {
         "center_sample (u = v = 1/2), normal (at its sphere), point_at (at each "
         "point), form_factor_from (by facet_of()), facet_of (by rays), patch_grid "
         "(left out of it), corners_of (darker at them), texture_coordinates (those "
-        "of the hit), translated (does not compile)"));
+        "of the hit), translated (does not compile), area_sums (by sample_area()), "
+        "prototype (it has all its data)"));
     CHECK(lines[1].starts_with("shape QuadT<float> has bounds, area, "));
     CHECK(lines[2].ends_with(
         " has emission; without absorption (clear), refractive_index (opaque in "

@@ -48,9 +48,15 @@ ljus_break_it(NAME contacts-plane HEADER geometry/touching.hpp TEST contacts
 
 # The search takes the look of a node's first part for that of all.
 ljus_break_it(NAME contacts-looks HEADER scene/contacts.hpp TEST contacts
-    FROM "below[i] = several;"
+    FROM "below_[i] = several;"
     TO   ";"
     CASES "contacts: a search among thousands*")
+
+# The search among objects goes through all of them.
+ljus_break_it(NAME contacts-tree HEADER scene/contacts.hpp TEST contacts
+    FROM "below_[at] == looks_[i] || !overlap(box, boxes_[i])"
+    TO   "false"
+    CASES "contacts: the neighbours*")
 
 # A path that begins in a stack of bodies skips where one ends on the next.
 ljus_break_it(NAME contacts-medium HEADER path/next_vertex.hpp TEST contacts

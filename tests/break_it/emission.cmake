@@ -19,9 +19,9 @@ ljus_break_it(NAME emission-probability HEADER photons/photon_path.hpp TEST emis
 
 # A room of light that shines outwards.
 ljus_break_it(NAME emission-inside-out HEADER lights/area_light.hpp TEST emission
-    FROM "SurfacePointT<T> point = sample_area(at_time(light.shape, time), u);
+    FROM "}();
     if (light.lamp.inside_out) point.normal = -point.normal;"
-    TO   "SurfacePointT<T> point = sample_area(at_time(light.shape, time), u);"
+    TO   "}();"
     CASES "emission: a room*")
 
 # The report's program: aimed photons as if they had been sent everywhere.

@@ -30,8 +30,10 @@ ljus_break_it(NAME light-density HEADER lights/area_light.hpp TEST light
 
 # A lamp that moves shines from where it was at first.
 ljus_break_it(NAME light-time HEADER lights/area_light.hpp TEST light
-    FROM "sample_towards(at_time(light.shape, time), from, u)"
-    TO   "sample_towards(at_time(light.shape, T(0)), from, u)"
+    FROM "const auto& now = at_time(light.shape, time);
+        const auto seen"
+    TO   "const auto& now = at_time(light.shape, T(0));
+        const auto seen"
     CASES "light: a lamp that moves*")
 
 # The density of a sample is forgotten.

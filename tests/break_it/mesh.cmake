@@ -30,7 +30,7 @@ ljus_break_it(NAME mesh-area HEADER accel/mesh.hpp TEST mesh
 
 # What the choice of the triangle left of u is not stretched again.
 ljus_break_it(NAME mesh-left-of-u HEADER accel/mesh.hpp TEST mesh
-    FROM "Vec2T<T>{T(left), u.y}"
+    FROM "Vec2T<T>{left, u.y}"
     TO   "Vec2T<T>{u.x, u.y}"
     CASES "mesh: points are uniform*")
 

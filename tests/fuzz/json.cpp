@@ -10,7 +10,7 @@
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace ljus;
     fuzz::refused_or_done([&] {
-        const auto loaded =
+        auto loaded =
             read_json_scene({reinterpret_cast<const char*>(data), size}, "fuzz.json");
         const RenderSettings picture{
             .width = 3, .height = 2, .samples = 1, .threads = 1};
@@ -19,7 +19,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
                 fuzz::require_that(is_finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0,
                                    "a pixel is finite and at least 0");
         };
-        const World world(loaded.scene);
+        const World world(std::move(loaded.scene));
         draw(PathTracer(world, {.max_depth = 20}));
         PhotonMappingSettings settings{.max_depth = 20, .indirect = IndirectLight::map};
         settings.caustics.photons = settings.general.photons = 20;

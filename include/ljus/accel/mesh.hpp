@@ -177,17 +177,24 @@ template <std::floating_point T>
            hit.v * uv[corner[2]];
 }
 
-/// Samples a point of a mesh uniformly over its area: first a triangle in proportion to
-/// its area, then a point on it by the remapped u.x.
-/// \return The point; its density is 1 / area per squared scene unit.
-/// \cost O(log n).
+namespace detail {
+
+/// A triangle that was chosen in proportion to its area.
 template <std::floating_point T>
-[[nodiscard]] SurfacePointT<T> sample_area(const MeshT<T>& mesh,
-                                           const Vec2T<T>& u) noexcept {
-    const auto& sums = mesh.area_up_to();
-    const double wanted = double(u.x) * sums.back();
-    // The first triangle whose prefix sum exceeds u.x times the area. Rounding may give
-    // u.x = 1; then it is the last triangle that has an area.
+struct ChosenPartT {
+    std::uint32_t part = 0; ///< Its index.
+    T left = T(0);          ///< What the choice left of u, in [0, 1).
+};
+
+/// Chooses a triangle.
+/// \param sums  Prefix sums of the areas, of which the last is above 0.
+/// \param u     In [0, 1).
+template <std::floating_point T>
+[[nodiscard]] ChosenPartT<T> choose_part(const std::vector<double>& sums,
+                                         T u) noexcept {
+    const double wanted = double(u) * sums.back();
+    // The first triangle whose prefix sum exceeds u times the area. Rounding may give
+    // u = 1; then it is the last triangle that has an area.
     const auto first = [&](auto enough) {
         std::size_t low = 0, high = sums.size();
         while (low < high) {
@@ -201,8 +208,20 @@ template <std::floating_point T>
         found = first([&](double sum) { return sum >= sums.back(); });
     const double before = found == 0 ? 0.0 : sums[found - 1];
     const double left = (wanted - before) / (sums[found] - before);
-    const auto part = static_cast<std::uint32_t>(found);
-    return sample_area(mesh.triangle(part), Vec2T<T>{T(left), u.y});
+    return {static_cast<std::uint32_t>(found), T(left)};
+}
+
+} // namespace detail
+
+/// Samples a point of a mesh uniformly over its area: first a triangle in proportion to
+/// its area, then a point on it by the remapped u.x.
+/// \return The point; its density is 1 / area per squared scene unit.
+/// \cost O(log n).
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> sample_area(const MeshT<T>& mesh,
+                                           const Vec2T<T>& u) noexcept {
+    const auto [part, left] = detail::choose_part(mesh.area_up_to(), u.x);
+    return sample_area(mesh.triangle(part), Vec2T<T>{left, u.y});
 }
 
 /// The area, in squared scene units.

@@ -21,7 +21,7 @@ concept Movable = Shape<S> && requires(const S& shape, const Vec3T<ScalarOf<S>>&
 
 /// A shape in linear motion. The shutter opens at time 0 and closes at time 1, and a
 /// ray sees the shape at the ray's time. A scene without moving shapes pays nothing.
-/// \tparam S  A sphere, a triangle, a quad.
+/// \tparam S  A sphere, a triangle, a quad, an instance of a mesh.
 // [moving]
 template <Movable S>
 struct Moving {
@@ -65,6 +65,15 @@ requires(!detail::is_moving<S>)
 template <typename Compute = void, std::floating_point T, typename S>
 [[nodiscard]] auto intersect(const RayT<T>& ray, const Moving<S>& moving) noexcept {
     return intersect<Compute>(ray, at_time(moving, ray.time));
+}
+
+/// Whether a ray meets the shape at the ray's time.
+template <typename Compute = void, std::floating_point T, typename S>
+requires requires(const RayT<T>& ray, const S& shape) {
+    meets<Compute>(ray, shape);
+}
+[[nodiscard]] bool meets(const RayT<T>& ray, const Moving<S>& moving) {
+    return meets<Compute>(ray, at_time(moving, ray.time));
 }
 
 /// The point that a ray hit, on the shape at the ray's time.
@@ -119,6 +128,34 @@ template <typename S, std::floating_point T>
                                            const ShapeHitT<T>& hit,
                                            const SurfacePointT<T>& point) noexcept {
     return texture_coordinates(moving.shape, hit, point);
+}
+
+/// The shading normal of the shape; a displacement does not turn it.
+template <typename S, std::floating_point T>
+requires requires(const S& shape, const ShapeHitT<T>& hit, const Vec3T<T>& normal) {
+    shading_normal(shape, hit, normal);
+}
+[[nodiscard]] Vec3T<T> shading_normal(const Moving<S>& moving, const ShapeHitT<T>& hit,
+                                      const Vec3T<T>& geometric) noexcept {
+    return shading_normal(moving.shape, hit, geometric);
+}
+
+/// The areas of the shape's parts, which a displacement does not change.
+template <typename S>
+requires requires(const S& shape) {
+    area_sums(shape);
+}
+[[nodiscard]] auto area_sums(const Moving<S>& moving) {
+    return area_sums(moving.shape);
+}
+
+/// What the shape refers to.
+template <typename S>
+requires requires(const S& shape) {
+    prototype(shape);
+}
+[[nodiscard]] const auto& prototype(const Moving<S>& moving) noexcept {
+    return prototype(moving.shape);
 }
 
 /// Refuses a non-finite displacement, and what check() of the shape refuses.

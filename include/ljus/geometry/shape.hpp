@@ -217,6 +217,10 @@ template <Shape S>
              requires(O s, H hit, P point) { texture_coordinates(s, hit, point); }},
         Hook{"translated", "Moving", "does not compile",
              requires(O s, V by) { translated(s, by); }},
+        Hook{"area_sums", "a lamp's areas, summed once", "by sample_area()",
+             requires(O s) { area_sums(s); }},
+        Hook{"prototype", "a mesh that its scene keeps", "it has all its data",
+             requires(O s) { prototype(s); }},
         // [shape hooks]
     };
 // clang-format on
@@ -236,6 +240,7 @@ template <Shape S>
 /// | sphere          | longitude and latitude, as in a GlobeMap at its centre     |
 /// | mesh            | interpolated between its vertices, or the triangle's       |
 /// | moving shape    | those of its shape                                         |
+/// | instance        | those of its mesh                                          |
 /// | any other shape | u and v of the hit; (0, 0) if it has none                  |
 
 } // namespace ljus

@@ -126,7 +126,7 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
     read_image_size(member(top, "image"), loaded);
     const auto materials = read_materials(member(top, "materials"), loaded.scene);
     const JsonField objects = member(top, "objects");
-    FileMeshes meshes;
+    FileMeshesT<T> meshes;
     for (std::size_t i = 0; i < list_size(objects); ++i)
         read_object(entry(objects, i), materials, loaded.scene, meshes, load_meshes);
     if (const auto lights = find(top, "lights"))

@@ -3,6 +3,8 @@
 /// \file ljus/lights/area_light.hpp
 /// \brief A lamp: the emissive surface of an object.
 
+#include <vector>
+
 #include "ljus/geometry/moving.hpp"
 #include "ljus/lights/light.hpp"
 
@@ -14,10 +16,11 @@ namespace ljus {
 /// Precomputed data of a lamp.
 template <std::floating_point T>
 struct LampT {
-    RgbT<T> radiance{T(0)};  ///< On the side of the normal, W/(m^2 sr).
-    Vec3T<T> normal{T(0)};   ///< Unit; 0 unless the shape is flat.
-    T area = T(0);           ///< In squared scene units.
-    bool inside_out = false; ///< Whether it emits on the other side.
+    RgbT<T> radiance{T(0)};          ///< On the side of the normal, W/(m^2 sr).
+    Vec3T<T> normal{T(0)};           ///< Unit; 0 unless the shape is flat.
+    T area = T(0);                   ///< In squared scene units.
+    bool inside_out = false;         ///< Whether it emits on the other side.
+    std::vector<double> area_sums{}; ///< As of area_sums(), if the shape has it.
 };
 
 /// A lamp: a shape that emits uniform radiance on the side of its normal. A scene makes
@@ -31,6 +34,12 @@ struct AreaLightT {
 
 namespace detail {
 
+/// Whether a lamp keeps the areas of the parts of its shape.
+template <typename S>
+inline constexpr bool has_area_sums = requires(const S& shape) {
+    area_sums(shape);
+};
+
 /// Precomputes the data of a lamp.
 /// \param shape       With an area.
 /// \param radiance    W/(m^2 sr).
@@ -42,6 +51,7 @@ template <Shape S, std::floating_point T>
     LampT<T> lamp{.radiance = radiance, .area = area(shape), .inside_out = inside_out};
     require_positive("the area of a light", lamp.area);
     if constexpr (is_plane<S>) lamp.normal = normal(shape);
+    if constexpr (has_area_sums<S>) lamp.area_sums = area_sums(shape);
     require_flux(std::numbers::pi_v<T> * lamp.area * radiance);
     return lamp;
 }
@@ -77,7 +87,13 @@ template <typename S, std::floating_point T>
         detail::set_point(point, sample_area(light.shape, u, light.lamp.normal));
         sample->pdf = detail::pdf_from_area(from, point, light.lamp.area);
     } else {
-        const SeenPointT<T> seen = sample_towards(at_time(light.shape, time), from, u);
+        const auto& now = at_time(light.shape, time);
+        const auto seen = [&] {
+            if constexpr (detail::has_area_sums<S>)
+                return sample_towards(now, from, u, light.lamp.area_sums);
+            else
+                return sample_towards(now, from, u);
+        }();
         detail::set_point(point, seen.point);
         sample->pdf = seen.pdf;
     }
@@ -98,7 +114,13 @@ template <typename S, std::floating_point T>
 template <typename S, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> emission_point(const AreaLightT<S>& light,
                                               const Vec2T<T>& u, T time) {
-    SurfacePointT<T> point = sample_area(at_time(light.shape, time), u);
+    const auto& now = at_time(light.shape, time);
+    auto point = [&] {
+        if constexpr (detail::has_area_sums<S>)
+            return sample_area(now, u, light.lamp.area_sums);
+        else
+            return sample_area(now, u);
+    }();
     if (light.lamp.inside_out) point.normal = -point.normal;
     return point;
 }

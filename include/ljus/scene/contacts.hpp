@@ -11,6 +11,7 @@
 #include <limits>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "ljus/accel/detail/bvh_build.hpp"
@@ -210,6 +211,73 @@ struct ContactSearch {
 [[nodiscard, gnu::cold]] LJUS_CORE_INLINE Contacts
 contacts_of(const ContactSearch& search);
 
+[[nodiscard, gnu::cold]] inline bool overlap(const Box& a, const Box& b) noexcept {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y &&
+           b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
+/// Boxes with a look each, and a tree over them.
+class LookTree {
+public:
+    /// \param boxes  The unit is the largest coordinate of the scene, so that float has
+    ///               the range; they are larger by the distance in float.
+    /// \param looks  By box. What has one look need not be compared.
+    LookTree(std::vector<Box> boxes, std::vector<std::uint32_t> looks)
+        : boxes_(std::move(boxes)), looks_(std::move(looks)),
+          tree_(build_bvh<float>(boxes_)), below_(tree_.nodes.size(), several) {
+        for (std::size_t i = below_.size(); i-- > 0;) { // children after their parents
+            const auto& [box, first, count] = tree_.nodes[i];
+            for (std::uint32_t k = 0; k < (count == 0 ? 2 : count); ++k) {
+                const std::uint32_t look = count == 0
+                                               ? below_[first + k]
+                                               : looks_[tree_.primitive_ids[first + k]];
+                if (k == 0)
+                    below_[i] = look;
+                else if (below_[i] != look)
+                    below_[i] = several;
+            }
+        }
+    }
+
+    /// The number of boxes.
+    [[nodiscard]] std::uint32_t size() const noexcept {
+        return static_cast<std::uint32_t>(boxes_.size());
+    }
+    /// A box.
+    [[nodiscard]] const Box& box(std::uint32_t i) const noexcept { return boxes_[i]; }
+
+    /// Calls f(k) for the boxes of other looks that overlap box i.
+    /// \param budget  Nodes that may still be visited.
+    /// \return False if the budget is spent.
+    template <typename F>
+    bool each_overlap(std::uint32_t i, long long& budget, F&& f) const {
+        std::array<std::uint32_t, bvh_depth + 2> open{};
+        for (std::size_t count_open = 1; count_open > 0;) { // open[0] is the root
+            if (--budget < 0) return false;
+            const std::uint32_t at = open[--count_open];
+            const auto& [box, first, count] = tree_.nodes[at];
+            if (below_[at] == looks_[i] || !overlap(box, boxes_[i])) continue;
+            if (count == 0) {
+                open[count_open++] = first;
+                open[count_open++] = first + 1;
+            }
+            for (std::uint32_t slot = first; slot < first + count; ++slot) {
+                const std::uint32_t k = tree_.primitive_ids[slot];
+                if (looks_[k] != looks_[i] && overlap(boxes_[i], boxes_[k])) f(k);
+            }
+        }
+        return true;
+    }
+
+private:
+    static constexpr std::uint32_t several = 0xffffffffu;
+    std::vector<Box> boxes_;
+    std::vector<std::uint32_t> looks_;
+    BvhNodesT<float> tree_;
+    std::vector<std::uint32_t>
+        below_; // by node, the look of all; several if they differ
+};
+
 #ifndef LJUS_CORE // otherwise defined in ljus::core
 
 /// The largest coordinate of a box.
@@ -223,24 +291,20 @@ contacts_of(const ContactSearch& search);
     return 8 * epsilon * reach_of(box);
 }
 
-[[nodiscard, gnu::cold]] inline bool overlap(const Box& a, const Box& b) noexcept {
-    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y &&
-           b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
-}
-
 /// The pieces that are compared.
 struct ContactPieces {
-    /// For a tree. The unit is the largest coordinate of the scene, so that float has
-    /// the range; they are larger by the distance in float.
     std::vector<Box> boxes{};
+    std::vector<std::uint32_t> looks{};
     std::vector<std::uint32_t> object{}; ///< Whose each one is.
     std::vector<std::uint32_t> number{}; ///< Within the object.
 };
 
 /// Lists the pieces of all objects; of meshes those that are close to other objects.
-/// \param looks  By object. What has one look need not be compared.
+/// \param looks   By object.
+/// \param budget  As of each_overlap().
 [[nodiscard, gnu::cold]] inline ContactPieces
-list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks) {
+list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks,
+            long long& budget) {
     double unit = std::numeric_limits<double>::min(); // all may lie at 0
     for (const ContactObject& object : search.objects)
         unit = std::max(unit, reach_of(object.box));
@@ -248,24 +312,29 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
         const double by = contact_distance(box, std::numeric_limits<float>::epsilon());
         return Box{Vec3((box.low - by) / unit), Vec3((box.high + by) / unit)};
     };
+    std::vector<Box> boxes;
+    for (const ContactObject& object : search.objects)
+        boxes.push_back(in_units(object.box));
+    const LookTree whole(std::move(boxes), looks);
     ContactPieces pieces;
-    std::vector<Box> whole(looks.size());
-    for (std::size_t i = 0; i < whole.size(); ++i)
-        whole[i] = in_units(search.objects[i].box);
     for (std::uint32_t i = 0; i < whole.size(); ++i) {
         const ContactObject& object = search.objects[i];
+        const Box& mine = whole.box(i);
         Box near; // what other objects have of the box
-        if (object.pieces == 1) near = whole[i];
-        for (std::size_t k = 0; k < whole.size() && object.pieces > 1; ++k)
-            if (looks[k] != looks[i] && overlap(whole[k], whole[i]))
-                near = box_union(near, {glm::max(whole[k].low, whole[i].low),
-                                        glm::min(whole[k].high, whole[i].high)});
+        if (object.pieces == 1)
+            near = mine;
+        else if (object.pieces > 1)
+            whole.each_overlap(i, budget, [&](std::uint32_t k) {
+                near = box_union(near, {glm::max(whole.box(k).low, mine.low),
+                                        glm::min(whole.box(k).high, mine.high)});
+            });
         for (std::uint32_t number = 0; number < object.pieces; ++number) {
             const Box box = object.pieces == 1
-                                ? whole[i]
+                                ? mine
                                 : in_units(box_of(search.piece(object.id, number)));
             if (!overlap(box, near)) continue;
             pieces.boxes.push_back(box);
+            pieces.looks.push_back(looks[i]);
             pieces.object.push_back(i);
             pieces.number.push_back(number);
         }
@@ -273,33 +342,12 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
     return pieces;
 }
 
-/// The look of all pieces below each node of a tree; `several` if they differ.
-[[nodiscard, gnu::cold]] inline std::vector<std::uint32_t>
-looks_below(const BvhNodesT<float>& tree, const ContactPieces& pieces,
-            const std::vector<std::uint32_t>& looks) {
-    constexpr std::uint32_t several = 0xffffffffu;
-    std::vector<std::uint32_t> below(tree.nodes.size(), several);
-    for (std::size_t i = below.size(); i-- > 0;) { // children come after their parents
-        const auto& [box, first, count] = tree.nodes[i];
-        for (std::uint32_t k = 0; k < (count == 0 ? 2 : count); ++k) {
-            const std::uint32_t look =
-                count == 0 ? below[first + k]
-                           : looks[pieces.object[tree.primitive_ids[first + k]]];
-            if (k == 0)
-                below[i] = look;
-            else if (below[i] != look)
-                below[i] = several;
-        }
-    }
-    return below;
-}
-
 /// Finds the pairs of objects with pieces in one place; in `pair` stand their numbers.
 [[gnu::cold]] inline void find_pairs(Contacts& contacts, const ContactSearch& search,
                                      const std::vector<std::uint32_t>& looks) {
-    const ContactPieces pieces = list_pieces(search, looks);
-    const BvhNodesT<float> tree = build_bvh<float>(pieces.boxes);
-    const std::vector<std::uint32_t> below = looks_below(tree, pieces, looks);
+    long long budget = 1'000'000'000; // nodes
+    ContactPieces pieces = list_pieces(search, looks, budget);
+    const LookTree tree(std::move(pieces.boxes), std::move(pieces.looks));
     // The pair that was found last with each object; those of an object are found
     // one after another.
     std::vector<std::uint32_t> last(looks.size(), no_contact);
@@ -323,33 +371,10 @@ looks_below(const BvhNodesT<float>& tree, const ContactPieces& pieces,
         contact.alike |= shared->over_area && shared->alike;
         contact.opposed |= shared->over_area && !shared->alike;
     };
-    long long budget = 1'000'000'000; // nodes
-    std::array<std::uint32_t, bvh_depth + 2> open{};
-    for (std::uint32_t i = 0; i < pieces.boxes.size(); ++i) {
-        const Box& mine = pieces.boxes[i];
-        const std::uint32_t one = pieces.object[i];
-        for (std::size_t count_open = 1; count_open > 0;) { // open[0] is the root
-            if (--budget < 0) {
-                contacts.complete = false;
-                return;
-            }
-            const std::uint32_t at = open[--count_open];
-            const auto& [box, first, count] = tree.nodes[at];
-            if (below[at] == looks[one] || !overlap(box, mine)) continue;
-            if (count == 0) {
-                open[count_open++] = first;
-                open[count_open++] = first + 1;
-            }
-            for (std::uint32_t slot = first; slot < first + count; ++slot) {
-                const std::uint32_t k = tree.primitive_ids[slot];
-                const std::uint32_t other = pieces.object[k];
-                if (one < other && looks[one] != looks[other] &&
-                    overlap(mine, pieces.boxes[k]))
-                    compare(i, k);
-            }
-        }
-        open[0] = 0;
-    }
+    for (std::uint32_t i = 0; i < tree.size() && contacts.complete; ++i)
+        contacts.complete = tree.each_overlap(i, budget, [&](std::uint32_t k) {
+            if (pieces.object[i] < pieces.object[k]) compare(i, k);
+        });
 }
 
 /// The area that each material covers, in units of 2^-30 of the largest area of an

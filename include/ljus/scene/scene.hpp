@@ -3,14 +3,18 @@
 /// \file ljus/scene/scene.hpp
 /// \brief Scenes: shapes, materials and lights as plain data.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
+#include <stdexcept>
 #include <tuple>
 #include <vector>
 
 #include "ljus/lights/area_light.hpp"
 #include "ljus/materials/material.hpp"
 #include "ljus/math/closed_list.hpp"
+#include "ljus/ref.hpp"
 
 namespace ljus {
 
@@ -65,6 +69,70 @@ struct AddedId {
     bool is_light = false;   ///< Whether it is a light, not an object.
 };
 
+namespace detail {
+
+/// The type that a type of shape refers to by prototype(); void if it does not.
+template <typename S>
+struct PrototypeOf : std::type_identity<void> {};
+/// \copydoc PrototypeOf
+template <typename S>
+requires requires(const S& shape) {
+    prototype(shape);
+}
+struct PrototypeOf<S>
+    : std::type_identity<std::remove_cvref_t<decltype(prototype(std::declval<S>()))>> {
+};
+
+/// The one type to which the shapes of a list refer, or void.
+template <typename... S>
+struct PrototypeIn : std::type_identity<void> {};
+/// \copydoc PrototypeIn
+template <typename First, typename... S>
+struct PrototypeIn<First, S...>
+    : std::conditional_t<std::is_void_v<typename PrototypeOf<First>::type>,
+                         PrototypeIn<S...>, PrototypeOf<First>> {};
+
+/// What the shapes of a scene refer to, at addresses that last when the scene is moved.
+template <typename P>
+class Prototypes {
+public:
+    Prototypes() = default;
+    Prototypes(Prototypes&&) = default;            ///< References stay valid.
+    Prototypes& operator=(Prototypes&&) = default; ///< References stay valid.
+    /// Keeps one.
+    const P& keep(P one) {
+        kept_.push_back(std::make_unique<const P>(std::move(one)));
+        return *kept_.back();
+    }
+    /// \throws std::invalid_argument  if a shape refers to what is not kept.
+    template <typename S>
+    void require_kept(const S& shape) const {
+        if constexpr (!std::is_void_v<typename PrototypeOf<S>::type>) {
+            const auto is_it = [mesh = &prototype(shape)](const auto& one) {
+                return one.get() == mesh;
+            };
+            if (std::none_of(kept_.begin(), kept_.end(), is_it))
+                throw std::invalid_argument(
+                    "An instance refers to a mesh that its scene does not keep; it "
+                    "must "
+                    "be made by Instance(scene.add(mesh), place).");
+        }
+    }
+
+private:
+    std::vector<std::unique_ptr<const P>> kept_;
+};
+/// Shapes that refer to nothing.
+template <>
+class Prototypes<void> {
+public:
+    /// Nothing to refuse.
+    template <typename S>
+    void require_kept(const S&) const noexcept {}
+};
+
+} // namespace detail
+
 /// A scene; see the specialisation.
 template <typename ShapeList, typename MaterialList, typename LightList = Lights<>>
 struct Scene;
@@ -94,6 +162,9 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
                       detail::each_once<L...>,
                   "A scene lists each type once.");
 
+    /// What its shapes refer to: MeshT if it lists instances, otherwise void.
+    using Prototype = typename detail::PrototypeIn<FirstShape, S...>::type;
+
     /// Whether a type of shape, material or light is listed.
     template <typename X>
     static constexpr bool lists = std::is_same_v<X, FirstShape> ||
@@ -109,6 +180,8 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
     std::tuple<std::vector<M>...> materials; ///< An array per type.
     std::tuple<std::vector<L>...> lights;    ///< An array per type.
     std::vector<AddedId> order; ///< Objects and lights, in the order of addition.
+    /// The meshes of instances. A scene with instances can be moved, not copied.
+    detail::Prototypes<Prototype> prototypes;
 
     /// Adds a material.
     /// \param material  One of the listed types.
@@ -121,6 +194,16 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
         array.push_back(std::move(material));
         return {detail::type_number<B, M...>,
                 static_cast<std::uint32_t>(array.size() - 1)};
+    }
+
+    /// Keeps a mesh for instances; by itself it is not seen.
+    /// \param mesh  Moved in.
+    /// \return A reference, to make instances with.
+    /// \throws std::invalid_argument  if it was moved from.
+    template <typename P>
+    requires std::is_same_v<P, Prototype> Ref<P> add(P mesh) {
+        check(mesh);
+        return prototypes.keep(std::move(mesh));
     }
 
     /// Adds a shape.
@@ -138,6 +221,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
                                    RgbT<Scalar> radiance = {},
                                    bool inside_out = false) {
         check(shape);
+        prototypes.require_kept(shape);
         const ObjectT<Scalar> object{material, radiance, inside_out};
         check_emission(shape, emission_of(object));
         auto& array = std::get<std::vector<G>>(shapes);
@@ -167,7 +251,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
 
     /// Diagnoses an unlisted type.
     template <typename X>
-    requires(!lists<X>) MaterialId add(const X&) {
+    requires(!lists<X> && !std::is_same_v<X, Prototype>) MaterialId add(const X&) {
         constexpr bool light = LightSource<X>;
         static_assert(!light, "List the light: Scene<..., ..., Lights<...>>.");
         static_assert(light, "Neither a light nor listed: Scene<..., Materials<...>>.");

@@ -182,11 +182,12 @@ public:
     using Tree = std::conditional_t<std::is_same_v<Scalar, float>, Bvh8, BvhT<Scalar>>;
 
     /// Closes a scene.
-    /// \param scene  Moved in, or copied.
+    /// \param scene  Moved in, or copied if it has no instances.
     /// \throws std::invalid_argument  if the scene contains data that add() would
     ///         refuse, or its arrays are inconsistent.
     explicit World(S scene, std::type_identity<Compute> = {})
-        : shapes_(std::move(scene.shapes)), objects_(std::move(scene.objects)) {
+        : shapes_(std::move(scene.shapes)), objects_(std::move(scene.objects)),
+          prototypes_(std::move(scene.prototypes)) {
         find_bounds();
         make_frames();
         make_tree();
@@ -320,6 +321,7 @@ private:
                     "the number of their objects: add shapes by add()");
             for (const auto& shape : list) {
                 check(shape);
+                prototypes_.require_kept(shape);
                 const SphereT<Scalar> bound = bounding_sphere(shape);
                 box_.low = glm::min(box_.low, bound.center - bound.radius);
                 box_.high = glm::max(box_.high, bound.center + bound.radius);
@@ -446,6 +448,7 @@ private:
 
     decltype(S::shapes) shapes_;
     decltype(S::objects) objects_;
+    decltype(S::prototypes) prototypes_; // to which shapes_ refer
     decltype(S::materials) materials_;
     std::array<std::vector<FrameT<Scalar>>, std::tuple_size_v<decltype(S::shapes)>>
         frames_;

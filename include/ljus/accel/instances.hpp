@@ -1,0 +1,378 @@
+#pragma once
+
+/// \file ljus/accel/instances.hpp
+/// \brief A mesh that is placed many times by affine maps, one tree below another.
+
+#include <array>
+#include <string>
+
+#include "ljus/accel/mesh.hpp"
+#include "ljus/math/affine.hpp"
+#include "ljus/ref.hpp"
+
+namespace ljus {
+
+/// \defgroup instances Instances
+/// \brief One mesh in many places. Chapter: \ref ch_instances.
+///
+/// An instance is a reference to a mesh and an affine map; the ray is taken to the mesh
+/// by the inverse map \cite rubin1980. A scene that lists Instance keeps the meshes:
+///
+///     const auto knot = scene.add(Mesh(data)); // kept once, and itself unseen
+///     for (const Affine& place : places) scene.add(Instance(knot, place), glass);
+/// \{
+
+namespace detail {
+
+/// A bound of the image of a vector whose components are at most those of `size`.
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> transform_sizes(const AffineT<T>& map,
+                                       const Vec3T<T>& size) noexcept {
+    return size.x * sizes(map[0]) + size.y * sizes(map[1]) + size.z * sizes(map[2]);
+}
+
+/// A bound of a vector that is taken back and there again: a relative error behind the
+/// map is at most this times as large, component by component.
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> there_and_back(const AffineT<T>& map, const AffineT<T>& back,
+                                      const Vec3T<T>& size) noexcept {
+    return transform_sizes(map, transform_sizes(back, size));
+}
+
+/// The prefix sums of the areas of a mesh's triangles behind a map.
+template <std::floating_point T>
+[[nodiscard]] std::vector<double> placed_areas(const MeshT<T>& mesh,
+                                               const AffineT<T>& place) {
+    using Wide = Vec3T<WideT<T>>;
+    const AffineT<WideT<T>> map(place);
+    std::vector<double> sums;
+    sums.reserve(mesh.size());
+    double area = 0;
+    for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+        const TriangleT<T> local = mesh.triangle(i);
+        if (has_area(local)) {
+            const Wide v1(local.v1);
+            area += double(glm::length(
+                        glm::cross(transform_vector(map, Wide(local.v2) - v1),
+                                   transform_vector(map, Wide(local.v3) - v1)))) /
+                    2;
+        }
+        sums.push_back(area);
+    }
+    return sums;
+}
+
+} // namespace detail
+
+/// A mesh in another place. In float it takes 168 bytes, whatever the mesh.
+template <std::floating_point T>
+class InstanceT {
+public:
+    using Wide = WideT<T>; ///< Of the inverse map, so that it is as good as the map.
+
+    /// What an instance is made of.
+    struct Data {
+        const MeshDataT<T>& mesh;          ///< Vertices and triangles.
+        std::array<Vec3T<T>, 4> columns{}; ///< Of the map.
+    };
+
+    /// Places a mesh.
+    /// \param mesh   It must outlive the instance; a scene keeps it by Scene::add().
+    /// \param place  From the mesh to the scene. A map that mirrors keeps the outside
+    ///               of the mesh outside.
+    /// \throws std::invalid_argument  if the mesh was moved from; if the map is not
+    ///         finite, or has no inverse, or one that is lost in rounding; if no area
+    ///         is left.
+    /// \cost O(n) for the area, unless the map stretches all directions alike.
+    explicit InstanceT(Ref<MeshT<T>> mesh, const AffineT<T>& place = AffineT<T>(1))
+        : mesh_(mesh), place_(place) {
+        check(mesh.get());
+        for (int i = 0; i < 4; ++i)
+            if (!is_finite(place[i]))
+                require_finite("column " + std::to_string(i) + " of an instance's map",
+                               place[i]);
+        const AffineT<Wide> wide(place);
+        const Wide volume = determinant_of(wide);
+        require(volume != Wide(0), "the determinant of an instance's map", volume,
+                "other than 0: a mesh without thickness has no inside");
+        inverse_ = inverse_of(wide);
+        const Wide condition =
+            max_component(detail::there_and_back(wide, inverse_, Vec3T<Wide>(1)));
+        require(condition <= Wide(1e8), "the condition number of an instance's map",
+                condition, "at most 1e8: flatten a mesh along its own axes");
+        // A similarity, but for the rounding of the map.
+        scale_ = largest_stretch(wide);
+        const Wide cube = scale_ * scale_ * scale_;
+        if (!(std::abs(volume) >= cube * (1 - 16 * std::numeric_limits<T>::epsilon())))
+            scale_ = 0;
+        const double area =
+            scale_ > 0 ? double(scale_ * scale_) * mesh.get().area_up_to().back()
+                       : detail::placed_areas(mesh.get(), place).back();
+        area_ = static_cast<T>(area);
+        require_positive("the area of an instance", area_);
+    }
+
+    /// The mesh.
+    [[nodiscard]] const MeshT<T>& mesh() const noexcept { return mesh_.get(); }
+    /// From the mesh to the scene.
+    [[nodiscard]] const AffineT<T>& place() const noexcept { return place_; }
+    /// From the scene to the mesh.
+    [[nodiscard]] const AffineT<Wide>& inverse_place() const noexcept {
+        return inverse_;
+    }
+    /// The factor of lengths, if it is the same in all directions; otherwise 0.
+    [[nodiscard]] Wide scale() const noexcept { return scale_; }
+    /// The area in the scene, in squared scene units.
+    [[nodiscard]] T area() const noexcept { return area_; }
+    /// What it is made of, for the key of a light map.
+    [[nodiscard]] Data data() const noexcept {
+        return {mesh().data(), {place_[0], place_[1], place_[2], place_[3]}};
+    }
+    /// The number of triangles.
+    [[nodiscard]] std::uint32_t size() const noexcept { return mesh().size(); }
+    /// The triangle of a hit's `part`, in the scene, rounded to T. It faces outwards;
+    /// if the map mirrors, its second and third vertex change places.
+    [[nodiscard]] TriangleT<T> triangle(std::uint32_t part) const noexcept {
+        const TriangleT<T> local = mesh().triangle(part);
+        const AffineT<Wide> wide(place_);
+        const auto there = [&](const Vec3T<T>& v) {
+            return Vec3T<T>(transform_point(wide, Vec3T<Wide>(v)));
+        };
+        const bool mirrors = determinant_of(inverse_) < Wide(0);
+        return {there(local.v1), there(mirrors ? local.v3 : local.v2),
+                there(mirrors ? local.v2 : local.v3)};
+    }
+
+    /// The instance displaced by a vector, for Moving.
+    [[nodiscard]] friend InstanceT translated(const InstanceT& instance,
+                                              const Vec3T<T>& by) noexcept {
+        InstanceT moved = instance;
+        moved.place_[3] += by;
+        moved.inverse_[3] =
+            -transform_vector(moved.inverse_, Vec3T<Wide>(moved.place_[3]));
+        return moved;
+    }
+
+private:
+    Ref<MeshT<T>> mesh_;
+    AffineT<T> place_;
+    AffineT<Wide> inverse_{};
+    Wide scale_ = 0;
+    T area_ = T(0);
+};
+using Instance = InstanceT<float>; ///< InstanceT in float.
+
+namespace detail {
+
+/// A ray as the mesh sees it. Its direction is not normalized, so that t is the same in
+/// both places.
+// [ray_at_mesh]
+template <std::floating_point T>
+[[nodiscard]] RayT<T> ray_at_mesh(const InstanceT<T>& instance,
+                                  const RayT<T>& ray) noexcept {
+    using Wide = Vec3T<WideT<T>>;
+    const auto& back = instance.inverse_place();
+    return {.origin = Vec3T<T>(transform_point(back, Wide(ray.origin))),
+            .direction = Vec3T<T>(transform_vector(back, Wide(ray.direction))),
+            .t_min = ray.t_min,
+            .t_max = ray.t_max,
+            .time = ray.time};
+}
+// [ray_at_mesh]
+
+/// A point of a triangle of the mesh, in the scene.
+///
+/// A ray that leaves it is rounded once more at the mesh: its origin and, as far as the
+/// triangle reaches, its direction. The inverse map is as good as its condition.
+/// \param local  The point at the mesh; its normal is not used.
+// [placed_point]
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> placed_point(const InstanceT<T>& instance,
+                                            std::uint32_t part,
+                                            const SurfacePointT<T>& local) noexcept {
+    using Wide = Vec3T<WideT<T>>;
+    const TriangleT<T> triangle = instance.mesh().triangle(part);
+    const AffineT<WideT<T>> map(instance.place());
+    const AffineT<WideT<T>>& back = instance.inverse_place();
+    const Wide position = transform_point(map, Wide(local.position));
+    const Wide normal = transform_normal(back, cross_of_edges(triangle));
+    const Vec3T<T> reach =
+        glm::max(glm::max(sizes(triangle.v1), sizes(triangle.v2)), sizes(triangle.v3));
+    const Wide at_mesh(local.error + rounding_bound<T>(4) * reach);
+    const Wide from_map = sizes(position) + sizes(map[3]);
+    const Wide error =
+        transform_sizes(map, at_mesh) +
+        WideT<T>(rounding_bound<T>(2)) * sizes(position) +
+        rounding_bound<WideT<T>>(16) * there_and_back(map, back, from_map);
+    const WideT<T> tilt =
+        local.tilt * max_component(there_and_back(map, back, Wide(1)));
+    return {.position = Vec3T<T>(position),
+            .error = Vec3T<T>(error),
+            .normal = Vec3T<T>(glm::normalize(normal)),
+            .tilt = T(tilt)};
+}
+// [placed_point]
+
+} // namespace detail
+
+/// The nearest hit of a ray on an instance: that of its mesh, with the same t.
+/// \tparam Compute  As for a mesh.
+/// \cost That of the mesh, and 18 multiplications.
+// [intersect]
+template <typename Compute = void, std::floating_point T>
+[[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
+                                                    const InstanceT<T>& instance) {
+    return intersect<Compute>(detail::ray_at_mesh(instance, ray), instance.mesh());
+}
+// [intersect]
+
+/// Whether a ray hits an instance, for shadow rays.
+/// \tparam Compute  As for intersect().
+template <typename Compute = void, std::floating_point T>
+[[nodiscard]] bool meets(const RayT<T>& ray, const InstanceT<T>& instance) {
+    return meets<Compute>(detail::ray_at_mesh(instance, ray), instance.mesh());
+}
+
+/// The point of an instance that a ray hit, with the normal of the triangle.
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> surface_point(const InstanceT<T>& instance,
+                                             const RayT<T>&,
+                                             const ShapeHitT<T>& hit) noexcept {
+    const TriangleT<T> triangle = instance.mesh().triangle(hit.part);
+    return detail::placed_point(instance, hit.part,
+                                point_at(triangle, hit.u, hit.v, Vec3T<T>(0)));
+}
+
+/// The shading normal: that of the mesh, mapped as a normal.
+/// \return As for a mesh.
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> shading_normal(const InstanceT<T>& instance,
+                                      const ShapeHitT<T>& hit,
+                                      const Vec3T<T>& geometric) noexcept {
+    const MeshT<T>& mesh = instance.mesh();
+    if (mesh.data().normals.empty()) return geometric;
+    const Vec3T<T> flat = normal(mesh.triangle(hit.part));
+    const Vec3T<T> smooth = shading_normal(mesh, hit, flat);
+    if (smooth == flat) return geometric;
+    const Vec3T<T> n(glm::normalize(
+        transform_normal(instance.inverse_place(), Vec3T<WideT<T>>(smooth))));
+    return glm::dot(n, geometric) > T(0) ? n : geometric;
+}
+
+/// The texture coordinates of the mesh.
+template <std::floating_point T>
+[[nodiscard]] Vec2T<T> texture_coordinates(const InstanceT<T>& instance,
+                                           const ShapeHitT<T>& hit,
+                                           const SurfacePointT<T>& point) noexcept {
+    return texture_coordinates(instance.mesh(), hit, point);
+}
+
+/// The prefix sums of the triangles' areas in the scene, for sample_area(); a lamp
+/// keeps them. If the map stretches all directions alike, those of the mesh serve, and
+/// nothing is returned.
+/// \cost O(n) time and 8 bytes per triangle.
+template <std::floating_point T>
+[[nodiscard]] std::vector<double> area_sums(const InstanceT<T>& instance) {
+    if (instance.scale() > 0) return {};
+    return detail::placed_areas(instance.mesh(), instance.place());
+}
+
+/// The area in the scene, in squared scene units.
+template <std::floating_point T>
+[[nodiscard]] T area(const InstanceT<T>& instance) noexcept {
+    return instance.area();
+}
+
+/// Samples a point uniformly over the area in the scene.
+/// \param instance  The instance.
+/// \param u         Point of the unit square.
+/// \param sums      What area_sums() returned; a lamp keeps it.
+/// \return The point; its density is 1 / area per squared scene unit.
+/// \cost O(log n).
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> sample_area(const InstanceT<T>& instance,
+                                           const Vec2T<T>& u,
+                                           const std::vector<double>& sums) noexcept {
+    const auto [part, left] =
+        detail::choose_part(sums.empty() ? instance.mesh().area_up_to() : sums, u.x);
+    return detail::placed_point(
+        instance, part,
+        sample_area(instance.mesh().triangle(part), Vec2T<T>{left, u.y}, Vec3T<T>(0)));
+}
+
+/// \overload
+/// \cost That of area_sums().
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> sample_area(const InstanceT<T>& instance,
+                                           const Vec2T<T>& u) {
+    return sample_area(instance, u, area_sums(instance));
+}
+
+/// Samples a point for an observer, by sample_area(). The point's error includes how
+/// far a shadow ray from there misses it: at the mesh, the ray is rounded once more.
+template <std::floating_point T>
+[[nodiscard]] SeenPointT<T> sample_towards(const InstanceT<T>& instance,
+                                           const Vec3T<T>& from, const Vec2T<T>& u,
+                                           const std::vector<double>& sums) noexcept {
+    using Wide = Vec3T<WideT<T>>;
+    SurfacePointT<T> point = sample_area(instance, u, sums);
+    const T pdf = detail::pdf_from_area(from, point, area(instance));
+    const Wide way(detail::sizes(point.position - from));
+    point.error += Vec3T<T>(WideT<T>(detail::rounding_bound<T>(4)) *
+                            detail::there_and_back(AffineT<WideT<T>>(instance.place()),
+                                                   instance.inverse_place(), way));
+    return {point, pdf};
+}
+
+/// A box around an instance: what two boxes share, that around the corners of the
+/// mesh's box and that around the ellipsoid that its sphere becomes. It is exact for a
+/// box along its own axes and for a ball.
+template <std::floating_point T>
+[[nodiscard]] BoxT<T> bounds(const InstanceT<T>& instance) noexcept {
+    using Wide = Vec3T<WideT<T>>;
+    const AffineT<WideT<T>> map(instance.place());
+    const BoxT<T> box = bounds(instance.mesh());
+    const SphereT<T>& sphere = instance.mesh().sphere();
+    const Wide middle = transform_point(map, Wide(sphere.center));
+    const Wide corner =
+        detail::transform_sizes(map, glm::max(Wide(box.high) - Wide(sphere.center),
+                                              Wide(sphere.center) - Wide(box.low)));
+    const Wide round = WideT<T>(sphere.radius) *
+                       glm::sqrt(map[0] * map[0] + map[1] * map[1] + map[2] * map[2]);
+    const Wide half = glm::min(corner, round);
+    const Wide slack = WideT<T>(detail::rounding_bound<T>(8)) *
+                       (detail::sizes(middle) + detail::sizes(map[3]) + half);
+    return {Vec3T<T>(middle - half - slack), Vec3T<T>(middle + half + slack)};
+}
+
+/// A sphere around an instance.
+template <std::floating_point T>
+[[nodiscard]] SphereT<T> bounding_sphere(const InstanceT<T>& instance) noexcept {
+    using Wide = WideT<T>;
+    const AffineT<Wide> map(instance.place());
+    const SphereT<T>& sphere = instance.mesh().sphere();
+    const Vec3T<Wide> center = transform_point(map, Vec3T<Wide>(sphere.center));
+    const Wide radius = Wide(sphere.radius) * largest_stretch(map);
+    const Wide slack = Wide(detail::rounding_bound<T>(8)) *
+                       (radius + max_component(detail::sizes(center)) +
+                        max_component(detail::sizes(map[3])));
+    return {.center = Vec3T<T>(center), .radius = static_cast<T>(radius + slack)};
+}
+
+/// The mesh, for a scene that keeps it.
+template <std::floating_point T>
+[[nodiscard]] const MeshT<T>& prototype(const InstanceT<T>& instance) noexcept {
+    return instance.mesh();
+}
+
+/// Refuses an instance of a mesh that was moved from; the constructor refuses all other
+/// invalid data.
+/// \throws std::invalid_argument  as check() of the mesh.
+template <std::floating_point T>
+void check(const InstanceT<T>& instance) {
+    check(instance.mesh());
+}
+
+/// \}
+
+} // namespace ljus
