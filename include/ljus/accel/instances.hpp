@@ -218,13 +218,11 @@ template <std::floating_point T>
 /// The nearest hit of a ray on an instance: that of its mesh, with the same t.
 /// \tparam Compute  As for a mesh.
 /// \cost That of the mesh, and 18 multiplications.
-// [intersect]
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
                                                     const InstanceT<T>& instance) {
     return intersect<Compute>(detail::ray_at_mesh(instance, ray), instance.mesh());
 }
-// [intersect]
 
 /// Whether a ray hits an instance, for shadow rays.
 /// \tparam Compute  As for intersect().
