@@ -5,6 +5,7 @@
 ///     render scene.json --renderer path --rays 1000 --out picture.pfm
 ///     render scene.json --renderer normals     what each ray hits first
 ///     render scene.json --seconds 5            the best picture for that time
+///     render scene.json --region 40,30,64,48   some of its pixels
 ///     render scene.json --plan                 what would run, and why
 ///     render --schema > ljus.schema.json       what a scene file may contain
 ///     render scene.json --passes 100 --checkpoint a.check --preview a.png
@@ -75,6 +76,8 @@ RenderedT<T> run(const Renderer& renderer, const LensCameraT<T>& camera,
                                          .batches = 1,
                                          .disagreement = r.disagreement});
         rendered = {std::move(adaptive.image), adaptive.counts, adaptive.complete};
+    } else if (!r.region.empty()) {
+        rendered = render_region(renderer, camera, picture, examples::region_of(r));
     } else if (r.part.count > 0) {
         const RowRange rows = examples::rows_of(r.part, picture.height);
         if (rows.first == rows.last) return rendered; // more slices than rows
@@ -356,8 +359,10 @@ void run_request(examples::CommandLine& line, Request& r,
     r.file = path_of(r, options);
     if (!r.quiet || r.plan) print_heading(room.world, loaded.name, r);
     const bool prints = r.plan || r.hooks;
+    // Refuse wrong pixels before any work is done.
+    if (!r.region.empty()) (void)region_of(r);
     if (!r.pixel.empty())
-        (void)pixel_of(r); // refuse a wrong pixel before any work is done
+        (void)pixel_of(r);
     else if (!prints)
         check_files(r);
     tell_idle_options(line, r, choose_passes(needs(room.world), r.photon));
