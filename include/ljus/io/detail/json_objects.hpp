@@ -318,8 +318,9 @@ void read_object(const JsonField& field,
             if (!in.has("displacement"))
                 scene.add(std::move(shape), material, radiance);
             else if constexpr (may_move<T, decltype(shape)>)
-                scene.add(Moving{shape, Vec3T<T>{in.vector("displacement")}}, material,
-                          radiance);
+                scene.add(
+                    Moving<decltype(shape)>{shape, Vec3T<T>{in.vector("displacement")}},
+                    material, radiance);
             else
                 refuse(in["displacement"],
                        "belongs to spheres, quads, boxes and triangles; in a scene "
