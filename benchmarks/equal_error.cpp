@@ -96,7 +96,7 @@ std::string piece_name(const std::string& name, std::size_t piece) {
 /// A scene file, closed.
 struct Subject {
     World<decltype(LoadedScene::scene)> world;
-    Camera camera;
+    LensCamera camera;
     int width = 0;  ///< Of its picture, in pixels.
     int height = 0; ///< Of its picture, in pixels.
 };

@@ -5,7 +5,9 @@
 ///     render scene.json --renderer path --rays 1000 --out picture.pfm
 ///     render scene.json --renderer normals     what each ray hits first
 ///     render scene.json --seconds 5            the best picture for that time
+///     render scene.json --region 40,30,64,48   some of its pixels
 ///     render scene.json --plan                 what would run, and why
+///     render --schema > ljus.schema.json       what a scene file may contain
 ///     render scene.json --passes 100 --checkpoint a.check --preview a.png
 ///                                              progressive maps; --resume continues
 ///     render scene.json --slice 3/16 --out part    some of its rows; see ljus-merge
@@ -33,8 +35,8 @@
 #include "ljus/inspect/survey.hpp"
 #include "ljus/io/load_json.hpp"
 #include "ljus/io/load_obj.hpp"
+#include "ljus/io/scene_schema.hpp"
 #include "ljus/render/adaptive.hpp"
-#include "ljus/scenes/room.hpp"
 
 namespace {
 
@@ -42,10 +44,20 @@ using namespace ljus;
 using Request = examples::RenderRequest;
 using examples::RendererName;
 
+/// A scene file, closed, with its camera.
+template <typename S>
+struct FileRoom {
+    World<S> world;                           ///< Shapes, materials and lights.
+    LensCameraT<typename S::Scalar> camera{}; ///< Its camera.
+};
+template <typename S>
+FileRoom(World<S>, LensCameraT<typename S::Scalar>) -> FileRoom<S>;
+
 /// Renders, or explains one pixel.
 /// \return What was rendered; no image if a pixel was explained.
 template <typename Renderer, std::floating_point T>
-RenderedT<T> run(const Renderer& renderer, const CameraT<T>& camera, const Request& r) {
+RenderedT<T> run(const Renderer& renderer, const LensCameraT<T>& camera,
+                 const Request& r) {
     RenderSettings picture = r.picture;
     if (!r.pixel.empty()) {
         const auto [x, y] = pixel_of(r);
@@ -64,6 +76,8 @@ RenderedT<T> run(const Renderer& renderer, const CameraT<T>& camera, const Reque
                                          .batches = 1,
                                          .disagreement = r.disagreement});
         rendered = {std::move(adaptive.image), adaptive.counts, adaptive.complete};
+    } else if (!r.region.empty()) {
+        rendered = render_region(renderer, camera, picture, examples::region_of(r));
     } else if (r.part.count > 0) {
         const RowRange rows = examples::rows_of(r.part, picture.height);
         if (rows.first == rows.last) return rendered; // more slices than rows
@@ -83,21 +97,22 @@ void tell(const std::vector<std::string>& remarks) {
 }
 
 template <typename S>
-RenderedT<typename S::Scalar> path_trace(const Room<S>& room, const Request& r) {
+RenderedT<typename S::Scalar> path_trace(const FileRoom<S>& room, const Request& r) {
     tell(path_remarks(room.world));
     const PathTracer tracer(room.world, r.path);
     return run(tracer, room.camera, r);
 }
 
 template <typename S>
-RenderedT<typename S::Scalar> show_first_hit(const Room<S>& room, const Request& r) {
+RenderedT<typename S::Scalar> show_first_hit(const FileRoom<S>& room,
+                                             const Request& r) {
     const FirstHitRenderer renderer(room.world, *examples::first_hit_of(r.renderer));
     return run(renderer, room.camera, r);
 }
 
 /// Fills the irradiance cache of a photon mapper.
 template <typename Mapper, std::floating_point T>
-void fill_cache(Mapper& mapper, const CameraT<T>& camera, const Request& r) {
+void fill_cache(Mapper& mapper, const LensCameraT<T>& camera, const Request& r) {
     const examples::StopWatch watch;
     examples::ProgressBar bar("irradiance cache", r.quiet);
     RenderSettings picture = r.picture;
@@ -113,7 +128,7 @@ void fill_cache(Mapper& mapper, const CameraT<T>& camera, const Request& r) {
 
 /// Makes the photon maps, the irradiance cache if there is one, and then the picture.
 template <typename S>
-RenderedT<typename S::Scalar> map_photons(const Room<S>& room, Request& r) {
+RenderedT<typename S::Scalar> map_photons(const FileRoom<S>& room, Request& r) {
     const examples::StopWatch watch;
     examples::ProgressBar caustics("caustics photons", r.quiet);
     examples::ProgressBar general("general photons", r.quiet);
@@ -142,7 +157,7 @@ RenderedT<typename S::Scalar> map_photons(const Room<S>& room, Request& r) {
 
 /// Renders a picture in passes, each with its own photons; see \ref progressive.
 template <typename S>
-RenderedT<typename S::Scalar> render_passes(const Room<S>& room, Request& r) {
+RenderedT<typename S::Scalar> render_passes(const FileRoom<S>& room, Request& r) {
     const auto& abilities = examples::recipe_abilities;
     auto go_on = [](long long, long long) { return examples::stop_signal() == 0; };
     RenderSettings picture = r.picture;
@@ -170,7 +185,7 @@ RenderedT<typename S::Scalar> render_passes(const Room<S>& room, Request& r) {
 
 /// Renders a picture within a time or with an error, by settings that it chooses.
 template <typename S>
-RenderedT<typename S::Scalar> render_promised(const Room<S>& room, Request& r) {
+RenderedT<typename S::Scalar> render_promised(const FileRoom<S>& room, Request& r) {
     const examples::StopWatch watch;
     const auto say = [&r](const auto& kept) {
         if (!r.quiet) std::printf("  %s\n", kept.why.c_str());
@@ -205,11 +220,12 @@ RenderedT<typename S::Scalar> render_promised(const Room<S>& room, Request& r) {
 
 /// Draws the scene, with the photons of one kind or of all as dots.
 template <typename S>
-RenderedT<typename S::Scalar> draw_photons(const Room<S>& room, const Request& r) {
+RenderedT<typename S::Scalar> draw_photons(const FileRoom<S>& room, const Request& r) {
     using T = typename S::Scalar;
     using enum PhotonKind;
+    const CameraT<T>& camera = room.camera.pinhole; // dots are sharp
     RenderedT<T> drawn{
-        scene_drawing(room.world, room.camera, r.picture.width, r.picture.height)};
+        scene_drawing(room.world, camera, r.picture.width, r.picture.height)};
     for (const bool caustics : {false, true}) {
         const MapType type = caustics ? MapType::caustics : MapType::general;
         if (r.photons != "all" && (r.photons == "caustic") != caustics) continue;
@@ -225,7 +241,7 @@ RenderedT<typename S::Scalar> draw_photons(const Room<S>& room, const Request& r
             const auto color = [kind](const PhotonT<T>& photon) {
                 return photon.kind == kind ? dot_color(photon) : RgbT<T>{0};
             };
-            const long long seen = add_photon_dots(drawn.image, room.world, room.camera,
+            const long long seen = add_photon_dots(drawn.image, room.world, camera,
                                                    traced.photons, {}, color);
             const PhotonCount found = census(traced.photons)[kind];
             const RgbT<double>&flux = found.flux, &emitted = traced.audit.emitted;
@@ -338,13 +354,15 @@ void run_request(examples::CommandLine& line, Request& r,
                  const examples::Options& options) {
     check_options(line, r, options.file);
     auto loaded = load_scene<T>(r);
-    const Room room{World(std::move(loaded.scene)), loaded.camera};
+    const FileRoom room{World(std::move(loaded.scene)), loaded.camera};
     choose_settings(line, r, loaded.width, loaded.height);
     r.file = path_of(r, options);
     if (!r.quiet || r.plan) print_heading(room.world, loaded.name, r);
     const bool prints = r.plan || r.hooks;
+    // Refuse wrong pixels before any work is done.
+    if (!r.region.empty()) (void)region_of(r);
     if (!r.pixel.empty())
-        (void)pixel_of(r); // refuse a wrong pixel before any work is done
+        (void)pixel_of(r);
     else if (!prints)
         check_files(r);
     tell_idle_options(line, r, choose_passes(needs(room.world), r.photon));
@@ -379,6 +397,8 @@ void body(examples::CommandLine& line) {
                "NAME.pfm, or a folder for SCENE.png (of a slice: NAME.slice).");
     line.without({"--quality"});
     add_settings(line, request);
+    line.prints("--schema", "Print the JSON schema of scene files, for editors",
+                scene_schema);
     const examples::Options options =
         line.parse({.report = {.width = 0, .height = 0, .samples = 64}});
     request.quiet = options.quiet;

@@ -76,6 +76,19 @@ TEST_CASE("command_line: what is not given comes from the quality") {
     CHECK(reference.pick(1, 2, 3) == 3);
 }
 
+TEST_CASE("command_line: a text is printed even if a needed argument is missing") {
+    examples::CommandLine line({"program", "--text"});
+    std::string needed;
+    bool asked = false;
+    line.add_positional("SCENE", needed, "needed");
+    line.prints("--text", "a text", [&asked] {
+        asked = true;
+        return std::string("text\n");
+    });
+    CHECK_THROWS_AS((void)line.parse(), examples::Exit);
+    CHECK(asked);
+}
+
 TEST_CASE("command_line: every option arrives, and the last of two counts") {
     const ScratchFolder folder;
     const Options options = parse({"--out", folder.file("new/one"), "--seed",
@@ -125,6 +138,11 @@ TEST_CASE("command_line: what is wrong is named with its value") {
           "--seed is '-1'; it must be a whole number from 0 to 18446744073709551615 "
           "(see --help)");
     CHECK(answer({"--nope"}) == "there is no option or argument '--nope' (see --help)");
+    CHECK(answer({"--widht", "3"}) == "there is no option or argument '--widht'; did "
+                                      "you mean --width? (see --help)");
+    CHECK(answer({"--quality", "drft"}) ==
+          "--quality is 'drft'; did you mean draft? It must be draft, report or "
+          "reference (see --help)");
     CHECK(answer({"--width"}) == "--width needs a value (see --help)");
     CHECK(answer({"--out", "a", "--quality"}) ==
           "--quality needs a value (see --help)");

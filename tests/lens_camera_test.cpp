@@ -124,6 +124,18 @@ TEST_CASE("lens: a point out of focus is a disc of that diameter in the picture"
     }
 }
 
+TEST_CASE("lens: one of radius 0 is the pinhole and draws no number") {
+    auto drawn = random_stream(1, Pass::user, 0, 0), untouched = drawn;
+    const auto pinhole = camera<float>().pinhole;
+    const auto ray = camera_ray(with_lens(pinhole, 0.0f, 5.0f), {7, 9}, 60, 40, drawn);
+    CHECK(ray.direction == primary_ray(pinhole, {7, 9}, 60, 40).direction);
+    CHECK(ray.origin == pinhole.position);
+    CHECK(next_1d<float>(drawn) == next_1d<float>(untouched));
+    (void)camera_ray(with_lens(pinhole, 0.1f, 5.0f), {7, 9}, 60, 40, drawn);
+    (void)next_2d<float>(untouched);
+    CHECK(next_1d<float>(drawn) == next_1d<float>(untouched));
+}
+
 TEST_CASE("lens: what it refuses") {
     const auto pinhole = look_at(View{});
     CHECK_THROWS_WITH_AS((void)with_lens(pinhole, -1.0f, 5.0f),

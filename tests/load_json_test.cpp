@@ -155,11 +155,11 @@ TEST_CASE("load_json: a lamp of two triangles is one light") {
 
 TEST_CASE("load_json: the camera sees what it looks at in the middle") {
     const LoadedScene loaded = read_json_scene(good, "a.json");
-    const Ray ray = primary_ray(loaded.camera, Vec2{15, 10}, 30, 20);
+    const Ray ray = primary_ray(loaded.camera.pinhole, Vec2{15, 10}, 30, 20);
     CHECK(ray.origin == Vec3{0, 1, 5});
     CHECK(glm::distance(ray.direction, Vec3{0, 0, -1}) < 1e-6f);
     // The upper edge of the picture lies at half the angle.
-    const Ray up = primary_ray(loaded.camera, Vec2{15, 0}, 30, 20);
+    const Ray up = primary_ray(loaded.camera.pinhole, Vec2{15, 0}, 30, 20);
     CHECK(up.direction.y / -up.direction.z ==
           doctest::Approx(std::tan(20 * std::numbers::pi / 180)));
 }
@@ -233,6 +233,235 @@ TEST_CASE(
          "name is 4; it must be a text in quotation marks."},
         {"\"name\": \"ball\"", "\"name\": 4",
          "objects[2].name is 4; it must be a text in quotation marks."},
+    });
+}
+
+namespace {
+
+// The good scene with another object in front of the others.
+std::string object(const std::string& fields) {
+    return changed("\"objects\": [",
+                   R"("objects": [{"material": "matt", )" + fields + "}, ");
+}
+
+} // namespace
+
+TEST_CASE("load_json: quads, boxes, discs and cylinders") {
+    const auto read = [](const std::string& fields) {
+        return read_json_scene(object(fields), "a.json").scene;
+    };
+    const auto quad = read(
+        R"("type": "quad", "corner": [1, 2, 3], "edge_u": [2, 0, 0], "edge_v": [0, 1, 1],
+           "emission": [1, 2, 3])");
+    const Quad& first = std::get<std::vector<Quad>>(quad.shapes).at(0);
+    CHECK(first.corner == Vec3{1, 2, 3});
+    CHECK(first.edge_u == Vec3{2, 0, 0});
+    CHECK(first.edge_v == Vec3{0, 1, 1});
+    CHECK(quad.objects[0][0].emission == Rgb{1, 2, 3});
+    const auto box = read(R"("type": "box", "low": [0, 0, 0], "high": [1, 2, 4])");
+    const auto& sides = std::get<std::vector<Quad>>(box.shapes);
+    REQUIRE(sides.size() == 8); // with two quads of the good scene
+    float all = 0;
+    for (std::size_t i = 0; i < 6; ++i) all += area(sides[i]);
+    CHECK(all == 2 * (1 * 2 + 2 * 4 + 4 * 1));
+    const auto disc = read(
+        R"("type": "disc", "center": [1, 2, 3], "normal": [0, -2, 0], "radius": 0.5)");
+    const Disc& round = std::get<std::vector<Disc>>(disc.shapes).at(0);
+    CHECK(round.center == Vec3{1, 2, 3});
+    CHECK(normal(round) == Vec3{0, -1, 0});
+    CHECK(round.radius == 0.5f);
+    const std::string tube =
+        R"("type": "cylinder", "base": [1, 2, 3], "axis": [0, 2, 0], "radius": 0.5)";
+    const auto open = read(tube), closed = read(tube + R"(, "ends": "closed")");
+    const Cylinder& pipe = std::get<std::vector<Cylinder>>(open.shapes).at(0);
+    CHECK(pipe.base == Vec3{1, 2, 3});
+    CHECK(pipe.axis == Vec3{0, 2, 0});
+    CHECK(pipe.radius == 0.5f);
+    CHECK(std::get<std::vector<Disc>>(open.shapes).empty());
+    CHECK(std::get<std::vector<Cylinder>>(closed.shapes).size() == 1);
+    CHECK(std::get<std::vector<Disc>>(closed.shapes).size() == 2);
+
+    refused(object(R"("type": "box", "low": [0, 0, 0], "high": [1, 0, 4])"),
+            "objects[0].high is [1,0,4]; it must be above low along x, y and z.");
+    refused(object(R"("type": "quad", "corner": [0, 0, 0], "edge_u": [1, 2, 3],
+                      "edge_v": [2, 4, 6])"),
+            "objects[0].edge_v is [2,4,6]; it must be a vector that is not along "
+            "edge_u.");
+    refused(object(R"("type": "disc", "center": [0, 0, 0], "normal": [0, 0, 0],
+                      "radius": 1)"),
+            "objects[0].normal is [0,0,0]; it must be a vector that is not 0.");
+    refused(object(tube + R"(, "ends": "close")"),
+            "objects[0].ends is \"close\"; did you mean \"closed\"? It must be open or "
+            "closed.");
+}
+
+TEST_CASE("load_json: objects are scaled, turned and displaced") {
+    const auto sphere = [](const std::string& transform) {
+        return object(R"("type": "sphere", "center": [1, 0, 0], "radius": 0.5,
+                         "transform": )" +
+                      transform);
+    };
+    const auto scene = read_json_scene(sphere(R"({"scale": 2, "translate": [0, 5, 0],
+            "rotate": {"axis": [0, 0, 1], "degrees": 90}})"),
+                                       "a.json")
+                           .scene;
+    const Sphere& placed_one = std::get<std::vector<Sphere>>(scene.shapes).at(0);
+    CHECK(placed_one.center == Vec3{0, 7, 0});
+    CHECK(placed_one.radius == 1);
+    auto box =
+        read_json_scene(object(R"("type": "box", "low": [0, 0, 0], "high": [1, 1, 1],
+                  "transform": {"scale": [1, 2, 4]})"),
+                        "a.json");
+    const World world(std::move(box.scene));
+    CHECK(world.box().high.z >= 4);
+
+    refused(sphere(R"({"scale": [1, 1, 2]})"),
+            "objects[0] cannot be used: the scale of a sphere is (1, 1, 2); it must be "
+            "the same along x, y and z.");
+    refused(sphere(R"({"scale": -1})"),
+            "objects[0].transform.scale is -1; it must be within [1e-9, 1e9].");
+    refused(sphere(R"({"rotate": {"axis": [0, 0, 0], "degrees": 1}})"),
+            "objects[0].transform.rotate.axis is [0,0,0]; it must be a vector that is "
+            "not 0.");
+    refused(sphere(R"({"rotation": 1})"),
+            "objects[0].transform.rotation is not known; the fields here are scale, "
+            "rotate and translate.");
+}
+
+TEST_CASE("load_json: a mesh file is placed wherever it is named") {
+    int calls = 0;
+    const auto load = [&](const std::string&, double, const std::string&) {
+        ++calls;
+        return std::vector<Mesh>{Mesh({.positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                                       .normals{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
+                                       .triangles{{0, 1, 2}}})};
+    };
+    const auto mesh = [](const std::string& rest) {
+        return R"({"type": "mesh", "file": "m.obj", "material": "matt")" + rest + "}, ";
+    };
+    const std::string moved = mesh(R"(, "transform": {"translate": [0, 0, 7],
+                                    "rotate": {"axis": [1, 0, 0], "degrees": 90}})");
+    for (const bool first : {true, false}) {
+        calls = 0;
+        const std::string two = first ? moved + mesh("") : mesh("") + moved;
+        const auto loaded = read_json_scene(
+            changed("\"objects\": [", "\"objects\": [" + two + moved), "a.json", load);
+        const auto& meshes = std::get<std::vector<Mesh>>(loaded.scene.shapes);
+        REQUIRE(meshes.size() == 3);
+        CHECK(calls == 1);
+        const std::size_t still = first ? 1 : 0;
+        CHECK(meshes[still].data().positions[2] == Vec3{0, 1, 0});
+        CHECK(meshes[still].data().normals[0] == Vec3{0, 0, 1});
+        for (const std::size_t there : {1 - still, std::size_t(2)}) {
+            CHECK(meshes[there].data().positions[2] == Vec3{0, 0, 8});
+            CHECK(meshes[there].data().normals[0] == Vec3{0, -1, 0});
+        }
+    }
+}
+
+TEST_CASE("load_json: what moves while the shutter is open") {
+    const auto scene = [](const char* shape) {
+        return read_json_scene(
+                   object(std::string(shape) + R"(, "displacement": [0.5, 0, 1])"),
+                   "a.json")
+            .scene;
+    };
+    const auto ball = scene(R"("type": "sphere", "center": [1, 0, 0], "radius": 0.5)");
+    const auto& balls = std::get<std::vector<Moving<Sphere>>>(ball.shapes);
+    REQUIRE(balls.size() == 1);
+    CHECK(balls[0].shape.center == Vec3{1, 0, 0});
+    CHECK(balls[0].displacement == Vec3{0.5f, 0, 1});
+    const auto box = scene(R"("type": "box", "low": [0, 0, 0], "high": [1, 1, 1])");
+    CHECK(std::get<std::vector<Moving<Quad>>>(box.shapes).size() == 6);
+    const auto triangle = scene(R"("type": "triangles", "indices": [[0, 1, 2]],
+        "vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]])");
+    CHECK(std::get<std::vector<Moving<Triangle>>>(triangle.shapes).size() == 1);
+    refused(
+        object(R"("type": "disc", "center": [0, 0, 0], "normal": [0, 1, 0],
+                      "radius": 1, "displacement": [0, 0, 1])"),
+        "objects[0].displacement belongs to spheres, quads, boxes and triangles; in "
+        "a scene file other shapes do not move.");
+}
+
+TEST_CASE("load_json: a lens, and without one a pinhole") {
+    const auto lens = [](const std::string& text) {
+        return changed("\"vfov_deg\": 40", "\"vfov_deg\": 40, \"lens\": " + text);
+    };
+    CHECK(read_json_scene(good, "a.json").camera.radius == 0);
+    const auto camera =
+        read_json_scene(lens(R"({"radius": 0.25, "focus": 3})"), "a.json").camera;
+    CHECK(camera.radius == 0.25f);
+    CHECK(camera.focus == 3);
+    refused(lens(R"({"radius": 0.25})"), "camera.lens.focus is missing.");
+    refused(lens(R"({"radius": -1, "focus": 3})"),
+            "camera.lens.radius is -1; it must be within [0, 1e9].");
+    refused(lens(R"({"radius": 1, "focus": 0})"),
+            "camera.lens.focus is 0; it must be above 0.");
+    refused(lens(R"({"aperture": 1, "focus": 3})"),
+            "camera.lens.aperture is not known; the fields here are radius and focus.");
+}
+
+TEST_CASE("load_json: groups of lamps are dimmed together") {
+    const auto grouped = [](const std::string& groups) {
+        std::string text =
+            changed("\"emission\": [5, 4, 2.5]",
+                    "\"emission\": [5, 4, 2.5], \"lamp_group\": \"top\"");
+        const std::string end = "\n ]\n}";
+        return text.replace(text.rfind(end), end.size(),
+                            "\n ], \"lights\": [{\"type\": \"point\", \"position\": "
+                            "[0, 2, 0], \"intensity\": [1, 2, 3], \"lamp_group\": "
+                            "\"top\"}, {\"type\": \"sun\", \"direction\": [0, -1, 0], "
+                            "\"irradiance\": [1, 1, 1]}]" +
+                                groups + "}");
+    };
+    const auto dim =
+        read_json_scene(grouped(R"(, "lamp_groups": {"top": 0.5, "side": 1})"),
+                        "a.json")
+            .scene;
+    CHECK(dim.objects[0][1].emission == Rgb{2.5f, 2, 1.25f});
+    CHECK(std::get<0>(dim.lights).at(0).intensity == Rgb{0.5f, 1, 1.5f});
+    CHECK(std::get<2>(dim.lights).at(0).irradiance == Rgb{1});
+    const auto off =
+        read_json_scene(grouped(R"(, "lamp_groups": {"top": 0})"), "a.json").scene;
+    CHECK(off.light_count() == 1);
+    refused(
+        grouped(R"(, "lamp_groups": {"topp": 0})"),
+        "objects[1].lamp_group is \"top\"; did you mean \"topp\"? It must be one of "
+        "the lamp_groups topp.");
+    refused(grouped(""), "objects[1].lamp_group is \"top\"; it must be a name of "
+                         "lamp_groups, which the file lacks.");
+    refused(grouped(R"(, "lamp_groups": {"top": -1})"),
+            "lamp_groups.top is -1; it must be within [0, 1e9].");
+}
+
+TEST_CASE("load_json: the names of C++ are read as well, but not both") {
+    const auto scene =
+        read_json_scene(changed("{\"type\": \"dielectric\", \"ior\": 1.5}",
+                                "{\"type\": \"glass\", \"index\": 1.25}"),
+                        "a.json")
+            .scene;
+    CHECK(std::get<std::vector<Glass>>(scene.materials).at(0).index == 1.25f);
+    const auto camera =
+        read_json_scene(changed("\"look_at\"", "\"target\""), "a.json").camera;
+    CHECK(camera.pinhole.forward == Vec3{0, 0, -1});
+    refused("\"ior\": 1.5", "\"ior\": 1.5, \"index\": 1.5",
+            "materials.glass.index is given as ior as well.");
+}
+
+TEST_CASE("load_json: for a wrong word the nearest one is proposed") {
+    refused({
+        {"\"type\": \"lambertian\"", "\"type\": \"lambert\"",
+         "materials.matt.type is \"lambert\"; did you mean \"lambertian\"? It must be "
+         "lambertian, oren-nayar, mirror, dielectric, mixture, oren-nayar-full, "
+         "oren-nayar-printed, fujii, fon, eon, metal, rough-metal, full-rough-metal, "
+         "glossy, full-glossy, rough-glass, thin-glass, soap-film, checker or "
+         "picture."},
+        {"\"type\": \"sphere\"", "\"type\": \"shpere\"",
+         "objects[2].type is \"shpere\"; did you mean \"sphere\"? It must be sphere, "
+         "triangles, mesh, quad, box, disc or cylinder."},
+        {"\"material\": \"glass\"", "\"material\": \"Glas\"",
+         "objects[2].material is \"Glas\"; did you mean \"glass\"? It must be one of "
+         "the materials glass, matt, mirror or rough."},
     });
 }
 
@@ -630,7 +859,8 @@ TEST_CASE("load_json: points, spots and suns") {
     refused(lit(spot + R"("inner_deg": 20, "outer_deg": 10})"),
             "lights[0].inner_deg is 20; it must be within [0, outer_deg].");
     CHECK(refusal(lit(spot + R"("inner_deg": 0, "outer_deg": 0})"))
-              .find("a.json: lights[0] cannot be used: spot light.outer_degrees") == 0);
+              .find("a.json: lights[0].outer_deg is 0; it must be within [0.001, 180] "
+                    "degrees.") == 0);
     // They are enough: no object needs to shine.
     std::string dark = lit(R"({"type": "sun", "direction": [0, -1, 0],
                               "irradiance": [1, 1, 1]})");
@@ -642,18 +872,21 @@ TEST_CASE("load_json: points, spots and suns") {
 TEST_CASE("load_json: unknown and missing fields, types and materials are named") {
     refused({
         {"\"radius\": 0.75", "\"radios\": 0.75",
-         "objects[2].radios is not known; the fields here are type, name, material, "
-         "emission, center and radius."},
+         "objects[2].radios is not known; did you mean radius? The fields here are "
+         "type, name, material, emission, lamp_group, transform, displacement, center "
+         "and radius."},
         {"\"radius\": 0.75", "\"vertices\": []",
          "objects[2].vertices is not known; the fields here are type, name, material, "
-         "emission, center and radius."},
+         "emission, lamp_group, transform, displacement, center and radius."},
         {",\n   \"radius\": 0.75", "", "objects[2].radius is missing."},
         {"\"camera\": {", "\"camera\": {\"fov\": 3, ",
-         "camera.fov is not known; the fields here are position, look_at, up and "
-         "vfov_deg."},
+         "camera.fov is not known; did you mean vfov_deg? The fields here are "
+         "position, "
+         "look_at, up, vfov_deg and lens."},
         {"\"format\"", "\"formt\"",
-         "formt is not known; the fields here are format, name, description, camera, "
-         "image, materials, objects and lights."},
+         "formt is not known; did you mean format? The fields here are format, name, "
+         "description, camera, image, materials, objects, lights, lamp_groups and "
+         "$schema."},
     });
     CHECK(refusal("\"camera\"", "\"name\"").find("name appears twice") !=
           std::string::npos);
@@ -667,8 +900,8 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
          "materials.glass.tint is not known; the fields here are type, ior and "
          "absorption."},
         {"\"type\": \"sphere\"", "\"type\": \"cube\"",
-         "objects[2].type is \"cube\"; it must be sphere, triangles, mesh or "
-         "instances."},
+         "objects[2].type is \"cube\"; it must be sphere, triangles, mesh, instances, "
+         "quad, box, disc or cylinder."},
         {"\"type\": \"sphere\", ", "", "objects[2].type is missing."},
         {"\"material\": \"glass\"", "\"material\": \"gold\"",
          "objects[2].material is \"gold\"; it must be one of the materials glass, "
@@ -689,11 +922,12 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
 TEST_CASE("load_json: names that are no plain words cannot disturb a message") {
     refused("\"format\"", "\"a\\nb\\u001b[31m\"",
             "[\"a?b?[31m\"] is not known; the fields here are format, name, "
-            "description, camera, image, materials, objects and lights.");
+            "description, camera, image, materials, objects, lights, lamp_groups and "
+            "$schema.");
     CHECK(refusal("\"format\"", "\"" + std::string(100'000, 'x') + "\"") ==
           "a.json: [\"" + std::string(48, 'x') +
               "...\"] is not known; the fields here are format, name, description, "
-              "camera, image, materials, objects and lights.");
+              "camera, image, materials, objects, lights, lamp_groups and $schema.");
 }
 
 TEST_CASE("load_json: broken JSON is refused with line and column") {
@@ -828,10 +1062,10 @@ TEST_CASE("load_json: garbage is refused, or gives a scene that can be used") {
             ++accepted;
             REQUIRE(loaded.scene.light_count() > 0);
             REQUIRE(loaded.width >= 1);
-            REQUIRE(is_finite(loaded.camera.forward));
+            REQUIRE(is_finite(loaded.camera.pinhole.forward));
             const World world(std::move(loaded.scene));
             const auto hit =
-                closest_hit(world, primary_ray(loaded.camera, Vec2{0.5f, 0.5f},
+                closest_hit(world, primary_ray(loaded.camera.pinhole, Vec2{0.5f, 0.5f},
                                                loaded.width, loaded.height));
             if (hit) REQUIRE(hit->at.t >= 0);
         } catch (const std::runtime_error& error) {

@@ -128,6 +128,20 @@ TEST_CASE_TEMPLATE("moving: a shape is where its time says, and in its bounds", 
     CHECK(std::is_same_v<decltype(at_time(any(), 0.5f)), const S&>);
 }
 
+TEST_CASE("moving: a time is drawn only for a scene in which something moves") {
+    Scene<Shapes<Sphere, Moving<Sphere>>, Materials<Lambertian>> scene;
+    const auto grey = scene.add(Lambertian{});
+    scene.add(Sphere{}, grey);
+    const World still(scene);
+    scene.add(Moving<Sphere>{{}, {0, 1, 0}}, grey);
+    const World moves(scene);
+    auto drawn = random_stream(1, Pass::user, 0, 0), untouched = drawn;
+    CHECK(camera_path(still, Ray{}, drawn).ray.time == 0);
+    const float first = next_1d<float>(untouched);
+    CHECK(next_1d<float>(drawn) == first);
+    CHECK(camera_path(moves, Ray{}, drawn).ray.time == next_1d<float>(untouched));
+}
+
 TEST_CASE("moving: photons see what moves as paths do, by whatever carries them") {
     // The middle of a matt ball that crosses a room. Photons that lay where they had
     // landed would be spread over all of its way: a quarter of its light would be lost,

@@ -526,6 +526,44 @@ TEST_CASE("render: one pixel's ray is the same alone as in the picture") {
     }
 }
 
+TEST_CASE("render: a region is that part of the whole, byte by byte") {
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const PathTracer tracer(room);
+    const auto camera = room_camera<float>();
+    const RenderSettings picture{
+        .width = 37, .height = 9, .samples = 3, .seed = 4, .threads = 2};
+    const auto whole = render(tracer, camera, picture);
+    // A missing pixel would be black; few of these are.
+    const auto black = [](const Rgb& c) { return is_black(c); };
+    REQUIRE(std::count_if(whole.image.pixels.begin(), whole.image.pixels.end(), black) <
+            20);
+    for (const PixelRegion& region :
+         {PixelRegion{0, 0, 37, 9}, PixelRegion{0, 0, 1, 1}, PixelRegion{36, 8, 1, 1},
+          PixelRegion{15, 2, 2, 3}, PixelRegion{3, 4, 30, 5}}) {
+        const auto part = render_region(tracer, camera, picture, region);
+        REQUIRE(part.image.width == region.width);
+        REQUIRE(part.image.height == region.height);
+        for (int y = 0; y < region.height; ++y)
+            for (int x = 0; x < region.width; ++x)
+                CHECK(pixel(part.image, x, y) ==
+                      pixel(whole.image, region.x + x, region.y + y));
+    }
+    // A few strips, not the whole.
+    CHECK(render_region(tracer, camera, picture, {15, 2, 2, 3}).counts.camera_rays ==
+          3 * 32 * 3);
+    for (const PixelRegion& wrong :
+         {PixelRegion{-1, 0, 2, 1}, PixelRegion{36, 0, 2, 1}, PixelRegion{0, 0, 0, 1},
+          PixelRegion{37, 0, 1, 1}, PixelRegion{0, 0, 2147483647, 1}})
+        CHECK_THROWS_WITH_AS((void)render_region(tracer, camera, picture, wrong),
+                             ("the region's width is " + std::to_string(wrong.width) +
+                              "; it must be at least 1, and the region within the "
+                              "picture.")
+                                 .c_str(),
+                             std::invalid_argument);
+    CHECK_THROWS_AS((void)render_region(tracer, camera, picture, {0, 5, 1, 5}),
+                    std::invalid_argument);
+}
+
 TEST_CASE("render: rows that are rendered apart are the whole, byte by byte") {
     const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
     const PathTracer tracer(room);

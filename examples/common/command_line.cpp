@@ -27,6 +27,7 @@
 #endif
 
 #include "ljus/io/file.hpp"
+#include "ljus/io/nearest_word.hpp"
 #include "ljus/parallel.hpp"
 
 namespace examples {
@@ -54,12 +55,31 @@ void require_folder(const std::string& folder) {
     ljus::require_writable((std::filesystem::path(folder) / "probe").string());
 }
 
+// "; did you mean --preset?", if an option is near.
+std::string proposal_of_option(const CLI::App& app, const std::string& word) {
+    std::vector<std::string> names;
+    for (const CLI::Option* const option : app.get_options())
+        for (const std::string& name : option->get_lnames())
+            names.push_back("--" + name);
+    const std::string near =
+        word.starts_with("--") ? ljus::nearest_word(word, names) : "";
+    return near.empty() ? "" : "; did you mean " + near + "?";
+}
+
 // ".png, .hdr or .pfm".
 std::string list_of(const std::vector<std::string>& words) {
     std::string text;
     for (std::size_t i = 0; i < words.size(); ++i)
         text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " or ") + words[i];
     return text;
+}
+
+// What is right instead of a wrong word, after the nearest one.
+std::string right_word(const std::string& wrong,
+                       const std::vector<std::string>& words) {
+    const std::string near = ljus::nearest_word(wrong, words);
+    return (near.empty() ? "it" : "did you mean " + near + "? It") + " must be " +
+           list_of(words);
 }
 
 // One line without its full stop. It may repeat what a user typed, which can have any
@@ -174,7 +194,7 @@ std::optional<Whole> whole_number(std::string_view text) {
 // The parser's own conversion reads -1 as the largest seed.
 std::string take_seed(const std::string& text, std::uint64_t& seed) {
     const auto given = whole_number<std::uint64_t>(text);
-    if (!given) return "a whole number from 0 to 18446744073709551615";
+    if (!given) return "it must be a whole number from 0 to 18446744073709551615";
     seed = *given;
     return "";
 }
@@ -234,9 +254,9 @@ struct CommandLine::Parser {
             [take, first = name.substr(0, name.find(','))](const std::string& text) {
                 const std::string right = take(text);
                 if (!right.empty())
-                    throw std::invalid_argument(
-                        first + " is '" + ljus::shown(text, 200) + "'; it must be " +
-                        right + " (see --help)");
+                    throw std::invalid_argument(first + " is '" +
+                                                ljus::shown(text, 200) + "'; " + right +
+                                                " (see --help)");
             },
             value.empty() ? help : help + " [" + value + "]");
         option->option_text(kind);
@@ -310,7 +330,7 @@ void CommandLine::add_number(const std::string& name, const std::string& help,
         },
         [good, take, right = std::string(range)](const std::string& text) {
             double number = 0;
-            if (!good(text, number)) return right;
+            if (!good(text, number)) return "it must be " + right;
             take(number);
             return std::string();
         });
@@ -330,7 +350,7 @@ void CommandLine::add_words(const std::string& name, const std::string& help,
         },
         [words, take](const std::string& text) {
             const auto found = std::find(words.begin(), words.end(), text);
-            if (found == words.end()) return list_of(words);
+            if (found == words.end()) return right_word(text, words);
             take(std::size_t(found - words.begin()));
             return std::string();
         });
@@ -364,6 +384,12 @@ void CommandLine::add(const std::string& name, bool& value, const std::string& h
     CLI::Option* const option = parser_->app.add_flag(name, value, help);
     parser_->settings.emplace_back(option,
                                    [&value] { return value ? "true" : "false"; });
+}
+
+void CommandLine::prints(const std::string& name, const std::string& help,
+                         std::function<std::string()> text) {
+    parser_->app.add_flag_callback(
+        name, [text = std::move(text)] { throw CLI::CallForVersion(text(), 0); }, help);
 }
 
 void CommandLine::makes(const std::vector<std::string>& items) {
@@ -464,9 +490,9 @@ Options CommandLine::parse(const Presets& presets) {
             throw Exit{0};
         }
         if (const auto rest = app.remaining(); !rest.empty())
-            throw std::invalid_argument("there is no option or argument '" +
-                                        without_end(rest.front(), 800) +
-                                        "' (see --help)");
+            throw std::invalid_argument(
+                "there is no option or argument '" + without_end(rest.front(), 800) +
+                "'" + proposal_of_option(app, rest.front()) + " (see --help)");
         std::string said = error.what();
         if (error.get_name() == "ArgumentMismatch")
             said = said.substr(0, said.find(':')) + " needs a value";

@@ -198,6 +198,10 @@ public:
     /// A switch: false unless it is given.
     void add(const std::string& name, bool& value, const std::string& help);
 
+    /// A switch that prints a text and ends the program, whatever else is given.
+    void prints(const std::string& name, const std::string& help,
+                std::function<std::string()> text);
+
     /// The report's items that the program makes, as "fig-5"; --only chooses one of
     /// them.
     void makes(const std::vector<std::string>& items);

@@ -48,6 +48,9 @@ struct NoEffect {
          true},
         {"cannot be combined with --slice",
          !r.slice.empty(),
+         {"--explain", "--show-photons", "--passes", "--region"}},
+        {"cannot be combined with --region",
+         !r.region.empty(),
          {"--explain", "--show-photons", "--passes"}},
         {"is for pictures that are made in passes: give --passes N, too",
          r.passes.passes == 0,
@@ -195,6 +198,28 @@ inline void check_options(const CommandLine& line, RenderRequest& r,
         throw std::invalid_argument("--out is " + file +
                                     "; a file NAME.slice is for --slice K/N");
     }
+}
+
+/// The pixels of --region.
+/// \throws std::invalid_argument  if they do not lie in the picture.
+[[nodiscard]] inline ljus::PixelRegion region_of(const RenderRequest& r) {
+    const std::size_t second = r.region.find(',', r.region.find(',') + 1);
+    const auto first = two_numbers(r.region.substr(0, second), ',');
+    const auto size = second != std::string::npos
+                          ? two_numbers(r.region.substr(second + 1), ',')
+                          : std::nullopt;
+    const auto inside = [](int from, int count, int all) {
+        return from >= 0 && count >= 1 && from < all && count <= all - from;
+    };
+    if (!first || !size || !inside(first->first, size->first, r.picture.width) ||
+        !inside(first->second, size->second, r.picture.height))
+        throw std::invalid_argument(
+            "--region is " + r.region +
+            "; it must be X,Y,W,H: the first column and row, counted from 0, and the "
+            "width and height, within the picture of " +
+            std::to_string(r.picture.width) + " x " + std::to_string(r.picture.height) +
+            " pixels");
+    return {first->first, first->second, size->first, size->second};
 }
 
 /// The pixel of --explain.

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -69,6 +70,7 @@ struct RenderRequest {
     std::string remarks{};         ///< Remarks on the photon passes, one a line.
     std::string slice{};           ///< "3/16", or nothing.
     SliceNumber part{};            ///< The same as a number.
+    std::string region{};          ///< "40,30,64,48", or nothing.
     std::string pixel{};           ///< "120,80", or nothing.
     std::string photons{};         ///< Kind of photons to draw as dots, or nothing.
     bool plan = false;             ///< Print what would run.
@@ -94,6 +96,8 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
              "Render the K-th of N slices, which ljus-merge joins");
 
     line.group(common_groups[0], {"--width", "--height", "--rays", "--seed"});
+    line.add("--region X,Y,W,H", r.region,
+             "Only these pixels, counted from the upper left corner");
     line.add("--more-rays", r.more_rays,
              "More rays in pixels whose first rays disagree", 0, million);
     line.add("--disagreement", r.disagreement,
@@ -247,11 +251,13 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
         options = line.fill({width, height, 1});
         r.more_rays = 0;
     }
-    if (r.part.count > 0 && r.more_rays > 0)
-        throw std::invalid_argument(
-            "--more-rays is " + std::to_string(r.more_rays) +
-            "; with --slice, which takes the same rays in every "
-            "pixel, it must be 0: give --more-rays 0");
+    for (const auto& [option, given] :
+         {std::pair{"--slice", r.part.count > 0}, {"--region", !r.region.empty()}})
+        if (given && r.more_rays > 0)
+            throw std::invalid_argument(
+                "--more-rays is " + std::to_string(r.more_rays) + "; with " + option +
+                ", which takes the same rays in every "
+                "pixel, it must be 0: give --more-rays 0");
     if (r.more_rays > 0 && options.samples < 2)
         throw std::invalid_argument(
             "--rays is " + std::to_string(options.samples) + "; with --more-rays " +
@@ -288,6 +294,7 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
     if (r.passes.passes > 0) groups.push_back(pass_group);
     nlohmann::ordered_json json{
         {"scene", std::filesystem::path(r.scene).filename().string()}};
+    if (!r.region.empty()) json["region"] = r.region;
     for (const std::string& group : groups)
         for (const auto& [name, value] : line.values(group))
             json[name] = nlohmann::ordered_json::parse(value);

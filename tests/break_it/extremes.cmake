@@ -24,6 +24,6 @@ ljus_break_it(NAME extremes-too-large HEADER render/passes.hpp TEST extremes
 
 # As many strips in a row as in a column, as in a picture that is square.
 ljus_break_it(NAME extremes-strips HEADER render/render.hpp TEST extremes
-    FROM "(picture.width - 1) / detail::strip_width + 1;"
-    TO   "(picture.height - 1) / detail::strip_width + 1;"
+    FROM "const int right = region.x + region.width;"
+    TO   "const int right = region.x + region.height;"
     CASES "extremes: pictures of one*")

@@ -13,8 +13,8 @@ ljus_break_it(NAME json-last-name HEADER io/detail/json_field.hpp TEST load_json
 
 # Absorption below 0 would make light.
 ljus_break_it(NAME json-absorption HEADER io/detail/json_materials.hpp TEST load_json
-    FROM [[vector_field(member(field, "absorption"), 0,]]
-    TO   [[vector_field(member(field, "absorption"), -1e12,]]
+    FROM [["absorption", {JsonKind::vector, 0,]]
+    TO   [["absorption", {JsonKind::vector, -1e12,]]
     CASES "load_json: the numbers that the table*")
 
 # A film that says where it hangs and not how it grows thicker is an even one.
@@ -51,3 +51,33 @@ ljus_break_it(NAME json-path HEADER io/detail/json_field.hpp TEST load_json
     FROM "path + \"[\" + std::to_string(index) + \"]\";"
     TO   "path + \"[\" + std::to_string(index + 1) + \"]\";"
     CASES "load_json: an error names*")
+
+# A file that is placed at first is placed wherever it is named again.
+ljus_break_it(NAME json-mesh-unplaced HEADER io/detail/json_objects.hpp TEST load_json
+    FROM "for (const MeshT<T>& mesh : reading.unplaced) copy(mesh);"
+    TO   ""
+    CASES "load_json: a mesh file is placed*")
+
+# A closed tube is an open one.
+ljus_break_it(NAME json-cylinder-ends HEADER io/detail/json_objects.hpp TEST load_json
+    FROM [[if (in.word("ends") == "closed")]]
+    TO   "if (false)"
+    CASES "load_json: quads, boxes*")
+
+# A group dims the lights and leaves the objects bright.
+ljus_break_it(NAME json-lamp-groups HEADER io/detail/json_objects.hpp TEST load_json
+    FROM "groups.factor(in) * in.vector(\"emission\")"
+    TO   "in.vector(\"emission\")"
+    CASES "load_json: groups of lamps*")
+
+# The second of two names for one thing is ignored.
+ljus_break_it(NAME json-both-names HEADER io/detail/json_members.hpp TEST load_json
+    FROM "if (found && other)"
+    TO   "if (false)"
+    CASES "load_json: the names of C++*")
+
+# Words that share a few letters are proposed.
+ljus_break_it(NAME nearest-word-far HEADER io/nearest_word.hpp TEST nearest_word
+    FROM "word.size() / 3"
+    TO   "word.size()"
+    CASES "nearest word: what is near*")

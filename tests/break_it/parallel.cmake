@@ -1,7 +1,7 @@
 # Rows of a machine's part that are traced as if they were the first ones: each strip
 # shows the top of the picture.
 ljus_break_it(NAME parallel-rows HEADER render/render.hpp TEST render
-    FROM "{x, rows.first + row, i}"
+    FROM "{x, region.y + row, i}"
     TO   "{x, row, i}"
     CASES "render: rows that are*")
 
@@ -90,3 +90,9 @@ ljus_break_it(NAME parallel-each-options HEADER parallel.hpp TEST parallel
     FROM "parallel_blocks(block_count(all, block), run, options)"
     TO   "parallel_blocks(block_count(all, block), run)"
     CASES "parallel: a loop over things*")
+
+# A region is cut out one column beside where it is.
+ljus_break_it(NAME render-region-column HEADER render/render.hpp TEST render
+    FROM "for (int x = std::max(first, region.x); x < std::min(last, right); ++x)"
+    TO   "for (int x = std::max(first, region.x + 1); x < std::min(last, right); ++x)"
+    CASES "render: a region is that part*")

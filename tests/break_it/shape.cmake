@@ -26,3 +26,9 @@ ljus_break_it(NAME moving-photons HEADER path/next_vertex.hpp TEST moving
     FROM "resting.point.position -= vertex.time * shape.displacement;"
     TO   ";"
     CASES "moving: photons see*")
+
+# A time is drawn for what only might move.
+ljus_break_it(NAME shape-still-time HEADER path/next_vertex.hpp TEST moving
+    FROM "if (!has_moving(world)) return 0;"
+    TO   "if constexpr (!lists_moving<W>) return 0;"
+    CASES "moving: a time is drawn*")

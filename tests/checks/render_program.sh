@@ -159,10 +159,26 @@ cat choice.pfm.json >>all.json
 for name in $(sed -n 's/^  --\([a-z-]*\).*/\1/p' help.txt); do
     case $name in
         version | out | threads | quiet | slice | seconds | error) continue ;;
+        schema | region) continue ;;
         checkpoint | preview | plan | hooks | explain | show-photons) continue ;;
     esac
     grep -q "\"$name\": " all.json || wrong "--$name is not in the file beside the picture"
 done
+
+# A part of the picture: PFM stores rows from the bottom, so that the uppermost ones are
+# the last bytes of both files.
+"$render" "$scene" "${few[@]}" --renderer path --quiet --out whole.pfm
+size=$(sed -n 2p whole.pfm)
+"$render" "$scene" "${few[@]}" --renderer path --region "0,0,${size% *},3" --quiet --out part.pfm
+cmp <(tail -c $((12 * 3 * ${size% *})) whole.pfm) <(tail -c $((12 * 3 * ${size% *})) part.pfm) ||
+    wrong "--region changes pixels"
+grep -q "\"region\": \"0,0,${size% *},3\"" part.pfm.json || wrong "the file does not name the region"
+"$render" "$scene" "${few[@]}" --region 1,1,9999,1 --out no.pfm 2>says && wrong "a region beyond the picture"
+grep -q -e "--region is 1,1,9999,1; it must be X,Y,W,H" says || wrong "a region: $(cat says)"
+
+# The schema is JSON, and needs no scene.
+"$render" --schema >schema.json
+grep -q '"definitions"' schema.json || wrong "--schema prints no schema"
 
 # The same seed gives the same bytes for any number of threads; another seed does not.
 for threads in 1 2 3; do

@@ -161,6 +161,16 @@ template <std::floating_point T>
     return {box.low - size, box.high + size};
 }
 
+/// The six sides of a box along the axes, which face outwards: a solid.
+/// \param box  Its low corner must be below the high one along each axis.
+template <std::floating_point T>
+[[nodiscard]] constexpr std::array<QuadT<T>, 6> sides_of(const BoxT<T>& box) noexcept {
+    const Vec3T<T> size = box.high - box.low;
+    const Vec3T<T> x{size.x, T(0), T(0)}, y{T(0), size.y, T(0)}, z{T(0), T(0), size.z};
+    return {QuadT<T>{box.low, z, y}, {box.high, -y, -z}, {box.low, x, z},
+            {box.high, -z, -x},      {box.low, y, x},    {box.high, -x, -y}};
+}
+
 /// A quad displaced by a vector, in scene units.
 template <std::floating_point T>
 [[nodiscard]] constexpr QuadT<T> translated(QuadT<T> shape,

@@ -238,6 +238,8 @@ template <Shape S>
 /// | quad            | along its two edges, from its corner: [0, 1] x [0, 1]      |
 /// | triangle        | along its two edges, from its first vertex: u + v <= 1     |
 /// | sphere          | longitude and latitude, as in a GlobeMap at its centre     |
+/// | disc            | the disc fills the circle in the unit square               |
+/// | cylinder        | around its axis, and along it: [0, 1] x [0, 1]             |
 /// | mesh            | interpolated between its vertices, or the triangle's       |
 /// | moving shape    | those of its shape                                         |
 /// | instance        | those of its mesh                                          |

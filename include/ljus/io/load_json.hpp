@@ -12,7 +12,7 @@
 #include "ljus/io/detail/json_objects.hpp"
 #include "ljus/io/detail/parse_json.hpp"
 #include "ljus/io/file.hpp"
-#include "ljus/scene/camera.hpp"
+#include "ljus/scene/lens_camera.hpp"
 
 namespace ljus {
 
@@ -26,16 +26,14 @@ namespace ljus {
 ///      "objects": [{"type": "sphere", "material": "grey", "center": [0, 1, 0],
 ///                   "radius": 1, "emission": [2, 2, 2]}]}
 ///
-/// The materials are those of \ref json_materials, the objects those of
-/// \ref json_objects. A list `lights` may follow, of points, spots, suns and an
-/// environment: \ref json_lights. Lengths are within 1e9, radiance within 1e12.
+/// All objects and their members: \ref ch_scene_files.
 /// \{
 
 /// The content of a scene file.
 template <std::floating_point T>
 struct LoadedSceneT {
     detail::FileSceneT<T> scene; ///< Shapes, materials and lights.
-    CameraT<T> camera;           ///< The camera.
+    LensCameraT<T> camera;       ///< The camera; its lens may have the radius 0.
     std::string name;            ///< Name of the scene on one line, or empty.
     int width = 0;               ///< Width of the picture, in pixels.
     int height = 0;              ///< Height of the picture, in pixels.
@@ -50,45 +48,85 @@ inline constexpr std::size_t max_scene_file = std::size_t(1) << 26;
 /// The largest number of soap films; the colours of each take a tenth of a second.
 inline constexpr std::size_t max_soap_films = 16;
 
+inline constexpr JsonMember camera_members[]{
+    needed("position", point_value, "the pinhole, or the middle of the lens",
+           "[0, 1, 4]"),
+    needed("look_at", point_value, "the point at the middle of the picture",
+           "[0, 1, 0]", "target"),
+    needed("up", point_value, "a direction, not along the view", "[0, 1, 0]"),
+    needed("vfov_deg",
+           {JsonKind::number, 1e-3, 179.99, "within [0.001, 179.99] degrees"},
+           "full vertical angle of view, degrees", "40", "vfov_degrees"),
+    optional("lens", {.kind = JsonKind::object, .of = "lens"},
+             "blurs what is out of focus")};
+inline constexpr JsonMember lens_members[]{
+    needed("radius", {JsonKind::number, 0, max_length, "within [0, 1e9]"},
+           "half the width of the opening; 0: a pinhole", "0.05"),
+    needed("focus", length_value, "distance of the plane of focus along the view",
+           "4")};
+inline constexpr JsonMember image_members[]{
+    needed("width", {JsonKind::whole, 1, max_pixels, {}}, "pixels", "200"),
+    needed("height", {JsonKind::whole, 1, max_pixels, {}}, "pixels", "200"),
+    optional("pixel_filter", text_value, "box, the only one")};
+inline constexpr JsonMember scene_members[]{
+    optional("format", remark_value, "for people"),
+    optional("name", remark_value, "for people: the title of the picture",
+             "\"a ball\""),
+    optional("description", remark_value, "for people"),
+    needed("camera", {.kind = JsonKind::object, .of = "camera"}, "where the eye is",
+           {}),
+    needed("image", {.kind = JsonKind::object, .of = "image"}, "size of the picture",
+           {}),
+    needed("materials", {.kind = JsonKind::named, .of = "material"},
+           "materials by their names", {}),
+    needed("objects", {.kind = JsonKind::list, .of = "object"}, "shapes", {}),
+    optional("lights", {.kind = JsonKind::list, .of = "light"},
+             "lights that are no objects"),
+    optional("lamp_groups", {.kind = JsonKind::named, .of = "factor"},
+             "names of groups, and the factor of each group's light, from 0 on"),
+    optional("$schema", text_value, "the JSON schema, for editors")};
+
 template <std::floating_point T>
-CameraT<T> read_camera(const JsonField& field) {
-    require_object(field, {"position", "look_at", "up", "vfov_deg"});
-    const ViewT<T> view{
-        .position{point_field(member(field, "position"))},
-        .target{point_field(member(field, "look_at"))},
-        .up{point_field(member(field, "up"))},
-        .vfov_degrees = static_cast<T>(number(member(field, "vfov_deg"), 1e-3, 179.99,
-                                              "within [0.001, 179.99] degrees"))};
+LensCameraT<T> read_camera(const JsonField& field) {
+    const JsonMembersOf in(field, camera_members);
+    const ViewT<T> view{.position{in.vector("position")},
+                        .target{in.vector("look_at")},
+                        .up{in.vector("up")},
+                        .vfov_degrees = static_cast<T>(in.number("vfov_deg"))};
     const Vec3T<T> way = view.target - view.position;
     if (!(glm::dot(way, way) > T(0)))
-        refuse_value(member(field, "look_at"), "another point than camera.position");
-    try {
-        return look_at(view);
-    } catch (const std::invalid_argument&) {
-        refuse_value(member(field, "up"), "a direction that is not along the view");
-    }
+        refuse_value(in["look_at"], "another point than camera.position");
+    const auto pinhole = [&] {
+        try {
+            return look_at(view);
+        } catch (const std::invalid_argument&) {
+            refuse_value(in["up"], "a direction that is not along the view");
+        }
+    }();
+    if (!in.has("lens")) return {pinhole};
+    const JsonMembersOf lens(in["lens"], lens_members);
+    return made_of(in["lens"], [&] {
+        return with_lens(pinhole, static_cast<T>(lens.number("radius")),
+                         static_cast<T>(lens.number("focus")));
+    });
 }
 
 template <std::floating_point T>
-void read_image_size(const JsonField& image, LoadedSceneT<T>& loaded) {
-    require_object(image, {"width", "height", "pixel_filter"});
-    const auto size = [&](const char* name) {
-        return static_cast<int>(whole_number(member(image, name), 1, max_pixels));
-    };
-    loaded.width = size("width");
-    loaded.height = size("height");
+void read_image_size(const JsonField& field, LoadedSceneT<T>& loaded) {
+    const JsonMembersOf in(field, image_members);
+    loaded.width = static_cast<int>(in.number("width"));
+    loaded.height = static_cast<int>(in.number("height"));
     if (loaded.width > max_pixels / loaded.height)
-        refuse(image, std::string("has more than ").append(std::to_string(max_pixels)) +
+        refuse(field, std::string("has more than ").append(std::to_string(max_pixels)) +
                           " pixels");
-    if (const auto filter = find(image, "pixel_filter");
-        filter && text(*filter).substr(0, 3) != "box")
-        refuse_value(*filter, "\"box\", the only filter that scene files support");
+    if (in.has("pixel_filter") && text(in["pixel_filter"]).substr(0, 3) != "box")
+        refuse_value(in["pixel_filter"],
+                     "\"box\", the only filter that scene files support");
 }
 
 // The materials of a scene, by name.
 template <typename Scene, std::floating_point T = typename Scene::Scalar>
 std::map<std::string, MaterialId> read_materials(const JsonField& list, Scene& scene) {
-    if (!list.value.is_object()) refuse_value(list, "an object");
     std::size_t films = 0;
     for (const auto& value : list.value)
         if (const auto type = value.find("type"); type != value.end())
@@ -116,22 +154,23 @@ inline void require_lights(const JsonField& objects, std::size_t lights) {
 
 template <std::floating_point T, typename LoadMeshes>
 LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
-    require_object(top, {"format", "name", "description", "camera", "image",
-                         "materials", "objects", "lights"});
-    for (const char* field : {"format", "description"}) (void)remark(top, field);
-
+    const JsonMembersOf in(top, scene_members);
     LoadedSceneT<T> loaded;
-    loaded.name = shown(remark(top, "name"), 200);
-    loaded.camera = read_camera<T>(member(top, "camera"));
-    read_image_size(member(top, "image"), loaded);
-    const auto materials = read_materials(member(top, "materials"), loaded.scene);
-    const JsonField objects = member(top, "objects");
+    if (in.has("name") && !in["name"].value.is_null())
+        loaded.name = shown(text(in["name"]), 200);
+    loaded.camera = read_camera<T>(in["camera"]);
+    read_image_size(in["image"], loaded);
+    const auto materials = read_materials(in["materials"], loaded.scene);
+    const LampGroups groups =
+        in.has("lamp_groups") ? LampGroups(in["lamp_groups"]) : LampGroups();
+    const JsonField objects = in["objects"];
     FileMeshesT<T> meshes;
     for (std::size_t i = 0; i < list_size(objects); ++i)
-        read_object(entry(objects, i), materials, loaded.scene, meshes, load_meshes);
-    if (const auto lights = find(top, "lights"))
-        for (std::size_t i = 0; i < list_size(*lights); ++i)
-            read_light(entry(*lights, i), loaded.scene);
+        read_object(entry(objects, i), materials, groups, loaded.scene, meshes,
+                    load_meshes);
+    if (in.has("lights"))
+        for (std::size_t i = 0; i < list_size(in["lights"]); ++i)
+            read_light(entry(in["lights"], i), groups, loaded.scene);
     require_lights(objects, loaded.scene.light_count());
     return loaded;
 }

@@ -126,6 +126,14 @@ void require_finite(std::string_view what, const Vec3T<T>& value) {
     require(is_finite(value), what, value, "finite in every component");
 }
 
+/// Requires that a vector is finite and has a direction; throws as require().
+template <std::floating_point T>
+void require_direction(std::string_view what, const Vec3T<T>& value) {
+    const Vec3T<WideT<T>> wide{value};
+    require(std::isnormal(glm::dot(wide, wide)), what, value,
+            "finite and not 0, for it gives a direction");
+}
+
 /// Requires that a number is finite and above 0; throws as require().
 template <std::floating_point T>
 void require_positive(std::string_view what, T value) {

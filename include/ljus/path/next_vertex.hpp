@@ -269,20 +269,33 @@ template <AnyWorld W>
         world.materials());
 }
 
+/// Whether a scene has a shape that moves; false if it only lists such a type.
+template <AnyWorld W>
+[[nodiscard]] bool has_moving(const W& world) noexcept {
+    return std::apply(
+        [](const auto&... array) {
+            return (
+                (is_moving<typename std::remove_cvref_t<decltype(array)>::value_type> &&
+                 !array.empty()) ||
+                ...);
+        },
+        world.shapes());
+}
+
 /// Samples the time of a new path while the shutter is open \cite cook1984.
-/// \param stream  One number is drawn if the scene lists a moving shape.
-/// \return In [0, 1); 0 if nothing can move.
+/// \param stream  One number is drawn if the scene has a moving shape.
+/// \return In [0, 1); 0 if nothing moves.
 /// \report{Section 2.1}
 template <AnyWorld W, StreamLike Stream>
-[[nodiscard]] typename W::Scalar path_time(const W&, Stream& stream) {
-    if constexpr (lists_moving<W>) return next_1d<typename W::Scalar>(stream);
-    return 0;
+[[nodiscard]] typename W::Scalar path_time(const W& world, Stream& stream) {
+    if (!has_moving(world)) return 0;
+    return next_1d<typename W::Scalar>(stream);
 }
 
 } // namespace detail
 
 /// Starts the path of a camera ray at a random time. One number is drawn if the scene
-/// lists a moving shape.
+/// has a moving shape.
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] PathStateT<T> camera_path(const W& world, const RayT<T>& ray,
                                         Stream& stream) {

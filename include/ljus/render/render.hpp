@@ -134,6 +134,83 @@ trace_pixel(const R& renderer, const C& camera, const PictureRays& rays,
 }
 // [trace_pixel]
 
+/// A rectangle of a picture's pixels.
+struct PixelRegion {
+    int x = 0;      ///< The first column.
+    int y = 0;      ///< The first row, from the top.
+    int width = 1;  ///< Pixels, at least 1.
+    int height = 1; ///< Pixels, at least 1.
+};
+
+/// Renders a part of a picture by several threads, for example one caustic of a large
+/// picture.
+///
+/// The random numbers of a ray depend only on its pixel's position in the whole
+/// picture. The part is therefore the same as in the picture of render(), byte for
+/// byte.
+/// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
+/// \param camera    Any camera: see CameraLike.
+/// \param picture   Size of the whole, rays, seed, threads.
+/// \param region    Within the picture.
+/// \return A picture of the region alone. A sample that is not finite is left out and
+///         counted.
+/// \throws std::invalid_argument  if the size or the number of rays is below 1, or the
+///         region reaches out of the picture.
+/// \cost That of all strips of 16 pixels that the region touches.
+template <typename R, CameraLike C>
+requires Renderer<R, typename C::Scalar>
+[[nodiscard, gnu::cold]] RenderedT<typename C::Scalar>
+render_region(const R& renderer, const C& camera, const RenderSettings& picture,
+              const PixelRegion& region) {
+    using T = typename C::Scalar;
+    require_at_least("samples", picture.samples, 1);
+    require_image_size(picture.width, picture.height);
+    const auto inside = [](int first, int size, int all) {
+        return first >= 0 && size >= 1 && first < all && size <= all - first;
+    };
+    require(inside(region.x, region.width, picture.width), "the region's width",
+            static_cast<long long>(region.width),
+            "at least 1, and the region within the picture");
+    require(inside(region.y, region.height, picture.height), "the region's height",
+            static_cast<long long>(region.height),
+            "at least 1, and the region within the picture");
+    RenderedT<T> result{.image = make_image<T>(region.width, region.height)};
+    const PictureRays rays(picture);
+    const int right = region.x + region.width; // one past the last column
+    const int first_tile = region.x / detail::strip_width;
+    const int tiles = (right - 1) / detail::strip_width + 1 - first_tile;
+    std::vector<Counts> counts(static_cast<std::size_t>(tiles) *
+                               static_cast<std::size_t>(result.image.height));
+    // Whole strips, because the rays of a strip are traced together.
+    // [strip]
+    const auto strip = [&](long long number) {
+        const int row = static_cast<int>(number / tiles);
+        const int first =
+            (first_tile + static_cast<int>(number % tiles)) * detail::strip_width;
+        const int last = std::min(first + detail::strip_width, picture.width);
+        Counts cost; // local, so that threads do not share a cache line
+        std::array<detail::PixelSums, detail::strip_width> sums{};
+        detail::SampleSums<R, T> samples(renderer, sums, cost);
+        for (int x = first; x < last; ++x)
+            for (int i = 0; i < picture.samples; ++i)
+                samples.add(std::size_t(x - first), [&](auto& batch) {
+                    return trace_pixel(renderer, camera, rays, {x, region.y + row, i},
+                                       cost, detail::no_log, batch);
+                });
+        samples.finish();
+        for (int x = std::max(first, region.x); x < std::min(last, right); ++x)
+            pixel(result.image, x - region.x, row) =
+                RgbT<T>(sums[std::size_t(x - first)].sum / double(picture.samples));
+        counts[static_cast<std::size_t>(number)] = cost;
+    };
+    // [strip]
+    result.complete =
+        parallel_blocks(static_cast<long long>(counts.size()), strip,
+                        {.threads = picture.threads, .progress = picture.progress});
+    for (const Counts& cost : counts) result.counts += cost;
+    return result;
+}
+
 /// A range of rows of a picture, counted from the top: first <= y < last.
 struct RowRange {
     int first = 0; ///< The first one.
@@ -141,11 +218,8 @@ struct RowRange {
 };
 
 /// Renders some rows of a picture by several threads, for example on one of several
-/// machines.
-///
-/// The random numbers of a ray depend only on its pixel's position in the whole
-/// picture. Rows that are rendered separately and joined are therefore the picture of
-/// render(), byte for byte.
+/// machines: rows that are rendered separately and joined are the picture of render(),
+/// byte for byte.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera: see CameraLike.
 /// \param picture   Size of the whole, rays, seed, threads.
@@ -159,42 +233,13 @@ requires Renderer<R, typename C::Scalar>
 [[nodiscard, gnu::cold]] RenderedT<typename C::Scalar>
 render_rows(const R& renderer, const C& camera, const RenderSettings& picture,
             const RowRange& rows) {
-    using T = typename C::Scalar;
-    require_at_least("samples", picture.samples, 1);
     require_image_size(picture.width, picture.height);
     require(rows.first >= 0 && rows.first < rows.last, "the first row",
             static_cast<long long>(rows.first), "at least 0 and below the last");
     require(rows.last <= picture.height, "the last row",
             static_cast<long long>(rows.last), "at most the picture's height");
-    RenderedT<T> result{.image = make_image<T>(picture.width, rows.last - rows.first)};
-    const PictureRays rays(picture);
-    const int tiles = (picture.width - 1) / detail::strip_width + 1;
-    std::vector<Counts> counts(static_cast<std::size_t>(tiles) *
-                               static_cast<std::size_t>(result.image.height));
-    const auto strip = [&](long long number) {
-        const int row = static_cast<int>(number / tiles);
-        const int first = static_cast<int>(number % tiles) * detail::strip_width;
-        const int last = std::min(first + detail::strip_width, picture.width);
-        Counts cost; // local, so that threads do not share a cache line
-        std::array<detail::PixelSums, detail::strip_width> sums{};
-        detail::SampleSums<R, T> samples(renderer, sums, cost);
-        for (int x = first; x < last; ++x)
-            for (int i = 0; i < picture.samples; ++i)
-                samples.add(std::size_t(x - first), [&](auto& batch) {
-                    return trace_pixel(renderer, camera, rays, {x, rows.first + row, i},
-                                       cost, detail::no_log, batch);
-                });
-        samples.finish();
-        for (int x = first; x < last; ++x)
-            pixel(result.image, x, row) =
-                RgbT<T>(sums[std::size_t(x - first)].sum / double(picture.samples));
-        counts[static_cast<std::size_t>(number)] = cost;
-    };
-    result.complete =
-        parallel_blocks(static_cast<long long>(counts.size()), strip,
-                        {.threads = picture.threads, .progress = picture.progress});
-    for (const Counts& cost : counts) result.counts += cost;
-    return result;
+    return render_region(renderer, camera, picture,
+                         {0, rows.first, picture.width, rows.last - rows.first});
 }
 
 /// Renders a picture by several threads, in strips of 16 pixels.

@@ -65,10 +65,11 @@ template <std::floating_point T>
 // [lens ray]
 
 /// The primary ray from a random point of the lens, as in CameraLike. Two random
-/// numbers are drawn.
+/// numbers are drawn; for a lens of radius 0 none, and the ray is the pinhole's.
 template <std::floating_point T, StreamLike Stream>
 [[nodiscard]] RayT<T> camera_ray(const LensCameraT<T>& camera, const Vec2T<T>& pixel,
                                  int width, int height, Stream& stream) noexcept {
+    if (camera.radius == T(0)) return primary_ray(camera.pinhole, pixel, width, height);
     return primary_ray(camera, pixel, width, height, next_2d<T>(stream));
 }
 

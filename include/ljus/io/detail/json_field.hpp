@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ljus/io/file.hpp"
+#include "ljus/io/nearest_word.hpp"
 
 namespace ljus::detail {
 
@@ -129,24 +130,29 @@ auto made_of(const JsonField& field, Call call) {
 // Names as messages list them.
 using JsonNames = std::span<const std::string_view>;
 
-// Requires an object without members beside those of two lists.
-inline void require_object(const JsonField& field, JsonNames known,
-                           JsonNames more = {}) {
-    if (!field.value.is_object()) refuse_value(field, "an object");
-    for (auto part = field.value.begin(); part != field.value.end(); ++part) {
-        const auto is = [&](std::string_view name) { return name == part.key(); };
-        if (std::any_of(known.begin(), known.end(), is) ||
-            std::any_of(more.begin(), more.end(), is))
-            continue;
-        std::vector<std::string> all(known.begin(), known.end());
-        all.insert(all.end(), more.begin(), more.end());
-        refuse({*part, field.file, field.root},
-               "is not known; the fields here are " + in_a_row(all, "and"));
-    }
+[[nodiscard]] inline const std::string& text(const JsonField& field) {
+    if (!field.value.is_string()) refuse_value(field, "a text in quotation marks");
+    return field.value.get_ref<const std::string&>();
 }
-inline void require_object(const JsonField& field,
-                           std::initializer_list<std::string_view> known) {
-    require_object(field, JsonNames(known.begin(), known.size()));
+
+// Throws an error about a word that is none of those that are known here, and proposes
+// the nearest one: "objects[3].radios is not known; did you mean radius? The ...".
+[[noreturn]] inline void refuse_name(const JsonField& field, std::string_view name,
+                                     const std::vector<std::string>& known) {
+    const std::string near = nearest_word(name, known);
+    const std::string list = in_a_row(known, "and", known.size());
+    refuse(field, near.empty() ? "is not known; the fields here are " + list
+                               : join({"is not known; did you mean ", near,
+                                       "? The fields here are ", list}));
+}
+// The same about a value that must be one of several words.
+[[noreturn]] inline void refuse_word(const JsonField& field,
+                                     const std::vector<std::string>& known,
+                                     const std::string& right) {
+    const std::string near = nearest_word(text(field), known);
+    if (near.empty()) refuse_value(field, right);
+    refuse(field, join({"is ", shown_value(field.value), "; did you mean \"",
+                        shown(near), "\"? It must be ", right}));
 }
 
 // A member of an object, if it exists.
@@ -173,22 +179,11 @@ inline void require_object(const JsonField& field,
     return field.value.size();
 }
 
-[[nodiscard]] inline const std::string& text(const JsonField& field) {
-    if (!field.value.is_string()) refuse_value(field, "a text in quotation marks");
-    return field.value.get_ref<const std::string&>();
-}
-
-// A text for people; it may be missing or null.
-[[nodiscard]] inline std::string remark(const JsonField& field, std::string_view name) {
-    const auto found = find(field, name);
-    return !found || found->value.is_null() ? std::string() : text(*found);
-}
-
-inline void require_one_of(const JsonField& field,
-                           std::initializer_list<std::string_view> names) {
+inline void require_one_of(const JsonField& field, JsonNames names) {
     for (const std::string_view name : names)
         if (text(field) == name) return;
-    refuse_value(field, in_a_row({names.begin(), names.end()}, "or", names.size()));
+    const std::vector<std::string> known(names.begin(), names.end());
+    refuse_word(field, known, in_a_row(known, "or", known.size()));
 }
 
 // A number within [low, high]; `right` says that in words.

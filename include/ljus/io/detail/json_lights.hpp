@@ -16,100 +16,120 @@
 namespace ljus {
 
 /// \defgroup json_lights Lights in scene files
-/// \brief Optional (nlohmann-json): the fields of lights that are not objects.
-///
-/// | `type`      | its fields                                                         |
-/// |-------------|--------------------------------------------------------------------|
-/// | point       | position, intensity: W/sr                                          |
-/// | spot        | position, direction, intensity, inner_deg, outer_deg: SpotLight    |
-/// | sun         | direction in which it shines; irradiance: W/m^2                    |
-/// | environment | one of radiance: a constant, W/(m^2 sr); gradient: horizon, zenith,|
-/// |             | ground, see gradient_sky(); file: a picture, .hdr or .pfm, see     |
-/// |             | EnvironmentLight; strength (1); rotation_deg (0)                   |
+/// \brief Optional (nlohmann-json): the lights that are not objects. Page:
+/// \ref ch_scene_files.
 ///
 /// A scene file has at most one environment, because pictures may be large.
 /// \{
 
 namespace detail {
 
+inline constexpr std::string_view light_words[]{"point", "spot", "sun", "environment"};
+inline constexpr JsonMember light_shared[]{
+    needed("type", {.kind = JsonKind::word, .words = light_words}, "which light", {}),
+    lamp_group_row};
+
+inline constexpr JsonMember position_row =
+    needed("position", point_value, "where it is", "[0, 2, 1]");
+inline constexpr JsonMember intensity_row =
+    needed("intensity", light_value, "W/sr", "[5, 5, 5]");
+inline constexpr JsonMember shines_row =
+    needed("direction", direction_value, "in which it shines", "[0, -1, 0]");
+
+inline constexpr JsonMember point_members[]{position_row, intensity_row};
+inline constexpr JsonMember spot_members[]{
+    position_row, shines_row, intensity_row,
+    needed("inner_deg", {JsonKind::number, 0, 180, "within [0, outer_deg]"},
+           "half the angle of the cone of full light, degrees", "10", "inner_degrees"),
+    needed("outer_deg", {JsonKind::number, 1e-3, 180, "within [0.001, 180] degrees"},
+           "half the angle beyond which it is dark, degrees", "30", "outer_degrees")};
+inline constexpr JsonMember sun_members[]{
+    shines_row,
+    needed("irradiance", light_value, "W/m^2 on a surface across", "[3, 3, 3]")};
+inline constexpr std::string_view sky_words[]{"radiance", "gradient", "file"};
+inline constexpr JsonMember environment_members[]{
+    optional("radiance", light_value, "the same all around, W/(m^2 sr)", "[1, 1, 1]"),
+    optional("gradient", {.kind = JsonKind::object, .of = "gradient"},
+             "a sky: ljus::gradient_sky()"),
+    optional("file", text_value, "a picture, .hdr or .pfm, beside the scene file"),
+    preset("strength", factor_value, 1, "factor of the radiance"),
+    preset("rotation_deg", angle_value, 0, "about the y axis, degrees", {},
+           "rotation_degrees")};
+inline constexpr JsonMember gradient_members[]{
+    needed("horizon", light_value, "W/(m^2 sr)", "[1, 1, 1]"),
+    needed("zenith", light_value, "W/(m^2 sr)", "[0.2, 0.4, 1]"),
+    needed("ground", light_value, "W/(m^2 sr)", "[0.1, 0.1, 0.1]")};
+
+inline constexpr JsonTable light_tables[]{
+    {"point", {}, "a point", point_members},
+    {"spot", {}, "a point that shines into a cone", spot_members},
+    {"sun", {}, "parallel light", sun_members},
+    {"environment",
+     {},
+     "light from all around, by one of radiance, gradient and file; one in a file",
+     environment_members,
+     sky_words}};
+
 // A picture of the sky: exactly one of three fields says how it is made.
 template <std::floating_point T>
-ImageT<T> read_sky(const JsonField& field) {
-    const auto radiance = find(field, "radiance");
-    const auto gradient = find(field, "gradient");
-    const auto file = find(field, "file");
-    if (int(radiance.has_value()) + int(gradient.has_value()) + int(file.has_value()) !=
-        1)
-        refuse(field, "must have one of the fields radiance, gradient and file");
-    if (radiance) return make_image<T>(1, 1, RgbT<T>{light_field(*radiance)});
-    if (gradient) {
-        require_object(*gradient, {"horizon", "zenith", "ground"});
+ImageT<T> read_sky(const JsonMembersOf& in) {
+    if (in.has("radiance") + in.has("gradient") + in.has("file") != 1)
+        refuse(in.field(), "must have one of the fields radiance, gradient and file");
+    if (in.has("radiance")) return make_image<T>(1, 1, RgbT<T>{in.vector("radiance")});
+    if (in.has("gradient")) {
+        const JsonMembersOf gradient(in["gradient"], gradient_members);
         const auto color = [&](const char* name) {
-            return RgbT<T>{light_field(member(*gradient, name))};
+            return RgbT<T>{gradient.vector(name)};
         };
         return gradient_sky<T>(color("horizon"), color("zenith"), color("ground"));
     }
-    const std::string path = path_beside(*file);
+    const JsonField file = in["file"];
+    const std::string path = path_beside(file);
     const bool hdr = path.ends_with(".hdr");
     if (!hdr && !path.ends_with(".pfm"))
-        refuse_value(*file, "a picture with the ending .hdr or .pfm");
+        refuse_value(file, "a picture with the ending .hdr or .pfm");
     try {
         return hdr ? load_hdr<T>(path) : load_pfm<T>(path);
     } catch (const std::runtime_error& error) {
-        refuse_for(*file, error);
+        refuse_for(file, error);
     }
 }
 
-template <std::floating_point T>
-EnvironmentLightT<T> read_environment(const JsonField& field) {
-    require_object(
-        field, {"type", "radiance", "gradient", "file", "strength", "rotation_deg"});
-    EnvironmentLightT<T> light{.picture = read_sky<T>(field)};
-    if (const auto strength = find(field, "strength"))
-        light.strength =
-            static_cast<T>(number(*strength, 1e-9, 1e9, "within [1e-9, 1e9]"));
-    if (const auto rotation = find(field, "rotation_deg"))
-        light.rotation_degrees =
-            static_cast<T>(number(*rotation, -360, 360, "within [-360, 360] degrees"));
-    return light;
-}
-
 template <typename Scene, std::floating_point T = typename Scene::Scalar>
-void read_light(const JsonField& field, Scene& scene) {
+void read_light(const JsonField& field, const LampGroups& groups, Scene& scene) {
     const JsonField type = member(field, "type");
-    require_one_of(type, {"point", "spot", "sun", "environment"});
-    const auto strength = [&](const char* what) {
-        return RgbT<T>{light_field(member(field, what))};
+    const std::string& name = text(type);
+    const JsonTable* const table = table_of(light_tables, name);
+    if (table == nullptr) require_one_of(type, light_words);
+    const JsonMembersOf in(field, table->members, light_shared);
+    const T factor = static_cast<T>(groups.factor(in));
+    const auto light_of = [&](const char* what) {
+        return factor * RgbT<T>{in.vector(what)};
     };
-    const auto vector = [&](const char* what, auto read) {
-        return Vec3T<T>{read(member(field, what))};
-    };
-    const auto degrees = [&](const char* what, double most, const char* right) {
-        return number(member(field, what), 0, most, right);
-    };
+    const auto vector = [&](const char* what) { return Vec3T<T>{in.vector(what)}; };
     const auto add = [&](const auto& light) {
         made_of(field, [&] { scene.add(light); });
     };
-    if (text(type) == "point") {
-        require_object(field, {"type", "position", "intensity"});
-        add(PointLightT<T>{.position = vector("position", point_field),
-                           .intensity = strength("intensity")});
-    } else if (text(type) == "sun") {
-        require_object(field, {"type", "direction", "irradiance"});
-        add(SunLightT<T>{.direction = vector("direction", direction_field),
-                         .irradiance = strength("irradiance")});
-    } else if (text(type) == "environment") {
+    if (name == "point") {
+        add(PointLightT<T>{.position = vector("position"),
+                           .intensity = light_of("intensity")});
+    } else if (name == "sun") {
+        add(SunLightT<T>{.direction = vector("direction"),
+                         .irradiance = light_of("irradiance")});
+    } else if (name == "environment") {
         if (!std::get<std::vector<EnvironmentLightT<T>>>(scene.lights).empty())
             refuse(field, "is a second environment; a scene file has at most one");
-        add(read_environment<T>(field));
+        EnvironmentLightT<T> sky{
+            .picture = read_sky<T>(in),
+            .strength = factor * static_cast<T>(in.number("strength")),
+            .rotation_degrees = static_cast<T>(in.number("rotation_deg"))};
+        if (factor > T(0)) add(sky);
     } else {
-        require_object(field, {"type", "position", "direction", "intensity",
-                               "inner_deg", "outer_deg"});
-        const double outer = degrees("outer_deg", 180, "within [0.001, 180] degrees");
-        const double inner = degrees("inner_deg", outer, "within [0, outer_deg]");
-        add(SpotLightT<T>{.position = vector("position", point_field),
-                          .direction = vector("direction", direction_field),
-                          .intensity = strength("intensity"),
+        const double inner = in.number("inner_deg"), outer = in.number("outer_deg");
+        if (!(inner <= outer)) refuse_value(in["inner_deg"], "within [0, outer_deg]");
+        add(SpotLightT<T>{.position = vector("position"),
+                          .direction = vector("direction"),
+                          .intensity = light_of("intensity"),
                           .inner_degrees = static_cast<T>(inner),
                           .outer_degrees = static_cast<T>(outer)});
     }

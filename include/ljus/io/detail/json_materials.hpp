@@ -25,35 +25,8 @@
 namespace ljus {
 
 /// \defgroup json_materials Materials in scene files
-/// \brief Optional (nlohmann-json): the fields of a material.
-///
-/// | `type`          | its fields; those in brackets are optional                    |
-/// |-----------------|---------------------------------------------------------------|
-/// | lambertian      | albedo                                                        |
-/// | oren-nayar      | albedo, sigma_deg: standard deviation of the slope, degrees   |
-/// | oren-nayar-full | the same; with interreflection between facets                 |
-/// | oren-nayar-printed | the same; the formula of the report's program              |
-/// | fujii           | the same; Fujii's first improvement                           |
-/// | fon             | albedo, roughness; Fujii's second                             |
-/// | eon             | albedo, roughness                                             |
-/// | mixture         | color, \[reflectivity, transparency, ior, specularity,        |
-/// |                 | emissivity, sigma_deg, absorption\]: the report's sliders     |
-/// | mirror          | reflectance                                                   |
-/// | metal           | metal: gold, copper or silver; smooth                         |
-/// | rough-metal     | metal, roughness                                              |
-/// | full-rough-metal | the same; see CompensatedGlossy                              |
-/// | glossy          | reflectance, roughness                                        |
-/// | full-glossy     | the same; see CompensatedGlossy                               |
-/// | dielectric      | ior, \[absorption\]: smooth glass                             |
-/// | rough-glass     | ior, roughness, \[absorption\]: frosted; see RoughGlass       |
-/// | thin-glass      | ior, tint: a pane                                             |
-/// | soap-film       | ior, thickness_nm; if it drains, scale, level and up          |
-/// | checker         | even, odd, a map, \[columns, rows\]: two by two squares       |
-/// | picture         | file: PNG, JPEG or BMP, relative to the scene file; a map     |
-///
-/// A map is origin, edge_u and edge_v of a plane; or "map": "globe" and its center; or
-/// "map": "uv", the coordinates of the shape, with \[scale\], two numbers: see
-/// PlaneMap, GlobeMap, UvMap.
+/// \brief Optional (nlohmann-json): the rows of the table of materials. Page:
+/// \ref ch_scene_files.
 /// \{
 
 namespace detail {
@@ -69,47 +42,24 @@ struct SharedByMaterialsT {
     std::map<T, EnergyLossT<T>> losses{}; // by the roughness
 };
 
-// Reads the fields of a material for the rows below.
+// Reads the members of a material for the rows below.
 template <std::floating_point T>
 struct MaterialFields {
-    const JsonField& field;
+    const JsonMembersOf& in;
     SharedByMaterialsT<T>& shared;
 
-    T value(const char* name, double low, double high, std::string_view right) const {
-        return static_cast<T>(number(member(field, name), low, high, right));
+    T value(const char* name) const { return static_cast<T>(in.number(name)); }
+    RgbT<T> color(const char* name) const { return RgbT<T>{in.vector(name)}; }
+    T radians(const char* name) const {
+        return static_cast<T>(in.number(name) * std::numbers::pi / 180);
     }
-    bool has(const char* name) const { return find(field, name).has_value(); }
-    T unit(const char* name) const { return value(name, 0, 1, "within [0, 1]"); }
-    T slider(const char* name) const { return has(name) ? unit(name) : T(0); }
-    RgbT<T> color(const char* name) const {
-        return RgbT<T>{fraction_field(member(field, name))};
-    }
-    T degrees(const char* name) const {
-        return static_cast<T>(
-            number(member(field, name), 0, 90, "within [0, 90] degrees") *
-            std::numbers::pi / 180);
-    }
-    T ior() const { return value("ior", 1e-3, 1e3, "within [0.001, 1000]"); }
-    RgbT<T> absorption() const {
-        if (!has("absorption")) return RgbT<T>{T(0)};
-        return RgbT<T>{
-            vector_field(member(field, "absorption"), 0, 1e12, "within [0, 1e12]")};
-    }
-    T roughness() const {
-        const T rough = unit("roughness");
-        if (rough > T(0) && rough < min_roughness<T>)
-            refuse_value(member(field, "roughness"), "0 or within [0.01, 1]");
-        return rough;
-    }
-    GlossyT<T> gloss() const { return {color("reflectance"), roughness()}; }
+    GlossyT<T> gloss() const { return {color("reflectance"), value("roughness")}; }
     ConductorIndexT<T> metal() const {
-        const JsonField metal = member(field, "metal");
-        require_one_of(metal, {"gold", "copper", "silver"});
-        const std::string& name = text(metal);
+        const std::string name = in.word("metal");
         return name == "gold" ? gold<T> : name == "copper" ? copper<T> : silver<T>;
     }
     GlossyT<T, ConductorIndexT<T>> rough_metal() const {
-        return {metal(), roughness()};
+        return {metal(), value("roughness")};
     }
     // The same with multiple scattering.
     template <typename Facet>
@@ -118,7 +68,7 @@ struct MaterialFields {
         auto known = shared.losses.find(rough);
         if (known == shared.losses.end()) {
             if (shared.losses.size() == max_loss_tables)
-                refuse_value(member(field, "roughness"),
+                refuse_value(in["roughness"],
                              "one of the 64 that full-glossy and full-rough-metal have "
                              "before it, because each takes a table that is slow to "
                              "compute");
@@ -127,122 +77,187 @@ struct MaterialFields {
         return compensated_glossy(gloss, known->second);
     }
     RoughDiffuseT<T> rough(RoughModel model) const {
-        return {color("albedo"), degrees("sigma_deg"), model};
+        return {color("albedo"), radians("sigma_deg"), model};
     }
 };
 
 template <std::floating_point T>
 MixtureT<T> read_mixture(const MaterialFields<T>& in) {
-    MixtureT<T> mixture{.color = in.color("color"),
-                        .reflectivity = in.slider("reflectivity"),
-                        .transparency = in.slider("transparency"),
-                        .specularity = in.slider("specularity"),
-                        .absorption = in.absorption()};
-    if (in.has("ior")) mixture.index = in.ior();
-    if (in.has("sigma_deg")) mixture.sigma = in.degrees("sigma_deg");
-    if (in.has("emissivity"))
-        mixture.emissivity =
-            in.value("emissivity", 0, max_radiance, "within [0, 1e12]");
-    return mixture;
+    return {.color = in.color("color"),
+            .reflectivity = in.value("reflectivity"),
+            .transparency = in.value("transparency"),
+            .index = in.value("ior"),
+            .specularity = in.value("specularity"),
+            .emissivity = in.value("emissivity"),
+            .sigma = in.radians("sigma_deg"),
+            .absorption = in.color("absorption")};
 }
 
 template <std::floating_point T>
-SoapFilmT<T> read_film(const MaterialFields<T>& in) {
-    SoapFilmT<T> film{.thickness =
-                          in.value("thickness_nm", 0, double(max_film_thickness<T>),
-                                   "within [0, 1e6] nm"),
-                      .index = in.value("ior", 1, 1e3, "within [1, 1000]")};
+SoapFilmT<T> read_film(const MaterialFields<T>& fields) {
+    const JsonMembersOf& in = fields.in;
+    SoapFilmT<T> film{.thickness = fields.value("thickness_nm"),
+                      .index = fields.value("ior")};
     if (in.has("scale") || in.has("level") || in.has("up")) {
-        const glm::dvec3 up = direction_field(member(in.field, "up"));
-        film.scale = in.value("scale", 0, max_length, "within [0, 1e9]");
-        film.level = Vec3T<T>{point_field(member(in.field, "level"))};
-        film.up = Vec3T<T>{glm::normalize(up)};
+        for (const char* name : {"up", "scale", "level"}) (void)in[name];
+        film.scale = fields.value("scale");
+        film.level = Vec3T<T>{in.vector("level")};
+        film.up = Vec3T<T>{glm::normalize(in.vector("up"))};
     }
     film.color = FilmColor::table;
     film.table = bake_film_table(film.index);
     return film;
 }
 
-// A material's name, its fields besides `type`, and its reader.
+// The members of the materials.
+inline constexpr JsonMember material_type{
+    "type", {}, text_value, "one of the materials below", {}};
+inline constexpr JsonMember albedo_row =
+    needed("albedo", color_value, "the part of the light that is reflected",
+           "[0.8, 0.6, 0.4]");
+inline constexpr JsonMember sigma_row =
+    needed("sigma_deg", {JsonKind::number, 0, 90, "within [0, 90] degrees"},
+           "standard deviation of the slope, degrees", "30");
+inline constexpr JsonMember unit_roughness_row =
+    needed("roughness", fraction_value, "from smooth to rough", "0.5");
+inline constexpr JsonMember roughness_row =
+    needed("roughness", roughness_value, "from smooth to rough", "0.25");
+inline constexpr JsonMember reflectance_row = needed(
+    "reflectance", color_value, "of a facet at normal incidence", "[0.9, 0.9, 0.9]");
+inline constexpr std::string_view metal_words[]{"gold", "copper", "silver"};
+inline constexpr JsonMember metal_row =
+    needed("metal", {.kind = JsonKind::word, .words = metal_words},
+           "whose measured index of refraction", "\"gold\"");
+inline constexpr JsonValue ior_value{JsonKind::number, 1e-3, 1e3,
+                                     "within [0.001, 1000]"};
+inline constexpr JsonMember ior_row =
+    needed("ior", ior_value, "index of refraction", "1.5", "index");
+inline constexpr JsonMember absorption_row = preset(
+    "absorption", {JsonKind::vector, 0, 1e12, "within [0, 1e12]"}, 0, "per scene unit");
+inline constexpr JsonMember even_row =
+    needed("even", color_value, "albedo of the even fields", "[0.9, 0.9, 0.9]");
+inline constexpr JsonMember odd_row =
+    needed("odd", color_value, "albedo of the odd fields", "[0.1, 0.1, 0.1]");
+constexpr JsonMember slider_row(std::string_view name, std::string_view text) {
+    return preset(name, fraction_value, 0, text);
+}
+constexpr JsonMember fields_row(std::string_view name, std::string_view text) {
+    return preset(name, {JsonKind::whole, 2, 1e6, {}}, 2, text);
+}
+
+// A material's name, its name in C++ if it is another one, its members besides `type`,
+// and its reader.
 template <std::size_t N, typename Read>
 struct MaterialRow {
-    std::string_view name;
-    std::array<std::string_view, N> fields;
+    std::string_view name, also;
+    std::string_view text;
+    std::array<JsonMember, N> members;
     Read read;
 };
 template <std::size_t N, typename Read>
-constexpr MaterialRow<N, Read> row(std::string_view name,
-                                   const std::string_view (&fields)[N], Read read) {
-    return {name, std::to_array(fields), read};
+constexpr MaterialRow<N, Read> row(std::string_view name, std::string_view also,
+                                   std::string_view text,
+                                   const JsonMember (&members)[N], Read read) {
+    return {name, also, text, std::to_array(members), read};
 }
 template <std::floating_point T, typename Texture>
 Textured<LambertianT<T>, Texture> white(Texture texture) {
     return {{.albedo = RgbT<T>{T(1)}}, std::move(texture)};
 }
 
-// The table of materials. The material types of a file's scene, the readers and the
-// names in messages follow from it, so that a new material needs a new row only.
+// The table of materials. The material types of a file's scene, the readers, the names
+// in messages, the page of the book and the JSON schema follow from it, so that a new
+// material needs a new row only.
 template <std::floating_point T>
 constexpr auto material_rows() {
     using In = const MaterialFields<T>&;
+    constexpr auto& map = map_members;
     return std::tuple{
-        row("lambertian", {"albedo"},
+        row("lambertian", "", "matt", {albedo_row},
             [](In in) { return LambertianT<T>{in.color("albedo")}; }),
-        row("oren-nayar", {"albedo", "sigma_deg"},
+        row("oren-nayar", "", "rough and matt, like clay", {albedo_row, sigma_row},
             [](In in) {
-                return OrenNayarT<T>{in.color("albedo"), in.degrees("sigma_deg")};
+                return OrenNayarT<T>{in.color("albedo"), in.radians("sigma_deg")};
             }),
-        row("mirror", {"reflectance"},
+        row("mirror", "", "a smooth mirror", {reflectance_row},
             [](In in) { return MirrorT<T>{in.color("reflectance")}; }),
-        row("dielectric", {"ior", "absorption"},
+        row("dielectric", "glass", "smooth glass or water", {ior_row, absorption_row},
             [](In in) {
-                return GlassT<T>{in.ior(), in.absorption()};
+                return GlassT<T>{in.value("ior"), in.color("absorption")};
             }),
-        row("mixture",
-            {"color", "reflectivity", "transparency", "ior", "specularity",
-             "emissivity", "sigma_deg", "absorption"},
+        row("mixture", "", "the report's sliders",
+            {needed("color", color_value, "of the body", "[0.8, 0.6, 0.4]"),
+             slider_row("reflectivity", "a mirror"),
+             slider_row("transparency", "a body of glass"),
+             preset("ior", ior_value, 1.5, "index of refraction", {}, "index"),
+             slider_row("specularity", "a smooth coat"),
+             preset("emissivity",
+                    {JsonKind::number, 0, max_radiance, "within [0, 1e12]"}, 0,
+                    "radiance over color, W/(m^2 sr)"),
+             preset("sigma_deg", sigma_row.value, 0,
+                    "standard deviation of the slope, degrees"),
+             absorption_row},
             [](In in) { return read_mixture(in); }),
-        row("oren-nayar-full", {"albedo", "sigma_deg"},
-            [](In in) { return in.rough(RoughModel::full); }),
-        row("oren-nayar-printed", {"albedo", "sigma_deg"},
+        row("oren-nayar-full", "", "with interreflection between facets",
+            {albedo_row, sigma_row}, [](In in) { return in.rough(RoughModel::full); }),
+        row("oren-nayar-printed", "", "the formula of the report's program",
+            {albedo_row, sigma_row},
             [](In in) { return in.rough(RoughModel::as_printed); }),
-        row("fujii", {"albedo", "sigma_deg"},
+        row("fujii", "", "Fujii's first improvement", {albedo_row, sigma_row},
             [](In in) { return in.rough(RoughModel::fujii); }),
-        row("fon", {"albedo", "roughness"},
+        row("fon", "", "Fujii's second improvement", {albedo_row, unit_roughness_row},
             [](In in) {
-                return RoughDiffuseT<T>{in.color("albedo"), in.unit("roughness"),
+                return RoughDiffuseT<T>{in.color("albedo"), in.value("roughness"),
                                         RoughModel::fon};
             }),
-        row("eon", {"albedo", "roughness"},
+        row("eon", "", "rough and matt, keeps all energy",
+            {albedo_row, unit_roughness_row},
             [](In in) {
-                return EonT<T>{in.color("albedo"), in.unit("roughness")};
+                return EonT<T>{in.color("albedo"), in.value("roughness")};
             }),
-        row("metal", {"metal"}, [](In in) { return MetalT<T>{in.metal()}; }),
-        row("rough-metal", {"metal", "roughness"},
+        row("metal", "", "a smooth metal", {metal_row},
+            [](In in) { return MetalT<T>{in.metal()}; }),
+        row("rough-metal", "", "a rough metal", {metal_row, roughness_row},
             [](In in) { return in.rough_metal(); }),
-        row("full-rough-metal", {"metal", "roughness"},
+        row("full-rough-metal", "", "with multiple scattering: ljus::CompensatedGlossy",
+            {metal_row, roughness_row},
             [](In in) { return in.full(in.rough_metal()); }),
-        row("glossy", {"reflectance", "roughness"}, [](In in) { return in.gloss(); }),
-        row("full-glossy", {"reflectance", "roughness"},
+        row("glossy", "", "a rough mirror", {reflectance_row, roughness_row},
+            [](In in) { return in.gloss(); }),
+        row("full-glossy", "", "with multiple scattering: ljus::CompensatedGlossy",
+            {reflectance_row, roughness_row},
             [](In in) { return in.full(in.gloss()); }),
-        row("rough-glass", {"ior", "roughness", "absorption"},
+        row("rough-glass", "", "frosted glass",
+            {ior_row, roughness_row, absorption_row},
             [](In in) {
-                return RoughGlassT<T>{in.ior(), in.roughness(), in.absorption()};
+                return RoughGlassT<T>{in.value("ior"), in.value("roughness"),
+                                      in.color("absorption")};
             }),
-        row("thin-glass", {"ior", "tint"},
+        row("thin-glass", "", "a pane",
+            {ior_row, needed("tint", color_value, "of what passes", "[0.9, 1, 0.9]")},
             [](In in) {
-                return ThinGlassT<T>{in.ior(), in.color("tint")};
+                return ThinGlassT<T>{in.value("ior"), in.color("tint")};
             }),
-        row("soap-film", {"ior", "thickness_nm", "scale", "level", "up"},
+        row("soap-film", "", "a thin film; if it drains, it has scale, level and up",
+            {needed("ior", {JsonKind::number, 1, 1e3, "within [1, 1000]"},
+                    "index of refraction", "1.33", "index"),
+             needed("thickness_nm", {JsonKind::number, 0, 1e6, "within [0, 1e6] nm"},
+                    "at the level, nanometres", "400", "thickness"),
+             optional("scale", {JsonKind::number, 0, max_length, "within [0, 1e9]"},
+                      "the height over which the thickness falls to 1/e; 0: even"),
+             optional("level", point_value, "a point at the height of thickness_nm"),
+             optional("up", direction_value, "away from the ground")},
             [](In in) { return read_film(in); }),
-        row("checker",
-            {"even", "odd", "map", "origin", "edge_u", "edge_v", "center", "scale",
-             "columns", "rows"},
-            [](In in) { return white<T>(read_checker<T>(in.field)); }),
-        row("picture", {"file", "map", "origin", "edge_u", "edge_v", "center", "scale"},
-            [](In in) {
-                return white<T>(read_picture(in.field, in.shared.pictures));
-            })};
+        row("checker", "", "matt, with two by two fields",
+            {even_row, odd_row, map[0], map[1], map[2], map[3], map[4], map[5],
+             fields_row("columns", "fields along u, an even number"),
+             fields_row("rows", "fields along v, an even number")},
+            [](In in) { return white<T>(read_checker<T>(in.in)); }),
+        row("picture", "", "matt, with the colours of a picture",
+            {needed("file", text_value, "PNG, JPEG or BMP, beside the scene file",
+                    "\"tile.png\""),
+             map[0], map[1], map[2], map[3], map[4], map[5]},
+            [](In in) { return white<T>(read_picture(in.in, in.shared.pictures)); })};
 }
 
 // The types of the rows, each once: several names may have one type.
@@ -265,15 +280,17 @@ MaterialId read_material(const JsonField& field, SharedByMaterialsT<T>& shared,
     const JsonField type = member(field, "type");
     MaterialId id{};
     const auto read = [&](const auto& row) {
-        if (text(type) != row.name) return false;
-        static constexpr std::string_view all[]{"type"};
-        require_object(field, all, row.fields);
-        id = made_of(field, [&] { return scene.add(row.read({field, shared})); });
+        if (text(type) != row.name && (row.also.empty() || text(type) != row.also))
+            return false;
+        const JsonMembersOf in(field, row.members, JsonMembers(&material_type, 1));
+        id = made_of(field, [&] { return scene.add(row.read({in, shared})); });
         return true;
     };
     std::apply(
         [&](const auto&... row) {
-            if (!(read(row) || ...)) require_one_of(type, {row.name...});
+            if ((read(row) || ...)) return;
+            const std::string_view names[]{row.name...};
+            require_one_of(type, names);
         },
         material_rows<T>());
     return id;

@@ -9,9 +9,13 @@
 #include <nlohmann/json.hpp>
 
 #include "ljus/accel/instances.hpp"
+#include "ljus/geometry/cylinder.hpp"
 #include "ljus/geometry/detail/pair_triangles.hpp"
-#include "ljus/io/detail/json_field.hpp"
+#include "ljus/geometry/disc.hpp"
+#include "ljus/geometry/moving.hpp"
+#include "ljus/geometry/placement.hpp"
 #include "ljus/io/detail/json_materials.hpp"
+#include "ljus/io/detail/json_members.hpp"
 #include "ljus/lights/environment.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/lights/spot_light.hpp"
@@ -21,29 +25,19 @@
 namespace ljus {
 
 /// \defgroup json_objects Objects in scene files
-/// \brief Optional (nlohmann-json): spheres, triangles, meshes and their instances.
-///
-/// | `type` of an object | its fields, besides material, name and emission         |
-/// |---------------------|---------------------------------------------------------|
-/// | sphere              | center, radius                                          |
-/// | triangles           | vertices, indices: three numbers per triangle, from 0   |
-/// | mesh                | file: OBJ, relative to the scene file; scale (1);       |
-/// |                     | normals (file, smooth or flat); see ObjMeshes           |
-/// | instances           | those of a mesh, and places: a list of maps, each the   |
-/// |                     | twelve numbers of a 3 x 4 matrix, row by row            |
-///
-/// Emission is radiance: outwards for a sphere, towards
-/// \f$(V_2 - V_1) \times (V_3 - V_1)\f$ for a triangle.
+/// \brief Optional (nlohmann-json): shapes with their materials. Page:
+/// \ref ch_scene_files.
 /// \{
 
 namespace detail {
 
 /// The scene type of scene files.
 template <std::floating_point T>
-using FileSceneT =
-    Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>, MeshT<T>, InstanceT<T>>,
-          FileMaterialsT<T>,
-          Lights<PointLightT<T>, SpotLightT<T>, SunLightT<T>, EnvironmentLightT<T>>>;
+using FileSceneT = Scene<
+    Shapes<QuadT<T>, SphereT<T>, TriangleT<T>, MeshT<T>, InstanceT<T>, DiscT<T>,
+           CylinderT<T>, Moving<QuadT<T>>, Moving<SphereT<T>>, Moving<TriangleT<T>>>,
+    FileMaterialsT<T>,
+    Lights<PointLightT<T>, SpotLightT<T>, SunLightT<T>, EnvironmentLightT<T>>>;
 
 /// Reads no meshes: the default of load_json().
 template <std::floating_point T>
@@ -57,6 +51,95 @@ struct NoMeshesT {
             "ljus/io/load_obj.hpp.");
     }
 };
+
+inline constexpr std::string_view object_words[]{
+    "sphere", "triangles", "mesh", "instances", "quad", "box", "disc", "cylinder"};
+inline constexpr std::string_view normals_words[]{"file", "smooth", "flat"};
+inline constexpr std::string_view ends_words[]{"open", "closed"};
+
+inline constexpr JsonMember object_shared[]{
+    needed("type", {.kind = JsonKind::word, .words = object_words}, "which shape", {}),
+    optional("name", remark_value, "for people"),
+    needed("material", text_value, "a name of materials", "\"grey\""),
+    preset("emission", light_value, 0,
+           "radiance on the side of the normal, W/(m^2 sr): it is a lamp"),
+    lamp_group_row,
+    optional("transform", {.kind = JsonKind::object, .of = "transform"},
+             "ljus::Placement; a sphere, a disc or a cylinder has one scale; not of "
+             "instances, which have places"),
+    optional("displacement", point_value,
+             "the way that it moves while the shutter is open: ljus::Moving; not of a "
+             "mesh, a disc or a cylinder")};
+
+inline constexpr JsonMember transform_members[]{
+    preset("scale", {JsonKind::scale, 1e-9, 1e9, "within [1e-9, 1e9]"}, 1,
+           "first: along x, y and z, or a number for all three", "[2, 1, 1]"),
+    optional("rotate", {.kind = JsonKind::object, .of = "rotate"}, "then",
+             R"({"axis": [0, 1, 0], "degrees": 30})"),
+    preset("translate", point_value, 0, "last", "[0, 0, 1]")};
+inline constexpr JsonMember rotate_members[]{
+    needed("axis", direction_value, "through the origin", "[0, 1, 0]"),
+    needed("degrees", {JsonKind::number, -1e6, 1e6, "within [-1e6, 1e6] degrees"},
+           "counter-clockwise as seen against the axis", "30")};
+
+inline constexpr JsonMember center_row =
+    needed("center", point_value, "its centre", "[0, 1, 0]");
+inline constexpr JsonMember radius_row =
+    needed("radius", length_value, "its radius", "0.5");
+inline constexpr JsonMember sphere_members[]{center_row, radius_row};
+inline constexpr JsonMember triangles_members[]{
+    needed("vertices", {.kind = JsonKind::list, .of = "points"}, "a list of points",
+           "[[0, 0, 0], [1, 0, 0], [0, 1, 0]]"),
+    needed("indices", {.kind = JsonKind::list, .of = "triples"},
+           "three numbers of vertices for each triangle, from 0 on; the normal is "
+           "(V2 - V1) x (V3 - V1)",
+           "[[0, 1, 2]]")};
+inline constexpr JsonMember file_row =
+    needed("file", text_value, "OBJ, beside the scene file", "\"mesh.obj\"");
+inline constexpr JsonMember factor_row =
+    preset("scale", factor_value, 1, "factor of all lengths");
+inline constexpr JsonMember normals_row =
+    preset("normals", {.kind = JsonKind::word, .words = normals_words}, 0,
+           "those of the file, computed ones, or none");
+inline constexpr JsonMember mesh_members[]{file_row, factor_row, normals_row};
+inline constexpr JsonMember instances_members[]{
+    file_row, factor_row, normals_row,
+    needed("places", {.kind = JsonKind::list, .of = "places"},
+           "a list of maps, each the twelve numbers of a 3 x 4 matrix, row by row",
+           "[[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]]")};
+inline constexpr JsonMember quad_members[]{
+    needed("corner", point_value, "one of its corners", "[0, 0, 0]"),
+    needed("edge_u", direction_value, "from there to the next corner", "[1, 0, 0]"),
+    needed("edge_v", direction_value, "to the other one; the normal is edge_u x edge_v",
+           "[0, 1, 0]")};
+inline constexpr JsonMember box_members[]{
+    needed("low", point_value, "least x, y and z", "[0, 0, 0]"),
+    needed("high", point_value, "greatest x, y and z", "[1, 2, 1]")};
+inline constexpr JsonMember disc_members[]{
+    center_row, needed("normal", direction_value, "towards its front", "[0, -1, 0]"),
+    radius_row};
+inline constexpr JsonMember cylinder_members[]{
+    needed("base", point_value, "where its axis begins", "[0, 0, 0]"),
+    needed("axis", direction_value, "from there to its other end", "[0, 2, 0]"),
+    radius_row,
+    preset("ends", {.kind = JsonKind::word, .words = ends_words}, 0,
+           "a tube, or closed by two discs")};
+
+inline constexpr JsonTable object_tables[]{
+    {"sphere", {}, "a ball", sphere_members},
+    {"triangles",
+     {},
+     "triangles; two that form a parallelogram become a quad",
+     triangles_members},
+    {"mesh", {}, "the triangles of a file: ljus::ObjMeshes", mesh_members},
+    {"instances",
+     {},
+     "the meshes of a file, kept once, in many places: ljus::Instance",
+     instances_members},
+    {"quad", {}, "a parallelogram", quad_members},
+    {"box", {}, "six quads that face outwards", box_members},
+    {"disc", {}, "a disc", disc_members},
+    {"cylinder", {}, "a tube", cylinder_members}};
 
 // The three indices of a triangle.
 inline std::array<std::uint32_t, 3>
@@ -76,13 +159,19 @@ read_triangle(const JsonField& field, const std::vector<glm::dvec3>& points) {
     return corners;
 }
 
+inline glm::dvec3 point_of(const JsonField& field) {
+    check_value(field, point_value);
+    return {field.value[0].get<double>(), field.value[1].get<double>(),
+            field.value[2].get<double>()};
+}
+
 // The triangles of an object; two that form a parallelogram become a quad.
 template <std::floating_point T>
 FlatShapesT<T> read_triangles(const JsonField& field) {
     const JsonField vertices = member(field, "vertices");
     std::vector<glm::dvec3> points;
     for (std::size_t i = 0; i < list_size(vertices); ++i)
-        points.push_back(point_field(entry(vertices, i)));
+        points.push_back(point_of(entry(vertices, i)));
 
     const JsonField indices = member(field, "indices");
     std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -99,14 +188,15 @@ inline constexpr std::size_t max_mesh_readings = 16, max_copied_triangles = 1 <<
 /// one is a sum over its triangles.
 inline constexpr std::size_t max_placed_triangles = 1 << 30;
 
-// The mesh files of a scene so far. What is named again is copied from the scene; what
-// instances place is kept once.
+// The mesh files of a scene so far. What is named again is copied: from the scene, or
+// from here if it was placed there. What instances place is kept once.
 template <std::floating_point T>
 struct FileMeshesT {
     struct Reading {
         double scale;
         std::string normals;
         std::size_t first, last; // of the meshes in the scene
+        std::vector<MeshT<T>> unplaced{};
     };
     struct Kept {
         double scale;
@@ -126,14 +216,9 @@ struct MeshName {
     std::string normals;
 };
 
-inline MeshName read_mesh_name(const JsonField& field) {
-    const JsonField file = member(field, "file");
-    const auto scale = find(field, "scale");
-    const auto normals = find(field, "normals");
-    if (normals) require_one_of(*normals, {"file", "smooth", "flat"});
-    return {file, path_beside(file),
-            scale ? number(*scale, 1e-9, 1e9, "within [1e-9, 1e9]") : 1.0,
-            normals ? text(*normals) : "file"};
+inline MeshName mesh_name(const JsonMembersOf& in) {
+    const JsonField file = in["file"];
+    return {file, path_beside(file), in.number("scale"), in.word("normals")};
 }
 
 // Requires that a file may be read once more.
@@ -142,44 +227,65 @@ inline void require_readings(const JsonField& file, std::size_t readings) {
         refuse(file, "is named with more than 16 scales and normals");
 }
 
+template <std::floating_point T>
+[[nodiscard]] MeshT<T> placed(const MeshT<T>& mesh, const PlacementT<T>& placement) {
+    MeshDataT<T> data = mesh.data();
+    for (Vec3T<T>& p : data.positions) p = placed_point(p, placement);
+    for (Vec3T<T>& n : data.normals)
+        if (glm::dot(n, n) > T(0)) n = placed_normal(n, placement);
+    return MeshT<T>(std::move(data));
+}
+
 // Adds the meshes of a file as `add` does it.
+// \param is_placed  Whether `add` places them.
 template <std::floating_point T, typename LoadMeshes, typename Add>
-void read_meshes(const JsonField& field, const FileSceneT<T>& scene,
-                 FileMeshesT<T>& known, LoadMeshes& load_meshes, Add add) {
-    const auto [file, path, factor, which] = read_mesh_name(field);
+void read_meshes(const JsonMembersOf& in, const FileSceneT<T>& scene,
+                 FileMeshesT<T>& known, LoadMeshes& load_meshes, bool is_placed,
+                 Add add) {
+    const MeshName named = mesh_name(in);
     const auto& all = std::get<std::vector<MeshT<T>>>(scene.shapes);
-    auto& readings = known.by_path[one_path(path)];
+    auto& readings = known.by_path[one_path(named.path)];
     for (const auto& reading : readings) {
-        if (reading.scale != factor || reading.normals != which) continue;
-        for (std::size_t i = reading.first; i < reading.last; ++i) {
-            known.copied += all[i].size();
+        if (reading.scale != named.scale || reading.normals != named.normals) continue;
+        const auto copy = [&](const MeshT<T>& mesh) {
+            known.copied += mesh.size();
             if (known.copied > max_copied_triangles)
-                refuse(file, "is named once more; meshes that are named again have at "
-                             "most 4194304 triangles together");
-            add(MeshT<T>(all[i]));
-        }
+                refuse(named.file,
+                       "is named once more; meshes that are named again have at "
+                       "most 4194304 triangles together");
+            add(MeshT<T>(mesh));
+        };
+        for (std::size_t i = reading.first; i < reading.last; ++i) copy(all[i]);
+        for (const MeshT<T>& mesh : reading.unplaced) copy(mesh);
         return;
     }
-    require_readings(file, readings.size());
+    require_readings(named.file, readings.size());
     const std::size_t first = all.size();
-    for (MeshT<T>& mesh : load_meshes(path, factor, which)) add(std::move(mesh));
-    readings.push_back({factor, which, first, all.size()});
+    std::vector<MeshT<T>> loaded = load_meshes(named.path, named.scale, named.normals);
+    if (is_placed) {
+        for (const MeshT<T>& mesh : loaded) add(MeshT<T>(mesh));
+        readings.push_back(
+            {named.scale, named.normals, first, first, std::move(loaded)});
+    } else {
+        for (MeshT<T>& mesh : loaded) add(std::move(mesh));
+        readings.push_back({named.scale, named.normals, first, all.size()});
+    }
 }
 
 // The meshes of a file, which the scene keeps for instances.
 template <std::floating_point T, typename LoadMeshes>
-std::vector<Ref<MeshT<T>>> read_kept_meshes(const JsonField& field,
-                                            FileSceneT<T>& scene, FileMeshesT<T>& known,
+std::vector<Ref<MeshT<T>>> read_kept_meshes(const MeshName& named, FileSceneT<T>& scene,
+                                            FileMeshesT<T>& known,
                                             LoadMeshes& load_meshes) {
-    const auto [file, path, factor, which] = read_mesh_name(field);
-    auto& readings = known.kept[one_path(path)];
+    auto& readings = known.kept[one_path(named.path)];
     for (const auto& reading : readings)
-        if (reading.scale == factor && reading.normals == which) return reading.meshes;
-    require_readings(file, readings.size());
+        if (reading.scale == named.scale && reading.normals == named.normals)
+            return reading.meshes;
+    require_readings(named.file, readings.size());
     std::vector<Ref<MeshT<T>>> meshes;
-    for (MeshT<T>& mesh : load_meshes(path, factor, which))
+    for (MeshT<T>& mesh : load_meshes(named.path, named.scale, named.normals))
         meshes.push_back(scene.add(std::move(mesh)));
-    readings.push_back({factor, which, meshes});
+    readings.push_back({named.scale, named.normals, meshes});
     return meshes;
 }
 
@@ -198,13 +304,16 @@ AffineT<T> read_place(const JsonField& field) {
 
 // Places the meshes of a file once for each map.
 template <std::floating_point T, typename LoadMeshes>
-void read_instances(const JsonField& field, MaterialId material,
+void read_instances(const JsonMembersOf& in, MaterialId material,
                     const RgbT<T>& radiance, FileSceneT<T>& scene,
                     FileMeshesT<T>& known, LoadMeshes& load_meshes) {
-    const JsonField places = member(field, "places");
+    for (const char* name : {"transform", "displacement"})
+        if (in.has(name))
+            refuse(in[name], "belongs to other shapes; instances have places");
+    const JsonField places = in["places"];
     const std::size_t count = list_size(places);
     for (const Ref<MeshT<T>>& mesh :
-         read_kept_meshes(field, scene, known, load_meshes)) {
+         read_kept_meshes(mesh_name(in), scene, known, load_meshes)) {
         known.placed += std::min(count, max_placed_triangles) * mesh.get().size();
         if (known.placed > max_placed_triangles)
             refuse(places, "has too many entries; instances have at most 1073741824 "
@@ -217,15 +326,6 @@ void read_instances(const JsonField& field, MaterialId material,
     }
 }
 
-template <std::floating_point T>
-SphereT<T> read_sphere(const JsonField& field) {
-    const JsonField radius = member(field, "radius");
-    const double length = number(radius, -max_length, max_length, "at most 1e9");
-    if (!(static_cast<T>(length) > T(0))) refuse_value(radius, "above 0");
-    return {.center{point_field(member(field, "center"))},
-            .radius = static_cast<T>(length)};
-}
-
 inline MaterialId material_of(const JsonField& field,
                               const std::map<std::string, MaterialId>& materials) {
     const JsonField material = member(field, "material");
@@ -233,51 +333,100 @@ inline MaterialId material_of(const JsonField& field,
     if (known != materials.end()) return known->second;
     std::vector<std::string> names;
     for (const auto& [name, id] : materials) names.push_back(name);
-    refuse_value(material,
-                 std::string("one of the materials ") + in_a_row(names, "or"));
+    refuse_word(material, names,
+                std::string("one of the materials ") + in_a_row(names, "or"));
 }
 
-// Requires the fields of an object of this type.
-inline void require_fields_of_object(const JsonField& field, const std::string& type) {
-    static constexpr std::string_view all[]{"type", "name", "material", "emission"};
-    static constexpr std::string_view sphere[]{"center", "radius"};
-    static constexpr std::string_view mesh[]{"file", "scale", "normals"};
-    static constexpr std::string_view instances[]{"file", "scale", "normals", "places"};
-    static constexpr std::string_view triangles[]{"vertices", "indices"};
-    require_object(field, all,
-                   type == "sphere"      ? JsonNames(sphere)
-                   : type == "mesh"      ? JsonNames(mesh)
-                   : type == "instances" ? JsonNames(instances)
-                                         : JsonNames(triangles));
+template <std::floating_point T>
+PlacementT<T> read_transform(const JsonField& field) {
+    const JsonMembersOf in(field, transform_members);
+    PlacementT<T> placement{.scale{in.vector("scale")},
+                            .translate{in.vector("translate")}};
+    if (in.has("rotate")) {
+        const JsonMembersOf rotate(in["rotate"], rotate_members);
+        placement.rotate = {Vec3T<T>{rotate.vector("axis")},
+                            static_cast<T>(rotate.number("degrees"))};
+    }
+    made_of(field, [&] { check(placement); });
+    return placement;
 }
+
+// Calls add(shape) for each shape of an object, except meshes.
+template <std::floating_point T, typename Add>
+void read_shapes(const JsonMembersOf& in, std::string_view type, Add add) {
+    const auto vector = [&](const char* name) { return Vec3T<T>{in.vector(name)}; };
+    const auto radius = [&] {
+        const T length = static_cast<T>(in.number("radius"));
+        if (!(length > T(0))) refuse_value(in["radius"], "above 0");
+        return length;
+    };
+    if (type == "sphere") {
+        add(SphereT<T>{vector("center"), radius()});
+    } else if (type == "quad") {
+        const QuadT<T> quad{vector("corner"), vector("edge_u"), vector("edge_v")};
+        if (!has_area(quad))
+            refuse_value(in["edge_v"], "a vector that is not along edge_u");
+        add(quad);
+    } else if (type == "box") {
+        const BoxT<T> box{vector("low"), vector("high")};
+        if (!glm::all(glm::lessThan(box.low, box.high)))
+            refuse_value(in["high"], "above low along x, y and z");
+        for (const QuadT<T>& side : sides_of(box)) add(side);
+    } else if (type == "disc") {
+        add(DiscT<T>{vector("center"), vector("normal"), radius()});
+    } else if (type == "cylinder") {
+        const CylinderT<T> cylinder{vector("base"), vector("axis"), radius()};
+        add(cylinder);
+        if (in.word("ends") == "closed")
+            for (const DiscT<T>& end : ends_of(cylinder)) add(end);
+    } else {
+        const FlatShapesT<T> shapes = read_triangles<T>(in.field());
+        for (const QuadT<T>& quad : shapes.quads) add(quad);
+        for (const TriangleT<T>& triangle : shapes.triangles) add(triangle);
+    }
+}
+
+// Whether a shape may move in a scene file.
+template <std::floating_point T, typename S>
+inline constexpr bool may_move = false;
+template <std::floating_point T, Movable S>
+inline constexpr bool may_move<T, S> = FileSceneT<T>::template lists<Moving<S>>;
 
 template <std::floating_point T, typename LoadMeshes>
 void read_object(const JsonField& field,
                  const std::map<std::string, MaterialId>& materials,
-                 FileSceneT<T>& scene, FileMeshesT<T>& meshes,
+                 const LampGroups& groups, FileSceneT<T>& scene, FileMeshesT<T>& meshes,
                  LoadMeshes& load_meshes) {
     const JsonField type = member(field, "type");
-    require_one_of(type, {"sphere", "triangles", "mesh", "instances"});
-    require_fields_of_object(field, text(type));
-    (void)remark(field, "name");
+    const JsonTable* const table = table_of(object_tables, text(type));
+    if (table == nullptr) require_one_of(type, object_words);
+    const JsonMembersOf in(field, table->members, object_shared);
     const MaterialId material = material_of(field, materials);
-    const auto emission = find(field, "emission");
-    const RgbT<T> radiance{emission ? light_field(*emission) : glm::dvec3(0)};
+    const RgbT<T> radiance{groups.factor(in) * in.vector("emission")};
+    std::optional<PlacementT<T>> placement;
+    if (in.has("transform")) placement = read_transform<T>(in["transform"]);
 
     const auto add = [&](auto shape) {
-        made_of(field, [&] { scene.add(std::move(shape), material, radiance); });
+        made_of(field, [&] {
+            if (placement) shape = placed(shape, *placement);
+            if (!in.has("displacement"))
+                scene.add(std::move(shape), material, radiance);
+            else if constexpr (may_move<T, decltype(shape)>)
+                scene.add(
+                    Moving<decltype(shape)>{shape, Vec3T<T>{in.vector("displacement")}},
+                    material, radiance);
+            else
+                refuse(in["displacement"],
+                       "belongs to spheres, quads, boxes and triangles; in a scene "
+                       "file other shapes do not move");
+        });
     };
-    if (text(type) == "sphere") {
-        add(read_sphere<T>(field));
-    } else if (text(type) == "mesh") {
-        read_meshes(field, scene, meshes, load_meshes, add);
-    } else if (text(type) == "instances") {
-        read_instances(field, material, radiance, scene, meshes, load_meshes);
-    } else {
-        const FlatShapesT<T> shapes = read_triangles<T>(field);
-        for (const QuadT<T>& quad : shapes.quads) add(quad);
-        for (const TriangleT<T>& triangle : shapes.triangles) add(triangle);
-    }
+    if (table->name == "mesh")
+        read_meshes(in, scene, meshes, load_meshes, placement.has_value(), add);
+    else if (table->name == "instances")
+        read_instances(in, material, radiance, scene, meshes, load_meshes);
+    else
+        read_shapes<T>(in, table->name, add);
 }
 
 } // namespace detail

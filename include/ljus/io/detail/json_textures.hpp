@@ -9,41 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "ljus/image/texture.hpp"
-#include "ljus/io/detail/json_field.hpp"
+#include "ljus/io/detail/json_members.hpp"
 #include "ljus/io/load_image.hpp"
 
 namespace ljus::detail {
-
-inline constexpr double max_length = 1e9;
-inline constexpr double max_radiance = 1e12;
-
-inline glm::dvec3 vector_field(const JsonField& field, double low, double high,
-                               std::string_view right) {
-    if (list_size(field) != 3) refuse_value(field, "a list of three numbers");
-    return {number(entry(field, 0), low, high, right),
-            number(entry(field, 1), low, high, right),
-            number(entry(field, 2), low, high, right)};
-}
-
-inline glm::dvec3 point_field(const JsonField& field) {
-    return vector_field(field, -max_length, max_length, "within [-1e9, 1e9]");
-}
-
-// A direction, of any length above 0.
-inline glm::dvec3 direction_field(const JsonField& field) {
-    const glm::dvec3 way = point_field(field);
-    if (!(glm::dot(way, way) > 0)) refuse_value(field, "a vector that is not 0");
-    return way;
-}
-
-// Radiance, intensity or irradiance.
-inline glm::dvec3 light_field(const JsonField& field) {
-    return vector_field(field, 0, max_radiance, "within [0, 1e12]");
-}
-
-inline glm::dvec3 fraction_field(const JsonField& field) {
-    return vector_field(field, 0, 1, "within [0, 1]");
-}
 
 // Any of the maps, chosen when the file is read.
 template <std::floating_point T>
@@ -62,78 +31,73 @@ void check(const FileMapT<T>& any) {
     std::visit([](const auto& map) { check(map); }, any.map);
 }
 
-// The kind of a texture's map; a plane by default.
-inline std::string kind_of_map(const JsonField& field) {
-    const auto map = find(field, "map");
-    if (!map) return "plane";
-    require_one_of(*map, {"plane", "globe", "uv"});
-    return text(*map);
-}
+inline constexpr std::string_view map_words[]{"plane", "globe", "uv"};
+
+// The members of a texture besides its own: those of its map.
+inline constexpr JsonMember map_members[]{
+    preset("map", {.kind = JsonKind::word, .words = map_words}, 0,
+           "by a plane, by longitude and latitude around a point, or by the shape's "
+           "own coordinates"),
+    optional("origin", point_value, "of a plane: where (u, v) is (0, 0)", "[0, 0, 0]"),
+    optional("edge_u", direction_value, "of a plane: from u = 0 to u = 1", "[1, 0, 0]"),
+    optional("edge_v", direction_value, "of a plane: from v = 0 to v = 1", "[0, 0, 1]"),
+    optional("center", point_value, "of a globe"),
+    preset("scale", {JsonKind::pair, -1e6, 1e6, "within [-1e6, 1e6]"}, 1,
+           "of uv: how often the texture repeats along u and along v")};
 
 // Refuses the fields of other kinds of maps.
-inline void require_fields_of_map(const JsonField& field, const std::string& kind) {
+inline void require_fields_of_map(const JsonMembersOf& in, const std::string& kind) {
     constexpr const char* owners[][2]{{"origin", "plane"},
                                       {"edge_u", "plane"},
                                       {"edge_v", "plane"},
                                       {"center", "globe"},
                                       {"scale", "uv"}};
     for (const auto& [name, owner] : owners)
-        if (const auto other = find(field, name); other && kind != owner)
-            refuse(*other, std::string("belongs to the map \"")
-                               .append(owner)
-                               .append("\", and the map here is \"")
-                               .append(kind)
-                               .append("\""));
+        if (in.has(name) && kind != owner)
+            refuse(in[name], std::string("belongs to the map \"")
+                                 .append(owner)
+                                 .append("\", and the map here is \"")
+                                 .append(kind)
+                                 .append("\""));
 }
 
 template <std::floating_point T>
-PlaneMapT<T> read_plane_map(const JsonField& field) {
+PlaneMapT<T> read_plane_map(const JsonMembersOf& in) {
+    for (const char* name : {"origin", "edge_u", "edge_v"}) (void)in[name];
     const auto edge = [&](const char* name) {
-        const JsonField vector = member(field, name);
-        const Vec3T<T> found{point_field(vector)};
+        const Vec3T<T> found{in.vector(name)};
         if (!std::isnormal(glm::dot(found, found)))
-            refuse_value(vector, "a vector that is not 0");
+            refuse_value(in[name], "a vector that is not 0");
         return found;
     };
-    return {.origin{point_field(member(field, "origin"))},
+    return {.origin{in.vector("origin")},
             .edge_u = edge("edge_u"),
             .edge_v = edge("edge_v")};
 }
 
 template <std::floating_point T>
-UvMapT<T> read_uv_map(const JsonField& field) {
+FileMapT<T> read_map(const JsonMembersOf& in) {
+    const std::string kind = in.word("map");
+    require_fields_of_map(in, kind);
+    if (kind == "globe") {
+        (void)in["center"];
+        return {GlobeMapT<T>{.center{in.vector("center")}}};
+    }
+    if (kind == "plane") return {read_plane_map<T>(in)};
     UvMapT<T> map;
-    const auto scale = find(field, "scale");
-    if (!scale) return map;
-    if (list_size(*scale) != 2) refuse_value(*scale, "a list of two numbers");
-    for (int i = 0; i < 2; ++i)
-        map.scale[i] = static_cast<T>(
-            number(entry(*scale, std::size_t(i)), -1e6, 1e6, "within [-1e6, 1e6]"));
-    return map;
+    if (in.has("scale"))
+        for (int i = 0; i < 2; ++i)
+            map.scale[i] = in["scale"].value[std::size_t(i)].template get<T>();
+    return {map};
 }
 
 template <std::floating_point T>
-FileMapT<T> read_map(const JsonField& field) {
-    const std::string kind = kind_of_map(field);
-    require_fields_of_map(field, kind);
-    if (kind == "globe")
-        return {GlobeMapT<T>{.center{point_field(member(field, "center"))}}};
-    if (kind == "uv") return {read_uv_map<T>(field)};
-    return {read_plane_map<T>(field)};
-}
-
-template <std::floating_point T>
-CheckerT<T, FileMapT<T>> read_checker(const JsonField& field) {
-    CheckerT<T, FileMapT<T>> checker{.map = read_map<T>(field),
-                                     .even{fraction_field(member(field, "even"))},
-                                     .odd{fraction_field(member(field, "odd"))}};
-    const auto count = [&](const char* name, int& fields) {
-        if (const auto found = find(field, name))
-            fields = static_cast<int>(whole_number(*found, 2, 1'000'000));
-    };
-    count("columns", checker.columns);
-    count("rows", checker.rows);
-    return checker;
+CheckerT<T, FileMapT<T>> read_checker(const JsonMembersOf& in) {
+    return {.map = read_map<T>(in),
+            .even{in.vector("even")},
+            .odd{in.vector("odd")},
+            .columns = static_cast<int>(in.number("columns")),
+            .rows = static_cast<int>(in.number("rows"))};
 }
 
 // The pictures of a scene file. Each is read once, and kept until its last use. A use
@@ -175,10 +139,10 @@ struct FilePicturesT {
 };
 
 template <std::floating_point T>
-PictureTextureT<T, FileMapT<T>> read_picture(const JsonField& field,
+PictureTextureT<T, FileMapT<T>> read_picture(const JsonMembersOf& in,
                                              FilePicturesT<T>& pictures) {
-    PictureTextureT<T, FileMapT<T>> texture{.map = read_map<T>(field)};
-    const JsonField file = member(field, "file");
+    PictureTextureT<T, FileMapT<T>> texture{.map = read_map<T>(in)};
+    const JsonField file = in["file"];
     try {
         texture.image = pictures.take(path_beside(file));
     } catch (const std::runtime_error& error) {

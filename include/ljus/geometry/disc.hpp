@@ -1,0 +1,170 @@
+#pragma once
+
+/// \file ljus/geometry/disc.hpp
+/// \brief The disc: a round lamp, a table top, the end of a cylinder.
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "ljus/geometry/box.hpp"
+#include "ljus/geometry/ray.hpp"
+#include "ljus/geometry/sphere.hpp"
+#include "ljus/geometry/surface_point.hpp"
+#include "ljus/math/frame.hpp"
+#include "ljus/math/require.hpp"
+#include "ljus/math/sampling.hpp"
+
+namespace ljus {
+
+/// \defgroup disc Discs
+/// \brief A circle with its inside: the plane of section 3.1.5 with another border.
+/// \{
+
+/// The points of a plane within a distance of a centre.
+template <std::floating_point T>
+struct DiscT {
+    Vec3T<T> center{T(0)};             ///< C, in scene units.
+    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Of any length but 0; towards the front.
+    T radius = T(1);                   ///< R, above 0, in scene units.
+};
+using Disc = DiscT<float>; ///< DiscT in float.
+
+/// The unit normal of a disc.
+template <std::floating_point T>
+[[nodiscard]] inline Vec3T<T> normal(const DiscT<T>& disc) noexcept {
+    return Vec3T<T>(glm::normalize(Vec3T<WideT<T>>{disc.normal}));
+}
+
+/// Intersects a ray with a disc: \f$ t = N \cdot (C - O) / N \cdot D \f$, and the point
+/// O + tD lies within R of C.
+/// \tparam Compute  The precision of the arithmetic; by default double, as for
+///                  triangles.
+/// \param ray   Its direction may have any length but zero; hits lie in [t_min, t_max].
+/// \param disc  The disc. Lengths between 1e-18 and 1e18 in float arithmetic.
+/// \return t, and u and v in [-1, 1]: the place relative to the centre along tangent
+///         and bitangent of frame_around(normal(disc)), in radii. Nothing for a miss.
+/// \cost One division, and a square root for a hit.
+// [intersect]
+template <typename Compute = void, std::floating_point T>
+[[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
+                                                    const DiscT<T>& disc) noexcept {
+    using C = ComputeT<Compute, WideT<T>>;
+    const Vec3T<C> d{ray.direction}, n{disc.normal};
+    const Vec3T<C> to = Vec3T<C>{disc.center} - Vec3T<C>{ray.origin};
+    // 0/0 in the plane itself, infinite beside it: neither is a hit.
+    const C t = glm::dot(n, to) / glm::dot(n, d);
+    constexpr C max{std::numeric_limits<T>::max()};
+    if (!(C(ray.t_min) <= t && t <= C(ray.t_max) && t <= max)) return std::nullopt;
+    const Vec3T<C> p = t * d - to;
+    const C r{disc.radius};
+    if (!(glm::dot(p, p) <= r * r)) return std::nullopt;
+    const FrameT<C> frame = frame_around(glm::normalize(n));
+    return ShapeHitT<T>{static_cast<T>(t),
+                        static_cast<T>(glm::dot(p, frame.tangent) / r),
+                        static_cast<T>(glm::dot(p, frame.bitangent) / r), 0};
+}
+// [intersect]
+
+/// The area, \f$ \pi R^2 \f$, in squared scene units.
+template <std::floating_point T>
+[[nodiscard]] constexpr T area(const DiscT<T>& disc) noexcept {
+    return std::numbers::pi_v<T> * disc.radius * disc.radius;
+}
+
+/// The point of a disc at the coordinates u, v of intersect(): position, error bound,
+/// and `normal`, which is what normal() returned.
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> point_at(const DiscT<T>& disc, T u, T v,
+                                        const Vec3T<T>& normal) noexcept {
+    const FrameT<T> frame = frame_around(normal);
+    const Vec3T<T> along_u = disc.radius * frame.tangent;
+    const Vec3T<T> along_v = disc.radius * frame.bitangent;
+    const Vec3T<T> a = u * along_u, b = v * along_v;
+    // The rounded frame tilts the plane: by 4 roundoffs for each component.
+    SurfacePointT<T> point{
+        .position = disc.center + a + b,
+        .error =
+            detail::rounding_bound<T>(5) *
+                (detail::sizes(disc.center) + detail::sizes(a) + detail::sizes(b)) +
+            detail::rounding_bound<T>(8) * disc.radius * (std::abs(u) + std::abs(v)),
+        .normal = normal};
+    detail::add_tilt(point, along_u, along_v);
+    return point;
+}
+
+/// The point of a disc that a ray hit, from its coordinates u and v.
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> surface_point(const DiscT<T>& disc,
+                                             const RayT<T>& /*ray*/,
+                                             const ShapeHitT<T>& hit) noexcept {
+    return point_at(disc, hit.u, hit.v, normal(disc));
+}
+
+/// Samples a point of a disc uniformly: its density is 1 / area per squared scene unit.
+/// `u` is a point of the unit square, `normal` is what normal() returned.
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> sample_area(const DiscT<T>& disc, const Vec2T<T>& u,
+                                           const Vec3T<T>& normal) noexcept {
+    const Vec2T<T> p = sample_concentric_disc(u);
+    return point_at(disc, p.x, p.y, normal);
+}
+
+/// \overload
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> sample_area(const DiscT<T>& disc,
+                                           const Vec2T<T>& u) noexcept {
+    return sample_area(disc, u, normal(disc));
+}
+
+/// The texture coordinates of a hit: the disc fills the circle in the unit square.
+template <std::floating_point T>
+[[nodiscard]] Vec2T<T> texture_coordinates(const DiscT<T>& /*disc*/,
+                                           const ShapeHitT<T>& hit,
+                                           const SurfacePointT<T>& /*point*/) noexcept {
+    return {(T(1) + hit.u) / T(2), (T(1) + hit.v) / T(2)};
+}
+
+/// The smallest sphere around a disc.
+template <std::floating_point T>
+[[nodiscard]] SphereT<T> bounding_sphere(const DiscT<T>& disc) noexcept {
+    return {.center = disc.center, .radius = disc.radius};
+}
+
+/// A box that contains a disc despite rounding; it is a few units in the last place too
+/// large. Along an axis the disc reaches as far as \f$ R \sqrt{1 - n_i^2} \f$, which is
+/// computed from the two other components.
+template <std::floating_point T>
+[[nodiscard]] BoxT<T> bounds(const DiscT<T>& disc) noexcept {
+    const Vec3T<T> n = normal(disc);
+    const Vec3T<T> reach{std::hypot(n.y, n.z), std::hypot(n.x, n.z),
+                         std::hypot(n.x, n.y)};
+    const Vec3T<T> size =
+        disc.radius * reach +
+        detail::rounding_bound<T>(16) * (detail::sizes(disc.center) + disc.radius) +
+        std::numeric_limits<T>::min();
+    return {disc.center - size, disc.center + size};
+}
+
+/// A disc displaced by a vector, in scene units.
+template <std::floating_point T>
+[[nodiscard]] constexpr DiscT<T> translated(DiscT<T> shape,
+                                            const Vec3T<T>& by) noexcept {
+    shape.center += by;
+    return shape;
+}
+
+/// Refuses a disc with a non-finite member, without a normal, or with a radius not
+/// above 0.
+/// \throws std::invalid_argument  with the name and the value.
+template <std::floating_point T>
+void check(const DiscT<T>& disc) {
+    require_finite("disc.center", disc.center);
+    require_direction("disc.normal", disc.normal);
+    require_positive("disc.radius", disc.radius);
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,290 @@
+#pragma once
+
+/// \file ljus/io/detail/json_members.hpp
+/// \brief The tables of what objects of a scene file contain, and their check.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <span>
+
+#include <nlohmann/json.hpp>
+
+#include "ljus/io/detail/json_field.hpp"
+#include "ljus/math/vector.hpp"
+
+namespace ljus::detail {
+
+// What a value is. Every number in it lies within [low, high].
+enum class JsonKind : std::uint8_t {
+    text,      // in quotation marks
+    remark,    // a text for people, or null
+    word,      // one of `words`
+    number,    // also 0 if low is the least number above 0 that makes sense
+    length,    // a number above 0
+    whole,     // a whole number
+    pair,      // two numbers
+    vector,    // three numbers
+    direction, // three numbers that are not all 0
+    scale,     // a number, or three
+    object,    // an object with members of its own
+    list,      // a list of such
+    named      // an object whose members have any names
+};
+
+// A kind of value. `right` completes "it must be".
+struct JsonValue {
+    JsonKind kind;
+    double low = 0, high = 0;
+    std::string_view right{};
+    JsonNames words{};
+    std::string_view of{}; // the name of its table, for an object or a list
+    bool or_zero = false;  // 0 as well
+};
+
+// A member of an object. It is required unless it has a default, `preset`, which counts
+// for each number of a vector, or is `optional`. A word's default is the first.
+struct JsonMember {
+    std::string_view name;
+    std::string_view also; // the name in C++, if it is another one, which is read too
+    JsonValue value;
+    std::string_view text;    // what it is, and its unit
+    std::string_view example; // JSON; empty: left out of the example
+    bool optional = false;
+    double preset = std::numeric_limits<double>::quiet_NaN();
+};
+using JsonMembers = std::span<const JsonMember>;
+
+// Nearly all members.
+constexpr JsonMember needed(std::string_view name, const JsonValue& value,
+                            std::string_view text, std::string_view example,
+                            std::string_view also = {}) {
+    return {name, also, value, text, example};
+}
+constexpr JsonMember optional(std::string_view name, const JsonValue& value,
+                              std::string_view text, std::string_view example = {}) {
+    return {name, {}, value, text, example, true};
+}
+constexpr JsonMember preset(std::string_view name, const JsonValue& value,
+                            double number, std::string_view text,
+                            std::string_view example = {}, std::string_view also = {}) {
+    return {name, also, value, text, example, true, number};
+}
+
+inline constexpr double max_length = 1e9;
+inline constexpr double max_radiance = 1e12;
+
+// Values that several tables have.
+inline constexpr JsonValue text_value{JsonKind::text};
+inline constexpr JsonValue remark_value{JsonKind::remark};
+inline constexpr JsonValue fraction_value{JsonKind::number, 0, 1, "within [0, 1]"};
+inline constexpr JsonValue roughness_value{.kind = JsonKind::number,
+                                           .low = 0.01,
+                                           .high = 1,
+                                           .right = "0 or within [0.01, 1]",
+                                           .or_zero = true};
+inline constexpr JsonValue color_value{JsonKind::vector, 0, 1, "within [0, 1]"};
+inline constexpr JsonValue light_value{JsonKind::vector, 0, max_radiance,
+                                       "within [0, 1e12]"};
+inline constexpr JsonValue point_value{JsonKind::vector, -max_length, max_length,
+                                       "within [-1e9, 1e9]"};
+inline constexpr JsonValue direction_value{JsonKind::direction, -max_length, max_length,
+                                           "within [-1e9, 1e9]"};
+inline constexpr JsonValue length_value{JsonKind::length, -max_length, max_length,
+                                        "at most 1e9"};
+inline constexpr JsonValue factor_value{JsonKind::number, 1e-9, 1e9,
+                                        "within [1e-9, 1e9]"};
+inline constexpr JsonValue angle_value{JsonKind::number, -360, 360,
+                                       "within [-360, 360] degrees"};
+
+// Requires that a number is of this kind.
+inline void check_number(const JsonField& field, const JsonValue& value) {
+    if (value.kind == JsonKind::whole)
+        (void)whole_number(field, static_cast<long long>(value.low),
+                           static_cast<long long>(value.high));
+    else
+        (void)number(field, value.or_zero ? 0 : value.low, value.high, value.right);
+    const double found = field.value.get<double>();
+    if (value.or_zero && found > 0 && found < value.low)
+        refuse_value(field, value.right);
+    if (value.kind == JsonKind::length && !(found > 0)) refuse_value(field, "above 0");
+}
+
+inline void check_numbers(const JsonField& field, const JsonValue& value,
+                          std::size_t count, std::string_view right) {
+    if (list_size(field) != count) refuse_value(field, right);
+    bool all_zero = true;
+    for (std::size_t i = 0; i < count; ++i) {
+        check_number(entry(field, i), value);
+        all_zero = all_zero && field.value[i].get<double>() == 0;
+    }
+    if (value.kind == JsonKind::direction && all_zero)
+        refuse_value(field, "a vector that is not 0");
+}
+
+// Requires that a value is of this kind.
+inline void check_value(const JsonField& field, const JsonValue& value) {
+    constexpr std::string_view three = "a list of three numbers";
+    switch (value.kind) {
+    case JsonKind::text:
+        (void)text(field);
+        break;
+    case JsonKind::remark:
+        if (!field.value.is_null()) (void)text(field);
+        break;
+    case JsonKind::word:
+        require_one_of(field, value.words);
+        break;
+    case JsonKind::number:
+    case JsonKind::length:
+    case JsonKind::whole:
+        check_number(field, value);
+        break;
+    case JsonKind::pair:
+        check_numbers(field, value, 2, "a list of two numbers");
+        break;
+    case JsonKind::vector:
+    case JsonKind::direction:
+        check_numbers(field, value, 3, three);
+        break;
+    case JsonKind::scale:
+        if (field.value.is_number())
+            check_number(field, value);
+        else
+            check_numbers(field, value, 3, "a number or a list of three numbers");
+        break;
+    case JsonKind::list:
+        (void)list_size(field);
+        break;
+    case JsonKind::object:
+    case JsonKind::named:
+        if (!field.value.is_object()) refuse_value(field, "an object");
+    }
+}
+
+// An object whose members are those of its tables.
+class JsonMembersOf {
+public:
+    // Checks all members.
+    // \param own     The table of this kind of object.
+    // \param shared  A table that several kinds have in common.
+    JsonMembersOf(const JsonField& field, JsonMembers own, JsonMembers shared = {})
+        : field_(field), tables_{shared, own} {
+        if (!field.value.is_object()) refuse_value(field, "an object");
+        for (auto part = field.value.begin(); part != field.value.end(); ++part)
+            if (row_of(part.key()) == nullptr)
+                refuse_name({*part, field.file, field.root}, part.key(), names());
+        for (const JsonMembers& table : tables_)
+            for (const JsonMember& row : table) {
+                const auto found = find(row);
+                if (found)
+                    check_value(*found, row.value);
+                else if (!row.optional)
+                    (void)member(field_, row.name); // refuses
+            }
+    }
+
+    [[nodiscard]] const JsonField& field() const noexcept { return field_; }
+    [[nodiscard]] bool has(std::string_view name) const {
+        return find(*row_of(name)).has_value();
+    }
+    // A member, which must be there.
+    [[nodiscard]] JsonField operator[](std::string_view name) const {
+        if (const auto found = find(*row_of(name))) return *found;
+        return member(field_, name);
+    }
+    // A member's number, or its default.
+    [[nodiscard]] double number(std::string_view name) const {
+        const JsonMember& row = *row_of(name);
+        const auto found = find(row);
+        return found ? found->value.get<double>() : row.preset;
+    }
+    // A member's three numbers; a single number or a default counts three times.
+    [[nodiscard]] glm::dvec3 vector(std::string_view name) const {
+        const JsonMember& row = *row_of(name);
+        const auto found = find(row);
+        if (!found) return glm::dvec3(row.preset);
+        const nlohmann::json& value = found->value;
+        if (value.is_number()) return glm::dvec3(value.get<double>());
+        return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+    }
+    // A member's word, or the first of its words.
+    [[nodiscard]] std::string word(std::string_view name) const {
+        const JsonMember& row = *row_of(name);
+        const auto found = find(row);
+        return found ? text(*found) : std::string(row.value.words.front());
+    }
+
+private:
+    [[nodiscard]] const JsonMember* row_of(std::string_view name) const {
+        for (const JsonMembers& table : tables_)
+            for (const JsonMember& row : table)
+                if (row.name == name || (!row.also.empty() && row.also == name))
+                    return &row;
+        return nullptr;
+    }
+    [[nodiscard]] std::optional<JsonField> find(const JsonMember& row) const {
+        const auto found = detail::find(field_, row.name);
+        if (row.also.empty()) return found;
+        const auto other = detail::find(field_, row.also);
+        if (found && other)
+            refuse(*other, std::string("is given as ").append(row.name) + " as well");
+        return found ? found : other;
+    }
+    [[nodiscard]] std::vector<std::string> names() const {
+        std::vector<std::string> all;
+        for (const JsonMembers& table : tables_)
+            for (const JsonMember& row : table) all.emplace_back(row.name);
+        return all;
+    }
+
+    JsonField field_;
+    std::array<JsonMembers, 2> tables_;
+};
+
+// A kind of object: what its `type` says, or the name of its member.
+struct JsonTable {
+    std::string_view name;
+    std::string_view also; // its name in C++, if it is another one
+    std::string_view text;
+    JsonMembers members;
+    JsonNames one_of{}; // members of which it has exactly one
+};
+
+// The table of this name among several; null if there is none.
+[[nodiscard]] inline const JsonTable* table_of(std::span<const JsonTable> tables,
+                                               std::string_view name) {
+    for (const JsonTable& table : tables)
+        if (table.name == name || (!table.also.empty() && table.also == name))
+            return &table;
+    return nullptr;
+}
+
+// Groups of lamps by name, each with the factor of its light.
+struct LampGroups {
+    std::map<std::string, double> factors{};
+
+    LampGroups() = default;
+    explicit LampGroups(const JsonField& groups) {
+        for (const auto& [name, value] : groups.value.items())
+            factors[name] =
+                number({value, groups.file, groups.root}, 0, 1e9, "within [0, 1e9]");
+    }
+    // The factor for an object or a light, by its member lamp_group; 1 without one.
+    [[nodiscard]] double factor(const JsonMembersOf& in) const {
+        if (!in.has("lamp_group")) return 1;
+        const JsonField group = in["lamp_group"];
+        const auto known = factors.find(text(group));
+        if (known != factors.end()) return known->second;
+        std::vector<std::string> names;
+        for (const auto& [name, value] : factors) names.push_back(name);
+        refuse_word(group, names,
+                    names.empty() ? "a name of lamp_groups, which the file lacks"
+                                  : "one of the lamp_groups " + in_a_row(names, "or"));
+    }
+};
+inline constexpr JsonMember lamp_group_row =
+    optional("lamp_group", text_value, "a name of lamp_groups, which dims it");
+
+} // namespace ljus::detail

@@ -1,0 +1,79 @@
+#pragma once
+
+/// \file ljus/io/nearest_word.hpp
+/// \brief "Did you mean ...": the known word that is most like an unknown one.
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ljus {
+
+/// \defgroup nearest_word Did you mean
+/// \brief What a message proposes for a wrong word.
+/// \{
+
+/// The number of letters to insert, remove, replace or exchange with the next one, to
+/// turn one word into another; no letter is touched twice. Capitals count as small
+/// letters.
+/// \cost O(n m) for n and m letters.
+[[nodiscard]] inline std::size_t edit_distance(std::string_view from,
+                                               std::string_view to) {
+    const auto same = [](char a, char b) {
+        const auto small = [](char c) {
+            return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+        };
+        return small(a) == small(b);
+    };
+    // Rows of the table for the first i - 2, i - 1 and i letters of `from`.
+    std::vector<std::size_t> before, last(to.size() + 1), row(to.size() + 1);
+    for (std::size_t k = 0; k <= to.size(); ++k) last[k] = k;
+    for (std::size_t i = 1; i <= from.size(); ++i) {
+        row[0] = i;
+        for (std::size_t k = 1; k <= to.size(); ++k) {
+            const std::size_t replaced = last[k - 1] + !same(from[i - 1], to[k - 1]);
+            row[k] = std::min({last[k] + 1, row[k - 1] + 1, replaced});
+            if (i > 1 && k > 1 && same(from[i - 1], to[k - 2]) &&
+                same(from[i - 2], to[k - 1]))
+                row[k] = std::min(row[k], before[k - 2] + 1);
+        }
+        before = last;
+        std::swap(last, row);
+    }
+    return last[to.size()];
+}
+
+/// The word of a list that is most like a given one.
+/// \param word   What the user wrote.
+/// \param words  What is known.
+/// \return The nearest word with at most one letter in three wrong, or else one that
+///         contains the given word or lies in it; the first of several, or an empty
+///         text.
+template <typename Words>
+[[nodiscard]] std::string nearest_word(std::string_view word, const Words& words) {
+    constexpr std::size_t longest = 40, shortest = 3;
+    std::string found;
+    if (word.size() > longest) return found;
+    const std::size_t most = std::max<std::size_t>(1, word.size() / 3);
+    std::size_t least = longest;
+    for (const std::string_view known : words) {
+        std::size_t distance = edit_distance(word, known);
+        if (distance > most) {
+            const bool within =
+                std::min(word.size(), known.size()) >= shortest &&
+                (known.find(word) != known.npos || word.find(known) != word.npos);
+            if (!within) continue;
+            distance += most;
+        }
+        if (distance >= least) continue;
+        least = distance;
+        found = known;
+    }
+    return found;
+}
+
+/// \}
+
+} // namespace ljus
