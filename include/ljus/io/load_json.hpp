@@ -28,13 +28,13 @@ namespace ljus {
 ///
 /// The materials are those of \ref json_materials, the objects those of
 /// \ref json_objects. A list `lights` may follow, of points, spots, suns and an
-/// environment: \ref json_lights. Lengths are within 1e9, radiance within 1e12.
+/// environment: \ref json_lights; and a list `fog`: \ref json_fog. Lengths are within 1e9, radiance within 1e12.
 /// \{
 
 /// The content of a scene file.
 template <std::floating_point T>
 struct LoadedSceneT {
-    detail::FileSceneT<T> scene; ///< Shapes, materials and lights.
+    detail::FileSceneT<T> scene; ///< Shapes, materials, lights and fog.
     CameraT<T> camera;           ///< The camera.
     std::string name;            ///< Name of the scene on one line, or empty.
     int width = 0;               ///< Width of the picture, in pixels.
@@ -117,7 +117,7 @@ inline void require_lights(const JsonField& objects, std::size_t lights) {
 template <std::floating_point T, typename LoadMeshes>
 LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
     require_object(top, {"format", "name", "description", "camera", "image",
-                         "materials", "objects", "lights"});
+                         "materials", "objects", "lights", "fog"});
     for (const char* field : {"format", "description"}) (void)remark(top, field);
 
     LoadedSceneT<T> loaded;
@@ -132,6 +132,9 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
     if (const auto lights = find(top, "lights"))
         for (std::size_t i = 0; i < list_size(*lights); ++i)
             read_light(entry(*lights, i), loaded.scene);
+    if (const auto fog = find(top, "fog"))
+        for (std::size_t i = 0; i < list_size(*fog); ++i)
+            read_fog(entry(*fog, i), loaded.scene);
     require_lights(objects, loaded.scene.light_count());
     return loaded;
 }

@@ -34,6 +34,19 @@ struct RenderSettings {
     Filter filter = Filter::box;                  ///< Weight of each position.
 };
 
+namespace detail {
+
+/// Refuses a scene with fog, unless the renderer has a member `carries_fog`.
+template <typename R>
+void require_fog_carried([[maybe_unused]] const R& renderer) {
+    if constexpr (
+        requires { require_no_fog(renderer.world(), ""); } &&
+        !requires { R::carries_fog; })
+        require_no_fog(renderer.world(), "this renderer");
+}
+
+} // namespace detail
+
 /// The result of rendering.
 template <std::floating_point T>
 struct RenderedT {
@@ -153,13 +166,15 @@ struct RowRange {
 /// \return A picture of those rows alone. A sample that is not finite is left out and
 ///         counted.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1, or the
-///         rows are outside the picture.
+///         rows are outside the picture, or the scene has fog that the renderer does
+///         not carry.
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>
 [[nodiscard, gnu::cold]] RenderedT<typename C::Scalar>
 render_rows(const R& renderer, const C& camera, const RenderSettings& picture,
             const RowRange& rows) {
     using T = typename C::Scalar;
+    detail::require_fog_carried(renderer);
     require_at_least("samples", picture.samples, 1);
     require_image_size(picture.width, picture.height);
     require(rows.first >= 0 && rows.first < rows.last, "the first row",

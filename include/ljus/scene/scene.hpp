@@ -11,6 +11,7 @@
 #include "ljus/lights/area_light.hpp"
 #include "ljus/materials/material.hpp"
 #include "ljus/math/closed_list.hpp"
+#include "ljus/media/medium.hpp"
 
 namespace ljus {
 
@@ -29,6 +30,10 @@ struct Materials {};
 /// The closed list of a scene's light types, except emissive objects.
 template <LightSource... L>
 struct Lights {};
+
+/// The closed list of a scene's media; see \ref medium.
+template <Medium... P>
+struct Media {};
 
 /// Identifies a material by its type and its index.
 struct MaterialId {
@@ -66,7 +71,8 @@ struct AddedId {
 };
 
 /// A scene; see the specialisation.
-template <typename ShapeList, typename MaterialList, typename LightList = Lights<>>
+template <typename ShapeList, typename MaterialList, typename LightList = Lights<>,
+          typename MediumList = Media<>>
 struct Scene;
 
 /// Shapes with their materials, and lights, in one contiguous array per type. A World
@@ -80,8 +86,9 @@ struct Scene;
 ///
 /// add() checks its arguments. The arrays may be changed in place; a World checks them
 /// again.
-template <typename FirstShape, typename... S, typename... M, typename... L>
-struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
+template <typename FirstShape, typename... S, typename... M, typename... L,
+          typename... P>
+struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...>> {
     using Scalar = ScalarOf<FirstShape>; ///< The precision, from the shapes' types.
     static_assert((std::is_same_v<Scalar, ScalarOf<S>> && ...),
                   "A scene's shapes must all have one precision.");
@@ -89,17 +96,22 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
                   "A scene's materials must have the precision of its shapes.");
     static_assert((std::is_same_v<Scalar, typename L::Scalar> && ...),
                   "A scene's lights must have the precision of its shapes.");
+    static_assert((std::is_same_v<Scalar, typename P::Scalar> && ...),
+                  "A scene's media must have the precision of its shapes.");
     static_assert(sizeof...(M) > 0, "A scene lists at least one type of material.");
     static_assert(detail::each_once<FirstShape, S...> && detail::each_once<M...> &&
-                      detail::each_once<L...>,
+                      detail::each_once<L...> && detail::each_once<P...>,
                   "A scene lists each type once.");
 
-    /// Whether a type of shape, material or light is listed.
+    /// Whether a type of shape, material, light or medium is listed.
     template <typename X>
     static constexpr bool lists = std::is_same_v<X, FirstShape> ||
                                   (std::is_same_v<X, S> || ...) ||
                                   (std::is_same_v<X, M> || ...) ||
-                                  (std::is_same_v<X, L> || ...);
+                                  (std::is_same_v<X, L> || ...) ||
+                                  (std::is_same_v<X, P> || ...);
+    /// Whether a type of medium is listed.
+    static constexpr bool lists_fog = sizeof...(P) > 0;
 
     std::tuple<std::vector<FirstShape>, std::vector<S>...>
         shapes; ///< An array per type.
@@ -108,6 +120,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
     std::array<std::vector<ObjectT<Scalar>>, 1 + sizeof...(S)> objects;
     std::tuple<std::vector<M>...> materials; ///< An array per type.
     std::tuple<std::vector<L>...> lights;    ///< An array per type.
+    std::tuple<std::vector<P>...> media;     ///< An array per type.
     std::vector<AddedId> order; ///< Objects and lights, in the order of addition.
 
     /// Adds a material.
@@ -165,12 +178,24 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
         array.push_back(light);
     }
 
+    /// Adds a medium. Where several overlap, their coefficients add up.
+    /// \param medium  One of the listed types.
+    /// \throws std::invalid_argument  if a value is out of range.
+    template <Medium X>
+    requires lists<X>
+    void add(const X& medium) {
+        check(medium);
+        std::get<std::vector<X>>(media).push_back(medium);
+    }
+
     /// Diagnoses an unlisted type.
     template <typename X>
     requires(!lists<X>) MaterialId add(const X&) {
-        constexpr bool light = LightSource<X>;
+        constexpr bool light = LightSource<X>, medium = Medium<X>;
         static_assert(!light, "List the light: Scene<..., ..., Lights<...>>.");
-        static_assert(light, "Neither a light nor listed: Scene<..., Materials<...>>.");
+        static_assert(!medium, "List the medium: Scene<..., ..., ..., Media<...>>.");
+        static_assert(light || medium,
+                      "Neither a light nor listed: Scene<..., Materials<...>>.");
         return {};
     }
     /// Diagnoses an unlisted shape, or a material instead of its number.

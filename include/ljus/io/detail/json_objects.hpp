@@ -10,6 +10,7 @@
 #include "ljus/accel/mesh.hpp"
 #include "ljus/geometry/detail/pair_triangles.hpp"
 #include "ljus/io/detail/json_field.hpp"
+#include "ljus/io/detail/json_fog.hpp"
 #include "ljus/io/detail/json_materials.hpp"
 #include "ljus/lights/environment.hpp"
 #include "ljus/lights/point_light.hpp"
@@ -39,7 +40,8 @@ namespace detail {
 template <std::floating_point T>
 using FileSceneT =
     Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>, MeshT<T>>, FileMaterialsT<T>,
-          Lights<PointLightT<T>, SpotLightT<T>, SunLightT<T>, EnvironmentLightT<T>>>;
+          Lights<PointLightT<T>, SpotLightT<T>, SunLightT<T>, EnvironmentLightT<T>>,
+          Media<Fog<SphereT<T>>, Fog<BoxT<T>>>>;
 
 /// Reads no meshes: the default of load_json().
 template <std::floating_point T>
@@ -132,15 +134,6 @@ void read_meshes(const JsonField& field, const FileSceneT<T>& scene, FileMeshes&
     const std::size_t first = all.size();
     for (MeshT<T>& mesh : load_meshes(path, factor, which)) add(std::move(mesh));
     readings.push_back({factor, which, first, all.size()});
-}
-
-template <std::floating_point T>
-SphereT<T> read_sphere(const JsonField& field) {
-    const JsonField radius = member(field, "radius");
-    const double length = number(radius, -max_length, max_length, "at most 1e9");
-    if (!(static_cast<T>(length) > T(0))) refuse_value(radius, "above 0");
-    return {.center{point_field(member(field, "center"))},
-            .radius = static_cast<T>(length)};
 }
 
 inline MaterialId material_of(const JsonField& field,
