@@ -80,7 +80,7 @@ ljus_break_it(NAME fog-around HEADER scene/world.hpp TEST fog
 # Renderers that know no fog render the scene without it.
 ljus_break_it(NAME fog-unsaid HEADER render/render.hpp TEST fog
     FROM "require_no_fog(renderer.world(), \"this renderer\");"
-    TO   ""
+    TO   "(void)renderer;"
     CASES "fog: what does not carry*")
 
 # Scene files have white fog only.

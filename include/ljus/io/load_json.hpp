@@ -28,7 +28,8 @@ namespace ljus {
 ///
 /// The materials are those of \ref json_materials, the objects those of
 /// \ref json_objects. A list `lights` may follow, of points, spots, suns and an
-/// environment: \ref json_lights; and a list `fog`: \ref json_fog. Lengths are within 1e9, radiance within 1e12.
+/// environment: \ref json_lights; and a list `fog`: \ref json_fog. Lengths are within
+/// 1e9, radiance within 1e12.
 /// \{
 
 /// The content of a scene file.

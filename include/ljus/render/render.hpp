@@ -39,9 +39,10 @@ namespace detail {
 /// Refuses a scene with fog, unless the renderer has a member `carries_fog`.
 template <typename R>
 void require_fog_carried([[maybe_unused]] const R& renderer) {
-    if constexpr (
-        requires { require_no_fog(renderer.world(), ""); } &&
-        !requires { R::carries_fog; })
+    constexpr bool carries = requires {
+        R::carries_fog;
+    };
+    if constexpr (!carries && requires { renderer.world().has_fog(); })
         require_no_fog(renderer.world(), "this renderer");
 }
 

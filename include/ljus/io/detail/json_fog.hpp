@@ -3,6 +3,8 @@
 /// \file ljus/io/detail/json_fog.hpp
 /// \brief The fog of a scene file.
 
+#include <nlohmann/json.hpp>
+
 #include "ljus/io/detail/json_textures.hpp"
 #include "ljus/media/fog.hpp"
 
