@@ -31,8 +31,8 @@ ljus_break_it(NAME fog-colour HEADER path/fog_path.hpp TEST fog
 
 # The fog scatters what it absorbs.
 ljus_break_it(NAME fog-albedo HEADER path/fog_path.hpp TEST fog
-    FROM "throughput *= scattering(medium) *"
-    TO   "throughput *= extinction(medium) *"
+    FROM "path.throughput *= scattering(medium) *"
+    TO   "path.throughput *= extinction(medium) *"
     CASES "fog: under a sky*")
 
 # Light that flights and angles both find counts twice.
@@ -55,8 +55,8 @@ ljus_break_it(NAME fog-length HEADER path/next_vertex.hpp TEST fog
 
 # Fog is in glass, and nowhere near it.
 ljus_break_it(NAME fog-in-glass HEADER path/next_vertex.hpp TEST fog
-    FROM "return !interior_at(world,"
-    TO   "return !!interior_at(world,"
+    FROM "!interior_at("
+    TO   "!!interior_at("
     CASES "fog: glass keeps it out*")
 
 # Only bodies that absorb are known.
@@ -88,3 +88,9 @@ ljus_break_it(NAME fog-file HEADER io/detail/json_fog.hpp TEST load_json
     FROM "fog.absorption = coefficient(*absorption);"
     TO   ";"
     CASES "load_json: fog*")
+
+# A scattered ray passes fog as surely as a shadow ray does.
+ljus_break_it(NAME fog-passing HEADER path/fog_path.hpp TEST fog
+    FROM "path.pdf *= detail::passing(vertex.transmittance);"
+    TO   ""
+    CASES "fog: in a glowing room*")

@@ -113,15 +113,16 @@ template <std::floating_point T>
 /// asked for a flight, and the shortest counts.
 /// \param world       The closed scene.
 /// \param segment     The segment, outside all bodies.
-/// \param throughput  Of the path at the end of the segment, without fog; multiplied by
-///                    what the fog does.
+/// \param path        The path at the end of the segment. Its throughput is multiplied
+///                    by what the fog does, and the pdf of its direction by the
+///                    fraction of light that passes.
 /// \param stream      One number is drawn, and one for each medium on the segment.
 /// \return Where it is scattered; nothing if it reaches the surface.
 // [fly]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] std::optional<FogVertexT<T>> fly(const W& world,
                                                const FogSegmentT<T>& segment,
-                                               RgbT<T>& throughput, Stream& stream) {
+                                               PathStateT<T>& path, Stream& stream) {
     const Vec3T<T> chance = detail::channel_probabilities(segment.throughput);
     const T u = next_1d<T>(stream);
     const int channel = u < chance.x ? 0 : (u < chance.x + chance.y ? 1 : 2);
@@ -135,12 +136,14 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     });
     auto vertex = detail::fog_vertex(world, segment, met.value_or(0), distance);
     if (!met) {
-        throughput *= vertex.transmittance / glm::dot(chance, vertex.transmittance);
+        path.throughput *=
+            vertex.transmittance / glm::dot(chance, vertex.transmittance);
+        path.pdf *= detail::passing(vertex.transmittance);
         return std::nullopt;
     }
     visit_fog(world, *met, [&](const auto& medium) {
-        throughput *= scattering(medium) * vertex.transmittance /
-                      detail::pdf_flight(segment, vertex, extinction(medium));
+        path.throughput *= scattering(medium) * vertex.transmittance /
+                           detail::pdf_flight(segment, vertex, extinction(medium));
     });
     return vertex;
 }
@@ -164,13 +167,16 @@ template <AnyWorld W, std::floating_point T, Medium M>
     const auto sampled =
         sample_light(world, light, vertex.point.position, u, vertex.time);
     if (!sampled) return RgbT<T>{T(0)};
+    ++counts.shadow_rays;
+    const RgbT<T> visible =
+        visibility(world, vertex.point, sampled->point, vertex.time);
+    if (is_black(visible)) return visible;
     const T f = phase(medium, glm::dot(vertex.travel, sampled->wi));
     T weight = T(1);
     if (mis.heuristic != MisHeuristic::shadow_rays && sampled->pdf > T(0))
-        weight = mis_weight(mis.heuristic, mis.factor * sampled->pdf, f);
-    ++counts.shadow_rays;
-    return weight * f * sampled->weight *
-           visibility(world, vertex.point, sampled->point, vertex.time);
+        weight = mis_weight(mis.heuristic, mis.factor * sampled->pdf,
+                            detail::passing(visible) * f);
+    return weight * f * sampled->weight * visible;
 }
 // [fog light]
 

@@ -180,7 +180,7 @@ template <AnyWorld W, std::floating_point T, typename Terms, typename Context>
         terms.add(
             "equi-angular", "DL",
             aimed_light(world, segment, settings.heuristic, settings.fog, context));
-    const auto vertex = fly(world, segment, path.throughput, context.stream);
+    const auto vertex = fly(world, segment, path, context.stream);
     if (!vertex) return InFog::crossed;
     log_arrival(context.log, vertex->point.position);
     if (cut_if(path.depth > settings.max_depth, context.counts)) return InFog::ended;
