@@ -118,11 +118,11 @@ template <std::floating_point T>
 ///                    fraction of light that passes.
 /// \param stream      One number is drawn, and one for each medium on the segment.
 /// \return Where it is scattered; nothing if it reaches the surface.
-// [fly]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] std::optional<FogVertexT<T>> fly(const W& world,
                                                const FogSegmentT<T>& segment,
                                                PathStateT<T>& path, Stream& stream) {
+    // [fly]
     const Vec3T<T> chance = detail::channel_probabilities(segment.throughput);
     const T u = next_1d<T>(stream);
     const int channel = u < chance.x ? 0 : (u < chance.x + chance.y ? 1 : 2);
@@ -146,8 +146,8 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
                            detail::pdf_flight(segment, vertex, extinction(medium));
     });
     return vertex;
+    // [fly]
 }
-// [fly]
 
 /// The light of one light that fog scatters towards a path, by one shadow ray.
 /// \param world   The closed scene.
