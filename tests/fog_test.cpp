@@ -498,7 +498,7 @@ TEST_CASE("fog: what does not carry it says so") {
     const RenderSettings small{.width = 2, .height = 2, .samples = 1};
     const std::string sentence =
         "the scene has fog, and light in fog is not computed by this renderer; render "
-        "it with a PathTracer, or remove the fog.";
+        "it by path tracing, or remove the fog.";
     CHECK(refusal([&] { (void)render(WhittedTracer(world), camera, small); }) ==
           sentence);
     CHECK(refusal([&] {

@@ -520,7 +520,7 @@ void require_no_fog([[maybe_unused]] const W& world,
         if (world.has_fog())
             throw std::invalid_argument(detail::join(
                 {"the scene has fog, and light in fog is not computed by ", what,
-                 "; render it with a PathTracer, or remove the fog."}));
+                 "; render it by path tracing, or remove the fog."}));
 }
 
 /// A renderer's reference to its world. An unclosed scene gives an error with a remedy.
