@@ -812,6 +812,54 @@ TEST_CASE("load_json: an environment is a constant, a gradient or a picture") {
     CHECK(!open.can_be_met(1));
 }
 
+TEST_CASE("load_json: fog fills a box or a ball") {
+    const auto foggy = [](const std::string& fog) {
+        const std::string end = R"("indices": [[0, 1, 2]]}
+ ])";
+        return changed(end, end + ", \"fog\": [" + fog + "]");
+    };
+    const LoadedScene loaded = read_json_scene(
+        foggy(
+            R"({"type": "box", "low": [-1, 0, -1], "high": [1, 2, 1], "scattering": [1, 2, 3]},
+                 {"type": "sphere", "center": [1, 2, 3], "radius": 4, "scattering": [0, 0, 0],
+                  "absorption": [3, 2, 1], "g": -0.5})"),
+        "a.json");
+    const auto& [balls, boxes] = loaded.scene.media;
+    REQUIRE((balls.size() == 1 && boxes.size() == 1));
+    CHECK(boxes[0].region.low == Vec3{-1, 0, -1});
+    CHECK(boxes[0].region.high == Vec3{1, 2, 1});
+    CHECK(boxes[0].scattering == Rgb{1, 2, 3});
+    CHECK(boxes[0].absorption == Rgb{0});
+    CHECK(boxes[0].g == 0);
+    CHECK(balls[0].region.center == Vec3{1, 2, 3});
+    CHECK(balls[0].region.radius == 4);
+    CHECK(balls[0].scattering == Rgb{0});
+    CHECK(balls[0].absorption == Rgb{3, 2, 1});
+    CHECK(balls[0].g == -0.5f);
+
+    const std::string ball = R"({"type": "sphere", "center": [0, 0, 0], "radius": )";
+    refused(foggy(ball + "1}"), "fog[0].scattering is missing.");
+    refused(foggy(ball + R"(0, "scattering": [1, 1, 1]})"),
+            "fog[0].radius is 0; it must be above 0.");
+    refused(foggy(ball + R"(1, "scattering": [1, 1, -1]})"),
+            "fog[0].scattering[2] is -1; it must be within [0, 1e12].");
+    refused(foggy(ball + R"(1, "scattering": [1, 1, 1], "g": 1})"),
+            "fog[0].g is 1; it must be within [-0.99, 0.99].");
+    refused(
+        foggy(ball + R"(1, "scattering": [1, 1, 1], "high": [1, 1, 1]})"),
+        "fog[0].high is not known; the fields here are type, scattering, absorption, "
+        "g, center and radius.");
+    refused(
+        foggy(
+            R"({"type": "box", "low": [0, 0, 0], "high": [1, 0, 1], "scattering": [1, 1, 1]})"),
+        "fog[0] cannot be used: fog.region.high is (1, 0, 1); it must be above "
+        "fog.region.low in every component.");
+    refused(foggy("1"), "fog[0] is 1; it must be an object.");
+
+    const World yard(load_json(LJUS_TEST_INPUTS "/../scenes/fog.json").scene);
+    CHECK(yard.has_fog());
+}
+
 TEST_CASE("load_json: points, spots and suns") {
     LoadedScene loaded = read_json_scene(
         lit(R"({"type": "point", "position": [0, 2, 1], "intensity": [1, 2, 3]},
@@ -885,7 +933,7 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
          "look_at, up, vfov_deg and lens."},
         {"\"format\"", "\"formt\"",
          "formt is not known; did you mean format? The fields here are format, name, "
-         "description, camera, image, materials, objects, lights, lamp_groups and "
+         "description, camera, image, materials, objects, lights, fog, lamp_groups and "
          "$schema."},
     });
     CHECK(refusal("\"camera\"", "\"name\"").find("name appears twice") !=
@@ -920,14 +968,16 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
 }
 
 TEST_CASE("load_json: names that are no plain words cannot disturb a message") {
-    refused("\"format\"", "\"a\\nb\\u001b[31m\"",
-            "[\"a?b?[31m\"] is not known; the fields here are format, name, "
-            "description, camera, image, materials, objects, lights, lamp_groups and "
-            "$schema.");
-    CHECK(refusal("\"format\"", "\"" + std::string(100'000, 'x') + "\"") ==
-          "a.json: [\"" + std::string(48, 'x') +
-              "...\"] is not known; the fields here are format, name, description, "
-              "camera, image, materials, objects, lights, lamp_groups and $schema.");
+    refused(
+        "\"format\"", "\"a\\nb\\u001b[31m\"",
+        "[\"a?b?[31m\"] is not known; the fields here are format, name, "
+        "description, camera, image, materials, objects, lights, fog, lamp_groups and "
+        "$schema.");
+    CHECK(
+        refusal("\"format\"", "\"" + std::string(100'000, 'x') + "\"") ==
+        "a.json: [\"" + std::string(48, 'x') +
+            "...\"] is not known; the fields here are format, name, description, "
+            "camera, image, materials, objects, lights, fog, lamp_groups and $schema.");
 }
 
 TEST_CASE("load_json: broken JSON is refused with line and column") {

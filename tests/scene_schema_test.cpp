@@ -80,7 +80,8 @@ Example in_scene(const detail::JsonGroup& group, const json& object) {
         {"transform", "/objects/1/transform"},
         {"rotate", "/objects/0/transform/rotate"},
         {"light", "/lights/0"},
-        {"gradient", "/lights/0/gradient"}};
+        {"gradient", "/lights/0/gradient"},
+        {"fog", "/fog/0"}};
     if (group.name == "transform")
         scene["objects"][1] = {{"type", "quad"},
                                {"material", "grey"},
@@ -89,6 +90,7 @@ Example in_scene(const detail::JsonGroup& group, const json& object) {
                                {"edge_v", {0, 1, 0}}};
     if (group.name == "light" || group.name == "gradient")
         scene["lights"] = json::array({json::object()});
+    if (group.name == "fog") scene["fog"] = json::array({json::object()});
     if (group.name == "gradient") scene["lights"][0]["type"] = "environment";
     if (group.name == "object") scene["objects"].push_back(nullptr);
     for (const auto& [name, place] : places)

@@ -6,7 +6,7 @@ ljus_break_it(NAME counts-cut-traced HEADER render/path_tracing.hpp TEST counts
 
 # at mirrors,
 ljus_break_it(NAME counts-cut-mirrors HEADER render/path_tracing.hpp TEST counts
-    FROM "detail::cut_if(!is_black(path.throughput), context.counts);"
+    FROM "cut_if(!is_black(path.throughput), context.counts);"
     TO   ""
     CASES "counts: what the depth cuts*")
 

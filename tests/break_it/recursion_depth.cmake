@@ -56,8 +56,8 @@ ljus_break_it(NAME depth-roulette HEADER path/path_state.hpp TEST recursion_dept
 
 # One surface fewer than was asked for.
 ljus_break_it(NAME depth-limit HEADER render/path_tracing.hpp TEST recursion_depth
-    FROM "path.depth > settings.max_depth, context.counts"
-    TO   "path.depth >= settings.max_depth, context.counts"
+    FROM "if (detail::cut_if(path.depth > settings.max_depth, context.counts)) break;"
+    TO   "if (detail::cut_if(path.depth >= settings.max_depth, context.counts)) break;"
     CASES "recursion_depth: a limit*")
 
 # One surface fewer on a path of the photon mapper.

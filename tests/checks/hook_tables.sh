@@ -19,6 +19,8 @@ of_a_stream="next_1d next_2d next_3d start_bounce"
 # Functions that the concepts require of every light, of near ones and of far ones.
 of_a_light="emission_point pdf_emission power sample_arrival sample_emission
     sample_light"
+# Functions that the concept requires of every medium.
+of_a_medium="bounds extinction phase sample_phase scattering span_in"
 
 # rows FOLDER TABLE: the names in a table of hooks.
 rows() {
@@ -98,7 +100,7 @@ holds() {
     [ -n "$shapes" ] && [ -n "$materials" ] && [ -n "$lights" ] || { echo "there is no table"; return 1; }
     # shellcheck disable=SC2086,SC2116 # one word each
     known=" $(echo $by_concept $shapes $materials $lights $of_a_material_of_radiosity \
-        $of_a_renderer $of_a_kernel $of_a_camera $of_a_stream $of_a_light) "
+        $of_a_renderer $of_a_kernel $of_a_camera $of_a_stream $of_a_light $of_a_medium) "
     while read -r name header; do
         case $known in *" $name "*) continue ;; esac
         echo "$header: $name() is asked for, and is no row of a table of hooks."

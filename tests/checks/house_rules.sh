@@ -17,7 +17,7 @@ floor() {
         ljus/image/* | ljus/parallel.hpp) echo 2 ;;
         ljus/geometry/*) echo 3 ;;
         ljus/accel/* | ljus/optics/*) echo 4 ;;
-        ljus/materials/* | ljus/lights/*) echo 5 ;;
+        ljus/materials/* | ljus/media/* | ljus/lights/*) echo 5 ;;
         ljus/scene/*) echo 6 ;;
         ljus/path/*) echo 7 ;;
         ljus/photons/* | ljus/radiosity/*) echo 8 ;;

@@ -57,6 +57,7 @@ template <typename R, CameraLike C>
 [[nodiscard]] std::vector<RgbT<double>>
 class_means(const R& renderer, const C& camera, const RenderSettings& picture,
             std::span<const LightPathExpression> classes) {
+    detail::require_fog_carried(renderer);
     require_at_least("width", picture.width, 1);
     require_at_least("height", picture.height, 1);
     require_at_least("samples", picture.samples, 1);

@@ -52,6 +52,7 @@ template <typename R, CameraLike C>
 take_apart(const R& renderer, const C& camera, const RenderSettings& picture, int x,
            int y, int keep = 4) {
     using T = typename C::Scalar;
+    require_fog_carried(renderer);
     require_image_size(picture.width, picture.height);
     require_at_least("samples", picture.samples, 1);
     require(x >= 0 && x < picture.width, "the pixel's column",

@@ -194,6 +194,10 @@ template <AnyWorld W>
 [[nodiscard]] Plan survey(const W& world, const PhotonMappingSettings& settings) {
     Plan plan = detail::make_plan(needs(world), settings);
     plan.remarks = scene_remarks(world, settings);
+    if (world.has_fog())
+        plan.remarks.push_back("the scene has fog, through which photon maps carry no "
+                               "light, and which they refuse: render it by path "
+                               "tracing");
     return plan;
 }
 

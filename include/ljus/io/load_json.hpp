@@ -32,7 +32,7 @@ namespace ljus {
 /// The content of a scene file.
 template <std::floating_point T>
 struct LoadedSceneT {
-    detail::FileSceneT<T> scene; ///< Shapes, materials and lights.
+    detail::FileSceneT<T> scene; ///< Shapes, materials, lights and fog.
     LensCameraT<T> camera;       ///< The camera; its lens may have the radius 0.
     std::string name;            ///< Name of the scene on one line, or empty.
     int width = 0;               ///< Width of the picture, in pixels.
@@ -82,6 +82,7 @@ inline constexpr JsonMember scene_members[]{
     needed("objects", {.kind = JsonKind::list, .of = "object"}, "shapes", {}),
     optional("lights", {.kind = JsonKind::list, .of = "light"},
              "lights that are no objects"),
+    optional("fog", {.kind = JsonKind::list, .of = "fog"}, "balls and boxes of fog"),
     optional("lamp_groups", {.kind = JsonKind::named, .of = "factor"},
              "names of groups, and the factor of each group's light, from 0 on"),
     optional("$schema", text_value, "the JSON schema, for editors")};
@@ -171,6 +172,9 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
     if (in.has("lights"))
         for (std::size_t i = 0; i < list_size(in["lights"]); ++i)
             read_light(entry(in["lights"], i), groups, loaded.scene);
+    if (in.has("fog"))
+        for (std::size_t i = 0; i < list_size(in["fog"]); ++i)
+            read_fog(entry(in["fog"], i), loaded.scene);
     require_lights(objects, loaded.scene.light_count());
     return loaded;
 }

@@ -65,7 +65,12 @@ struct JsonGroup {
          "Lights that are no objects.",
          light_shared,
          {std::begin(light_tables), std::end(light_tables)}},
-        one("gradient", "Gradient", "A member of an environment.", gradient_members)};
+        one("gradient", "Gradient", "A member of an environment.", gradient_members),
+        {"fog",
+         "Fog",
+         "What scatters light in a region: ljus::Fog. Photons and presets refuse it.",
+         fog_shared,
+         {std::begin(fog_tables), std::end(fog_tables)}}};
 }
 
 /// Three numbers, one for each component.

@@ -119,6 +119,14 @@ template <AnyWorld W, std::floating_point T>
 
 namespace detail {
 
+/// The mean of the channels of fog's transmittance: about the probability that fog lets
+/// a path pass. By this factor a scattered ray finds a light less often than a shadow
+/// ray does, and so much less is its weight.
+template <std::floating_point T>
+[[nodiscard]] T passing(const RgbT<T>& transmittance) noexcept {
+    return (transmittance.x + transmittance.y + transmittance.z) / T(3);
+}
+
 /// The light of one sampled point of a light, without and with occlusion.
 template <std::floating_point T>
 struct LightShareT {
@@ -139,12 +147,15 @@ template <AnyWorld W, std::floating_point T, Material M>
     const RgbT<T> f = evaluate(material, vertex.wo, wi);
     if (is_black(f) || !detail::agrees(vertex, wi, sampled->wi)) return {};
 
-    T weight = T(1);
-    if (mis.heuristic != MisHeuristic::shadow_rays && sampled->pdf > T(0))
-        weight = mis_weight(mis.heuristic, mis.factor * sampled->pdf,
-                            pdf(material, vertex.wo, wi, mis.lobes));
+    const auto sent = [&](T reaching) -> RgbT<T> {
+        T weight = T(1);
+        if (mis.heuristic != MisHeuristic::shadow_rays && sampled->pdf > T(0))
+            weight = mis_weight(mis.heuristic, mis.factor * sampled->pdf,
+                                reaching * pdf(material, vertex.wo, wi, mis.lobes));
+        return std::abs(wi.z) * weight * f * sampled->weight;
+    };
     LightShareT<T> share;
-    share.sent = std::abs(wi.z) * weight * f * sampled->weight;
+    share.sent = sent(T(1));
     RgbT<T> visible{T(1)};
     if (verdict == Verdict::lit) {
         ++counts.skipped_rays;
@@ -154,6 +165,8 @@ template <AnyWorld W, std::floating_point T, Material M>
         if (is_black(visible)) return share;
     }
     share.arrived = share.sent;
+    if constexpr (W::lists_fog)
+        if (world.has_fog()) share.arrived = sent(passing(visible));
     RgbT<T> medium = medium_beyond(vertex.medium, material, vertex.wo, wi);
     if constexpr (MayAbsorb<M>)
         if (leaves_body<M>(vertex.wo, wi) && world.has_nested_media())

@@ -346,9 +346,12 @@ template <AnyWorld W, std::floating_point T>
 
 } // namespace detail
 
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] RgbT<T> fog_transmittance(const W& world, const RayT<T>& ray);
+
 /// The fraction of light that arrives from one point at another.
 /// \return 0 if anything occludes it; otherwise the product of the transmittances of
-///         the thin surfaces between them.
+///         the thin surfaces, or of the fog, between them.
 /// \cost That of occluded(); with thin surfaces a closest_hit() for each, and one more.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> visibility(const W& world, const SurfacePointT<T>& from,
@@ -356,6 +359,10 @@ template <AnyWorld W, std::floating_point T>
     if constexpr (detail::lists_thin_surfaces<W>)
         if (detail::has_thin_surfaces(world))
             return detail::visibility_through(world, from, to, time);
+    if constexpr (W::lists_fog) {
+        const RayT<T> ray = spawn_ray_to(from, to, time);
+        return occluded(world, ray) ? RgbT<T>{T(0)} : fog_transmittance(world, ray);
+    }
     return RgbT<T>{occluded(world, spawn_ray_to(from, to, time)) ? T(0) : T(1)};
 }
 
@@ -419,16 +426,14 @@ template <AnyWorld W>
 
 } // namespace detail
 
-/// The absorption at a ray's origin: that of the innermost body around it. A body
-/// contains the origin if the ray leaves its surface without having entered it. Opaque
-/// surfaces are ignored. Bodies are closed, and consist of one shape or several.
-/// \return Per scene unit; 0 outside all bodies.
-/// \cost A comparison outside the bounding box of all absorbing objects; inside it a
-///       ray per surface up to the end of the body.
+/// The absorption in the innermost body around a ray's origin. A body contains the
+/// origin if the ray leaves its surface without having entered it. Opaque surfaces are
+/// ignored. Bodies are closed, and consist of one shape or several.
+/// \return Per scene unit; nothing outside all bodies.
+/// \cost A ray per surface up to the end of the body.
+// [interior_at]
 template <AnyWorld W, std::floating_point T>
-[[nodiscard]] RgbT<T> medium_at(const W& world, RayT<T> ray) {
-    if (!detail::lists_media<W> || !world.may_be_in_medium(ray.origin))
-        return RgbT<T>{T(0)};
+[[nodiscard]] std::optional<RgbT<T>> interior_at(const W& world, RayT<T> ray) {
     std::array<MaterialId, 16> entered{};
     std::size_t count = 0;
     for (int surfaces = 0; surfaces < 256; ++surfaces) {
@@ -444,14 +449,67 @@ template <AnyWorld W, std::floating_point T>
             if (body != last)
                 *body = entered[--count];
             else if (const auto found = detail::medium_of(world, place.left))
-                return *found;
+                return found;
         }
         if (place.entered != no_body && count < entered.size() &&
             detail::medium_of(world, place.entered))
             entered[count++] = place.entered;
         ray = spawn_ray(vertex.point, ray.direction, ray.time);
     }
-    return RgbT<T>{T(0)};
+    return std::nullopt;
+}
+// [interior_at]
+
+/// The absorption at a ray's origin, per scene unit: interior_at(), or 0 outside.
+/// \cost A comparison outside the bounding box of all bodies that absorb.
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] RgbT<T> medium_at(const W& world, const RayT<T>& ray) {
+    if (!detail::lists_media<W> || !world.may_be_in_medium(ray.origin))
+        return RgbT<T>{T(0)};
+    return interior_at(world, ray).value_or(RgbT<T>{T(0)});
+}
+
+/// The optical depth of the fog along a ray outside all bodies: the extinction of each
+/// medium times the length of the ray within it, per channel. The transmittance is
+/// exp(-depth).
+/// \param world  The closed scene.
+/// \param ray    Its direction may have any length but zero.
+/// \return Per channel, at least 0.
+// [optical depth]
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] RgbT<T> optical_depth(const W& world, const RayT<T>& ray) {
+    RgbT<T> depth{T(0)};
+    const T unit = glm::length(ray.direction);
+    const auto add = [&](const auto& list) {
+        for (const auto& medium : list)
+            if (const auto span = span_in(medium, ray))
+                depth += (span->last - span->first) * unit * extinction(medium);
+    };
+    std::apply([&](const auto&... lists) { (add(lists), ...); }, world.media());
+    return depth;
+}
+// [optical depth]
+
+/// Whether a ray crosses fog: the scene has some, and the ray does not start in a body,
+/// which keeps fog out.
+/// \cost A comparison outside the bounding box of all transparent bodies.
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] bool meets_fog(const W& world, const RayT<T>& ray) {
+    if (!world.has_fog()) return false;
+    if (!detail::lists_media<W> || !world.may_be_in_medium(ray.origin)) return true;
+    return !interior_at(
+        world,
+        RayT<T>{.origin = ray.origin, .direction = ray.direction, .time = ray.time});
+}
+
+/// The fraction of light that crosses the fog along a ray up to its t_max.
+/// \param world  The closed scene.
+/// \param ray    No surface of a body lies on it.
+/// \return In [0, 1] per channel; 1 within a body.
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] RgbT<T> fog_transmittance(const W& world, const RayT<T>& ray) {
+    if (!meets_fog(world, ray)) return RgbT<T>{T(1)};
+    return transmittance(optical_depth(world, ray), T(1));
 }
 
 /// Advances a path to its next vertex. Its throughput is attenuated by media and thin

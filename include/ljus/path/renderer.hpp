@@ -156,6 +156,10 @@ RadianceSum(RgbT<T>&, const RgbT<T>&, L&) -> RadianceSum<T, L>;
 /// reports each term to the context's log:
 ///
 ///     Rgb radiance(const MyRenderer&, const Ray&, auto& context);
+///
+/// If its paths are scattered by fog (\ref fog_path), it says so by a static member
+/// `carries_fog`. Without it, render() refuses a scene with fog if the renderer has a
+/// function `world()`, and otherwise renders the scene as if its rays met no fog.
 template <typename R, typename T = float>
 concept Renderer = requires {
     typename R::Stream;

@@ -176,11 +176,12 @@ inline void say(Patches& all, long long count, const char* one, const char* many
 /// ball has patches on the side that its normal points to. Other objects occlude, but
 /// reflect no light: `left_out` names them.
 /// \throws std::invalid_argument  if `size` is not above 0, if there are more patches
-///         than `most`, or none.
+///         than `most`, or none, or if the scene has fog.
 /// \cost One test per pair of objects.
 /// \report{Section 2.2}
 template <AnyWorld W>
 [[nodiscard]] Patches make_patches(const W& world, const PatchSettings& settings = {}) {
+    require_no_fog(world, "radiosity");
     require_positive("patch size", settings.size);
     require(settings.most <= 65536, "most", static_cast<long long>(settings.most),
             "at most 65536: their form factors take 34 GB");

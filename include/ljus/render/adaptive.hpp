@@ -354,6 +354,7 @@ requires Renderer<R, typename C::Scalar>
 render_adaptive(const R& renderer, const C& camera, const RenderSettings& picture,
                 const AdaptiveSettings& rule = {}) {
     using T = typename C::Scalar;
+    detail::require_fog_carried(renderer);
     check(rule, picture.samples);
     AdaptiveT<T> result{.image = make_image<T>(picture.width, picture.height),
                         .rays = make_image<T>(picture.width, picture.height)};

@@ -25,6 +25,7 @@ template <typename W>
 class FirstHitRenderer {
 public:
     using Stream = RandomStream; ///< The random stream that render() passes.
+    static constexpr bool carries_fog = true; ///< It shows surfaces, as without fog.
 
     /// \param world  Must outlive the renderer.
     /// \param shown  What a picture shows.

@@ -5,6 +5,7 @@
 
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/direct_light.hpp"
+#include "ljus/path/fog_path.hpp"
 #include "ljus/path/path_log.hpp"
 
 namespace ljus {
@@ -19,6 +20,7 @@ struct PathTracingSettings {
     int roulette_depth = 4;    ///< From this surface on, roulette may end a path.
     bool sample_lights = true; ///< Whether to send shadow rays.
     MisHeuristic heuristic = MisHeuristic::balance; ///< Weights with shadow rays.
+    FogLight fog = FogLight::both; ///< How light that fog scatters is found.
     double roulette_threshold =
         1;                   ///< Roulette applies below this throughput; 0: never.
     double roulette_max = 1; ///< Largest survival probability, in (0, 1].
@@ -42,13 +44,20 @@ template <typename W>
 class PathTracer {
 public:
     using Stream = RandomStream; ///< The random stream that render() passes.
+    static constexpr bool carries_fog = true; ///< Its paths are scattered by fog.
 
     /// \param world     Must outlive the tracer.
     /// \param settings  Limits.
-    /// \throws std::invalid_argument  if a setting is out of range.
+    /// \throws std::invalid_argument  if a setting is out of range, or the scene has
+    ///         both fog and a thin surface.
     explicit PathTracer(WorldRef<W> world, const PathTracingSettings& settings = {})
         : world_(world), settings_(settings) {
         check(settings);
+        if constexpr (W::lists_fog && detail::lists_thin_surfaces<W>)
+            if (world_.get().has_fog() && detail::has_thin_surfaces(world_.get()))
+                throw std::invalid_argument(
+                    "the scene has both fog and thin surfaces, which paths in fog do "
+                    "not pass; remove the fog, or all soap films and thin glass.");
     }
     /// What is rendered.
     [[nodiscard]] const W& world() const noexcept { return world_.get(); }
@@ -121,6 +130,71 @@ template <AnyWorld W, std::floating_point T>
     return sum;
 }
 
+/// Ends a path, or prepares it for its next ray: the limit of depth, and roulette.
+/// \param path  The path after its scattering.
+/// \return Whether it goes on.
+// [goes on]
+template <AnyWorld W, std::floating_point T, typename Context>
+[[nodiscard]] bool goes_on(const PathTracer<W>& tracer, PathStateT<T>& path,
+                           Context& context) {
+    const PathTracingSettings& settings = tracer.settings();
+    // After the last surface only a lamp may follow, with its MIS weight.
+    if (path.depth == settings.max_depth && path.specular) {
+        cut_if(!is_black(path.throughput), context.counts);
+        return false;
+    }
+    log_vertex(context.log, path);
+    if (is_black(path.throughput)) return false;
+    if (path.depth >= settings.roulette_depth &&
+        !survives(path.throughput, path.eta_scale, next_1d<T>(context.stream),
+                  static_cast<T>(settings.roulette_threshold),
+                  static_cast<T>(settings.roulette_max)))
+        return false;
+    ++context.counts.bounce_rays;
+    return true;
+}
+// [goes on]
+
+/// What became of a path on its way to the next surface.
+enum class InFog : std::uint8_t { crossed, scattered, ended };
+
+/// Adds the light that fog scatters towards a path before its next surface, and
+/// perhaps scatters the path.
+/// \param path     The path after next_vertex(); receives its new ray.
+/// \param before   Its throughput before next_vertex().
+/// \param surface  Distance of the next surface.
+/// \param terms    Receives the light.
+// [cross fog]
+template <AnyWorld W, std::floating_point T, typename Terms, typename Context>
+[[nodiscard]] InFog cross_fog(const PathTracer<W>& tracer, PathStateT<T>& path,
+                              const RgbT<T>& before, T surface, const Terms& terms,
+                              Context& context) {
+    const W& world = tracer.world();
+    const PathTracingSettings& settings = tracer.settings();
+    if (!meets_fog(world, path.ray)) return InFog::crossed;
+    FogSegmentT<T> segment{path.ray, before};
+    segment.ray.t_max = surface;
+    const bool lit = settings.sample_lights && world.light_count() > 0 &&
+                     path.depth <= settings.max_depth;
+    if (lit)
+        terms.add(
+            "equi-angular", "DL",
+            aimed_light(world, segment, settings.heuristic, settings.fog, context));
+    const auto vertex = fly(world, segment, path, context.stream);
+    if (!vertex) return InFog::crossed;
+    log_arrival(context.log, vertex->point.position);
+    if (cut_if(path.depth > settings.max_depth, context.counts)) return InFog::ended;
+    if (lit)
+        terms.add("shadow ray", "DL",
+                  light_in_flight(world, segment, *vertex, path.throughput,
+                                  settings.heuristic, settings.fog, context));
+    visit_fog(world, vertex->medium, [&](const auto& medium) {
+        scatter_in_fog(path, *vertex, medium, context.stream);
+    });
+    return goes_on(tracer, path, context) ? InFog::scattered : InFog::ended;
+}
+// [cross fog]
+
 } // namespace detail
 
 /// The radiance that one random path finds.
@@ -128,7 +202,8 @@ template <AnyWorld W, std::floating_point T>
 /// Each diffuse surface sends a shadow ray to one light, chosen by power; the path then
 /// continues in a direction sampled by the material. A lamp that the path meets counts
 /// with its weight of multiple importance sampling. After a mirror or glass this weight
-/// is 1, because no shadow ray could find the lamp.
+/// is 1, because no shadow ray could find the lamp. A scattering in fog counts as
+/// diffuse, and as a surface in the limit of depth.
 /// \param tracer   The world and the limits.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays, logs its terms.
@@ -145,7 +220,15 @@ template <AnyWorld W, std::floating_point T, typename Context>
     const RadianceSum terms{sum, path.throughput, context.log};
     context.log.begin();
     for (;;) {
+        [[maybe_unused]] const RgbT<T> before = path.throughput;
         const auto vertex = next_vertex(world, path, context.stream);
+        if constexpr (W::lists_fog) {
+            const T surface = vertex ? vertex->distance : path.ray.t_max;
+            const auto fog =
+                detail::cross_fog(tracer, path, before, surface, terms, context);
+            if (fog == detail::InFog::scattered) continue;
+            if (fog == detail::InFog::ended) break;
+        }
         if (!vertex) {
             terms.add("sky", "L", detail::escaped(tracer, path));
             break;
@@ -165,19 +248,7 @@ template <AnyWorld W, std::floating_point T, typename Context>
                                  Lobes::all, context.stream);
         };
         if (!visit_material_at(world, *vertex, at_material)) break;
-        // After the last surface only a lamp may follow, with its MIS weight.
-        if (path.depth == settings.max_depth && path.specular) {
-            detail::cut_if(!is_black(path.throughput), context.counts);
-            break;
-        }
-        detail::log_vertex(context.log, path);
-        if (is_black(path.throughput)) break;
-        if (path.depth >= settings.roulette_depth &&
-            !survives(path.throughput, path.eta_scale, next_1d<T>(context.stream),
-                      static_cast<T>(settings.roulette_threshold),
-                      static_cast<T>(settings.roulette_max)))
-            break;
-        ++context.counts.bounce_rays;
+        if (!detail::goes_on(tracer, path, context)) break;
     }
     return sum;
 }

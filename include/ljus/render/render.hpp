@@ -34,6 +34,20 @@ struct RenderSettings {
     Filter filter = Filter::box;                  ///< Weight of each position.
 };
 
+namespace detail {
+
+/// Refuses a scene with fog, unless the renderer has a member `carries_fog`.
+template <typename R>
+void require_fog_carried([[maybe_unused]] const R& renderer) {
+    constexpr bool carries = requires {
+        R::carries_fog;
+    };
+    if constexpr (!carries && requires { renderer.world().has_fog(); })
+        require_no_fog(renderer.world(), "this renderer");
+}
+
+} // namespace detail
+
 /// The result of rendering.
 template <std::floating_point T>
 struct RenderedT {
@@ -163,6 +177,7 @@ requires Renderer<R, typename C::Scalar>
 render_region(const R& renderer, const C& camera, const RenderSettings& picture,
               const PixelRegion& region) {
     using T = typename C::Scalar;
+    detail::require_fog_carried(renderer);
     require_at_least("samples", picture.samples, 1);
     require_image_size(picture.width, picture.height);
     const auto inside = [](int first, int size, int all) {
@@ -227,7 +242,8 @@ struct RowRange {
 /// \return A picture of those rows alone. A sample that is not finite is left out and
 ///         counted.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1, or the
-///         rows are outside the picture.
+///         rows are outside the picture, or the scene has fog that the renderer does
+///         not carry.
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>
 [[nodiscard, gnu::cold]] RenderedT<typename C::Scalar>

@@ -14,6 +14,7 @@
 #include "ljus/lights/area_light.hpp"
 #include "ljus/materials/material.hpp"
 #include "ljus/math/closed_list.hpp"
+#include "ljus/media/medium.hpp"
 #include "ljus/ref.hpp"
 
 namespace ljus {
@@ -33,6 +34,10 @@ struct Materials {};
 /// The closed list of a scene's light types, except emissive objects.
 template <LightSource... L>
 struct Lights {};
+
+/// The closed list of a scene's media; see \ref medium.
+template <Medium... P>
+struct Media {};
 
 /// Identifies a material by its type and its index.
 struct MaterialId {
@@ -134,7 +139,8 @@ public:
 } // namespace detail
 
 /// A scene; see the specialisation.
-template <typename ShapeList, typename MaterialList, typename LightList = Lights<>>
+template <typename ShapeList, typename MaterialList, typename LightList = Lights<>,
+          typename MediumList = Media<>>
 struct Scene;
 
 /// Shapes with their materials, and lights, in one contiguous array per type. A World
@@ -148,8 +154,9 @@ struct Scene;
 ///
 /// add() checks its arguments. The arrays may be changed in place; a World checks them
 /// again.
-template <typename FirstShape, typename... S, typename... M, typename... L>
-struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
+template <typename FirstShape, typename... S, typename... M, typename... L,
+          typename... P>
+struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...>> {
     using Scalar = ScalarOf<FirstShape>; ///< The precision, from the shapes' types.
     static_assert((std::is_same_v<Scalar, ScalarOf<S>> && ...),
                   "A scene's shapes must all have one precision.");
@@ -157,20 +164,25 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
                   "A scene's materials must have the precision of its shapes.");
     static_assert((std::is_same_v<Scalar, typename L::Scalar> && ...),
                   "A scene's lights must have the precision of its shapes.");
+    static_assert((std::is_same_v<Scalar, typename P::Scalar> && ...),
+                  "A scene's media must have the precision of its shapes.");
     static_assert(sizeof...(M) > 0, "A scene lists at least one type of material.");
     static_assert(detail::each_once<FirstShape, S...> && detail::each_once<M...> &&
-                      detail::each_once<L...>,
+                      detail::each_once<L...> && detail::each_once<P...>,
                   "A scene lists each type once.");
 
     /// What its shapes refer to: MeshT if it lists instances, otherwise void.
     using Prototype = typename detail::PrototypeIn<FirstShape, S...>::type;
 
-    /// Whether a type of shape, material or light is listed.
+    /// Whether a type of shape, material, light or medium is listed.
     template <typename X>
     static constexpr bool lists = std::is_same_v<X, FirstShape> ||
                                   (std::is_same_v<X, S> || ...) ||
                                   (std::is_same_v<X, M> || ...) ||
-                                  (std::is_same_v<X, L> || ...);
+                                  (std::is_same_v<X, L> || ...) ||
+                                  (std::is_same_v<X, P> || ...);
+    /// Whether a type of medium is listed.
+    static constexpr bool lists_fog = sizeof...(P) > 0;
 
     std::tuple<std::vector<FirstShape>, std::vector<S>...>
         shapes; ///< An array per type.
@@ -179,6 +191,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
     std::array<std::vector<ObjectT<Scalar>>, 1 + sizeof...(S)> objects;
     std::tuple<std::vector<M>...> materials; ///< An array per type.
     std::tuple<std::vector<L>...> lights;    ///< An array per type.
+    std::tuple<std::vector<P>...> media;     ///< An array per type.
     std::vector<AddedId> order; ///< Objects and lights, in the order of addition.
     /// The meshes of instances. A scene with instances can be moved, not copied.
     detail::Prototypes<Prototype> prototypes;
@@ -200,8 +213,8 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
     /// \param mesh  Moved in.
     /// \return A reference, to make instances with.
     /// \throws std::invalid_argument  if it was moved from.
-    template <typename P>
-    requires std::is_same_v<P, Prototype> Ref<P> add(P mesh) {
+    template <typename X>
+    requires std::is_same_v<X, Prototype> Ref<X> add(X mesh) {
         check(mesh);
         return prototypes.keep(std::move(mesh));
     }
@@ -249,12 +262,24 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>> {
         array.push_back(light);
     }
 
+    /// Adds a medium. Where several overlap, their coefficients add up.
+    /// \param medium  One of the listed types.
+    /// \throws std::invalid_argument  if a value is out of range.
+    template <Medium X>
+    requires lists<X>
+    void add(const X& medium) {
+        check(medium);
+        std::get<std::vector<X>>(media).push_back(medium);
+    }
+
     /// Diagnoses an unlisted type.
     template <typename X>
     requires(!lists<X> && !std::is_same_v<X, Prototype>) MaterialId add(const X&) {
-        constexpr bool light = LightSource<X>;
+        constexpr bool light = LightSource<X>, medium = Medium<X>;
         static_assert(!light, "List the light: Scene<..., ..., Lights<...>>.");
-        static_assert(light, "Neither a light nor listed: Scene<..., Materials<...>>.");
+        static_assert(!medium, "List the medium: Scene<..., ..., ..., Media<...>>.");
+        static_assert(light || medium,
+                      "Neither a light nor listed: Scene<..., Materials<...>>.");
         return {};
     }
     /// Diagnoses an unlisted shape, or a material instead of its number.

@@ -147,8 +147,8 @@ struct KeptLights<std::tuple<std::vector<L>...>> {
 template <typename S>
 inline constexpr bool is_scene = false;
 /// True for a Scene.
-template <typename G, typename M, typename L>
-inline constexpr bool is_scene<Scene<G, M, L>> = true;
+template <typename G, typename M, typename L, typename P>
+inline constexpr bool is_scene<Scene<G, M, L, P>> = true;
 
 } // namespace detail
 
@@ -187,12 +187,13 @@ public:
     ///         refuse, or its arrays are inconsistent.
     explicit World(S scene, std::type_identity<Compute> = {})
         : shapes_(std::move(scene.shapes)), objects_(std::move(scene.objects)),
-          prototypes_(std::move(scene.prototypes)) {
+          prototypes_(std::move(scene.prototypes)), fog_(std::move(scene.media)) {
         find_bounds();
         make_frames();
         make_tree();
         std::apply([](const auto&... lists) { (check_all(lists), ...); },
                    scene.materials);
+        std::apply([](const auto&... lists) { (check_all(lists), ...); }, fog_);
         close_lights(scene);
         materials_ = std::move(scene.materials);
         if constexpr (any_material([]<typename M>() { return MayAbsorb<M>; }))
@@ -213,8 +214,8 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     /// The bounding box of the bounding spheres of all shapes.
     [[nodiscard]] const BoxT<Scalar>& box() const noexcept { return box_; }
-    /// Whether a point may lie in an absorbing body: whether it lies in their common
-    /// bounding box.
+    /// Whether a point may lie in an absorbing body, in a scene with fog in any
+    /// transparent body: whether it lies in their common bounding box.
     [[nodiscard]] bool may_be_in_medium(const Vec3T<Scalar>& point) const noexcept {
         return glm::all(glm::lessThanEqual(media_.low, point)) &&
                glm::all(glm::lessThanEqual(point, media_.high));
@@ -240,6 +241,16 @@ public:
     [[nodiscard]] std::span<const ObjectId> ids() const noexcept { return ids_; }
     /// The tree over the shapes; empty if there are few.
     [[nodiscard]] const Tree& tree() const noexcept { return tree_; }
+
+    /// Whether the scene lists a type of medium, such as Fog.
+    static constexpr bool lists_fog = S::lists_fog;
+    /// All media, an array per type.
+    [[nodiscard]] const auto& media() const noexcept { return fog_; }
+    /// Whether the scene has a medium.
+    [[nodiscard]] bool has_fog() const noexcept {
+        return std::apply([](const auto&... lists) { return (!lists.empty() || ...); },
+                          fog_);
+    }
 
     /// The properties of an object.
     [[nodiscard]] const ObjectT<Scalar>& object(ObjectId id) const noexcept {
@@ -310,7 +321,7 @@ private:
     };
 
     static void check_all(const auto& list) {
-        for (const auto& material : list) check(material);
+        for (const auto& element : list) check(element);
     }
 
     void find_bounds() {
@@ -370,7 +381,7 @@ private:
     [[gnu::cold]] void find_media() {
         struct Body {
             BoxT<Scalar> box;
-            bool absorbs;
+            bool absorbs; // or keeps out fog
         };
         std::vector<Body> bodies;
         std::uint32_t type = 0;
@@ -378,8 +389,8 @@ private:
             for (std::uint32_t i = 0; i < list.size(); ++i)
                 visit_material(objects_[type][i].material, [&]<typename M>(const M& m) {
                     if constexpr (MayAbsorb<M>)
-                        bodies.push_back(
-                            {detail::box_around(list[i]), !is_black(absorption(m))});
+                        bodies.push_back({detail::box_around(list[i]),
+                                          has_fog() || !is_black(absorption(m))});
                 });
             ++type;
         };
@@ -401,8 +412,13 @@ private:
 
     // Larger by 0.1 %, so that rounding does not exclude a corner from a sun's light.
     [[nodiscard]] SphereT<Scalar> around() const {
-        const Vec3T<Scalar> half = (box_.high - box_.low) / Scalar(2);
-        return {.center = box_.low + half, .radius = Scalar(1.001) * glm::length(half)};
+        BoxT<Scalar> all = box_;
+        const auto add = [&](const auto& list) {
+            for (const auto& medium : list) all = box_union(all, bounds(medium));
+        };
+        std::apply([&](const auto&... lists) { (add(lists), ...); }, fog_);
+        const Vec3T<Scalar> half = (all.high - all.low) / Scalar(2);
+        return {.center = all.low + half, .radius = Scalar(1.001) * glm::length(half)};
     }
 
     [[gnu::cold]] void close_lights(const S& scene) {
@@ -450,11 +466,12 @@ private:
     decltype(S::objects) objects_;
     decltype(S::prototypes) prototypes_; // to which shapes_ refer
     decltype(S::materials) materials_;
+    decltype(S::media) fog_;
     std::array<std::vector<FrameT<Scalar>>, std::tuple_size_v<decltype(S::shapes)>>
         frames_;
     std::size_t size_ = 0;
     BoxT<Scalar> box_{};
-    BoxT<Scalar> media_{}; // of all absorbing bodies; empty if there are none
+    BoxT<Scalar> media_{}; // of absorbing bodies, in fog of all; empty if none
     bool nested_media_ = false;
     bool has_contacts_ = false;
     BoxT<Scalar> contact_box_{};
@@ -493,6 +510,20 @@ struct Closed {
 };
 
 } // namespace detail
+
+/// Refuses a scene with fog, for what carries no light through it.
+/// \param world  The closed scene.
+/// \param what   What that is, such as "photon maps".
+/// \throws std::invalid_argument  if the scene has a medium.
+template <AnyWorld W>
+void require_no_fog([[maybe_unused]] const W& world,
+                    [[maybe_unused]] std::string_view what) {
+    if constexpr (W::lists_fog)
+        if (world.has_fog())
+            throw std::invalid_argument(detail::join(
+                {"the scene has fog, and light in fog is not computed by ", what,
+                 "; render it by path tracing, or remove the fog."}));
+}
 
 /// A renderer's reference to its world. An unclosed scene gives an error with a remedy.
 template <typename W>

@@ -14,6 +14,7 @@
 #include "ljus/geometry/disc.hpp"
 #include "ljus/geometry/moving.hpp"
 #include "ljus/geometry/placement.hpp"
+#include "ljus/io/detail/json_fog.hpp"
 #include "ljus/io/detail/json_materials.hpp"
 #include "ljus/io/detail/json_members.hpp"
 #include "ljus/lights/environment.hpp"
@@ -37,7 +38,8 @@ using FileSceneT = Scene<
     Shapes<QuadT<T>, SphereT<T>, TriangleT<T>, MeshT<T>, InstanceT<T>, DiscT<T>,
            CylinderT<T>, Moving<QuadT<T>>, Moving<SphereT<T>>, Moving<TriangleT<T>>>,
     FileMaterialsT<T>,
-    Lights<PointLightT<T>, SpotLightT<T>, SunLightT<T>, EnvironmentLightT<T>>>;
+    Lights<PointLightT<T>, SpotLightT<T>, SunLightT<T>, EnvironmentLightT<T>>,
+    Media<Fog<SphereT<T>>, Fog<BoxT<T>>>>;
 
 /// Reads no meshes: the default of load_json().
 template <std::floating_point T>

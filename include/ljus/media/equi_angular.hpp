@@ -1,0 +1,70 @@
+#pragma once
+
+/// \file ljus/media/equi_angular.hpp
+/// \brief Equi-angular sampling: points of a ray by the angle at which a light sees
+/// them.
+
+#include <algorithm>
+#include <cmath>
+
+#include "ljus/media/medium.hpp"
+
+namespace ljus {
+
+/// \defgroup equi_angular Equi-angular sampling
+/// \brief The light that a ray receives falls with the square of the distance from the
+/// lamp; points chosen by angle take this factor away.
+/// \{
+
+/// The points of a ray by the angle at which a light sees them \cite kulla2012.
+template <std::floating_point T>
+struct EquiAngularT {
+    SpanT<T> span{};  ///< The part of the ray.
+    T nearest = T(0); ///< t of the point of the line that is nearest to the light.
+    T away = T(1);    ///< Distance of that point from the light, in units of t.
+    T first = T(0);   ///< Angle of the first point of the span, in radians from there.
+    T opening = T(0); ///< Angle of the whole span, in radians.
+};
+
+/// Prepares equi-angular sampling.
+///
+/// A light on the ray would attract all points; it is treated as if it were a
+/// thousandth of the span away. Any distance gives a valid density.
+/// \param ray    Its direction has unit length.
+/// \param span   The part of the ray; finite.
+/// \param light  Position of the light.
+// [equi angular]
+template <std::floating_point T>
+[[nodiscard]] EquiAngularT<T> equi_angular(const RayT<T>& ray, const SpanT<T>& span,
+                                           const Vec3T<T>& light) noexcept {
+    const Vec3T<T> to = light - ray.origin;
+    const T nearest = glm::dot(to, ray.direction);
+    const T away = std::max(glm::length(to - nearest * ray.direction),
+                            T(1e-3) * (span.last - span.first));
+    const T low = span.first - nearest, high = span.last - nearest;
+    return {span, nearest, away, std::atan2(low, away),
+            std::atan2(away * (high - low), away * away + low * high)};
+}
+
+/// Samples a point of the ray.
+/// \param angles  Of equi_angular().
+/// \param u       In [0, 1).
+/// \return t, within the span.
+template <std::floating_point T>
+[[nodiscard]] T sample_equi_angular(const EquiAngularT<T>& angles, T u) noexcept {
+    const T t =
+        angles.nearest + angles.away * std::tan(angles.first + u * angles.opening);
+    return std::clamp(t, angles.span.first, angles.span.last);
+}
+
+/// The density of sample_equi_angular(), per scene unit.
+template <std::floating_point T>
+[[nodiscard]] T pdf_equi_angular(const EquiAngularT<T>& angles, T t) noexcept {
+    const T off = t - angles.nearest;
+    return angles.away / (angles.opening * (angles.away * angles.away + off * off));
+}
+// [equi angular]
+
+/// \}
+
+} // namespace ljus

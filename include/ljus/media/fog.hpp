@@ -1,0 +1,179 @@
+#pragma once
+
+/// \file ljus/media/fog.hpp
+/// \brief Fog: a medium that absorbs and scatters, the same everywhere in its region.
+
+#include <algorithm>
+#include <cmath>
+
+#include "ljus/geometry/sphere.hpp"
+#include "ljus/math/require.hpp"
+#include "ljus/media/medium.hpp"
+#include "ljus/media/phase_function.hpp"
+
+namespace ljus {
+
+/// \defgroup fog Fog
+/// \brief Beyond the report: light that is scattered between the surfaces
+/// \cite novak2018.
+/// \{
+
+namespace detail {
+
+/// The precision of a region, BoxT<T> or SphereT<T>.
+template <template <std::floating_point> typename Region, std::floating_point T>
+T precision_of(const Region<T>&);
+
+} // namespace detail
+
+/// Fog in a sphere or in a box:
+///
+///     Scene<Shapes<Quad>, Materials<Lambertian>, Lights<>, Media<Fog<Box>>> scene;
+///     scene.add(Fog<Box>{.region{{-1, 0, -1}, {1, 2, 1}}, .scattering = Rgb{0.2f}});
+///
+/// Per unit of length a fraction of the light is absorbed, and another scattered. A
+/// region larger than a room fills the room.
+/// \tparam Region  Sphere or Box.
+template <typename Region>
+struct Fog {
+    /// The precision.
+    using Scalar = decltype(detail::precision_of(std::declval<const Region&>()));
+    Region region{};                    ///< Where it is, in scene units.
+    RgbT<Scalar> absorption{Scalar(0)}; ///< sigma_a, per scene unit.
+    RgbT<Scalar> scattering{Scalar(0)}; ///< sigma_s, per scene unit.
+    Scalar g = Scalar(0); ///< Mean cosine of scattering; see henyey_greenstein().
+};
+
+/// \name Regions
+/// \{
+
+/// The part of a ray in a sphere.
+/// \return Nothing if the ray misses it, or only touches it.
+template <std::floating_point T>
+[[nodiscard]] std::optional<SpanT<T>> span_of(const SphereT<T>& sphere,
+                                              const RayT<T>& ray) noexcept {
+    const T square = glm::dot(ray.direction, ray.direction);
+    const Vec3T<T> to = sphere.center - ray.origin;
+    const T nearest = glm::dot(to, ray.direction) / square;
+    const Vec3T<T> off = to - nearest * ray.direction;
+    const T half2 = sphere.radius * sphere.radius - glm::dot(off, off);
+    if (!(half2 > T(0))) return std::nullopt;
+    const T half = std::sqrt(half2 / square);
+    const SpanT<T> span{std::max(ray.t_min, nearest - half),
+                        std::min(ray.t_max, nearest + half)};
+    if (!(span.first < span.last)) return std::nullopt;
+    return span;
+}
+
+/// The part of a ray in a box.
+/// \return Nothing if the ray misses it, or only touches it.
+template <std::floating_point T>
+[[nodiscard]] std::optional<SpanT<T>> span_of(const BoxT<T>& box,
+                                              const RayT<T>& ray) noexcept {
+    SpanT<T> span{ray.t_min, ray.t_max};
+    for (int axis = 0; axis < 3; ++axis) {
+        const T inverse = T(1) / ray.direction[axis];
+        const T low = (box.low[axis] - ray.origin[axis]) * inverse;
+        const T high = (box.high[axis] - ray.origin[axis]) * inverse;
+        const bool back = std::signbit(inverse);
+        // Neither is true for NaN, of a ray in the plane of a side.
+        if ((back ? high : low) > span.first) span.first = back ? high : low;
+        if ((back ? low : high) < span.last) span.last = back ? low : high;
+    }
+    if (!(span.first < span.last)) return std::nullopt;
+    return span;
+}
+
+/// A box around a sphere.
+template <std::floating_point T>
+[[nodiscard]] BoxT<T> bounds_of(const SphereT<T>& sphere) noexcept {
+    return {sphere.center - sphere.radius, sphere.center + sphere.radius};
+}
+
+/// The box itself.
+template <std::floating_point T>
+[[nodiscard]] BoxT<T> bounds_of(const BoxT<T>& box) noexcept {
+    return box;
+}
+
+/// Refuses a region without an inside.
+/// \throws std::invalid_argument  if a number is not finite, or the radius not above 0.
+template <std::floating_point T>
+void check_region(const SphereT<T>& sphere) {
+    require_finite("fog.region.center", sphere.center);
+    require_positive("fog.region.radius", sphere.radius);
+}
+
+/// \copydoc check_region
+/// A box has its lower corner first.
+template <std::floating_point T>
+void check_region(const BoxT<T>& box) {
+    require_finite("fog.region.low", box.low);
+    require_finite("fog.region.high", box.high);
+    require(glm::all(glm::lessThan(box.low, box.high)), "fog.region.high", box.high,
+            "above fog.region.low in every component");
+}
+
+/// \}
+/// \name Fog as a Medium
+/// \{
+
+/// Refuses invalid fog.
+/// \throws std::invalid_argument  if the region has no inside, a coefficient is
+///         negative or not finite, or g is outside [-0.99, 0.99].
+template <typename Region>
+void check(const Fog<Region>& fog) {
+    using T = typename Fog<Region>::Scalar;
+    check_region(fog.region);
+    require_radiance("fog.absorption", fog.absorption);
+    require_radiance("fog.scattering", fog.scattering);
+    require(is_finite(extinction(fog)), "the sum of fog.absorption and fog.scattering",
+            extinction(fog), "finite");
+    require(std::abs(fog.g) <= T(0.99), "fog.g", fog.g, "within [-0.99, 0.99]");
+}
+
+/// A box around the fog.
+template <typename Region>
+[[nodiscard]] auto bounds(const Fog<Region>& fog) noexcept {
+    return bounds_of(fog.region);
+}
+
+/// The part of a ray in the fog.
+/// \param fog  The fog.
+/// \param ray  Its direction may have any length but zero.
+/// \return Within [t_min, t_max]; nothing if the ray misses the fog.
+template <typename Region, std::floating_point T>
+[[nodiscard]] std::optional<SpanT<T>> span_in(const Fog<Region>& fog,
+                                              const RayT<T>& ray) noexcept {
+    return span_of(fog.region, ray);
+}
+
+/// Absorption plus scattering: sigma_t, per scene unit.
+template <typename Region>
+[[nodiscard]] auto extinction(const Fog<Region>& fog) noexcept {
+    return fog.absorption + fog.scattering;
+}
+
+/// Scattering alone: sigma_s, per scene unit.
+template <typename Region>
+[[nodiscard]] auto scattering(const Fog<Region>& fog) noexcept {
+    return fog.scattering;
+}
+
+/// Its phase function, per steradian: henyey_greenstein().
+template <typename Region, std::floating_point T>
+[[nodiscard]] T phase(const Fog<Region>& fog, T cosine) noexcept {
+    return henyey_greenstein(fog.g, cosine);
+}
+
+/// Samples a direction of travel after scattering, with the density phase().
+template <typename Region, std::floating_point T>
+[[nodiscard]] Vec3T<T> sample_phase(const Fog<Region>& fog, const Vec3T<T>& travel,
+                                    const Vec2T<T>& u) noexcept {
+    return sample_henyey_greenstein(fog.g, travel, u);
+}
+
+/// \}
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,59 @@
+#pragma once
+
+/// \file ljus/media/medium.hpp
+/// \brief The interface of a medium that fills a part of space.
+
+#include <concepts>
+#include <optional>
+
+#include "ljus/geometry/box.hpp"
+#include "ljus/geometry/ray.hpp"
+
+namespace ljus {
+
+/// \defgroup medium Media
+/// \brief What fills space between the surfaces: fog, smoke, murky water.
+///
+/// A medium is the same everywhere in its region, and is not a surface: rays pass its
+/// border. It fills the space around bodies of glass, but not the bodies themselves.
+/// Where several media overlap, their coefficients add up. A scene lists their types,
+/// `Media<Fog<Sphere>>`; one that lists none pays nothing.
+///
+/// A medium is a struct with a member type `Scalar` and these functions:
+///
+/// | function                        | returns                                       |
+/// |---------------------------------|-----------------------------------------------|
+/// | check(medium)                   | nothing; throws, and names the wrong member   |
+/// | bounds(medium)                  | a box around it                               |
+/// | span_in(medium, ray)            | the part of a ray in it, a SpanT, or nothing  |
+/// | extinction(medium)              | absorption plus scattering, per scene unit    |
+/// | scattering(medium)              | scattering alone, per scene unit              |
+/// | phase(medium, cosine)           | its phase function, per steradian             |
+/// | sample_phase(medium, travel, u) | a direction after scattering, of that density |
+/// \{
+
+/// A part of a ray.
+template <std::floating_point T>
+struct SpanT {
+    T first = T(0); ///< Its first t, in units of the direction's length.
+    T last = T(0);  ///< Its last t; above the first one.
+};
+
+/// A medium; see the group \ref medium.
+template <typename M>
+concept Medium = requires(const M& medium, const RayT<typename M::Scalar>& ray,
+                          typename M::Scalar cosine,
+                          const Vec3T<typename M::Scalar>& travel,
+                          const Vec2T<typename M::Scalar>& u) {
+    check(medium);
+    { bounds(medium) } -> std::same_as<BoxT<typename M::Scalar>>;
+    { span_in(medium, ray) } -> std::same_as<std::optional<SpanT<typename M::Scalar>>>;
+    { extinction(medium) } -> std::same_as<RgbT<typename M::Scalar>>;
+    { scattering(medium) } -> std::same_as<RgbT<typename M::Scalar>>;
+    { phase(medium, cosine) } -> std::same_as<typename M::Scalar>;
+    { sample_phase(medium, travel, u) } -> std::same_as<Vec3T<typename M::Scalar>>;
+};
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,313 @@
+#pragma once
+
+/// \file ljus/path/fog_path.hpp
+/// \brief Paths through fog: where it scatters them, and the light that arrives there.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "ljus/media/equi_angular.hpp"
+#include "ljus/path/direct_light.hpp"
+
+namespace ljus {
+
+/// \defgroup fog_path Paths through fog
+/// \brief Between two surfaces a path may be scattered by fog.
+/// \{
+
+/// A camera path between two surfaces.
+template <std::floating_point T>
+struct FogSegmentT {
+    RayT<T> ray{};            ///< Of unit length; its t_max is the next surface.
+    RgbT<T> throughput{T(1)}; ///< Of the path at its start.
+};
+
+/// A point of a path where fog scatters it.
+template <std::floating_point T>
+struct FogVertexT {
+    SurfacePointT<T> point{};    ///< Its position; the normal is 0.
+    Vec3T<T> travel{T(0)};       ///< Unit direction in which the path arrives.
+    std::uint32_t medium = 0;    ///< Number of the medium; see visit_fog().
+    T distance = T(0);           ///< From the start of the segment, in scene units.
+    RgbT<T> transmittance{T(1)}; ///< Of the segment up to here.
+    T time = T(0);               ///< Time of the path, in [0, 1].
+};
+
+/// How light that one scattering brings to a ray is found. All have the same mean.
+enum class FogLight : std::uint8_t {
+    both,        ///< Both, with the balance heuristic between them.
+    flight,      ///< Shadow rays from where the path is scattered, by its free flight.
+    equi_angular ///< From points chosen by equi-angular sampling; by flight for lights
+                 ///< that are far away.
+};
+
+/// Calls f(medium) with one medium of a world, in its own type.
+/// \param world   The closed scene.
+/// \param number  The number of the medium: types in the order of their list.
+template <AnyWorld W, typename F>
+void visit_fog(const W& world, std::uint32_t number, F&& f) {
+    const auto visit = [&](const auto& list) {
+        if (number < list.size()) f(list[number]);
+        number -= static_cast<std::uint32_t>(list.size()); // wraps once it was found
+    };
+    std::apply([&](const auto&... lists) { (visit(lists), ...); }, world.media());
+}
+
+/// Calls f(number, medium, span) for each medium on a segment, with the part of the ray
+/// in it.
+template <AnyWorld W, std::floating_point T, typename F>
+void each_fog_on(const W& world, const RayT<T>& ray, F&& f) {
+    std::uint32_t number = 0;
+    const auto ask = [&](const auto& list) {
+        for (const auto& medium : list) {
+            if (const auto span = span_in(medium, ray)) f(number, medium, *span);
+            ++number;
+        }
+    };
+    std::apply([&](const auto&... lists) { (ask(lists), ...); }, world.media());
+}
+
+namespace detail {
+
+/// The probabilities of choosing a channel: the path's throughput.
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> channel_probabilities(const RgbT<T>& throughput) noexcept {
+    return throughput / (throughput.x + throughput.y + throughput.z);
+}
+
+/// The vertex of a segment at a distance from its start.
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] FogVertexT<T> fog_vertex(const W& world, const FogSegmentT<T>& segment,
+                                       std::uint32_t medium, T distance) {
+    RayT<T> before = segment.ray;
+    before.t_max = distance;
+    return {.point{.position = point_at(segment.ray, distance), .normal = Vec3T<T>{0}},
+            .travel = segment.ray.direction,
+            .medium = medium,
+            .distance = distance,
+            .transmittance = transmittance(optical_depth(world, before), T(1)),
+            .time = segment.ray.time};
+}
+
+/// The density with which fly() scatters a path at a vertex, per scene unit.
+/// \param extinction  Of the vertex's medium.
+template <std::floating_point T>
+[[nodiscard]] T pdf_flight(const FogSegmentT<T>& segment, const FogVertexT<T>& vertex,
+                           const RgbT<T>& extinction) noexcept {
+    return glm::dot(channel_probabilities(segment.throughput),
+                    extinction * vertex.transmittance);
+}
+
+} // namespace detail
+
+/// Samples the free flight of a path: whether fog scatters it before the next surface,
+/// and where.
+///
+/// In a medium of extinction \f$\sigma\f$ the length of a flight has the density
+/// \f$\sigma e^{-\sigma t}\f$. In coloured fog this differs between the channels. One
+/// of them is chosen in proportion to the throughput, and the path is divided by the
+/// mean density of all channels, the balance heuristic \cite wilkie2014; so no channel
+/// is ever divided by a density much smaller than its own. Each medium on the way is
+/// asked for a flight, and the shortest counts.
+/// \param world       The closed scene.
+/// \param segment     The segment, outside all bodies.
+/// \param path        The path at the end of the segment. Its throughput is multiplied
+///                    by what the fog does, and the pdf of its direction by the
+///                    fraction of light that passes.
+/// \param stream      One number is drawn, and one for each medium on the segment.
+/// \return Where it is scattered; nothing if it reaches the surface.
+template <AnyWorld W, std::floating_point T, StreamLike Stream>
+[[nodiscard]] std::optional<FogVertexT<T>> fly(const W& world,
+                                               const FogSegmentT<T>& segment,
+                                               PathStateT<T>& path, Stream& stream) {
+    // [fly]
+    const Vec3T<T> chance = detail::channel_probabilities(segment.throughput);
+    const T u = next_1d<T>(stream);
+    const int channel = u < chance.x ? 0 : (u < chance.x + chance.y ? 1 : 2);
+    std::optional<std::uint32_t> met;
+    T distance = segment.ray.t_max;
+    each_fog_on(world, segment.ray, [&](auto number, const auto& medium, auto span) {
+        const T flight = -std::log1p(-next_1d<T>(stream)) / extinction(medium)[channel];
+        if (!(span.first + flight < std::min(span.last, distance))) return;
+        distance = span.first + flight;
+        met = number;
+    });
+    auto vertex = detail::fog_vertex(world, segment, met.value_or(0), distance);
+    if (!met) {
+        path.throughput *=
+            vertex.transmittance / glm::dot(chance, vertex.transmittance);
+        path.pdf *= detail::passing(vertex.transmittance);
+        return std::nullopt;
+    }
+    visit_fog(world, *met, [&](const auto& medium) {
+        path.throughput *= scattering(medium) * vertex.transmittance /
+                           detail::pdf_flight(segment, vertex, extinction(medium));
+    });
+    return vertex;
+    // [fly]
+}
+
+/// The light of one light that fog scatters towards a path, by one shadow ray.
+/// \param world   The closed scene.
+/// \param light   The index of the light.
+/// \param vertex  Where the fog is.
+/// \param medium  The vertex's medium.
+/// \param u       Point of the unit square; chooses the point of the light.
+/// \param mis     The weight that a scattered ray takes.
+/// \param counts  Counts the ray.
+/// \return Radiance against the direction of travel, without the coefficient of
+///         scattering.
+// [fog light]
+template <AnyWorld W, std::floating_point T, Medium M>
+[[nodiscard]] RgbT<T> fog_light(const W& world, std::uint32_t light,
+                                const FogVertexT<T>& vertex, const M& medium,
+                                const Vec2T<T>& u, const MisT<T>& mis, Counts& counts) {
+    const auto sampled =
+        sample_light(world, light, vertex.point.position, u, vertex.time);
+    if (!sampled) return RgbT<T>{T(0)};
+    ++counts.shadow_rays;
+    const RgbT<T> visible =
+        visibility(world, vertex.point, sampled->point, vertex.time);
+    if (is_black(visible)) return visible;
+    const T f = phase(medium, glm::dot(vertex.travel, sampled->wi));
+    T weight = T(1);
+    if (mis.heuristic != MisHeuristic::shadow_rays && sampled->pdf > T(0))
+        weight = mis_weight(mis.heuristic, mis.factor * sampled->pdf,
+                            detail::passing(visible) * f);
+    return weight * f * sampled->weight * visible;
+}
+// [fog light]
+
+/// Equi-angular sampling of a segment for one light: one of the media on it is chosen,
+/// each as often as the others, then a point of it.
+template <std::floating_point T>
+struct FogAimT {
+    std::uint32_t media = 0; ///< How many media are on the segment.
+    Vec3T<T> light{T(0)};    ///< A point of the light.
+};
+
+/// Prepares equi-angular sampling of a segment.
+/// \return Nothing without fog on the segment, or for a light that is far away.
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] std::optional<FogAimT<T>> aim_fog(const W& world, std::uint32_t light,
+                                                const FogSegmentT<T>& segment) {
+    FogAimT<T> aim;
+    each_fog_on(world, segment.ray, [&](auto, const auto&, auto) { ++aim.media; });
+    const bool near = world.visit_light(light, [&]<typename L>(const L& l) {
+        if constexpr (NearLight<L>)
+            aim.light = detail::position_of(
+                emission_point(l, Vec2T<T>{T(0.5)}, segment.ray.time));
+        return NearLight<L>;
+    });
+    if (!near || aim.media == 0) return std::nullopt;
+    return aim;
+}
+
+namespace detail {
+
+/// The density of equi-angular sampling at a vertex, per scene unit; 0 without it.
+template <Medium M, std::floating_point T>
+[[nodiscard]] T pdf_aimed(const std::optional<FogAimT<T>>& aim,
+                          const FogSegmentT<T>& segment, const FogVertexT<T>& vertex,
+                          const M& medium) noexcept {
+    const auto span = span_in(medium, segment.ray);
+    if (!aim || !span) return T(0);
+    return pdf_equi_angular(equi_angular(segment.ray, *span, aim->light),
+                            vertex.distance) /
+           T(aim->media);
+}
+
+} // namespace detail
+
+/// The light of one light, chosen by power, at a vertex that fly() found: by a shadow
+/// ray, with its weight beside equi-angular sampling.
+/// \param world       The closed scene, with at least one light.
+/// \param segment     The segment.
+/// \param vertex      Of fly().
+/// \param throughput  As fly() left it.
+/// \param heuristic   The weights beside scattered rays that meet the light.
+/// \param how         The weights beside equi-angular sampling.
+/// \param context     Three numbers are drawn; the ray is counted.
+/// \return Throughput times radiance times the weights.
+template <AnyWorld W, std::floating_point T, typename Context>
+[[nodiscard]] RgbT<T> light_in_flight(const W& world, const FogSegmentT<T>& segment,
+                                      const FogVertexT<T>& vertex,
+                                      const RgbT<T>& throughput, MisHeuristic heuristic,
+                                      FogLight how, Context& context) {
+    const auto chosen = choose_light(world.light_choice(), next_1d<T>(context.stream));
+    const Vec2T<T> u = next_2d<T>(context.stream);
+    const auto aim =
+        how == FogLight::flight ? std::nullopt : aim_fog(world, chosen.light, segment);
+    if (aim && how == FogLight::equi_angular) return RgbT<T>{T(0)};
+    RgbT<T> light{T(0)};
+    visit_fog(world, vertex.medium, [&](const auto& medium) {
+        const T share =
+            balance_heuristic(detail::pdf_flight(segment, vertex, extinction(medium)),
+                              detail::pdf_aimed(aim, segment, vertex, medium));
+        const MisT<T> mis{.heuristic = heuristic, .factor = chosen.probability};
+        light = share *
+                fog_light(world, chosen.light, vertex, medium, u, mis, context.counts);
+    });
+    return throughput * light / chosen.probability;
+}
+
+/// The light of one light, chosen by power, that fog on a segment scatters towards the
+/// path: by a shadow ray from a point of equi-angular sampling \cite kulla2012.
+///
+/// Flights favour points near the start of the segment, and in thin fog most of them
+/// reach the surface; equi-angular sampling favours points near the light.
+/// \param world      The closed scene, with at least one light.
+/// \param segment    The segment, outside all bodies.
+/// \param heuristic  The weights beside scattered rays that meet the light.
+/// \param how        The weights beside free flights.
+/// \param context    Five numbers are drawn; the ray is counted.
+/// \return Throughput times radiance times the weights.
+// [aimed light]
+template <AnyWorld W, std::floating_point T, typename Context>
+[[nodiscard]] RgbT<T> aimed_light(const W& world, const FogSegmentT<T>& segment,
+                                  MisHeuristic heuristic, FogLight how,
+                                  Context& context) {
+    RgbT<T> light{T(0)};
+    if (how == FogLight::flight) return light;
+    const auto chosen = choose_light(world.light_choice(), next_1d<T>(context.stream));
+    const Vec2T<T> along = next_2d<T>(context.stream), u = next_2d<T>(context.stream);
+    const auto aim = aim_fog(world, chosen.light, segment);
+    if (!aim) return light;
+    auto before = std::min(aim->media - 1, std::uint32_t(along.x * T(aim->media)));
+    each_fog_on(world, segment.ray, [&](auto number, const auto& medium, auto span) {
+        if (before-- != 0) return;
+        const auto angles = equi_angular(segment.ray, span, aim->light);
+        const auto vertex = detail::fog_vertex(world, segment, number,
+                                               sample_equi_angular(angles, along.y));
+        const T pdf = detail::pdf_aimed(aim, segment, vertex, medium);
+        const T flight = detail::pdf_flight(segment, vertex, extinction(medium));
+        const T share = how == FogLight::both ? balance_heuristic(pdf, flight) : T(1);
+        const MisT<T> mis{.heuristic = heuristic, .factor = chosen.probability};
+        light = share / pdf * scattering(medium) * vertex.transmittance *
+                fog_light(world, chosen.light, vertex, medium, u, mis, context.counts);
+    });
+    return segment.throughput * light / chosen.probability;
+}
+// [aimed light]
+
+/// Continues a path from a point in fog, in a direction sampled by the phase function.
+/// \param path    Receives its new ray; its throughput stays.
+/// \param vertex  Of fly().
+/// \param medium  The vertex's medium.
+/// \param stream  Two numbers are drawn.
+template <std::floating_point T, Medium M, StreamLike Stream>
+void scatter_in_fog(PathStateT<T>& path, const FogVertexT<T>& vertex, const M& medium,
+                    Stream& stream) {
+    const Vec3T<T> next = sample_phase(medium, vertex.travel, next_2d<T>(stream));
+    path.previous = vertex.point.position;
+    path.pdf = phase(medium, glm::dot(vertex.travel, next));
+    path.specular = false;
+    path.met_diffuse = true;
+    path.ray = {.origin = path.previous, .direction = next, .time = vertex.time};
+}
+
+/// \}
+
+} // namespace ljus
