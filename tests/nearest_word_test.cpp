@@ -67,6 +67,8 @@ TEST_CASE("nearest word: what is near is proposed, and nothing else") {
     CHECK(nearest_word("dielectirc", words) == "dielectric");
     CHECK(nearest_word("plastic", words).empty());
     CHECK(nearest_word("", words).empty());
-    CHECK(nearest_word(std::string(1000, 'x') + "mirror", words).empty());
+    std::string many(1000, 'x');
+    many += "mirror";
+    CHECK(nearest_word(many, words).empty());
     CHECK(nearest_word("o", words).empty());
 }
