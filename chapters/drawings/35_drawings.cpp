@@ -68,12 +68,12 @@ void draw_endings(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
-/// Pixels across an edge: two rays each, and more where the two disagree.
+/// Pixels across an edge: two rays each, and those where the two disagree.
 void draw_pixels(const std::string& folder) {
     Drawing drawing{.name = "recursion_depth-disagree",
                     .description =
-                        "Pixels with two rays each. Where the two differ more "
-                        "rays are sent: along the edge",
+                        "Pixels with two rays each. Where the two differ, along the "
+                        "edge, pixels and those around them get more",
                     .low{-0.1, -0.1},
                     .high{7.1, 4.1},
                     .scale = 85};
@@ -88,9 +88,8 @@ void draw_pixels(const std::string& folder) {
                 const ljus::Vec2 u = next_2d(stream);
                 return Point{0.5 * (x + double(u.x)), 0.5 * (y + double(u.y))};
             };
-            std::vector<Point> rays{ray(), ray()};
+            const std::vector<Point> rays{ray(), ray()};
             const bool disagree = is_inside(rays[0]) != is_inside(rays[1]);
-            for (int i = 0; disagree && i < 10; ++i) rays.push_back(ray());
             const Point low{0.5 * x, 0.5 * y};
             const std::vector<Point> pixel{low,
                                            {low.x + 0.5, low.y},

@@ -28,8 +28,7 @@ struct Recipe {
 
 /// The recipes that a promise chooses from, the quickest first: the presets, with
 /// photons in proportion to the pixels, and few rays, since several pictures are
-/// averaged. Each pixel gets the same number of rays: adaptive sampling is quicker, but
-/// its bias would remain in the mean.
+/// averaged. Each pixel gets the same number of rays.
 /// \param width   Of the picture, in pixels.
 /// \param height  Of the picture, in pixels.
 /// \return draft, fast and exact.

@@ -160,14 +160,14 @@ enum class Preset : std::uint8_t {
     return settings;
 }
 
-/// The rays per pixel of a preset. The further rays go where the first ones disagree,
-/// and two that both miss a small bright reflection agree: around reflections of lamps
-/// in mirrors and narrow gloss, blocks of pixels were up to a quarter too dark. The
-/// same number of rays everywhere, as in Preset::exact, has no such bias.
+/// The rays per pixel of a preset. The further rays go to pixels within two pixels of
+/// one whose first rays disagree. A pixel's own rays do not decide, so that this choice
+/// has no bias: see render_adaptive().
 struct PresetRays {
     int first = 1;             ///< In every pixel.
-    int more = 0;              ///< More rays in pixels above the standard error below.
-    double disagreement = 0.4; ///< Relative standard error of the first rays' mean.
+    int more = 0;              ///< More rays beside pixels that disagree.
+    double disagreement = 0.4; ///< Least relative standard error of the first rays'
+                               ///< mean in a pixel that disagrees.
 };
 
 /// The rays of a preset, for RenderSettings::samples and render_adaptive().
