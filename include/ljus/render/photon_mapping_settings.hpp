@@ -70,6 +70,9 @@ struct PhotonMappingSettings {
     bool share_lights = false;
     /// How caustics are estimated; radius 0: chosen to hold 32 photons typically.
     DensityEstimateSettings caustics_estimate{};
+    /// The radius of the disc of a caustic photon that is lone, lone_photons(), as a
+    /// multiple of that of caustics_estimate; 1: as any other. Not with k nearest.
+    float lone_radius = 1;
     /// How the general map is queried; radius 0: chosen to hold 64 photons typically.
     DensityEstimateSettings general_estimate{.radius = 0.3f};
     IrradiancePointSettings irradiance{}; ///< Points that gather rays look up.
@@ -110,8 +113,22 @@ struct PhotonMappingSettings {
         if (gather.radius == 0) gather.radius = 1; // 0: chosen from the photons later
         check(gather);
     }
+    require(settings.lone_radius >= 1 && settings.lone_radius <= 1000, "lone_radius",
+            double(settings.lone_radius), "within [1, 1000]");
     check(settings.skip);
 }
+
+namespace detail {
+
+/// How lone photons are estimated.
+[[nodiscard]] inline DensityEstimateSettings
+lone_estimate(const PhotonMappingSettings& settings) noexcept {
+    DensityEstimateSettings wide = settings.caustics_estimate;
+    wide.radius *= settings.lone_radius;
+    return wide;
+}
+
+} // namespace detail
 
 /// Settings for a purpose.
 enum class Preset : std::uint8_t {
@@ -119,8 +136,7 @@ enum class Preset : std::uint8_t {
     fast,  ///< Least time without visible errors. It has bias that more time does not
            ///< remove: indirect light is smoothed over 4 pixels, penumbras are slightly
            ///< wrong, and caustics and reflections from gloss are blurred. In
-           ///< random scenes a ninth of the picture is off by 5 % or less. The further
-           ///< rays of preset_rays() add a bias of their own: see there.
+           ///< random scenes a ninth of the picture is off by 5 % or less.
     exact  ///< Indirect rays at every bounce; only the caustics map is biased.
 };
 
@@ -147,6 +163,7 @@ enum class Preset : std::uint8_t {
     settings.shadow_rays = draft ? 2 : 4;
     settings.indirect = IndirectLight::cache;
     settings.share_lights = true;
+    settings.lone_radius = 4;
     const long long photons =
         std::clamp(draft ? pixels / 4 : pixels * 7 / 10, 10'000LL, 1'000'000LL);
     // Small pictures need more photons per pixel: blotches scale with the picture.
