@@ -468,8 +468,8 @@ TEST_CASE("adaptive: what is left goes to the largest errors first") {
         const AdaptiveSettings rule{
             .first = 10, .more = 5, .disagreement = disagreement};
         REQUIRE(detail::plan_round(blocks, rule, 12.5));
-        // By shares those get a batch that lie above what they have; by disagreement the
-        // first two that have the largest within two blocks, beside themselves.
+        // By shares those get a batch that lie above what they have; by disagreement
+        // the first two that have the largest within two blocks, beside themselves.
         const int first = disagreement > 0 ? 0 : 1;
         CHECK(blocks[std::size_t(first)].wanted >= 1);
         CHECK(blocks[3].wanted == 0);

@@ -1,0 +1,153 @@
+/// \file promises.cpp
+/// \brief Whether the errors that `render --seconds` and `--error` state are true: in
+/// scenes that are drawn at random, and in an open one below a far lamp.
+///
+///     bench_promises --csv chapters/measured      in minutes
+///
+/// The reference of each scene is path traced in two halves, whose difference tells its
+/// own noise; that is subtracted. A promise is kept if the upper end of the interval
+/// that is stated is at least two thirds of the measured error.
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "common/promised_picture.hpp"
+#include "csv.hpp"
+#include "ljus/scene/make_scene.hpp"
+#include "support/random_scene.hpp"
+
+namespace {
+
+using namespace ljus;
+
+constexpr int width = 48, height = 36;
+
+/// The mean of two path-traced halves, and its own error.
+struct Truth {
+    ImageT<double> image{};
+    double noise = 0;       ///< relMSE.
+    double block_noise = 0; ///< The same of squares of 8 x 8 pixels.
+};
+
+template <typename W, typename C>
+Truth truth_of(const W& world, const C& camera, int rays) {
+    const PathTracer tracer(world);
+    const auto half = [&](std::uint64_t seed) {
+        return render(tracer, camera,
+                      {.width = width, .height = height, .samples = rays, .seed = seed})
+            .image;
+    };
+    const auto a = half(1'000'003), b = half(2'000'003);
+    Truth truth{.image = make_image<double>(width, height)};
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        truth.image.pixels[i] =
+            (RgbT<double>(a.pixels[i]) + RgbT<double>(b.pixels[i])) / 2.0;
+    truth.noise = rel_mse(a, truth.image);
+    truth.block_noise = block_error(a, truth.image, examples::PictureCheck::side);
+    return truth;
+}
+
+/// Counts promises, and those that are kept.
+struct Score {
+    int runs = 0, pixels = 0, blocks = 0;
+};
+
+/// What several runs stated and what was measured, as a cell of each.
+struct Cells {
+    std::string stated{}, measured{};
+    double least = std::numeric_limits<double>::infinity(); ///< Stated over measured.
+
+    /// Adds a run.
+    /// \return Whether it kept its promise.
+    bool add(const examples::ErrorInterval& interval, double error) {
+        const char* const next = stated.empty() ? "" : " / ";
+        stated += next + examples::two_digits(interval.low) + " to " +
+                  examples::two_digits(interval.high);
+        measured += next + examples::two_digits(error);
+        const double ratio = error > 0 ? interval.high / error : 100;
+        least = std::min(least, ratio);
+        return 1.5 * ratio >= 1;
+    }
+};
+
+/// Promises seconds and an error, several times each: a row for both.
+template <typename W, typename C>
+void try_promises(examples::Table& table, Score& score, const std::string& name,
+                  const W& world, const C& camera) {
+    constexpr int runs = 1, rays = 512;
+    const Truth truth = truth_of(world, camera, rays);
+    for (const examples::Promise& promise :
+         {examples::Promise{.seconds = 0.5}, {.error = 0.02}}) {
+        Cells pixels, blocks;
+        std::string chosen;
+        for (int run = 0; run < runs; ++run) {
+            const std::clock_t begin = std::clock();
+            const auto now = [begin] {
+                return double(std::clock() - begin) / double(CLOCKS_PER_SEC);
+            };
+            const auto kept =
+                keep(world, camera,
+                     {.width = width, .height = height, .seed = 1 + std::uint64_t(run)},
+                     promise, now, true, [](const auto&) {});
+            const auto& image = kept.rendered.image;
+            chosen += (run > 0 ? " / " : "") + kept.recipe.name;
+            ++score.runs;
+            score.pixels += pixels.add(kept.stated.pixels,
+                                       rel_mse(image, truth.image) - truth.noise);
+            score.blocks += blocks.add(
+                kept.stated.blocks,
+                block_error(image, truth.image, examples::PictureCheck::side) -
+                    truth.block_noise);
+        }
+        const bool timed = promise.seconds > 0;
+        table.rows.push_back(
+            {name,
+             examples::two_digits(timed ? promise.seconds : promise.error) +
+                 (timed ? " s" : ""),
+             chosen, pixels.stated, pixels.measured, examples::two_digits(pixels.least),
+             blocks.stated, blocks.measured, examples::two_digits(blocks.least),
+             examples::two_digits(truth.noise)});
+        examples::print_row(table.rows.back(), 8);
+        std::fflush(stdout);
+    }
+}
+
+/// A plain, a wall, and balls of mirror and glass below a small lamp far away.
+auto open_scene() {
+    const Lambertian white{.albedo = Rgb{0.75f}}, red{.albedo{0.7f, 0.25f, 0.2f}};
+    return World(make_scene(
+        placed(Quad{{-10, 0, -10}, {0, 0, 20}, {20, 0, 0}}, white),
+        placed(Quad{{-2.5f, 0, -1.5f}, {5, 0, 0}, {0, 2.5f, 0}}, red),
+        placed(Sphere{{-1.1f, 0.6f, 0.2f}, 0.6f}, Mirror{.reflectance = Rgb{0.95f}}),
+        placed(Sphere{{0.9f, 0.6f, 0.6f}, 0.6f}, Glass{}),
+        placed(Sphere{{248, 398, 174}, 40}, Lambertian{.albedo = Rgb{0}}, Rgb{149})));
+}
+
+} // namespace
+
+/// Keeps promises in all scenes.
+int main(int argc, char** argv) {
+    examples::Table table{.name = "trades-stated",
+                          .columns = {"scene", "promised", "chosen", "relMSE, stated",
+                                      "measured", "least ratio", "of blocks, stated",
+                                      "measured", "least ratio", "noise of the truth"}};
+    Score score;
+    const auto open = open_scene();
+    try_promises(
+        table, score, "open, a far lamp", open,
+        look_at({.position{0, 2.2f, 7}, .target{0, 0.8f, 0}, .vfov_degrees = 40}));
+    for (int scene = 1; scene <= 20; ++scene) {
+        const auto drawn = ljus_test::SceneDrawer(1000 + std::uint64_t(scene)).draw();
+        try_promises(table, score, std::to_string(scene), drawn.world, drawn.camera);
+    }
+    const std::string of = " of " + std::to_string(score.runs);
+    table.rows.push_back({"kept", "", "", std::to_string(score.pixels) + of, "", "",
+                          std::to_string(score.blocks) + of, "", "", ""});
+    examples::print_row(table.rows.back(), 8);
+    save_csv(csv_folder(argc, argv), table);
+    return 0;
+}
