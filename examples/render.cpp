@@ -198,21 +198,25 @@ RenderedT<typename S::Scalar> render_promised(const FileRoom<S>& room, Request& 
     r.photon = kept.recipe.settings;
     r.picture.samples = kept.recipe.rays;
     r.preset = static_cast<Preset>(kept.choice.recipe); // one per preset
-    r.kept = {{"why", kept.why},
-              {r.promise.seconds > 0 ? "seconds" : "error",
-               std::max(r.promise.seconds, r.promise.error)},
-              {"pictures", kept.pictures},
-              {"took", kept.seconds},
-              {"estimate",
-               {{"relMSE", kept.error()},
-                {"noise", kept.noise},
-                {"bias", kept.forecast().bias},
-                {"error_of_bias", kept.forecast().unsure}}}};
+    r.kept = {
+        {"why", kept.why},
+        {r.promise.seconds > 0 ? "seconds" : "error",
+         std::max(r.promise.seconds, r.promise.error)},
+        {"pictures", kept.pictures},
+        {"took", kept.seconds},
+        {"estimate",
+         {{"relMSE", kept.error()},
+          {"interval", {kept.stated.pixels.low, kept.stated.pixels.high}},
+          {"interval_of_blocks", {kept.stated.blocks.low, kept.stated.blocks.high}},
+          {"checked_pixels", kept.checked_pixels()},
+          {"noise", kept.noise},
+          {"bias", kept.forecast().bias},
+          {"error_of_bias", kept.forecast().unsure}}}};
     if (!r.quiet) {
         examples::print_cost(kept.rendered.counts, kept.seconds);
-        std::printf("  %-16s %10s  relMSE %.3g, by estimate: noise %.3g, bias %s; mean "
-                    "of %lld pictures\n",
-                    "error", "", kept.error(), kept.noise,
+        std::printf("  %-16s %10s  relMSE %s, noise %.3g and bias %s; mean of %lld "
+                    "pictures\n",
+                    "error", "", stated_text(kept).c_str(), kept.noise,
                     bias_text(kept.forecast()).c_str(), kept.pictures);
     }
     return std::move(kept.rendered);

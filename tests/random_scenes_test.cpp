@@ -108,7 +108,7 @@ constexpr std::array carriers{
 
 constexpr auto listed = abilities<Gathering, StratifiedStream>;
 
-/// Without the further rays of noisy pixels, whose choice is biased.
+/// Without the further rays of noisy pixels.
 Image by_preset(const DrawnScene& drawn, Preset preset, std::uint64_t seed) {
     PhotonMappingSettings settings = preset_settings(preset, large, large);
     settings.caustics.seed = settings.general.seed = seed;

@@ -267,6 +267,12 @@ TEST_CASE("trades: a picture for some seconds takes these seconds") {
         CHECK(kept.rendered.image.height == 6);
         CHECK(std::abs(time - seconds) <= 0.2 * seconds);
         CHECK(kept.error() >= kept.noise);
+        // Its 48 pixels are path traced, and take a fifth of the pictures' time or more.
+        CHECK(kept.checked_pixels() == 48);
+        CHECK(kept.stated.pixels.low <= kept.error());
+        CHECK(kept.stated.pixels.high >= kept.error());
+        CHECK(kept.stated.blocks.high >= kept.stated.blocks.low);
+        CHECK(stated_text(kept).find("48 path-traced pixels") != std::string::npos);
     }
 }
 

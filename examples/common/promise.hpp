@@ -28,8 +28,7 @@ struct Recipe {
 
 /// The recipes that a promise chooses from, the quickest first: the presets, with
 /// photons in proportion to the pixels, and few rays, since several pictures are
-/// averaged. Each pixel gets the same number of rays: adaptive sampling is quicker, but
-/// its bias would remain in the mean.
+/// averaged. Each pixel gets the same number of rays.
 /// \param width   Of the picture, in pixels.
 /// \param height  Of the picture, in pixels.
 /// \return draft, fast and exact.
@@ -211,7 +210,11 @@ struct Choice {
 /// error of a pixel rises from 0 to a half, its value is blended into the mean of its
 /// neighbourhood.
 /// \param state  The pictures, by ljus::add_pass() with alpha 1, at least 2.
-[[nodiscard]] inline ljus::ImageT<double> levels(const ljus::ProgressiveState& state) {
+/// \param own    Whether a pixel belongs to its neighbourhood. A single bright ray
+///               makes that bright as well, and its own error small; without it, the
+///               error of a highlight that is really there is large.
+[[nodiscard]] inline ljus::ImageT<double> levels(const ljus::ProgressiveState& state,
+                                                 bool own = true) {
     const auto mean = ljus::mean_image<double>(state);
     const double n = double(state.passes);
     auto result = mean;
@@ -221,16 +224,20 @@ struct Choice {
             int pixels = 0;
             for (int v = std::max(y - 1, 0); v <= std::min(y + 1, mean.height - 1); ++v)
                 for (int u = std::max(x - 1, 0); u <= std::min(x + 1, mean.width - 1);
-                     ++u, ++pixels)
-                    around += pixel(mean, u, v);
-            around /= double(pixels);
-            const auto& own = pixel(mean, x, y);
+                     ++u)
+                    if (own || u != x || v != y) {
+                        around += pixel(mean, u, v);
+                        ++pixels;
+                    }
+            around /= std::max(double(pixels), 1.0);
+            const auto& here = pixel(mean, x, y);
             const auto error = pixel(state.squares, x, y) / (n * (n - 1)); // squared
             for (int c = 0; c < 3; ++c) {
                 const double known =
-                    own[c] == 0 ? 0.0
-                                : std::max(0.0, 1 - 4 * error[c] / (own[c] * own[c]));
-                pixel(result, x, y)[c] = std::sqrt(known * own[c] * own[c] +
+                    here[c] == 0
+                        ? 0.0
+                        : std::max(0.0, 1 - 4 * error[c] / (here[c] * here[c]));
+                pixel(result, x, y)[c] = std::sqrt(known * here[c] * here[c] +
                                                    (1 - known) * around[c] * around[c]);
             }
         }
@@ -239,10 +246,12 @@ struct Choice {
 
 /// The variance of the mean of some pictures, from their scatter, in relMSE.
 /// \param state  The pictures, of different seeds, by ljus::add_pass() with alpha 1.
+/// \param own    As for levels().
 /// \return Infinity for fewer than two.
-[[nodiscard]] inline double relative_noise(const ljus::ProgressiveState& state) {
+[[nodiscard]] inline double relative_noise(const ljus::ProgressiveState& state,
+                                           bool own = true) {
     if (state.passes < 2) return std::numeric_limits<double>::infinity();
-    const auto level = levels(state);
+    const auto level = levels(state, own);
     const double n = double(state.passes);
     double sum = 0;
     for (std::size_t p = 0; p < level.pixels.size(); ++p) {

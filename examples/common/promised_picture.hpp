@@ -18,6 +18,7 @@
 #include "ljus/render/budgeting.hpp"
 #include "ljus/render/gathering.hpp"
 #include "ljus/render/skipping.hpp"
+#include "picture_check.hpp"
 #include "promise.hpp"
 #include "terminal.hpp"
 
@@ -260,14 +261,62 @@ struct Kept {
     long long pictures = 0;        ///< The number of pictures.
     double seconds = 0;            ///< Time since the clock began, with the pilot.
     double noise = 0;              ///< Variance of the mean, from the scatter.
+    PictureCheck check{};          ///< Path-traced pixels; no rounds if paths do not
+                                   ///< carry all light of the scene.
+    StatedError stated{};          ///< The error that is stated; high is infinity for
+                                   ///< blocks that were not checked.
 
-    /// The pilot's forecast for the chosen recipe.
+    /// The forecast for the chosen recipe, with the bias that the check has measured.
     [[nodiscard]] const Forecast& forecast() const { return found[choice.recipe]; }
     /// The estimated relMSE.
     [[nodiscard]] double error() const { return noise + forecast().bias; }
+    /// The number of path-traced pixels.
+    [[nodiscard]] std::size_t checked_pixels() const {
+        std::size_t count = 0;
+        for (const auto& pixels : check.blocks)
+            count += check.rounds > 0 ? pixels.size() : 0;
+        return count;
+    }
 };
 
+/// The error that is stated for a picture, and by what: "0.004 to 0.007 (...)".
+template <std::floating_point T>
+[[nodiscard]] std::string stated_text(const Kept<T>& kept) {
+    const auto text = [](const ErrorInterval& interval) {
+        return two_digits(interval.low) + " to " + two_digits(interval.high);
+    };
+    const std::size_t pixels = kept.checked_pixels();
+    if (pixels == 0)
+        return text(kept.stated.pixels) +
+               " (not checked: paths do not carry all light)";
+    return text(kept.stated.pixels) + ", of squares of 8 x 8 pixels " +
+           text(kept.stated.blocks) + " (by " + std::to_string(pixels) +
+           " path-traced pixels)";
+}
+
+/// Measures the error of the pictures so far by a check, and takes what it found in
+/// place of the forecast.
+/// \param kept    The check; gets the error that is stated.
+/// \param state   The pictures.
+/// \param trace   Called as trace(check) for one more round of rays.
+/// \param limit   Seconds that all rounds may take.
+template <std::floating_point T, typename Trace>
+void measure_error(Kept<T>& kept, const ljus::ProgressiveState& state, Trace&& trace,
+                   double limit) {
+    do trace(kept.check);
+    while (kept.check.seconds < limit);
+    const CheckedError found = check_picture(kept.check, state);
+    kept.stated = stated_error(state, found);
+    Forecast& forecast = kept.found[kept.choice.recipe];
+    forecast.bias = std::max(found.bias.value, 0.0);
+    forecast.unsure = found.bias.error;
+}
+
 /// Keeps a promise: a pilot, a choice, and pictures until it is kept.
+///
+/// A fifth of the time goes into path-traced pixels of the same picture, about 400, by
+/// which the bias of the mean is measured. If that is larger than the pilot has
+/// forecast, a recipe with less bias may take over.
 /// \param world    The closed scene.
 /// \param camera   Any camera.
 /// \param picture  Size, seed, threads.
@@ -291,17 +340,17 @@ keep(const W& world, const C& camera, ljus::RenderSettings picture,
     const auto ways = recipes(picture.width, picture.height);
     kept.recipe = ways[kept.choice.recipe];
     kept.why = reason(kept.found, ways, promise, kept.choice);
-    const Forecast found = kept.forecast();
-    if (promise.error > 0 && found.bias >= promise.error)
+    if (promise.error > 0 && kept.forecast().bias >= promise.error)
         throw std::invalid_argument("--error is " + two_digits(promise.error) +
                                     "; the least bias of all "
                                     "settings is " +
-                                    two_digits(found.bias) +
+                                    two_digits(kept.forecast().bias) +
                                     " here, and no time takes it away.");
     tell(kept);
 
     ProgressBar bar("pictures", quiet);
     const double pilot_seconds = now();
+    double begun = pilot_seconds; // with the recipe
     auto draw = [&](long long, long long) {
         const double part = (now() - pilot_seconds) / kept.choice.seconds;
         return bar(static_cast<long long>(1000 * std::min(part, 1.0)), 1000);
@@ -309,6 +358,12 @@ keep(const W& world, const C& camera, ljus::RenderSettings picture,
     if (!quiet) picture.progress = draw;
     ljus::ProgressiveState state{.alpha = 1};
     const std::uint64_t seed = picture.seed;
+    const bool checks = paths_carry_all(world);
+    kept.check = choose_pixels(picture.width, picture.height, seed);
+    const auto trace = [&](PictureCheck& check) {
+        trace_round(check, world, camera, picture, now);
+        stop_if_asked();
+    };
     for (bool done = false; !done;) {
         picture.seed = seed_of(seed, kept.pictures);
         auto shot = shoot(world, camera, kept.recipe, picture, now);
@@ -319,12 +374,33 @@ keep(const W& world, const C& camera, ljus::RenderSettings picture,
         kept.recipe.settings = shot.settings;
         kept.remarks = shot.remarks;
         kept.noise = relative_noise(state);
+        if (checks) measure_error(kept, state, trace, (now() - pilot_seconds) / 5);
         kept.seconds = now();
-        const double one = (kept.seconds - pilot_seconds) / double(kept.pictures);
+        const double one = (kept.seconds - begun) / double(kept.pictures);
         const double noise = kept.noise * (1 + 2 / double(kept.pictures));
-        done = promise.seconds > 0 ? kept.seconds + one / 2 > promise.seconds
-                                   : noise <= room_for_noise(found, promise.error);
+        const Forecast& found = kept.forecast();
+        if (promise.seconds > 0)
+            done = kept.seconds + one / 2 > promise.seconds;
+        else if (checks)
+            done =
+                kept.stated.pixels.high <= promise.error || noise < promise.error / 8;
+        else
+            done = noise <= room_for_noise(found, promise.error);
+        // A measured bias that is larger than was forecast: with less of it, better?
+        if (!checks || done || kept.pictures != 2) continue;
+        const Choice again = choose(kept.found, promise, promise.seconds - now());
+        if (again.recipe <= kept.choice.recipe) continue;
+        kept.choice = again;
+        kept.recipe = ways[again.recipe];
+        kept.pictures = 0;
+        state = {.alpha = 1};
+        begun = now();
     }
+    if (!checks)
+        kept.stated = {{kept.noise, kept.noise * (1 + 2 / double(kept.pictures)) +
+                                        kept.forecast().bias +
+                                        2 * kept.forecast().unsure},
+                       {0, std::numeric_limits<double>::infinity()}};
     kept.rendered.image = ljus::mean_image<T>(state);
     return kept;
 }

@@ -99,7 +99,7 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--region X,Y,W,H", r.region,
              "Only these pixels, counted from the upper left corner");
     line.add("--more-rays", r.more_rays,
-             "More rays in pixels whose first rays disagree", 0, million);
+             "More rays beside pixels whose first rays disagree", 0, million);
     line.add("--disagreement", r.disagreement,
              "Relative standard error above which they do", 1e-6, 1e6);
     line.add("--sampling", r.picture.sampling, "Pattern of the rays in a pixel");

@@ -66,3 +66,23 @@ ljus_break_it(NAME caustics-absorption HEADER optics/absorption.hpp TEST caustic
     FROM "std::exp(-sigma.x * distance)"
     TO   "T(1)"
     CASES "caustics: the three colours*")
+
+# Photons count as lone among others.
+ljus_break_it(NAME caustics-lone HEADER photons/lone_photons.hpp TEST lone_photons
+    FROM "if (near >= room.size()) continue;"
+    TO   ""
+    CASES "lone photons: those with fewer*")
+
+# Lone photons are added once more, and not moved.
+ljus_break_it(NAME caustics-lone-twice HEADER render/detail/caustics_batch.hpp
+    TEST lone_photons
+    FROM "add(maps.lone, how, T(-1));"
+    TO   ""
+    CASES "lone photons: the same picture*")
+
+# The wide disc is as narrow as any other.
+ljus_break_it(NAME caustics-lone-radius HEADER render/photon_mapping_settings.hpp
+    TEST lone_photons
+    FROM "wide.radius *= settings.lone_radius;"
+    TO   ""
+    CASES "lone photons: no dots*")

@@ -41,12 +41,18 @@ ljus_break_it(NAME adaptive-limit HEADER render/adaptive.hpp TEST adaptive
     TO   ""
     CASES "adaptive: the limit for the mean*")
 
+# A pixel's own rays decide as well, and are averaged.
+ljus_break_it(NAME adaptive-own-rays HEADER render/adaptive.hpp TEST adaptive
+    FROM "if (u != x || v != y)"
+    TO   ""
+    CASES "adaptive: choosing by the rays*")
+
 # All get more as soon as one pixel does.
 ljus_break_it(NAME adaptive-disagreement HEADER render/adaptive.hpp
     TEST adaptive
     FROM "> rule.disagreement;"
     TO   ">= 0;"
-    CASES "adaptive: pixels whose first rays*")
+    CASES "adaptive: pixels beside those*")
 
 # Roulette without the division: the report's program lost light like this.
 ljus_break_it(NAME depth-roulette HEADER path/path_state.hpp TEST recursion_depth

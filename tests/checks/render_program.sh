@@ -132,7 +132,7 @@ json_has '"rays": 1,'
 # time and the machine may be busy, so the seconds are those that the program reports.
 "$render" "$scene" --width 24 --height 20 --seconds 2 --out choice.pfm >out.txt
 grep -q '^  The mean of [0-9]* pictures by ' out.txt || wrong "no reason in $(cat out.txt)"
-grep -q 'relMSE .*, by estimate: noise ' out.txt || wrong "no estimate in $(cat out.txt)"
+grep -q 'relMSE .* to .* path-traced pixels), noise ' out.txt || wrong "no estimate in $(cat out.txt)"
 json_has '"seconds": 2.0,'
 took=$(sed -n 's/^ *"took": \([0-9.]*\),*$/\1/p' choice.pfm.json)
 awk "BEGIN { exit !($took >= 1.6 && $took <= 2.4) }" || wrong "2 s took $took s"

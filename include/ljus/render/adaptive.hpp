@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -21,7 +22,7 @@ namespace ljus {
 /// go to the pixels where they reduce the error most. The mean number of rays per pixel
 /// is at most RenderSettings::samples.
 ///
-///     // 2 rays; 8 more where their mean has a relative standard error above 0.2
+///     // 2 rays; 8 more beside means that have a relative standard error above 0.2
 ///     render_adaptive(mapper, camera, {.samples = 10},
 ///                     {.first = 2, .more = 8, .batches = 1, .disagreement = 0.2});
 ///     // up to 1000 rays per pixel on average, until the relMSE is 0.01
@@ -35,11 +36,13 @@ struct AdaptiveSettings {
     int batches = 1000; ///< Largest number of batches per pixel, at least 0.
     int block = 1;     ///< Side of the square blocks that share an estimate, in pixels.
     double target = 0; ///< The relMSE at which it stops; 0: none.
-    double disagreement = 0; ///< Above 0: each round adds a batch to every block whose
-                             ///< mean has a relative standard error above this.
+    double disagreement = 0; ///< Above 0: each round adds a batch to every block that
+                             ///< has one within two blocks, beside itself, whose mean
+                             ///< has a relative standard error above this.
     double epsilon = 0.01;   ///< Added to the squared mean, as in rel_mse().
     bool two_stage = false;  ///< The first rays only allocate the others and are then
-                             ///< discarded: no bias. Not with `disagreement`.
+                             ///< discarded: no bias. Not with `disagreement`, which
+                             ///< has none.
 };
 
 /// Refuses a rule that gives no picture.
@@ -200,6 +203,30 @@ struct RayShare {
     return wanted;
 }
 
+/// How many blocks to each side decide whether a block gets more rays.
+inline constexpr int deciding_blocks = 2;
+
+/// Sets the variance of each part to the largest one of the blocks around it, without
+/// its own; to infinity for a block that is alone.
+/// \param blocks  All blocks of a picture, row by row.
+inline void set_variances_around(std::vector<RayShare>& parts,
+                                 const std::vector<AdaptiveBlock>& blocks) {
+    const int all = static_cast<int>(blocks.size());
+    int columns = 0;
+    while (columns < all && blocks[std::size_t(columns)].y == blocks[0].y) ++columns;
+    for (int i = 0; i < all; ++i) {
+        const int x = i % columns, y = i / columns;
+        const int right = std::min(x + deciding_blocks, columns - 1);
+        const int bottom = std::min(y + deciding_blocks, all / columns - 1);
+        double most = all == 1 ? std::numeric_limits<double>::infinity() : 0;
+        for (int v = std::max(y - deciding_blocks, 0); v <= bottom; ++v)
+            for (int u = std::max(x - deciding_blocks, 0); u <= right; ++u)
+                if (u != x || v != y)
+                    most = std::max(most, blocks[pixel_index(columns, u, v)].variance);
+        parts[std::size_t(i)].variance = most;
+    }
+}
+
 /// Plans the number of batches of each block in the next round.
 /// \param blocks  Their `wanted` is set.
 /// \param rule    The rule.
@@ -215,6 +242,7 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
         parts.push_back({block.pixels(), block.variance, have});
         spare += block.pixels() * (limit - have);
     }
+    if (rule.disagreement > 0) set_variances_around(parts, blocks);
     std::vector<double> shares(parts.size());
     if (rule.disagreement == 0) shares = ray_shares(parts, rule.target, limit);
 
@@ -334,10 +362,11 @@ void set_pixels(AdaptiveT<T>& result, const std::vector<AdaptiveBlock>& blocks,
 
 /// Renders a picture with more rays where the variance is larger, by several threads.
 ///
-/// *Trap*: the allocation depends on the same rays that are averaged. A pixel whose
-/// first rays all miss a bright spot is estimated as dark and gets no further rays: the
-/// mean of the picture is too dark. Larger blocks and more first rays reduce this bias;
-/// `two_stage` removes it.
+/// *Trap*: for a target, the allocation depends on the same rays that are averaged. A
+/// pixel whose first rays all miss a bright spot is estimated as dark and gets no
+/// further rays: the mean of the picture is too dark. Larger blocks and more first rays
+/// reduce this bias; `two_stage` removes it. With `disagreement` the neighbours of a
+/// block decide, and one batch has no bias if `samples` allows it for every pixel.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera.
 /// \param picture   Size, seed, threads; `samples` is the limit for the mean.
@@ -401,15 +430,17 @@ render_adaptive(const R& renderer, const C& camera, const RenderSettings& pictur
     result.complete = trace_round(); // the first rays
     double limit = picture.samples;
     if (rule.two_stage) limit -= rule.first;
-    while (result.complete &&
-           !(rule.target > 0 && estimate() <= rule.target && !rule.two_stage) &&
-           detail::plan_round(blocks, rule, limit)) {
+    const int rounds = rule.two_stage          ? 1
+                       : rule.disagreement > 0 ? rule.batches
+                                               : std::numeric_limits<int>::max();
+    for (int round = 0; round < rounds && result.complete; ++round) {
+        if (rule.target > 0 && estimate() <= rule.target && !rule.two_stage) break;
+        if (!detail::plan_round(blocks, rule, limit)) break;
         if (rule.two_stage) {
             sums.assign(sums.size(), {}); // discard the first rays
             for (auto& block : blocks) block.rays = 0;
         }
         result.complete = trace_round();
-        if (rule.two_stage) break;
     }
     // [rounds]
     if (result.complete) // it may have stopped early

@@ -364,9 +364,7 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
     if (sky > 0 && sky < 0.25)
         remarks.push_back(
             "from the middle of the scene only a small part of the sky is seen, as "
-            "through a window: most shadow rays to it miss, and where further rays go "
-            "to pixels whose first ones disagree, as in the preset fast, the picture "
-            "may be a tenth too dark; the preset exact is right there, and noisy");
+            "through a window: most shadow rays to it miss, and the picture is noisy");
     const auto type_of = [&](ObjectId id) {
         return world.visit_shape(
             id, []<typename G>(const G&) { return detail::type_name<G>(); });

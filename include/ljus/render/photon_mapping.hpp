@@ -11,6 +11,7 @@
 #include "ljus/path/all_lights.hpp"
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/path_log.hpp"
+#include "ljus/photons/lone_photons.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/render/detail/caustics_batch.hpp"
 #include "ljus/render/passes.hpp"
@@ -58,6 +59,8 @@ inline constexpr Abilities<X...> abilities{};
 template <std::floating_point T>
 struct PhotonMapsT {
     PhotonMapT<T> caustics; ///< L S+ D; empty if the scene has no mirror and no glass.
+    PhotonMapT<T> lone;    ///< Those of the caustics map that are lone_photons(); empty
+                           ///< unless PhotonMappingSettings::lone_radius is above 1.
     PhotonMapT<T> general; ///< L D, L ... D ... D, and shadows; empty unless asked for.
     FluxAudit caustics_audit{}; ///< Where the flux of the caustics pass went.
     FluxAudit general_audit{};  ///< Where the flux of the general pass went.
@@ -350,6 +353,11 @@ private:
         if (radius_is_chosen_)
             settings_.caustics_estimate.radius =
                 float(typical_radius(maps_.caustics, 32));
+        const bool widens =
+            settings_.lone_radius > 1 && settings_.caustics_estimate.nearest == 0;
+        maps_.lone = widens ? lone_photons(maps_.caustics,
+                                           Scalar(settings_.caustics_estimate.radius))
+                            : PhotonMapT<Scalar>{};
         if (settings_.general_estimate.radius == 0)
             settings_.general_estimate.radius =
                 float(typical_radius(maps_.general, 64));
@@ -460,10 +468,19 @@ void light_at(const PhotonMapper<W, X...>& mapper, const VertexT<T>& vertex,
     T part = T(1);
     if constexpr (Mapper::template has<Gathering>)
         part = part_of_caustics(mapper, resting);
-    if (!detail::put_off(context.batch, resting, material, add.throughput / part,
-                         settings.caustics_estimate))
-        add("caustics map", "DS+L",
-            ask(maps.caustics, settings.caustics_estimate, light_kinds) / part);
+    if (detail::put_off(context.batch, resting, material, add.throughput / part,
+                        settings.caustics_estimate))
+        return;
+    const auto caustic = [&](const PhotonMapT<T>& map,
+                             const DensityEstimateSettings& how) {
+        return ask(map, how, light_kinds) / part;
+    };
+    RgbT<T> light = caustic(maps.caustics, settings.caustics_estimate);
+    if (!maps.lone.empty()) {
+        light += caustic(maps.lone, detail::lone_estimate(settings));
+        light -= caustic(maps.lone, settings.caustics_estimate);
+    }
+    add("caustics map", "DS+L", light);
 }
 // [light_at]
 

@@ -70,6 +70,9 @@ struct PhotonMappingSettings {
     bool share_lights = false;
     /// How caustics are estimated; radius 0: chosen to hold 32 photons typically.
     DensityEstimateSettings caustics_estimate{};
+    /// The radius of the disc of a caustic photon that is lone, lone_photons(), as a
+    /// multiple of that of caustics_estimate; 1: as any other. Not with k nearest.
+    float lone_radius = 1;
     /// How the general map is queried; radius 0: chosen to hold 64 photons typically.
     DensityEstimateSettings general_estimate{.radius = 0.3f};
     IrradiancePointSettings irradiance{}; ///< Points that gather rays look up.
@@ -110,8 +113,22 @@ struct PhotonMappingSettings {
         if (gather.radius == 0) gather.radius = 1; // 0: chosen from the photons later
         check(gather);
     }
+    require(settings.lone_radius >= 1 && settings.lone_radius <= 1000, "lone_radius",
+            double(settings.lone_radius), "within [1, 1000]");
     check(settings.skip);
 }
+
+namespace detail {
+
+/// How lone photons are estimated.
+[[nodiscard]] inline DensityEstimateSettings
+lone_estimate(const PhotonMappingSettings& settings) noexcept {
+    DensityEstimateSettings wide = settings.caustics_estimate;
+    wide.radius *= settings.lone_radius;
+    return wide;
+}
+
+} // namespace detail
 
 /// Settings for a purpose.
 enum class Preset : std::uint8_t {
@@ -119,8 +136,7 @@ enum class Preset : std::uint8_t {
     fast,  ///< Least time without visible errors. It has bias that more time does not
            ///< remove: indirect light is smoothed over 4 pixels, penumbras are slightly
            ///< wrong, and caustics and reflections from gloss are blurred. In
-           ///< random scenes a ninth of the picture is off by 5 % or less. The further
-           ///< rays of preset_rays() add a bias of their own: see there.
+           ///< random scenes a ninth of the picture is off by 5 % or less.
     exact  ///< Indirect rays at every bounce; only the caustics map is biased.
 };
 
@@ -147,6 +163,7 @@ enum class Preset : std::uint8_t {
     settings.shadow_rays = draft ? 2 : 4;
     settings.indirect = IndirectLight::cache;
     settings.share_lights = true;
+    settings.lone_radius = 4;
     const long long photons =
         std::clamp(draft ? pixels / 4 : pixels * 7 / 10, 10'000LL, 1'000'000LL);
     // Small pictures need more photons per pixel: blotches scale with the picture.
@@ -160,14 +177,14 @@ enum class Preset : std::uint8_t {
     return settings;
 }
 
-/// The rays per pixel of a preset. The further rays go where the first ones disagree,
-/// and two that both miss a small bright reflection agree: around reflections of lamps
-/// in mirrors and narrow gloss, blocks of pixels were up to a quarter too dark. The
-/// same number of rays everywhere, as in Preset::exact, has no such bias.
+/// The rays per pixel of a preset. The further rays go to pixels within two pixels of
+/// one whose first rays disagree. A pixel's own rays do not decide, so that this choice
+/// has no bias: see render_adaptive().
 struct PresetRays {
     int first = 1;             ///< In every pixel.
-    int more = 0;              ///< More rays in pixels above the standard error below.
-    double disagreement = 0.4; ///< Relative standard error of the first rays' mean.
+    int more = 0;              ///< More rays beside pixels that disagree.
+    double disagreement = 0.4; ///< Least relative standard error of the first rays'
+                               ///< mean in a pixel that disagrees.
 };
 
 /// The rays of a preset, for RenderSettings::samples and render_adaptive().

@@ -5,6 +5,7 @@
 
 #include "ljus/path/renderer.hpp"
 #include "ljus/photons/detail/estimates_together.hpp"
+#include "ljus/render/photon_mapping_settings.hpp"
 
 namespace ljus::detail {
 
@@ -25,13 +26,22 @@ struct CausticsBatch {
     template <typename Mapper>
     void finish(const Mapper& mapper, Counts& counts, std::span<RgbT<T>> samples) {
         if (places.empty()) return;
-        counts.map_queries += places.size();
-        estimates_together<T>(
-            mapper.maps().caustics, places, mapper.settings().caustics_estimate,
-            light_kinds, counts.map_photons, found,
-            [&](const EstimatePlaceT<T>& place, const RgbT<T>& light) {
-                samples[place.item] += place.throughput * light;
-            });
+        const auto& maps = mapper.maps();
+        const DensityEstimateSettings& how = mapper.settings().caustics_estimate;
+        const auto add = [&](const PhotonMapT<T>& map,
+                             const DensityEstimateSettings& estimate, T sign) {
+            counts.map_queries += places.size();
+            estimates_together<T>(
+                map, places, estimate, light_kinds, counts.map_photons, found,
+                [&](const EstimatePlaceT<T>& place, const RgbT<T>& light) {
+                    samples[place.item] += sign * place.throughput * light;
+                });
+        };
+        add(maps.caustics, how, T(1));
+        if (!maps.lone.empty()) {
+            add(maps.lone, lone_estimate(mapper.settings()), T(1));
+            add(maps.lone, how, T(-1));
+        }
         places.clear();
     }
 };
