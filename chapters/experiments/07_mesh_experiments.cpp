@@ -222,7 +222,7 @@ void costs(const examples::Options& options, const Sizes& sizes) {
             file += "\n";
         }
         const examples::StopWatch reading;
-        const LoadedObj loaded = read_obj(std::move(file), "ball.obj");
+        const LoadedMesh loaded = read_obj(std::move(file), "ball.obj");
         load = reading.seconds();
         table.rows.push_back(
             {std::to_string(mesh.size()),

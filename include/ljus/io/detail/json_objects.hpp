@@ -26,8 +26,9 @@ namespace ljus {
 /// |---------------------|---------------------------------------------------------|
 /// | sphere              | center, radius                                          |
 /// | triangles           | vertices, indices: three numbers per triangle, from 0   |
-/// | mesh                | file: OBJ, relative to the scene file; scale (1);       |
-/// |                     | normals (file, smooth or flat); see ObjMeshes           |
+/// | mesh                | file: OBJ, PLY, STL or glTF, relative to the scene      |
+/// |                     | file; scale (1); normals (file, smooth or flat); see    |
+/// |                     | MeshFiles                                               |
 ///
 /// Emission is radiance: outwards for a sphere, towards
 /// \f$(V_2 - V_1) \times (V_3 - V_1)\f$ for a triangle.
@@ -49,8 +50,8 @@ struct NoMeshesT {
                                                   const std::string&) const {
         throw std::runtime_error(
             shown_path(file) +
-            ": load_json() reads no meshes unless it is given ObjMeshes, from "
-            "ljus/io/load_obj.hpp.");
+            ": load_json() reads no meshes unless it is given MeshFiles, from "
+            "ljus/io/load_mesh.hpp.");
     }
 };
 
