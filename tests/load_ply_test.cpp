@@ -36,7 +36,7 @@ TEST_CASE("load_ply: a mesh is the same in text and in bytes of either order") {
         CHECK(to_text(loaded.report).empty());
         CHECK(loaded.report.content.closed);
         const Mesh& mesh = loaded.parts.at(0).mesh;
-        CHECK(mesh.size() == data.triangles.size());
+        REQUIRE(mesh.size() == data.triangles.size());
         CHECK(mesh.data().positions.size() == data.positions.size());
         CHECK(double(area(mesh)) == doctest::Approx(area_of(data)).epsilon(1e-6));
         CHECK(mesh.triangle(7).v2 == data.positions[data.triangles[7][1]]);

@@ -25,7 +25,7 @@ TEST_CASE("load_stl: a mesh is the same in text and in bytes") {
         CHECK(to_text(loaded.report).empty());
         CHECK(loaded.report.content.closed);
         const Mesh& mesh = loaded.parts.at(0).mesh;
-        CHECK(mesh.size() == ball.triangles.size());
+        REQUIRE(mesh.size() == ball.triangles.size());
         CHECK(mesh.data().positions.size() == ball.positions.size());
         CHECK(mesh.data().normals.empty());
         CHECK(double(area(mesh)) == doctest::Approx(area_of(ball)).epsilon(1e-6));

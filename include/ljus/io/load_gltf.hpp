@@ -35,7 +35,7 @@ namespace ljus {
 ///         elements of 12 bytes, which do not fit into the 288 bytes of its view.";
 ///         or as read_obj().
 /// \throws std::invalid_argument  for a scale that is not finite and above 0.
-/// \cost Linear in the size of the files and the number of triangles, at most 2^24.
+/// \cost Linear in the size of the files and the number of triangles, at most 2^23.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> read_gltf(const Bytes& bytes, const std::string& file,
                                        const MeshFileSettings& settings = {}) {

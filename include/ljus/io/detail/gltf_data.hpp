@@ -19,7 +19,7 @@ inline constexpr std::size_t max_gltf_bytes = std::size_t(1) << 30;
 
 // The largest number of elements of accessors that a file makes its reader read, and of
 // an accessor without bytes, whose elements are 0.
-inline constexpr long long max_gltf_elements = 1LL << 26, max_gltf_zeros = 1LL << 22;
+inline constexpr long long max_gltf_elements = 1LL << 25, max_gltf_zeros = 1LL << 20;
 
 // The bytes of a text in base64; blanks and = count for nothing.
 inline Bytes from_base64(std::string_view text, const JsonField& field) {

@@ -19,7 +19,7 @@
 namespace ljus::detail {
 
 // The largest number of triangles, as often as nodes place them.
-inline constexpr long long max_gltf_triangles = 1LL << 24;
+inline constexpr long long max_gltf_triangles = 1LL << 23;
 
 // The largest number of primitives, as often as nodes place them.
 inline constexpr long long max_gltf_primitives = 1LL << 20;
@@ -457,9 +457,7 @@ private:
             if (metal > 0 && metal < 1)
                 unused.push_back("a metallicFactor between 0 and 1");
             if (find(*pbr, "metallicRoughnessTexture"))
-                unused.push_back(join({"metallicRoughnessTexture but at the middle of "
-                                       "each triangle, in steps of 1/",
-                                       std::to_string(roughness_steps)}));
+                unused.push_back("metallicRoughnessTexture within a triangle");
         }
         material.emission =
             glm::clamp(vector_of(field, "emissiveFactor", glm::dvec3(0)), 0.0, 1e12);
