@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "ljus/io/load_gltf.hpp"
+#include "ljus/io/load_mesh.hpp"
 #include "ljus/scenes/mesh_formulas.hpp"
+#include "scratch_folder.hpp"
 #include "support/mesh_bytes.hpp"
 
 using namespace ljus;
@@ -140,6 +141,35 @@ TEST_CASE("load_gltf: a mesh is the same in .gltf and .glb") {
     }
 }
 
+TEST_CASE("load_mesh: the end of a name says which format a file has") {
+    const MeshData data = icosphere(Sphere{.center{1, 2, 3}, .radius = 0.7f}, 1);
+    File file;
+    file.positions(data);
+    std::string obj;
+    for (const Vec3& p : data.positions) obj += "v " + text_of(p) + "\n";
+    for (const auto& [a, b, c] : data.triangles)
+        obj += "f " + std::to_string(a + 1) + " " + std::to_string(b + 1) + " " +
+               std::to_string(c + 1) + "\n";
+    const ScratchFolder folder;
+    const std::pair<const char*, Bytes> files[]{{"a.obj", bytes_of(obj)},
+                                                {"b.PLY", ply_bytes(data, "ascii")},
+                                                {"c.stl", stl_bytes(data, false)},
+                                                {"d.gltf", file.gltf()},
+                                                {"e.x.glb", file.glb()}};
+    for (const auto& [name, bytes] : files) {
+        save_file(folder.file(name), bytes);
+        const auto loaded = load_mesh(folder.file(name));
+        REQUIRE(loaded.parts.size() == 1);
+        CHECK(loaded.parts[0].mesh.size() == data.triangles.size());
+        CHECK(double(area(loaded.parts[0].mesh)) == doctest::Approx(area_of(data)));
+        CHECK(MeshFiles{}(folder.file(name), 1, "flat").size() == 1);
+    }
+    for (const char* name : {"mesh.json", "mesh", "", "obj"})
+        CHECK(refusal_of([&] { return load_mesh(name); }) ==
+              std::string(name) + ": the name of a mesh file ends in .obj, .ply, .stl, "
+                                  ".gltf or .glb.");
+}
+
 TEST_CASE("load_gltf: triangles, strips and fans, with indices of each type or none") {
     // A square of four corners around, and of four in a zigzag.
     const std::vector<double> around{0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0};
@@ -166,6 +196,13 @@ TEST_CASE("load_gltf: triangles, strips and fans, with indices of each type or n
         CHECK(area(mesh) == 4);
         for (std::uint32_t i = 0; i < 2; ++i) CHECK(normal(mesh.triangle(i)).z == 1);
     }
+    // The second and the fourth triangle have an index that does not exist.
+    File many = triangle();
+    many.primitive()["indices"] = many.add({0, 1, 2, 0, 1, 9}, "SCALAR", u8);
+    many.all["nodes"].push_back({{"mesh", 0}});
+    many.all["scenes"][0]["nodes"] = {0, 1};
+    CHECK(read(many).report[MeshTrouble::bad_index].count == 2);
+    CHECK(read(many).report[MeshTrouble::bad_index].line == 2);
     File lines = triangle();
     lines.all["meshes"][0]["primitives"].push_back(lines.primitive());
     lines.primitive()["mode"] = 1;

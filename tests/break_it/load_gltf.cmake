@@ -69,3 +69,9 @@ ljus_break_it(NAME gltf-triangles HEADER io/detail/gltf_reader.hpp TEST load_glt
     FROM "if (triangles_ > max_gltf_triangles)"
     TO   "if (false)"
     CASES "load_gltf: one small file*")
+
+# Capital letters make another format.
+ljus_break_it(NAME load-mesh-capitals HEADER io/load_mesh.hpp TEST load_gltf
+    FROM "return detail::same_word(end, known);"
+    TO   "return end == known;"
+    CASES "load_mesh: the end of a name*")

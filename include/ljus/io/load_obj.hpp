@@ -10,7 +10,8 @@
 namespace ljus {
 
 /// \defgroup load_obj Mesh files
-/// \brief OBJ files and their MTL files.
+/// \brief OBJ files with their MTL files, PLY, STL and glTF. Chapter:
+/// \ref ch_triangle_files.
 ///
 ///     const auto teapot = load_obj("teapot.obj", {.scale = 0.1});
 ///     std::fputs(to_text(teapot.report).c_str(), stderr);

@@ -228,6 +228,7 @@ private:
         if (!find(attributes, "POSITION"))
             return note(field, "has no POSITION; it is left out");
         const auto base = mesh_.counts();
+        mesh_.place = triangles_ + 1;
         const std::size_t vertices = add_vertices(attributes, place);
         const Surface surface = surface_of(field, attributes, vertices);
         const bool uv = mesh_.counts()[1] > base[1];
@@ -258,7 +259,6 @@ private:
                                 ? static_cast<std::size_t>(number)
                                 : vertices;
             }
-            ++mesh_.place;
             mesh_.material = material_at(surface, vertex);
             for (const std::size_t v : vertex) {
                 const auto from = [&](std::size_t list, bool has) {
@@ -269,6 +269,7 @@ private:
                 mesh_.add_corner(from(0, true), from(1, uv), from(2, normals));
             }
             mesh_.end_face();
+            ++mesh_.place;
         }
     }
     // Adds positions, normals and colours; returns the number of vertices.
