@@ -34,7 +34,7 @@
 #include "ljus/inspect/photon_dots.hpp"
 #include "ljus/inspect/survey.hpp"
 #include "ljus/io/load_json.hpp"
-#include "ljus/io/load_obj.hpp"
+#include "ljus/io/load_mesh.hpp"
 #include "ljus/io/scene_schema.hpp"
 #include "ljus/render/adaptive.hpp"
 
@@ -264,7 +264,7 @@ template <std::floating_point T>
 LoadedSceneT<T> load_scene(Request& r) {
     const FilesRead read;
     std::string troubles;
-    auto loaded = load_json<T>(r.scene, ObjMeshesT<T>{&troubles});
+    auto loaded = load_json<T>(r.scene, MeshFilesT<T>{&troubles});
     if (!r.quiet) std::fputs(troubles.c_str(), stderr);
     r.reads = examples::paths_of(read);
     r.scene_hash = read.hash();

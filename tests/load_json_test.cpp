@@ -1059,7 +1059,7 @@ TEST_CASE("load_json: so many values that memory would end are refused") {
     };
     const std::string sentence =
         "a.json: it has more than 4194304 numbers, or a quarter as many lists, "
-        "objects and members; put large meshes into OBJ files.";
+        "objects and members; put large meshes into files of their own.";
     CHECK(refusal(many(1'100'000, "{}")) == sentence);
     CHECK(refusal(many(1'100'000, "[]")) == sentence);
     CHECK(refusal(many(700'000, R"({"a":1})")) == sentence);

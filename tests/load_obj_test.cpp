@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "ljus/io/load_json.hpp"
-#include "ljus/io/load_obj.hpp"
+#include "ljus/io/load_mesh.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/math/random.hpp"
 #include "ljus/render/path_tracing.hpp"
@@ -23,7 +23,7 @@ using namespace ljus;
 namespace {
 
 /// A scene that lists the pictures of an OBJ file.
-using Painted = Scene<Shapes<Sphere, Mesh>, Materials<Lambertian, ObjPicture>>;
+using Painted = Scene<Shapes<Sphere, Mesh>, Materials<Lambertian, MeshPicture>>;
 
 /// A cube with outward sides, in polygons of four corners.
 const std::string cube = R"(# a cube
@@ -69,7 +69,7 @@ std::string obj_text(const MeshData& data) {
     return text;
 }
 
-std::string message(const std::string& text, const ObjSettings& settings = {}) {
+std::string message(const std::string& text, const MeshFileSettings& settings = {}) {
     try {
         (void)read_obj(text, "x.obj", settings);
     } catch (const std::exception& error) {
@@ -78,7 +78,7 @@ std::string message(const std::string& text, const ObjSettings& settings = {}) {
     return "nothing";
 }
 
-ObjCount trouble(const std::string& text, ObjTrouble which) {
+MeshCount trouble(const std::string& text, MeshTrouble which) {
     return read_obj(text, "x.obj").report[which];
 }
 
@@ -105,11 +105,11 @@ TEST_CASE("load_obj: a cube of quads") {
     int smooth_corners = 0;
     for (const Vec3& n : mesh.data().normals) smooth_corners += n == Vec3{0} ? 0 : 1;
     CHECK(smooth_corners == 4);
-    CHECK(read_obj(cube, "c", {.normals = ObjNormals::flat})
+    CHECK(read_obj(cube, "c", {.normals = MeshNormals::flat})
               .parts[0]
               .mesh.data()
               .normals.empty());
-    const auto round = read_obj(cube, "c", {.normals = ObjNormals::smooth});
+    const auto round = read_obj(cube, "c", {.normals = MeshNormals::smooth});
     REQUIRE(round.parts[0].mesh.data().normals.size() == 8);
     CHECK(round.parts[0].mesh.data().normals[0].x == doctest::Approx(-0.57735));
 }
@@ -142,7 +142,7 @@ TEST_CASE("load_obj: line ends, numbers from the end, comments, no last line fee
     for (const std::string& text : {dos, mac, cube.substr(0, cube.size() - 1)})
         CHECK(read_obj(text, "x").parts[0].mesh.size() == 12);
     for (const std::string& text : {dos, mac}) // lines are counted alike
-        CHECK(trouble(text + "f 1 2 99\r\n", ObjTrouble::bad_index).line == 18);
+        CHECK(trouble(text + "f 1 2 99\r\n", MeshTrouble::bad_index).line == 18);
     const auto back = read_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n", "x");
     CHECK(back.parts[0].mesh.triangle(0).v1 == Vec3{0, 0, 0});
     CHECK(back.parts[0].mesh.triangle(0).v2 == Vec3{1, 0, 0});
@@ -307,11 +307,11 @@ TEST_CASE("load_obj: a plus sign, and a normal that is none") {
     const MeshData& data = loaded.parts.at(0).mesh.data();
     CHECK(data.positions[1] == Vec3{1.5f, 0, 0});
     CHECK(data.normals.empty()); // the face is flat
-    CHECK(loaded.report[ObjTrouble::bad_normal].count == 1);
+    CHECK(loaded.report[MeshTrouble::bad_normal].count == 1);
     CHECK(to_text(loaded.report)
               .find("1 normals are 0 or not finite numbers; their faces") !=
           std::string::npos);
-    CHECK(loaded.report[ObjTrouble::bad_number].count == 0);
+    CHECK(loaded.report[MeshTrouble::bad_number].count == 0);
 }
 
 TEST_CASE("load_obj: many corners, in and out, are cut in no time") {
@@ -342,49 +342,49 @@ TEST_CASE("load_obj: many corners, in and out, are cut in no time") {
 }
 
 TEST_CASE("load_obj: each trouble is counted, with its first line") {
-    const auto check = [](const std::string& more, ObjTrouble which, long long count,
+    const auto check = [](const std::string& more, MeshTrouble which, long long count,
                           long long line) {
-        const ObjCount found = trouble(cube + more, which);
+        const MeshCount found = trouble(cube + more, which);
         CAPTURE(more);
         CHECK(found.count == count);
         CHECK(found.line == line);
     };
     // The cube has 17 lines.
-    check("v 1 nan 2\nv 1 2\nv 1e999 0 0\nv 1 2 x\n", ObjTrouble::bad_number, 4, 18);
-    check("vn 0 0 0\nvn 1 inf 0\n", ObjTrouble::bad_normal, 2, 18);
-    check("vt nan 0\nvt 1 inf\nvt x\n", ObjTrouble::bad_uv, 3, 18);
+    check("v 1 nan 2\nv 1 2\nv 1e999 0 0\nv 1 2 x\n", MeshTrouble::bad_number, 4, 18);
+    check("vn 0 0 0\nvn 1 inf 0\n", MeshTrouble::bad_normal, 2, 18);
+    check("vt nan 0\nvt 1 inf\nvt x\n", MeshTrouble::bad_uv, 3, 18);
     check("vt 0 0\nf 1/2 2/1 3/1\nf 1/-2 2/1 3/1\nf 1/1 2/1 3/99999999999\n",
-          ObjTrouble::no_such_uv, 3, 19);
-    check("vn 0 0 1\nf 1//4 4//1 3//1\nf 1//1 4//1 3//-4\n", ObjTrouble::no_such_normal,
-          2, 19);
+          MeshTrouble::no_such_uv, 3, 19);
+    check("vn 0 0 1\nf 1//4 4//1 3//1\nf 1//1 4//1 3//-4\n",
+          MeshTrouble::no_such_normal, 2, 19);
     check("vt 0 0\nvt nan 0\nf 1/1 2/1 3/1\nf 1/1 2/2 3/1\nf 1/1 2/1 3\n",
-          ObjTrouble::no_uv, 8, 12); // 6 of them the cube's
-    check("f 1 2 9\nf 0 1 2\nf -9 1 2\nf 1 2 x\nf 1/1/1/1 2 3\n", ObjTrouble::bad_index,
-          5, 18);
-    check("f 1/0 2 3\n", ObjTrouble::no_such_uv, 1, 18);
+          MeshTrouble::no_uv, 8, 12); // 6 of them the cube's
+    check("f 1 2 9\nf 0 1 2\nf -9 1 2\nf 1 2 x\nf 1/1/1/1 2 3\n",
+          MeshTrouble::bad_index, 5, 18);
+    check("f 1/0 2 3\n", MeshTrouble::no_such_uv, 1, 18);
     check("s off\nf 1 2 3\ns 7\nf 1 2 3\nf 1 2 2\nf 5//1 6//1 7//1\ns 0\nf 1 2 3\n",
-          ObjTrouble::not_smooth, 1, 21);
-    CHECK(read_obj(cube + "s 1\nf 1 2 3\n", "x.obj", {.normals = ObjNormals::smooth})
-              .report[ObjTrouble::not_smooth]
+          MeshTrouble::not_smooth, 1, 21);
+    CHECK(read_obj(cube + "s 1\nf 1 2 3\n", "x.obj", {.normals = MeshNormals::smooth})
+              .report[MeshTrouble::not_smooth]
               .count == 0);
     check("f 4294967297 2 3\nf 1.5 2 3\nf 1 2 99999999999999999999\n",
-          ObjTrouble::bad_index, 3, 18);
-    check("\nf 1 2\nf 1\n", ObjTrouble::few_corners, 2, 19);
-    check("v 0 0 0 1\nv 0 0 0 1 0 0\nv 0 0 0 0.5 0.25 1\n", ObjTrouble::vertex_color, 2,
-          19);
-    check("l 1 2\np 1\nsurf 0 1 0 1 1 2\n", ObjTrouble::no_face, 3, 18);
-    check("v 1 0 9\nv 4 0 9\nv 0 1 9\nv 4 3 9\nf 9 10 11 12\n", ObjTrouble::crossed, 1,
+          MeshTrouble::bad_index, 3, 18);
+    check("\nf 1 2\nf 1\n", MeshTrouble::few_corners, 2, 19);
+    check("v 0 0 0 1\nv 0 0 0 1 0 0\nv 0 0 0 0.5 0.25 1\n", MeshTrouble::vertex_color,
+          2, 19);
+    check("l 1 2\np 1\nsurf 0 1 0 1 1 2\n", MeshTrouble::no_face, 3, 18);
+    check("v 1 0 9\nv 4 0 9\nv 0 1 9\nv 4 3 9\nf 9 10 11 12\n", MeshTrouble::crossed, 1,
           22);
-    check("f 1 1 2\nf 2 2 2\n", ObjTrouble::no_area, 2, 18);
-    check("f 5//2 6//2 7//2\n", ObjTrouble::turned, 1, 18);
-    check("f 1 4 3\n", ObjTrouble::edge_of_many, 3, 12);
-    check("v 9 9 9\nf 1 2 9\n", ObjTrouble::edge_open, 2, 19);
-    check("usemtl none\nusemtl nothing \n", ObjTrouble::no_material, 2, 18);
-    check("mtllib nowhere.mtl\n", ObjTrouble::no_library, 1, 18);
+    check("f 1 1 2\nf 2 2 2\n", MeshTrouble::no_area, 2, 18);
+    check("f 5//2 6//2 7//2\n", MeshTrouble::turned, 1, 18);
+    check("f 1 4 3\n", MeshTrouble::edge_of_many, 3, 12);
+    check("v 9 9 9\nf 1 2 9\n", MeshTrouble::edge_open, 2, 19);
+    check("usemtl none\nusemtl nothing \n", MeshTrouble::no_material, 2, 18);
+    check("mtllib nowhere.mtl\n", MeshTrouble::no_library, 1, 18);
     const std::string turned = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n";
-    CHECK(trouble(turned, ObjTrouble::edge_turned).count == 1);
+    CHECK(trouble(turned, MeshTrouble::edge_turned).count == 1);
     // An edge that is not used twice, but whose faces are there: none of a closed mesh.
-    CHECK(trouble(cube, ObjTrouble::edge_open).count == 0);
+    CHECK(trouble(cube, MeshTrouble::edge_open).count == 0);
 }
 
 TEST_CASE("load_obj: a file without a face is refused with a sentence") {
@@ -438,7 +438,7 @@ TEST_CASE("load_obj: materials of a file, and scenes that use it") {
     CHECK(loaded.parts[3].material.specular.z == 1);
     CHECK(to_text(loaded.report).find("black") == std::string::npos);
     Scene<Shapes<Mesh>, Materials<Lambertian, Glass, Mirror>> scene;
-    add_obj(scene, loaded);
+    add_meshes(scene, loaded);
     CHECK(scene.size() == 5);
     REQUIRE(scene.light_count() == 1);
     const World world(scene);
@@ -448,7 +448,7 @@ TEST_CASE("load_obj: materials of a file, and scenes that use it") {
     CHECK(scene.object({0, 2}).material.type == 1);
     CHECK(scene.object({0, 3}).material.type == 2);
     Scene<Shapes<Mesh>, Materials<Lambertian>> plain; // lists neither glass nor mirrors
-    add_obj(plain, loaded);
+    add_meshes(plain, loaded);
     CHECK(plain.size() == 5);
 
     const std::string json =
@@ -458,7 +458,7 @@ TEST_CASE("load_obj: materials of a file, and scenes that use it") {
             "objects": [{"type": "mesh", "file": "m.obj", "scale": 2, "material": "m",
                          "normals": "smooth", "emission": [1, 1, 1]}]})";
     std::string report;
-    const auto read = read_json_scene(json, folder.file("s.json"), ObjMeshes{&report});
+    const auto read = read_json_scene(json, folder.file("s.json"), MeshFiles{&report});
     CHECK(read.scene.size() == 5);
     CHECK(read.scene.light_count() == 5);
     CHECK(report.find("edges") != std::string::npos);
@@ -504,17 +504,17 @@ TEST_CASE("load_obj: texture coordinates and the picture of a material") {
     const WallFolder folder;
     const auto loaded = load_obj(folder.file("wall.obj"));
     CHECK(loaded.report.notes.empty());
-    CHECK(loaded.report[ObjTrouble::no_uv].count == 0);
+    CHECK(loaded.report[MeshTrouble::no_uv].count == 0);
     REQUIRE(loaded.parts.size() == 1);
     const Mesh& mesh = loaded.parts[0].mesh;
     CHECK(mesh.data().positions.size() == 4);
     REQUIRE(mesh.data().uv.size() == 4);
 
     Painted scene;
-    add_obj(scene, loaded);
+    add_meshes(scene, loaded);
     const World world(std::move(scene));
-    const ObjPicture& paint =
-        std::get<std::vector<ObjPicture>>(world.materials()).at(0);
+    const MeshPicture& paint =
+        std::get<std::vector<MeshPicture>>(world.materials()).at(0);
     const auto at = [&](float x, float y) {
         const Ray ray{.origin{x, y, 3}, .direction{0, 0, -1}};
         const auto hit = closest_hit(world, ray);
@@ -536,7 +536,7 @@ TEST_CASE("load_obj: texture coordinates and the picture of a material") {
             "objects": [{"type": "mesh", "file": "wall.obj", "material": "m"}],
             "lights": [{"type": "sun", "direction": [0, 0, -1],
                         "irradiance": [1, 1, 1]}]})",
-        folder.file("s.json"), ObjMeshes{});
+        folder.file("s.json"), MeshFiles{});
     const Ray green{.origin{3, 1.5f, 3}, .direction{0, 0, -1}};
     const World hung(std::move(json.scene));
     const auto surface = vertex_at(hung, green, *closest_hit(hung, green));
@@ -546,7 +546,7 @@ TEST_CASE("load_obj: texture coordinates and the picture of a material") {
     });
     // A scene that does not list pictures is painted in Kd, as before.
     Scene<Shapes<Mesh>, Materials<Lambertian>> plain;
-    add_obj(plain, loaded);
+    add_meshes(plain, loaded);
     CHECK(plain.size() == 1);
 
     // Coordinates beyond 1 repeat, and those from the end count backwards.
@@ -570,7 +570,7 @@ TEST_CASE("load_obj: texture coordinates and the picture of a material") {
     const std::string fold = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 1\n"
                              "f 1/1 2/1 3/1\nf 1/2 3/2 4/2\n";
     const auto round =
-        read_obj(fold, "x", {.normals = ObjNormals::smooth}).parts[0].mesh.data();
+        read_obj(fold, "x", {.normals = MeshNormals::smooth}).parts[0].mesh.data();
     REQUIRE(round.positions.size() == 6);
     int same = 0;
     for (std::size_t i = 0; i < 6; ++i)
@@ -591,7 +591,7 @@ TEST_CASE("load_obj: a picture that cannot be read is named with its line") {
         const auto loaded = load_obj(folder.file("wall.obj"));
         CHECK(loaded.pictures.empty());
         Painted scene;
-        add_obj(scene, loaded);
+        add_meshes(scene, loaded);
         CHECK(std::get<std::vector<Lambertian>>(scene.materials).at(0).albedo ==
               Rgb{0.5f});
         const std::string text = to_text(loaded.report);
@@ -672,7 +672,7 @@ TEST_CASE("load_obj: which words of a material file make a mirror or glass") {
     CHECK(is(17).name == "late");
     // What a scene makes of it, and of another material for all.
     Scene<Shapes<Mesh>, Materials<Lambertian, Glass, Mirror>> scene;
-    add_obj(scene, loaded);
+    add_meshes(scene, loaded);
     for (std::uint32_t i = 0; i < 18; ++i)
         CHECK(scene.object({0, i}).material.type == (is(i).is_glass()    ? 1u
                                                      : is(i).is_mirror() ? 2u
@@ -682,17 +682,17 @@ TEST_CASE("load_obj: which words of a material file make a mirror or glass") {
     CHECK(scene.light_count() == 2);
     Scene<Shapes<Mesh>, Materials<Lambertian>> painted;
     const auto white = painted.add(Lambertian{.albedo = Rgb{0.75f}});
-    add_obj(painted, loaded, white, Rgb{1, 2, 3});
+    add_meshes(painted, loaded, white, Rgb{1, 2, 3});
     CHECK(painted.size() == 18);
     CHECK(painted.light_count() == 18);
     CHECK(painted.object({0, 3}).emission == Rgb{1, 2, 3});
     CHECK(painted.object({0, 3}).material == white);
-    add_obj(painted, loaded, white);
+    add_meshes(painted, loaded, white);
     CHECK(painted.light_count() == 18);
     // A file of meshes for a scene in JSON, with the normals that it asks for.
     ScratchFolder::write(folder.file("cube.obj"), cube);
     std::string report;
-    const ObjMeshes meshes{&report};
+    const MeshFiles meshes{&report};
     CHECK(meshes(folder.file("cube.obj"), 2, "flat")[0].data().normals.empty());
     CHECK(meshes(folder.file("cube.obj"), 2, "smooth")[0].data().normals[0] != Vec3{0});
     CHECK(area(meshes(folder.file("cube.obj"), 2, "file")[0]) ==
@@ -701,7 +701,7 @@ TEST_CASE("load_obj: which words of a material file make a mirror or glass") {
     ScratchFolder::write(folder.file("odd.obj"), cube + "f 1 2 99\n");
     (void)meshes(folder.file("odd.obj"), 2, "file");
     CHECK(report.find(folder.file("odd.obj") + ":\nline 18: ") == 0);
-    CHECK(ObjMeshes{}(folder.file("odd.obj"), 2, "file").size() == 1);
+    CHECK(MeshFiles{}(folder.file("odd.obj"), 2, "file").size() == 1);
 }
 
 TEST_CASE("load_obj: a path-traced wall shows the four colours") {
@@ -713,7 +713,7 @@ TEST_CASE("load_obj: a path-traced wall shows the four colours") {
     Painted scene;
     scene.add(Sphere{.radius = 1000}, scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{1},
               true);
-    add_obj(scene, load_obj(folder.file("wall.obj")));
+    add_meshes(scene, load_obj(folder.file("wall.obj")));
     const auto camera = look_at(
         {.position{2, 1, 200},
          .target{2, 1, 0},
@@ -749,14 +749,14 @@ TEST_CASE("load_obj: two names in quotation marks, and half a pair of them") {
     REQUIRE(loaded.parts.size() == 2);
     CHECK(loaded.parts[0].material.diffuse == glm::dvec3{1, 0, 0});
     CHECK(loaded.parts[1].material.diffuse == glm::dvec3{0, 1, 0});
-    CHECK(loaded.report[ObjTrouble::no_library].count == 0);
+    CHECK(loaded.report[MeshTrouble::no_library].count == 0);
 }
 
 TEST_CASE("load_obj: an exponent that overflows is no number") {
     for (const char* number :
          {"0E-99999999999x", "1e9999999999", "-1e400", "1e", "0x1"})
         CHECK(trouble(std::string("v ") + number + " 0 0\n" + cube.substr(0),
-                      ObjTrouble::bad_number)
+                      MeshTrouble::bad_number)
                   .line == 1);
 }
 
@@ -777,15 +777,15 @@ TEST_CASE(
     const std::string mesh = folder.file("a.obj");
     ScratchFolder::write(folder.file("a.mtl"), "newmtl red\nKd 1 0 0\n");
     detail::MaterialLibraries libraries;
-    ObjReport report;
+    MeshReport report;
     libraries.add("a.mtl", mesh, 1, report);
     libraries.add("./a.mtl .//a.mtl none.mtl", mesh, 2, report);
     CHECK(libraries.read.size() == 3); // with all three as one name
-    CHECK(report[ObjTrouble::no_library].count == 1);
+    CHECK(report[MeshTrouble::no_library].count == 1);
     ScratchFolder::write(folder.file("a.mtl"), "newmtl blue\n");
     libraries.add("a.mtl", mesh, 3, report);
     CHECK(libraries.materials.size() == 1);
-    CHECK(report[ObjTrouble::no_library].count == 1);
+    CHECK(report[MeshTrouble::no_library].count == 1);
 }
 
 TEST_CASE("load_obj: no file crashes it") {
@@ -853,13 +853,14 @@ TEST_CASE("load_obj: the pictures of all materials together are limited") {
     const ScratchFolder folder;
     const std::string file = folder.file("two.png");
     save_png(make_image<float>(2, 1), file);
-    LoadedObj loaded;
+    LoadedMesh loaded;
     long long pixels = (1 << 25) - 4;
-    ObjMaterial material{.picture = file, .picture_at = "a.mtl, line 3"};
-    for (int i = 0; i < 2; ++i) detail::load_picture(material, loaded, pixels);
+    MeshMaterial material{.picture = file, .picture_at = "a.mtl, line 3"};
+    for (int i = 0; i < 2; ++i)
+        detail::load_picture(material, loaded, pixels, detail::picture_file);
     CHECK(loaded.report.notes.empty());
     CHECK(loaded.pictures.size() == 1);
-    detail::load_picture(material, loaded, pixels);
+    detail::load_picture(material, loaded, pixels, detail::picture_file);
     CHECK(material.picture.empty()); // so that it is not copied
     REQUIRE(loaded.report.notes.size() == 1);
     CHECK(loaded.report.notes[0] ==
@@ -876,7 +877,7 @@ TEST_CASE("load_obj: a report has all that the file has") {
         "vt 0 0\nvt 1 0\nvn 0 0 -1\ng b\ng c\n"
         "f 1//1 3//1 2//1\nf 5/1 2/2 4/1\nf 1 4 3\nf 2 3 4\n"
         "f 1 1 2\nf 1 2 99\n";
-    const ObjContent has = read_obj(text, "x").report.content;
+    const MeshContent has = read_obj(text, "x").report.content;
     CHECK(has.vertices == 6);
     CHECK(has.unused == 1);
     CHECK(has.normals == 1);
@@ -897,10 +898,10 @@ TEST_CASE("load_obj: a report has all that the file has") {
 }
 
 TEST_CASE("load_obj: a report has the first line of each trouble, in any order") {
-    ObjReport report;
-    for (const long long line : {7, 3, 5}) report.add(ObjTrouble::no_area, line);
-    CHECK(report[ObjTrouble::no_area].count == 3);
-    CHECK(report[ObjTrouble::no_area].line == 3);
+    MeshReport report;
+    for (const long long line : {7, 3, 5}) report.add(MeshTrouble::no_area, line);
+    CHECK(report[MeshTrouble::no_area].count == 3);
+    CHECK(report[MeshTrouble::no_area].line == 3);
     // Three triangles at one edge, and one whose first two corners are at one place:
     // it has two edges, which are two sides of the same.
     MeshData data{.positions{{0, 0, 0},
@@ -912,13 +913,13 @@ TEST_CASE("load_obj: a report has the first line of each trouble, in any order")
                              {5, 0, 0},
                              {6, 0, 0}},
                   .triangles{{0, 1, 2}, {0, 1, 3}, {1, 0, 4}, {5, 6, 7}}};
-    ObjReport edges;
+    MeshReport edges;
     detail::count_edges(data, {9, 4, 7, 2}, edges);
-    CHECK(edges[ObjTrouble::edge_of_many].count == 1);
-    CHECK(edges[ObjTrouble::edge_of_many].line == 4);
-    CHECK(edges[ObjTrouble::edge_open].count == 6);
-    CHECK(edges[ObjTrouble::edge_open].line == 4);
-    CHECK(edges[ObjTrouble::edge_turned].count == 0);
+    CHECK(edges[MeshTrouble::edge_of_many].count == 1);
+    CHECK(edges[MeshTrouble::edge_of_many].line == 4);
+    CHECK(edges[MeshTrouble::edge_open].count == 6);
+    CHECK(edges[MeshTrouble::edge_open].line == 4);
+    CHECK(edges[MeshTrouble::edge_turned].count == 0);
 }
 
 TEST_CASE("load_obj: the rarer words of a file") {
@@ -930,8 +931,8 @@ TEST_CASE("load_obj: the rarer words of a file") {
         read_obj("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25\nvt 0.5\t0.75\n"
                  "usemtl both\nf 1 2 3\nusemtl red \t\nf 1/1 2/2 3/1\n",
                  folder.file("x.obj"));
-    CHECK(loaded.report[ObjTrouble::no_material].count == 0);
-    CHECK(loaded.report[ObjTrouble::bad_uv].count == 0);
+    CHECK(loaded.report[MeshTrouble::no_material].count == 0);
+    CHECK(loaded.report[MeshTrouble::bad_uv].count == 0);
     REQUIRE(loaded.parts.size() == 2);
     CHECK(loaded.parts[1].mesh.data().uv[0] == Vec2{0.25f, 0});
     CHECK(loaded.parts[1].mesh.data().uv[1] == Vec2{0.5f, 0.75f});
@@ -939,10 +940,10 @@ TEST_CASE("load_obj: the rarer words of a file") {
     CHECK(loaded.parts[0].material.is_glass());
     CHECK(loaded.parts[0].material.is_mirror());
     Scene<Shapes<Mesh>, Materials<Lambertian, Glass, Mirror>> all;
-    add_obj(all, loaded);
+    add_meshes(all, loaded);
     CHECK(all.object({0, 0}).material.type == 1);
     Scene<Shapes<Mesh>, Materials<Lambertian, Mirror>> no_glass;
-    add_obj(no_glass, loaded);
+    add_meshes(no_glass, loaded);
     CHECK(no_glass.object({0, 0}).material.type == 1);
     CHECK(no_glass.object({0, 1}).material.type == 0);
 }
@@ -1014,7 +1015,7 @@ TEST_CASE("load_obj: files of other programs") {
     CHECK_FALSE(house.parts[0].material.is_glass());
     // The first face has the uv of the file, the second its normal.
     const auto zero = load_obj(LJUS_TEST_INPUTS "/zero_indices.obj");
-    CHECK(zero.report[ObjTrouble::no_such_uv].line == 10);
+    CHECK(zero.report[MeshTrouble::no_such_uv].line == 10);
     const MeshData& has = zero.parts[0].mesh.data();
     CHECK(has.uv[has.triangles[0][2]] == Vec2{1, 1});
     CHECK(has.normals[has.triangles[1][0]] == Vec3{0, 0, 1});
@@ -1086,8 +1087,8 @@ TEST_CASE("load_obj: a material file may be named behind its use") {
     REQUIRE(loaded.parts.size() == 2);
     CHECK(loaded.parts[0].mesh.size() == 3); // of no material, or of none that is known
     CHECK(loaded.parts[1].material.diffuse == glm::dvec3{1, 0, 0});
-    CHECK(loaded.report[ObjTrouble::no_material].count == 3);
-    CHECK(loaded.report[ObjTrouble::no_material].line == 5);
+    CHECK(loaded.report[MeshTrouble::no_material].count == 3);
+    CHECK(loaded.report[MeshTrouble::no_material].line == 5);
 }
 
 TEST_CASE("load_obj: random polygons with holes have the area that is left") {

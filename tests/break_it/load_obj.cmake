@@ -36,36 +36,36 @@ ljus_break_it(NAME polygon-neighbours HEADER geometry/detail/polygon.hpp TEST lo
 
 # A hostile texture coordinate is taken for none without a word.
 ljus_break_it(NAME load-obj-uv-index HEADER io/detail/obj_reader.hpp TEST load_obj
-    FROM "missing[k] || (end > 0 && corner[k] == no_number);"
-    TO   "missing[k];"
+    FROM "if (end > 0 && at[k] == no_number) mesh_.miss(k);"
+    TO   ""
     CASES "load_obj: each trouble*")
 
 # All corners have the first texture coordinates of the file.
-ljus_break_it(NAME load-obj-uv HEADER io/detail/obj_reader.hpp TEST load_obj
+ljus_break_it(NAME load-obj-uv HEADER io/detail/mesh_builder.hpp TEST load_obj
     FROM "uv != no_number ? uv_[uv]"
     TO   "uv != no_number ? uv_[0]"
     CASES "load_obj: texture coordinates*")
 
 # A seam of the picture is an edge of the surface.
-ljus_break_it(NAME load-obj-seam HEADER io/detail/obj_reader.hpp TEST load_obj
+ljus_break_it(NAME load-obj-seam HEADER io/detail/mesh_builder.hpp TEST load_obj
     FROM "part.smooth();"
     TO   "smooth_normals(part.data);"
     CASES "load_obj: texture coordinates*")
 
 # Kd without its picture.
-ljus_break_it(NAME load-obj-picture HEADER io/load_obj.hpp TEST load_obj
-    FROM "picture != loaded.pictures.end())"
-    TO   "picture == loaded.pictures.end())"
+ljus_break_it(NAME load-obj-picture HEADER io/mesh_file.hpp TEST load_obj
+    FROM "if (pictured) return scene.add(painted(matt));"
+    TO   ""
     CASES "load_obj: a path-traced wall*")
 
 # The first line that is met in place of the first line of the file.
-ljus_break_it(NAME load-obj-first-line HEADER io/obj_report.hpp TEST load_obj
+ljus_break_it(NAME load-obj-first-line HEADER io/mesh_report.hpp TEST load_obj
     FROM "if (at.count == 0 || line < at.line) at.line = line;"
     TO   "if (at.count == 0) at.line = line;"
     CASES "load_obj: a report has the first line*")
 
 # What is glass and a mirror at once.
-ljus_break_it(NAME load-obj-glass-first HEADER io/load_obj.hpp TEST load_obj
+ljus_break_it(NAME load-obj-glass-first HEADER io/mesh_file.hpp TEST load_obj
     FROM "if (is.is_glass()) return scene.add(glass);"
     TO   "if (is.is_glass() && !is.is_mirror()) return scene.add(glass);"
     CASES "load_obj: the rarer words*")
@@ -125,7 +125,7 @@ ljus_break_it(NAME obj-backslash HEADER io/detail/obj_text.hpp TEST load_obj
     CASES "load_obj: files of other programs")
 
 # A mesh inside out is not remarked.
-ljus_break_it(NAME obj-inside-out HEADER io/obj_report.hpp TEST load_obj
+ljus_break_it(NAME obj-inside-out HEADER io/mesh_report.hpp TEST load_obj
     FROM "if (volume < 0)"
     TO   "if (volume > 0)"
     CASES "load_obj: files of other programs")
@@ -161,7 +161,7 @@ ljus_break_it(NAME obj-piece HEADER io/detail/obj_text.hpp TEST load_obj
     CASES "load_obj: a file that comes in pieces*")
 
 # A vertex for each corner of each face.
-ljus_break_it(NAME obj-vertices HEADER io/detail/obj_reader.hpp TEST load_obj
+ljus_break_it(NAME obj-vertices HEADER io/detail/mesh_builder.hpp TEST load_obj
     FROM "if (corners_[vertex] == corner) return vertex;"
     TO   ";"
     CASES "load_obj: what is written*")
@@ -174,12 +174,12 @@ ljus_break_it(NAME obj-library-once HEADER io/detail/obj_material.hpp TEST load_
 
 # The next faces have the material before.
 ljus_break_it(NAME obj-part-reset HEADER io/detail/obj_reader.hpp TEST load_obj
-    FROM "material_ = known.number;"
-    TO   "material_ = 1;"
+    FROM "mesh_.material = known.number;"
+    TO   "mesh_.material = 1;"
     CASES "load_obj: materials of a file*")
 
 # A tetrahedron has a third of its parallelepiped in place of a sixth.
-ljus_break_it(NAME obj-volume HEADER io/obj_report.hpp TEST load_obj
+ljus_break_it(NAME obj-volume HEADER io/mesh_report.hpp TEST load_obj
     FROM "report.content.volume = volume / 6;"
     TO   "report.content.volume = volume / 3;"
     CASES "load_obj: a report has all*")
@@ -204,12 +204,12 @@ ljus_break_it(NAME obj-tiny-number HEADER io/detail/obj_text.hpp TEST load_obj
 
 # A 0 for "no normal" makes the whole corner unreadable.
 ljus_break_it(NAME obj-zero-index HEADER io/detail/obj_reader.hpp TEST load_obj
-    FROM "corner[k] = place_of(number, counts[k]);"
+    FROM "at[k] = place_of(number, counts[k]);"
     TO   "if (end > 0 && number == 0) break;"
     CASES "load_obj: files of other programs")
 
 # Glass of index 1, which nobody sees.
-ljus_break_it(NAME obj-glass-of-nothing HEADER io/detail/obj_material.hpp TEST load_obj
+ljus_break_it(NAME obj-glass-of-nothing HEADER io/mesh_file.hpp TEST load_obj
     FROM "(glass && index != 1)"
     TO   "glass"
     CASES "load_obj: files of other programs")
@@ -228,8 +228,8 @@ ljus_break_it(NAME obj-tr-opaque HEADER io/detail/obj_material.hpp TEST load_obj
 
 # That faces are meant to be smooth is not said.
 ljus_break_it(NAME obj-not-smooth HEADER io/detail/obj_reader.hpp TEST load_obj
-    FROM "in_smooth_group_ = !group.empty() && group != \"off\" && group != \"0\";"
-    TO   "in_smooth_group_ = group == \"on\";"
+    FROM "mesh_.in_smooth_group = !group.empty() && group != \"off\" && group != \"0\";"
+    TO   "mesh_.in_smooth_group = group == \"on\";"
     CASES "load_obj: each trouble*")
 
 # A black mirror is not remarked.

@@ -127,7 +127,7 @@ ljus_break_it(NAME png-apple HEADER io/load_image.hpp TEST texture
     CASES "texture: a PNG file of another kind*")
 
 # Each picture of a scene may be as large as all of them together.
-ljus_break_it(NAME load-image-together HEADER io/load_image.hpp TEST texture
+ljus_break_it(NAME load-image-together HEADER io/detail/picture_size.hpp TEST texture
     FROM "wide * high <= max_image_pixels - others"
     TO   "wide * high <= max_image_pixels"
     CASES "texture: pictures that are kept*")

@@ -14,7 +14,9 @@
 #include "ljus/io/png.hpp"
 #include "ljus/radiosity/radiosity.hpp"
 #include "ljus/scenes/cornell_box.hpp"
+#include "ljus/scenes/mesh_formulas.hpp"
 #include "support/jpeg_segment.hpp"
+#include "support/mesh_bytes.hpp"
 
 int main(int argc, char** argv) {
     if (argc != 2) return 2;
@@ -68,6 +70,12 @@ int main(int argc, char** argv) {
     ljus_test::add_jpeg_segment(jpeg, 0xda, {1, 1, 0, 0, 63, 0});
     jpeg.insert(jpeg.end(), {0, 0, 0, 0, 0xff, 0xd9});
     save_file(file("png", "short.jpg"), jpeg);
+
+    const MeshData ball = icosphere(Sphere{.center{0, 0, 0}, .radius = 1}, 0);
+    for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"})
+        save_file(file("ply", format), ljus_test::ply_bytes(ball, format));
+    save_file(file("stl", "text.stl"), ljus_test::stl_bytes(ball, true));
+    save_file(file("stl", "bytes.stl"), ljus_test::stl_bytes(ball, false));
 
     const auto room = cornell_box();
     LightMap light = make_radiosity(room.world, {.patches = {.size = 2}})->map;

@@ -94,6 +94,7 @@
 #include "ljus/image/color.hpp"
 #include "ljus/image/image.hpp"
 #include "ljus/io/detail/picture_damage.hpp"
+#include "ljus/io/detail/picture_size.hpp"
 #include "ljus/io/file.hpp"
 
 namespace ljus {
@@ -108,19 +109,8 @@ namespace detail {
 /// The largest file that load_image() accepts, in bytes.
 inline constexpr std::size_t max_image_file = std::size_t(1) << 27;
 
-/// The largest number of pixels: 8192 x 4096; half of them for a 16-bit PNG file.
-inline constexpr int max_image_pixels = 1 << 25;
-
 /// The largest width and height; stb_image has the same.
 inline constexpr int max_image_side = 1 << 24;
-
-// Why a picture is too large beside others with so many pixels; empty if it is not.
-inline std::string too_large_beside(long long others, long long wide, long long high) {
-    if (wide * high <= max_image_pixels - others) return "";
-    return join({"has ", to_text(wide), " x ", to_text(high),
-                 " pixels, and the pictures before it have ", to_text(others),
-                 "; together there must be at most ", to_text(max_image_pixels)});
-}
 
 #ifdef LJUS_HAS_STB_IMAGE
 // A decoded picture: three bytes per pixel.

@@ -200,7 +200,7 @@ template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT
 
 /// Loads a scene file.
 /// \param path  The file.
-/// \param load_meshes  As for read_json_scene(): ObjMeshes, or nothing.
+/// \param load_meshes  As for read_json_scene(): MeshFiles, or nothing.
 /// \throws std::runtime_error  as read_json_scene(), or with path and reason if the
 ///         file cannot be read.
 template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT<T>>

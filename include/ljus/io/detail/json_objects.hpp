@@ -49,8 +49,8 @@ struct NoMeshesT {
                                                   const std::string&) const {
         throw std::runtime_error(
             shown_path(file) +
-            ": load_json() reads no meshes unless it is given ObjMeshes, from "
-            "ljus/io/load_obj.hpp.");
+            ": load_json() reads no meshes unless it is given MeshFiles, from "
+            "ljus/io/load_mesh.hpp.");
     }
 };
 
@@ -96,8 +96,8 @@ inline constexpr JsonMember triangles_members[]{
            "three numbers of vertices for each triangle, from 0 on; the normal is "
            "(V2 - V1) x (V3 - V1)",
            "[[0, 1, 2]]")};
-inline constexpr JsonMember file_row =
-    needed("file", text_value, "OBJ, beside the scene file", "\"mesh.obj\"");
+inline constexpr JsonMember file_row = needed(
+    "file", text_value, "OBJ, PLY, STL or glTF, beside the scene file", "\"mesh.obj\"");
 inline constexpr JsonMember factor_row =
     preset("scale", factor_value, 1, "factor of all lengths");
 inline constexpr JsonMember normals_row =
@@ -133,7 +133,7 @@ inline constexpr JsonTable object_tables[]{
      {},
      "triangles; two that form a parallelogram become a quad",
      triangles_members},
-    {"mesh", {}, "the triangles of a file: ljus::ObjMeshes", mesh_members},
+    {"mesh", {}, "the triangles of a file: ljus::MeshFiles", mesh_members},
     {"instances",
      {},
      "the meshes of a file, kept once, in many places: ljus::Instance",

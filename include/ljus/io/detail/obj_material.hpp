@@ -11,45 +11,14 @@
 #include <glm/common.hpp>
 
 #include "ljus/io/detail/obj_text.hpp"
-#include "ljus/io/file.hpp"
-#include "ljus/io/obj_report.hpp"
+#include "ljus/io/mesh_file.hpp"
 
 namespace ljus {
 
 /// \addtogroup obj_reader
 /// \{
 
-/// A material as described by a material file.
-struct ObjMaterial {
-    std::string name{};       ///< Empty for faces without a material.
-    glm::dvec3 diffuse{0.5};  ///< Kd, in [0, 1]; 1 if there is a picture and no Kd
-                              ///< above 0.
-    glm::dvec3 specular{0};   ///< Ks, in [0, 1].
-    glm::dvec3 emission{0};   ///< Ke, W/(m^2 sr), at least 0.
-    double index = 1.5;       ///< Ni, within [0.001, 1000].
-    double dissolve = 1;      ///< d, or 1 - Tr: 0 is clear. Tr 1 under a picture is
-                              ///< taken for opaque.
-    int illumination = 2;     ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass
-                              ///< unless Ni is 1, which some programs write for all.
-    std::string picture{};    ///< map_Kd, which Kd multiplies: its path; empty: none.
-    std::string picture_at{}; ///< Its position: "room.mtl, line 12".
-
-    /// Whether it is glass: by illum, or because d says that it is mostly clear.
-    [[nodiscard]] bool is_glass() const noexcept {
-        const int i = illumination;
-        const bool glass = i == 4 || i == 6 || i == 7 || i == 9;
-        return (glass && index != 1) || dissolve < 0.5;
-    }
-    /// Whether it is a mirror.
-    [[nodiscard]] bool is_mirror() const noexcept {
-        return illumination == 3 || illumination == 5 || illumination == 8;
-    }
-};
-
 namespace detail {
-
-/// The largest file that load_obj() takes, in bytes.
-inline constexpr std::size_t max_obj_file = std::size_t(1) << 30;
 
 // The file that another one names, on any system: "maps\wall.png" beside it.
 inline std::string file_named(const std::string& beside, std::string name) {
@@ -59,12 +28,12 @@ inline std::string file_named(const std::string& beside, std::string name) {
 
 // Reads one material file, line by line.
 struct MaterialReader {
-    const std::string& path;                       // of the file
-    std::map<std::string, ObjMaterial>& materials; // takes what is read
-    std::vector<std::string>& notes;               // takes a sentence a trouble
+    const std::string& path;                        // of the file
+    std::map<std::string, MeshMaterial>& materials; // takes what is read
+    std::vector<std::string>& notes;                // takes a sentence a trouble
 
-    ObjMaterial ignored{}; // for lines before the first material, or of a name again
-    ObjMaterial* material = &ignored;
+    MeshMaterial ignored{}; // for lines before the first material, or of a name again
+    MeshMaterial* material = &ignored;
     bool has_diffuse = false, has_dissolve = false;
     std::string mirror_at{}; // where illum stands
     long long number = 0;    // of the line
@@ -131,7 +100,7 @@ struct MaterialReader {
         }
     }
     void finish() {
-        ObjMaterial& is = *material;
+        MeshMaterial& is = *material;
         const bool black = has_diffuse && is.diffuse == glm::dvec3(0);
         if (!is.picture.empty() && (black || !has_diffuse)) {
             is.diffuse = glm::dvec3(1);
@@ -194,27 +163,27 @@ struct MaterialReader {
 
 // The materials of all files that a mesh file names; the first of a name counts.
 struct MaterialLibraries {
-    std::map<std::string, ObjMaterial> materials{};
+    std::map<std::string, MeshMaterial> materials{};
     std::map<std::string, bool> read{}; // whether a file could be, by one_path()
 
     // A line "mtllib": the name of one file, or those of several without blanks. A file
     // that is named again is not read again.
     void add(const std::string& names, const std::string& file, long long line,
-             ObjReport& report) {
+             MeshReport& report) {
         if (add_file(file_named(file, names), report)) return;
         Words words{names};
         for (std::string_view name = words.next(); !name.empty(); name = words.next())
             if (name.size() == names.size() ||
                 !add_file(file_named(file, Words{name}.name()), report))
-                report.add(ObjTrouble::no_library, line);
+                report.add(MeshTrouble::no_library, line);
     }
 
 private:
-    bool add_file(const std::string& path, ObjReport& report) {
+    bool add_file(const std::string& path, MeshReport& report) {
         const auto [known, fresh] = read.try_emplace(one_path(path), false);
         if (fresh) {
             try {
-                const std::string text = load_text(path, max_obj_file);
+                const std::string text = load_text(path, max_mesh_file);
                 MaterialReader{path, materials, report.notes}.read(text);
                 known->second = true;
             } catch (const std::runtime_error&) { // it is reported where it is named

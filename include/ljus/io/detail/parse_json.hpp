@@ -100,7 +100,7 @@ private:
                 join({shown_path(file), ": it has more than ",
                       to_text(static_cast<long long>(max_json_values)),
                       " numbers, or a quarter as many lists, objects and members; put "
-                      "large meshes into OBJ files."}));
+                      "large meshes into files of their own."}));
         room -= cost;
     }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// \file ljus/io/obj_report.hpp
+/// \file ljus/io/mesh_report.hpp
 /// \brief Problems of a mesh file that do not prevent its use.
 
 #include <algorithm>
@@ -16,12 +16,12 @@
 
 namespace ljus {
 
-/// \defgroup obj_report Problems of mesh files
+/// \defgroup mesh_report Problems of mesh files
 /// \brief Counts of problems, each with the first line where it occurs.
 /// \{
 
 /// A problem of a mesh file.
-enum class ObjTrouble : std::uint8_t {
+enum class MeshTrouble : std::uint8_t {
     bad_number,     ///< A coordinate that is not finite; its faces are left out.
     bad_normal,     ///< A normal that is 0 or not finite; its faces are flat.
     bad_uv,         ///< A texture coordinate that is not finite; its faces get (0, 0).
@@ -47,19 +47,19 @@ enum class ObjTrouble : std::uint8_t {
 
 namespace detail {
 
-/// The number of values of ObjTrouble.
-inline constexpr std::size_t obj_troubles = 21;
+/// The number of values of MeshTrouble.
+inline constexpr std::size_t mesh_troubles = 21;
 
 } // namespace detail
 
 /// The number of occurrences of a problem.
-struct ObjCount {
+struct MeshCount {
     long long count = 0; ///< Occurrences.
-    long long line = 0;  ///< The first line, counted from 1.
+    long long line = 0;  ///< The first line, or other MeshReport::unit, from 1.
 };
 
 /// What a mesh file has in it, problems or not.
-struct ObjContent {
+struct MeshContent {
     long long vertices = 0;    ///< Lines v.
     long long normals = 0;     ///< Lines vn.
     long long uvs = 0;         ///< Lines vt.
@@ -75,28 +75,31 @@ struct ObjContent {
 };
 
 /// The problems of a mesh file.
-struct ObjReport {
-    std::array<ObjCount, detail::obj_troubles> counts{}; ///< By ObjTrouble.
+struct MeshReport {
+    /// What the places in the file are that the counts name: a line of a text, an
+    /// element of a PLY file, a triangle of an STL or glTF file; counted from 1.
+    const char* unit = "line";
+    std::array<MeshCount, detail::mesh_troubles> counts{}; ///< By MeshTrouble.
     /// One sentence per problem of a material file or a picture, with file and line.
     std::vector<std::string> notes{};
-    ObjContent content{}; ///< All that was read.
+    MeshContent content{}; ///< All that was read.
 
     /// Counts occurrences, the first of them at this line.
-    void add(ObjTrouble trouble, long long line, long long count = 1) {
-        ObjCount& at = counts[static_cast<std::size_t>(trouble)];
+    void add(MeshTrouble trouble, long long line, long long count = 1) {
+        MeshCount& at = counts[static_cast<std::size_t>(trouble)];
         if (at.count == 0 || line < at.line) at.line = line;
         at.count += count;
     }
     /// The occurrences of a problem.
-    [[nodiscard]] const ObjCount& operator[](ObjTrouble trouble) const {
+    [[nodiscard]] const MeshCount& operator[](MeshTrouble trouble) const {
         return counts[static_cast<std::size_t>(trouble)];
     }
 };
 
 /// A report as text, one line per problem: "line 12: 3 faces have no area; ...".
 /// \return Lines that end with a line feed; empty without problems.
-[[nodiscard]] inline std::string to_text(const ObjReport& report) {
-    constexpr std::array<const char*, detail::obj_troubles> words{
+[[nodiscard]] inline std::string to_text(const MeshReport& report) {
+    constexpr std::array<const char*, detail::mesh_troubles> words{
         "vertices have coordinates that are not finite numbers; their faces are left "
         "out",
         "normals are 0 or not finite numbers; their faces are shaded flat",
@@ -124,9 +127,10 @@ struct ObjReport {
         "uses of a material that no material file has; the default is used",
         "material files cannot be read; the default material is used"};
     std::string text;
-    for (std::size_t i = 0; i < detail::obj_troubles; ++i)
+    for (std::size_t i = 0; i < detail::mesh_troubles; ++i)
         if (report.counts[i].count > 0)
-            text.append("line ")
+            text.append(report.unit)
+                .append(" ")
                 .append(std::to_string(report.counts[i].line))
                 .append(": ")
                 .append(std::to_string(report.counts[i].count))
@@ -144,7 +148,7 @@ namespace detail {
 // count as one. Expected O(n).
 template <std::floating_point T>
 void count_edges(const MeshDataT<T>& data, const std::vector<std::uint32_t>& lines,
-                 ObjReport& report) {
+                 MeshReport& report) {
     const auto place = first_equal_points(data.positions);
     // The edges of a place, to places of higher numbers.
     struct Edge {
@@ -179,9 +183,9 @@ void count_edges(const MeshDataT<T>& data, const std::vector<std::uint32_t>& lin
             if (count == 2 && edges[first].forwards != edges[first + 1].forwards)
                 continue;
             closed = false;
-            report.add(count > 2    ? ObjTrouble::edge_of_many
-                       : count == 1 ? ObjTrouble::edge_open
-                                    : ObjTrouble::edge_turned,
+            report.add(count > 2    ? MeshTrouble::edge_of_many
+                       : count == 1 ? MeshTrouble::edge_open
+                                    : MeshTrouble::edge_turned,
                        line);
         }
     }
@@ -194,7 +198,7 @@ void count_edges(const MeshDataT<T>& data, const std::vector<std::uint32_t>& lin
                            glm::cross(glm::dvec3(data.positions[b]) - from,
                                       glm::dvec3(data.positions[c]) - from));
     report.content.volume = volume / 6;
-    if (volume < 0) report.add(ObjTrouble::inside_out, lines[0]);
+    if (volume < 0) report.add(MeshTrouble::inside_out, lines[0]);
 }
 
 } // namespace detail

@@ -1,0 +1,343 @@
+#pragma once
+
+/// \file ljus/io/detail/mesh_builder.hpp
+/// \brief The faces of a mesh file become meshes; nothing in the file is trusted.
+
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include "ljus/geometry/detail/polygon.hpp"
+#include "ljus/io/detail/picture_size.hpp"
+#include "ljus/io/detail/vertex_colors.hpp"
+#include "ljus/io/file.hpp"
+#include "ljus/io/mesh_file.hpp"
+
+namespace ljus::detail {
+
+/// The largest mesh file, in bytes.
+inline constexpr std::size_t max_mesh_file = std::size_t(1) << 30;
+
+// What the file says of a corner of a face: numbers, from 0, in its lists of positions,
+// texture coordinates, normals and materials; or no_number.
+using MeshCorner = std::array<std::uint32_t, 4>;
+inline constexpr std::size_t of_position = 0, of_uv = 1, of_normal = 2, of_material = 3;
+inline constexpr auto no_number = std::numeric_limits<std::uint32_t>::max();
+
+// All faces of one material.
+template <std::floating_point T>
+struct MeshFacesT {
+    MeshMaterial material{};
+    MeshDataT<T> data{};
+    std::vector<std::uint32_t> positions{}; // of its vertices, in the file
+    std::vector<RgbT<T>> colors{};          // of its vertices, or empty
+    bool has_normals = false, has_uv = false;
+    std::uint32_t without_uv = 0; // line of the last face that has none
+
+    // smooth_normals(), to which a seam of the texture coordinates is no edge.
+    void smooth() {
+        MeshDataT<T> seamless{.positions = data.positions};
+        std::unordered_map<std::uint32_t, std::uint32_t> first; // at each position
+        std::vector<std::uint32_t> of;
+        for (const std::uint32_t position : positions) {
+            const auto vertex = static_cast<std::uint32_t>(of.size());
+            of.push_back(first.try_emplace(position, vertex).first->second);
+        }
+        for (const auto& [a, b, c] : data.triangles)
+            seamless.triangles.push_back({of[a], of[b], of[c]});
+        smooth_normals(seamless);
+        data.normals.clear();
+        for (const std::uint32_t vertex : of)
+            data.normals.push_back(seamless.normals[vertex]);
+    }
+};
+
+// Takes the vertices and faces of a file one by one, in the units of the file.
+template <std::floating_point T>
+class MeshBuilder {
+public:
+    explicit MeshBuilder(const MeshFileSettings& settings) : settings_(settings) {}
+
+    MeshReport report{};
+    long long place = 0;          // line, element or triangle that is read
+    std::uint32_t material = 0;   // of the next faces; 0: none
+    bool in_smooth_group = false; // the next faces are meant to be smooth
+
+    [[nodiscard]] std::array<std::size_t, 3> counts() const {
+        return {positions_.size(), uv_.size(), normals_.size()};
+    }
+
+    void add_position(const glm::dvec3& at) {
+        positions_.push_back(at);
+        latest_.push_back(no_number);
+        if (!is_finite(position(positions_.size() - 1)))
+            report.add(MeshTrouble::bad_number, place);
+    }
+    // The colour of the last position, linear. It counts if each channel is in [0, 1].
+    void add_color(const glm::dvec3& color) {
+        colors_.resize(positions_.size(), no_color);
+        for (int i = 0; i < 3; ++i)
+            if (!(color[i] >= 0 && color[i] <= 1)) return;
+        colors_.back() = RgbT<float>(color);
+        if (colored_.count++ == 0) colored_.line = place;
+    }
+    void add_normal(const glm::dvec3& n) {
+        const double length = glm::length(n);
+        const bool good = length > 0 && std::isfinite(length);
+        if (!good) report.add(MeshTrouble::bad_normal, place);
+        normals_.emplace_back(good ? n / length : glm::dvec3(0));
+    }
+    void add_uv(double u, double v) {
+        uv_.emplace_back(T(u), T(v));
+        if (!has_place(uv_.back())) report.add(MeshTrouble::bad_uv, place);
+    }
+    // The next corner of a face: places in the lists of positions, texture coordinates
+    // and normals, or no_number. What lies beyond its list does not exist.
+    void add_corner(std::uint32_t at, std::uint32_t uv, std::uint32_t normal) {
+        const std::array<std::uint32_t, 3> corner{at, uv, normal};
+        const auto all = counts();
+        MeshCorner has{no_number, no_number, no_number, material};
+        for (std::size_t k = 0; k < 3; ++k)
+            if (corner[k] < all[k])
+                has[k] = corner[k];
+            else if (corner[k] != no_number || k == of_position)
+                missing_[k] = true;
+        if (face_.size() <= 1000) face_.push_back(has);
+    }
+    // What does not exist at a corner of the face, though the file names it.
+    void miss(std::size_t k) { missing_[k] = true; }
+
+    // The face of the corners so far.
+    void end_face() {
+        face();
+        face_.clear();
+        missing_ = {};
+    }
+
+    // The faces by material, in the order of its first use. Completes the report.
+    // `known` are the materials by their numbers, nullptr for none.
+    std::vector<MeshFacesT<T>>
+    take_faces(const std::vector<const MeshMaterial*>& known) {
+        report.content.vertices = static_cast<long long>(positions_.size());
+        report.content.normals = static_cast<long long>(normals_.size());
+        report.content.uvs = static_cast<long long>(uv_.size());
+        report.content.unused = std::count(latest_.begin(), latest_.end(), no_number);
+        count_edges(whole_, lines_, report);
+
+        std::vector<MeshFacesT<T>> parts;
+        std::unordered_map<const MeshMaterial*, std::size_t> numbers; // of the parts
+        const auto part_of = [&](const MeshCorner& corner) -> MeshFacesT<T>& {
+            const MeshMaterial* const is = known[corner[of_material]];
+            const auto [at, fresh] = numbers.try_emplace(is, parts.size());
+            if (fresh) parts.push_back({is ? *is : MeshMaterial{}});
+            return parts[at->second];
+        };
+        colors_.resize(colored_.count > 0 ? positions_.size() : 0, no_color);
+        std::vector<std::uint32_t> vertices; // of `whole_`, in their parts
+        for (std::size_t i = 0; i < corners_.size(); ++i) {
+            const auto [position, uv, normal, number] = corners_[i];
+            MeshFacesT<T>& part = part_of(corners_[i]);
+            vertices.push_back(static_cast<std::uint32_t>(part.positions.size()));
+            part.positions.push_back(position);
+            part.data.positions.push_back(whole_.positions[i]);
+            part.data.normals.push_back(normal != no_number ? normals_[normal]
+                                                            : Vec3T<T>{0});
+            part.data.uv.push_back(uv != no_number ? uv_[uv] : Vec2T<T>{0});
+            part.has_normals = part.has_normals || normal != no_number;
+            part.has_uv = part.has_uv || uv != no_number;
+            if (!colors_.empty()) part.colors.emplace_back(colors_[position]);
+        }
+        for (std::size_t i = 0; i < lines_.size(); ++i) {
+            const auto [a, b, c] = whole_.triangles[i];
+            MeshFacesT<T>& part = part_of(corners_[a]);
+            part.data.triangles.push_back({vertices[a], vertices[b], vertices[c]});
+            if (part.has_uv && corners_[a][of_uv] == no_number &&
+                part.without_uv != lines_[i])
+                report.add(MeshTrouble::no_uv, part.without_uv = lines_[i]);
+        }
+        bool all_colors = settings_.pictures && !colors_.empty();
+        for (MeshFacesT<T>& part : parts) {
+            if (!part.has_normals) part.data.normals.clear();
+            if (settings_.normals == MeshNormals::smooth) part.smooth();
+            if (!part.has_uv) part.data.uv.clear();
+            const MeshMaterial& is = part.material;
+            if (!settings_.pictures || !is.picture.empty() || is.is_glass() ||
+                is.is_mirror() ||
+                std::count(part.colors.begin(), part.colors.end(), RgbT<T>(no_color)) >
+                    0)
+                part.colors.clear();
+            all_colors = all_colors && !part.colors.empty();
+        }
+        if (!all_colors && colored_.count > 0)
+            report.add(MeshTrouble::vertex_color, colored_.line, colored_.count);
+        return parts;
+    }
+
+private:
+    // The colour of a position that has none.
+    static constexpr RgbT<float> no_color{-1};
+
+    Vec3T<T> position(std::size_t number) const {
+        return Vec3T<T>(settings_.scale * positions_[number]);
+    }
+    static bool has_place(const Vec2T<T>& uv) {
+        return std::isfinite(uv.x) && std::isfinite(uv.y);
+    }
+    void face() {
+        if (face_.size() > 1000) return report.add(MeshTrouble::many_corners, place);
+        if (face_.size() < 3) return report.add(MeshTrouble::few_corners, place);
+        if (missing_[of_position]) return report.add(MeshTrouble::bad_index, place);
+        if (missing_[of_uv]) report.add(MeshTrouble::no_such_uv, place);
+        if (missing_[of_normal]) report.add(MeshTrouble::no_such_normal, place);
+        face_positions_.clear();
+        for (const MeshCorner& corner : face_) {
+            if (!is_finite(position(corner[of_position]))) return; // said at the vertex
+            face_positions_.push_back(positions_[corner[of_position]]);
+        }
+        keep_what_all_have();
+        const CutPolygon cut = cut_polygon(face_positions_);
+        const std::size_t before = lines_.size();
+        bool empty = cut.triangles.empty();
+        for (const auto& [a, b, c] : cut.triangles)
+            empty = !add({face_[a], face_[b], face_[c]}) || empty;
+        if (lines_.size() > before) count_face();
+        if (empty) report.add(MeshTrouble::no_area, place);
+        if (cut.crossed) report.add(MeshTrouble::crossed, place);
+    }
+    // Normals and texture coordinates that are not good at every corner of a face are
+    // used at none.
+    void keep_what_all_have() {
+        bool all_normals = settings_.normals == MeshNormals::file;
+        bool all_uv = true;
+        for (const auto& [at, uv, normal, number] : face_) {
+            all_normals =
+                all_normals && normal != no_number && normals_[normal] != Vec3T<T>{0};
+            all_uv = all_uv && uv != no_number && has_place(uv_[uv]);
+        }
+        for (MeshCorner& corner : face_) {
+            if (!all_normals) corner[of_normal] = no_number;
+            if (!all_uv) corner[of_uv] = no_number;
+        }
+    }
+    void count_face() {
+        MeshContent& all = report.content;
+        const bool flat = face_[0][of_normal] == no_number;
+        ++all.faces;
+        all.polygons += face_.size() > 3 ? 1 : 0;
+        all.flat_faces += flat ? 1 : 0;
+        if (in_smooth_group && flat && settings_.normals == MeshNormals::file)
+            report.add(MeshTrouble::not_smooth, place);
+        all.no_uv_faces += face_[0][of_uv] == no_number ? 1 : 0;
+    }
+    // One triangle of a face; false if it has no area.
+    bool add(std::array<MeshCorner, 3> corners) {
+        const auto across = cross_of_edges(TriangleT<T>{
+            position(corners[0][of_position]), position(corners[1][of_position]),
+            position(corners[2][of_position])});
+        if (!(glm::dot(across, across) > 0)) return false;
+        if (corners[0][of_normal] != no_number) {
+            Vec3T<T> sum{0};
+            for (const MeshCorner& corner : corners) sum += normals_[corner[of_normal]];
+            if (!(glm::dot(Vec3T<WideT<T>>(sum), across) > 0)) {
+                report.add(MeshTrouble::turned, place);
+                for (MeshCorner& corner : corners) corner[of_normal] = no_number;
+            }
+        }
+        whole_.triangles.push_back(
+            {vertex_of(corners[0]), vertex_of(corners[1]), vertex_of(corners[2])});
+        lines_.push_back(static_cast<std::uint32_t>(place));
+        return true;
+    }
+    // The vertex of a corner: one for equal corners, if it is among the latest at their
+    // position.
+    std::uint32_t vertex_of(const MeshCorner& corner) {
+        std::uint32_t& latest = latest_[corner[of_position]];
+        std::uint32_t vertex = latest;
+        for (int i = 0; i < 64 && vertex != no_number; ++i) {
+            if (corners_[vertex] == corner) return vertex;
+            vertex = before_[vertex];
+        }
+        before_.push_back(latest);
+        corners_.push_back(corner);
+        latest = static_cast<std::uint32_t>(whole_.positions.size());
+        whole_.positions.push_back(position(corner[of_position]));
+        return latest;
+    }
+
+    const MeshFileSettings& settings_;
+    std::vector<glm::dvec3> positions_{};
+    std::vector<RgbT<float>> colors_{};   // of the positions, or empty
+    MeshCount colored_{};                 // positions with a colour that counts
+    std::vector<Vec3T<T>> normals_{};     // 0 for a bad one
+    std::vector<Vec2T<T>> uv_{};          // NaN for a bad one
+    MeshDataT<T> whole_{};                // all triangles
+    std::vector<std::uint32_t> lines_{};  // the place of each
+    std::vector<MeshCorner> corners_{};   // of its vertices
+    std::vector<std::uint32_t> before_{}; // of each the one before at its position
+    std::vector<std::uint32_t> latest_{}; // the last one at each position
+    std::vector<MeshCorner> face_{};      // that is read
+    std::array<bool, 3> missing_{};       // at its corners, though named
+    std::vector<glm::dvec3> face_positions_{};
+};
+
+[[noreturn]] inline void refuse_without_faces(const std::string& file,
+                                              const MeshReport& report,
+                                              std::string_view hint) {
+    const std::string troubles = to_text(report);
+    throw std::runtime_error(
+        join({shown_path(file), ": no face of the file can be used",
+              troubles.empty() ? hint : "; the first problem: ",
+              std::string_view(troubles).substr(0, troubles.find('\n'))}));
+}
+
+// Makes a picture of the colours of a part's vertices; of a single colour none.
+template <std::floating_point T>
+void paint(MeshFacesT<T>& part, LoadedMeshT<T>& loaded, long long& pixels) {
+    const RgbT<T> first = part.colors.front();
+    if (std::count(part.colors.begin(), part.colors.end(), first) ==
+        std::ptrdiff_t(part.colors.size())) {
+        part.material.diffuse *= glm::dvec3(first);
+        return;
+    }
+    const auto size =
+        static_cast<long long>(part.data.triangles.size() * painted_pixels);
+    if (const std::string why = too_large_beside(pixels, 1, size); !why.empty()) {
+        loaded.report.notes.push_back(join(
+            {"the picture of the colours of vertices ", why, "; they are not used."}));
+        return;
+    }
+    part.material.picture =
+        "colours of vertices, part " + std::to_string(loaded.parts.size() + 1);
+    ImageT<T>& image = loaded.pictures[part.material.picture];
+    image = paint_vertices(part.data, part.colors);
+    pixels += static_cast<long long>(image.pixels.size());
+}
+
+// The content of a mesh file. `read` makes the faces, completes the report, and frees
+// its lists, before the meshes, which need more memory, are made. `hint` goes on with a
+// sentence about a file without a face. load(material, loaded, pixels) loads a picture.
+template <std::floating_point T, typename Read, typename Load>
+LoadedMeshT<T> make_meshes(const std::string& file, const MeshFileSettings& settings,
+                           std::string_view hint, Read read, Load load) {
+    require_positive("the scale of a mesh file", settings.scale);
+    LoadedMeshT<T> loaded;
+    std::vector<MeshFacesT<T>> parts = read(loaded);
+    if (parts.empty()) refuse_without_faces(file, loaded.report, hint);
+    long long pixels = 0;
+    for (MeshFacesT<T>& part : parts) {
+        if (settings.pictures) load(part.material, loaded, pixels);
+        if (!part.colors.empty()) paint(part, loaded, pixels);
+        try {
+            loaded.parts.push_back(
+                {MeshT<T>(std::move(part.data)), std::move(part.material)});
+        } catch (const std::invalid_argument& wrong) {
+            throw std::runtime_error(shown_path(file) + ": " + wrong.what());
+        }
+    }
+    return loaded;
+}
+
+// A file that names no pictures.
+inline constexpr auto no_pictures = [](const auto&...) {};
+
+} // namespace ljus::detail

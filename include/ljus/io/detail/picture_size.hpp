@@ -1,0 +1,23 @@
+#pragma once
+
+/// \file ljus/io/detail/picture_size.hpp
+/// \brief How many pixels all pictures of a file may have.
+
+#include <string>
+
+#include "ljus/math/require.hpp"
+
+namespace ljus::detail {
+
+/// The largest number of pixels: 8192 x 4096; half of them for a 16-bit PNG file.
+inline constexpr int max_image_pixels = 1 << 25;
+
+// Why a picture is too large beside others with so many pixels; empty if it is not.
+inline std::string too_large_beside(long long others, long long wide, long long high) {
+    if (wide * high <= max_image_pixels - others) return "";
+    return join({"has ", to_text(wide), " x ", to_text(high),
+                 " pixels, and the pictures before it have ", to_text(others),
+                 "; together there must be at most ", to_text(max_image_pixels)});
+}
+
+} // namespace ljus::detail

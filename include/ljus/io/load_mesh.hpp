@@ -1,0 +1,70 @@
+#pragma once
+
+/// \file ljus/io/load_mesh.hpp
+/// \brief Meshes from a file of any known format, and the meshes of scene files.
+
+#include <nlohmann/json.hpp>
+
+#include "ljus/io/load_gltf.hpp"
+#include "ljus/io/load_obj.hpp"
+#include "ljus/io/load_ply.hpp"
+#include "ljus/io/load_stl.hpp"
+
+namespace ljus {
+
+/// \addtogroup load_obj
+/// \{
+
+/// Loads a mesh file; the end of its name says which format it has: .obj, .ply, .stl,
+/// .gltf or .glb, in small or in capital letters.
+/// \param path      The file.
+/// \param settings  Scale and normals.
+/// \return As load_obj(), load_ply(), load_stl() or load_gltf().
+/// \throws std::runtime_error  as they do, and for a name with another end.
+template <std::floating_point T = float>
+[[nodiscard]] LoadedMeshT<T> load_mesh(const std::string& path,
+                                       const MeshFileSettings& settings = {}) {
+    const std::string end = path.substr(std::min(path.rfind('.'), path.size()));
+    const auto is = [&](const char* known) { return detail::same_word(end, known); };
+    if (is(".obj")) return load_obj<T>(path, settings);
+    if (is(".ply")) return load_ply<T>(path, settings);
+    if (is(".stl")) return load_stl<T>(path, settings);
+    if (is(".gltf") || is(".glb")) return load_gltf<T>(path, settings);
+    throw std::runtime_error(
+        shown_path(path) + ": the name of a mesh file ends in .obj, .ply, .stl, .gltf "
+                           "or .glb.");
+}
+
+/// Reads the meshes of a scene file: load_json("scene.json", MeshFiles{}). They are
+/// made of what the scene file says; the colours of the mesh file are not used.
+template <std::floating_point T>
+struct MeshFilesT {
+    std::string* report = nullptr; ///< Takes what is wrong, a line a trouble.
+
+    /// Reads one file.
+    /// \param path     The file.
+    /// \param scale    Every coordinate is multiplied by this.
+    /// \param normals  "file", "smooth" or "flat".
+    /// \return All its meshes.
+    /// \throws std::runtime_error  as load_mesh().
+    [[nodiscard]] std::vector<MeshT<T>> operator()(const std::string& path,
+                                                   double scale,
+                                                   const std::string& normals) const {
+        const MeshNormals which = normals == "smooth" ? MeshNormals::smooth
+                                  : normals == "flat" ? MeshNormals::flat
+                                                      : MeshNormals::file;
+        auto loaded =
+            load_mesh<T>(path, {.scale = scale, .normals = which, .pictures = false});
+        std::vector<MeshT<T>> meshes;
+        for (auto& part : loaded.parts) meshes.push_back(std::move(part.mesh));
+        const std::string text = to_text(loaded.report);
+        if (report != nullptr && !text.empty())
+            *report += shown_path(path) + ":\n" + text;
+        return meshes;
+    }
+};
+using MeshFiles = MeshFilesT<float>; ///< MeshFilesT in float.
+
+/// \}
+
+} // namespace ljus

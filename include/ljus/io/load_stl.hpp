@@ -1,0 +1,171 @@
+#pragma once
+
+/// \file ljus/io/load_stl.hpp
+/// \brief Meshes from STL files.
+
+#include <bit>
+
+#include "ljus/geometry/detail/equal_points.hpp"
+#include "ljus/io/detail/mesh_builder.hpp"
+#include "ljus/io/detail/obj_text.hpp"
+
+namespace ljus {
+
+/// \addtogroup load_obj
+/// \{
+
+namespace detail {
+
+// The size of a binary file's head, and of each of its triangles.
+inline constexpr std::size_t stl_head = 84, stl_triangle = 50;
+
+// The bytes of an STL file.
+struct StlText {
+    std::string_view text;
+    const std::string& file;
+
+    [[noreturn]] void refuse(std::string_view why) const {
+        throw std::runtime_error(join({shown_path(file), ": ", why, "."}));
+    }
+    [[nodiscard]] std::uint32_t word(std::size_t at) const {
+        std::uint32_t bits = 0;
+        for (std::size_t k = 4; k > 0; --k)
+            bits = bits << 8 | static_cast<unsigned char>(text[at + k - 1]);
+        return bits;
+    }
+    // Whether it is text: programs write binary files that begin with "solid" too, but
+    // their size says how many triangles there are.
+    [[nodiscard]] bool is_text() const {
+        const std::size_t begin = text.find_first_not_of(" \t\r\n");
+        const bool solid =
+            begin != text.npos && text.substr(begin).starts_with("solid");
+        return solid && (text.size() < stl_head ||
+                         stl_head + stl_triangle * word(80) != text.size());
+    }
+};
+
+// Reads the faces of an STL file; `corners` takes the number of corners of each, with
+// the place where it ends.
+template <std::floating_point T>
+struct StlReader {
+    StlText from;
+    MeshReport& report;
+    std::vector<glm::dvec3> points{};
+    std::vector<std::array<std::size_t, 2>> corners{};
+
+    // Points that are none are all alike, for first_equal_points().
+    void add(const glm::dvec3& point) {
+        constexpr double none = std::numeric_limits<double>::infinity();
+        points.push_back(is_finite(point) ? point : glm::dvec3(none));
+    }
+    void read_binary() {
+        if (from.text.size() < stl_head)
+            from.refuse("it is neither a text that begins with 'solid' nor a binary "
+                        "STL file, whose head has 84 bytes");
+        const std::size_t count = from.word(80);
+        const std::size_t room = (from.text.size() - stl_head) / stl_triangle;
+        if (count > room)
+            from.refuse(join({"its head says that it has ", std::to_string(count),
+                              " triangles, but there are bytes for ",
+                              std::to_string(room), " only"}));
+        report.unit = "triangle";
+        bool colors = false;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t at = stl_head + stl_triangle * i;
+            for (std::size_t k = 1; k < 4; ++k) { // behind the normal
+                glm::dvec3 point;
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    point[static_cast<int>(axis)] =
+                        double(std::bit_cast<float>(from.word(at + 12 * k + 4 * axis)));
+                add(point);
+            }
+            corners.push_back({3, i + 1});
+            colors = colors || (from.word(at + 46) >> 16) != 0;
+        }
+        if (colors)
+            report.notes.push_back(
+                "the triangles have attributes, perhaps colours; they are not used.");
+    }
+    void read_text() {
+        std::size_t first = 0; // of the face
+        LineReader{from.file}.read(
+            from.text, true, [&](std::string_view line, long long number) {
+                Words words{line};
+                const std::string_view keyword = words.next();
+                if (same_word(keyword, "vertex")) {
+                    add(three_numbers(words));
+                } else if (same_word(keyword, "endloop")) {
+                    corners.push_back(
+                        {points.size() - first, static_cast<std::size_t>(number)});
+                    first = points.size();
+                } else if (same_word(keyword, "solid")) {
+                    ++report.content.objects;
+                }
+            });
+        if (first < points.size())
+            from.refuse("the file ends within a triangle, before its 'endloop'");
+    }
+};
+
+} // namespace detail
+
+/// Reads a mesh from the bytes of an STL file, text or binary. Corners at one place are
+/// one vertex. The normals of the file are not used: they are those of its triangles.
+/// \param bytes     The bytes.
+/// \param file      What messages call it.
+/// \param settings  Scale and normals.
+/// \return One mesh without a material, and what is wrong with the file.
+/// \throws std::runtime_error  with one sentence: "gear.stl: its head says that it has
+///         9000 triangles, but there are bytes for 12 only."; or as read_obj().
+/// \throws std::invalid_argument  for a scale that is not finite and above 0.
+/// \cost Linear in the size of the file, which bounds its memory.
+template <std::floating_point T = float>
+[[nodiscard]] LoadedMeshT<T> read_stl(const Bytes& bytes, const std::string& file,
+                                      const MeshFileSettings& settings = {}) {
+    const auto read = [&](LoadedMeshT<T>& loaded) {
+        detail::MeshBuilder<T> mesh(settings);
+        detail::StlReader<T> reader{
+            {{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file},
+            mesh.report};
+        reader.from.is_text() ? reader.read_text() : reader.read_binary();
+        const auto equal = detail::first_equal_points(reader.points);
+        std::vector<std::uint32_t> vertex(reader.points.size());
+        std::size_t next = 0;
+        for (const auto& [corners, place] : reader.corners) {
+            mesh.place = static_cast<long long>(place);
+            for (const std::size_t end = next + corners; next < end; ++next) {
+                if (equal[next] == next) {
+                    vertex[next] = static_cast<std::uint32_t>(mesh.counts()[0]);
+                    mesh.add_position(reader.points[next]);
+                }
+                mesh.add_corner(vertex[equal[next]], detail::no_number,
+                                detail::no_number);
+            }
+            mesh.end_face();
+        }
+        auto parts = mesh.take_faces({nullptr});
+        loaded.report = std::move(mesh.report);
+        return parts;
+    };
+    return detail::make_meshes<T>(
+        file, settings,
+        "; a text has lines 'vertex 0 0 1' between 'outer loop' and "
+        "'endloop'.",
+        read, detail::no_pictures);
+}
+
+/// Loads an STL file.
+/// \param path      The file.
+/// \param settings  Scale and normals.
+/// \return As read_stl().
+/// \throws std::runtime_error  as read_stl(); or, if the file cannot be read, with its
+///         name and the reason.
+template <std::floating_point T = float>
+[[nodiscard]] LoadedMeshT<T> load_stl(const std::string& path,
+                                      const MeshFileSettings& settings = {}) {
+    return read_stl<T>(load_file(path, detail::max_mesh_file), path, settings);
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,177 @@
+#pragma once
+
+/// \file ljus/io/mesh_file.hpp
+/// \brief The content of a mesh file, of whatever format.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "ljus/accel/mesh.hpp"
+#include "ljus/image/texture.hpp"
+#include "ljus/io/mesh_report.hpp"
+#include "ljus/lights/point_light.hpp"
+#include "ljus/lights/spot_light.hpp"
+#include "ljus/lights/sun_light.hpp"
+#include "ljus/materials/glass.hpp"
+#include "ljus/materials/glossy.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/materials/mirror.hpp"
+#include "ljus/materials/textured.hpp"
+#include "ljus/scene/camera.hpp"
+#include "ljus/scene/scene.hpp"
+
+namespace ljus {
+
+/// \defgroup mesh_file The content of mesh files
+/// \brief What load_obj(), load_ply(), load_stl() and load_gltf() return.
+/// \{
+
+/// The normals of a mesh from a file.
+enum class MeshNormals : std::uint8_t {
+    file,   ///< Those of the file, or of the triangles if it has none.
+    smooth, ///< Those of smooth_normals(), even if the file has normals.
+    flat    ///< Those of the triangles.
+};
+
+/// The settings of a mesh file's reader.
+struct MeshFileSettings {
+    double scale = 1;                        ///< Factor of every coordinate.
+    MeshNormals normals = MeshNormals::file; ///< Which normals.
+    bool pictures = true; ///< True: loads the pictures of materials and makes one of
+                          ///< the colours of vertices.
+};
+
+/// A material as a mesh file describes it.
+struct MeshMaterial {
+    std::string name{};       ///< Empty for faces without a material.
+    glm::dvec3 diffuse{0.5};  ///< Kd, in [0, 1]; 1 if there is a picture and no Kd
+                              ///< above 0. In glTF the base colour.
+    glm::dvec3 specular{0};   ///< Ks, in [0, 1]; in glTF the base colour of a metal.
+    glm::dvec3 emission{0};   ///< Ke, W/(m^2 sr), at least 0.
+    double roughness = 0;     ///< Of a mirror, 0 or in [0.01, 1]; see GlossyT.
+    double index = 1.5;       ///< Ni, within [0.001, 1000].
+    double dissolve = 1;      ///< d, or 1 - Tr: 0 is clear. Tr 1 under a picture is
+                              ///< taken for opaque.
+    int illumination = 2;     ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass
+                              ///< unless Ni is 1, which some programs write for all.
+    std::string picture{};    ///< Its name in the pictures of the file, or empty; its
+                              ///< colours are multiplied by `diffuse`.
+    std::string picture_at{}; ///< Where it is named: "room.mtl, line 12".
+
+    /// Whether it is glass: by illum, or because d says that it is mostly clear.
+    [[nodiscard]] bool is_glass() const noexcept {
+        const int i = illumination;
+        const bool glass = i == 4 || i == 6 || i == 7 || i == 9;
+        return (glass && index != 1) || dissolve < 0.5;
+    }
+    /// Whether it is a mirror or a metal.
+    [[nodiscard]] bool is_mirror() const noexcept {
+        return illumination == 3 || illumination == 5 || illumination == 8;
+    }
+};
+
+/// All faces of one material.
+template <std::floating_point T>
+struct MeshPartT {
+    MeshT<T> mesh;         ///< Its triangles.
+    MeshMaterial material; ///< Its material in the file.
+};
+
+/// A camera of a mesh file.
+template <std::floating_point T>
+struct MeshCameraT {
+    std::string name;  ///< Its name in the file; it may be empty.
+    CameraT<T> camera; ///< Where it stands, and what it sees.
+};
+
+/// The content of a mesh file.
+template <std::floating_point T>
+struct LoadedMeshT {
+    std::vector<MeshPartT<T>> parts{}; ///< One per material, in order of first use.
+    MeshReport report{};               ///< The problems of the file.
+    /// The pictures of the materials that could be read, by name.
+    std::map<std::string, ImageT<T>> pictures{};
+    std::vector<MeshCameraT<T>> cameras{}; ///< Of glTF files, in the order of nodes.
+    std::vector<PointLightT<T>> points{};  ///< Of glTF files.
+    std::vector<SpotLightT<T>> spots{};    ///< Of glTF files.
+    std::vector<SunLightT<T>> suns{};      ///< Of glTF files: directional lights.
+};
+using LoadedMesh = LoadedMeshT<float>; ///< LoadedMeshT in float.
+
+/// A matt surface with a picture; see add_meshes().
+template <std::floating_point T, typename Map = UvMapT<T>>
+using MeshPictureT = Textured<LambertianT<T>, PictureTextureT<T, Map>>;
+using MeshPicture = MeshPictureT<float>; ///< MeshPictureT in float.
+
+/// A metal with a picture; see add_meshes().
+template <std::floating_point T, typename Map = UvMapT<T>>
+using MeshMetalPictureT = Textured<GlossyT<T>, PictureTextureT<T, Map>>;
+using MeshMetalPicture = MeshMetalPictureT<float>; ///< MeshMetalPictureT in float.
+
+/// Adds all meshes of a file to a scene, each made of what the file says: glass,
+/// mirrors and rough metals where the scene lists Glass, Mirror and Glossy, and else
+/// Lambert's surface with the material's colour; with its picture, if there is one and
+/// the scene lists MeshPicture or, for metals, MeshMetalPicture. What glows, glows by
+/// the file's emission. Lights of the file are added where the scene lists their types.
+/// \tparam Map    The map of the pictures that the scene lists; void: UvMapT.
+/// \param scene   A scene with meshes and Lambert's surface.
+/// \param loaded  The result of load_obj(), load_ply(), load_stl() or load_gltf().
+template <typename Map = void, typename Scene, std::floating_point T>
+void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded) {
+    using Uv = UvMapT<T>;
+    using At = std::conditional_t<std::is_void_v<Map>, Uv, Map>;
+    for (const MeshPartT<T>& part : loaded.parts) {
+        const MeshMaterial& is = part.material;
+        const auto picture = loaded.pictures.find(is.picture);
+        const bool pictured = picture != loaded.pictures.end();
+        const auto painted = [&](const auto& base) {
+            return Textured<std::decay_t<decltype(base)>, PictureTextureT<T, At>>{
+                base, {.image = picture->second, .map{Uv{}}}};
+        };
+        const bool rough = is.is_mirror() && is.roughness > 0;
+        const GlassT<T> glass{.index = static_cast<T>(is.index)};
+        const MirrorT<T> mirror{.reflectance = RgbT<T>(is.specular)};
+        const GlossyT<T> metal{RgbT<T>(is.specular), static_cast<T>(is.roughness)};
+        const LambertianT<T> matt{.albedo = RgbT<T>(is.diffuse)};
+        const MaterialId id = [&] {
+            if constexpr (Scene::template lists<GlassT<T>>)
+                if (is.is_glass()) return scene.add(glass);
+            if constexpr (Scene::template lists<MirrorT<T>>)
+                if (is.is_mirror() && !rough) return scene.add(mirror);
+            if constexpr (Scene::template lists<MeshMetalPictureT<T, At>>)
+                if (rough && pictured) return scene.add(painted(metal));
+            if constexpr (Scene::template lists<GlossyT<T>>)
+                if (rough && !pictured) return scene.add(metal);
+            if constexpr (Scene::template lists<MeshPictureT<T, At>>)
+                if (pictured) return scene.add(painted(matt));
+            return scene.add(matt);
+        }();
+        scene.add(part.mesh, id, RgbT<T>(is.emission));
+    }
+    const auto add_lights = [&](const auto& lights) {
+        using Light = typename std::decay_t<decltype(lights)>::value_type;
+        if constexpr (Scene::template lists<Light>)
+            for (const Light& light : lights) scene.add(light);
+    };
+    add_lights(loaded.points);
+    add_lights(loaded.spots);
+    add_lights(loaded.suns);
+}
+
+/// Adds all meshes of a file to a scene, with one material for all.
+/// \param scene     A scene with meshes.
+/// \param loaded    The result of load_obj(), load_ply(), load_stl() or load_gltf().
+/// \param material  The id that add() returned for it.
+/// \param radiance  Radiance that each mesh emits, W/(m^2 sr).
+template <typename Scene, std::floating_point T>
+void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded, MaterialId material,
+                const RgbT<T>& radiance = RgbT<T>{0}) {
+    for (const MeshPartT<T>& part : loaded.parts)
+        scene.add(part.mesh, material, radiance);
+}
+
+/// \}
+
+} // namespace ljus

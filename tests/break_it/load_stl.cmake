@@ -1,0 +1,17 @@
+# What begins with "solid" is text.
+ljus_break_it(NAME stl-solid HEADER io/load_stl.hpp TEST load_stl
+    FROM "return solid && (text.size() < stl_head ||"
+    TO   "return solid && (true ||"
+    CASES "load_stl: a mesh is the same*")
+
+# The head is believed.
+ljus_break_it(NAME stl-count HEADER io/load_stl.hpp TEST load_stl
+    FROM "const std::size_t count = from.word(80);"
+    TO   "const std::size_t count = std::min<std::size_t>(from.word(80), 3);"
+    CASES "load_stl: a mesh is the same*,load_stl: a file that cannot be right*")
+
+# Each triangle has vertices of its own.
+ljus_break_it(NAME stl-merge HEADER io/load_stl.hpp TEST load_stl
+    FROM "mesh.add_corner(vertex[equal[next]], detail::no_number,"
+    TO   "mesh.add_corner(std::uint32_t(next % mesh.counts()[0]), detail::no_number,"
+    CASES "load_stl: a mesh is the same*")

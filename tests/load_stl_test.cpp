@@ -1,0 +1,109 @@
+#include <doctest/doctest.h>
+
+#include "ljus/io/load_stl.hpp"
+#include "ljus/scenes/mesh_formulas.hpp"
+#include "support/mesh_bytes.hpp"
+
+using namespace ljus;
+using namespace ljus_test;
+
+namespace {
+
+std::string message(const Bytes& bytes) {
+    return refusal_of([&] { return read_stl(bytes, "x.stl"); });
+}
+
+const MeshData ball = icosphere(Sphere{.center{1, 2, 3}, .radius = 0.7f}, 2);
+
+} // namespace
+
+TEST_CASE("load_stl: a mesh is the same in text and in bytes") {
+    // Programs write bytes behind "solid" as well.
+    for (const Bytes& bytes : {stl_bytes(ball, true), stl_bytes(ball, false),
+                               stl_bytes(ball, false, "solid ball")}) {
+        const auto loaded = read_stl(bytes, "x.stl");
+        CHECK(to_text(loaded.report).empty());
+        CHECK(loaded.report.content.closed);
+        const Mesh& mesh = loaded.parts.at(0).mesh;
+        REQUIRE(mesh.size() == ball.triangles.size());
+        CHECK(mesh.data().positions.size() == ball.positions.size());
+        CHECK(mesh.data().normals.empty());
+        CHECK(double(area(mesh)) == doctest::Approx(area_of(ball)).epsilon(1e-6));
+        CHECK(mesh.triangle(7).v2 == ball.positions[ball.triangles[7][1]]);
+    }
+}
+
+TEST_CASE("load_stl: corners at one place are one vertex to smooth normals") {
+    const auto loaded =
+        read_stl(stl_bytes(ball, false), "x.stl", {.normals = MeshNormals::smooth});
+    const MeshData& data = loaded.parts.at(0).mesh.data();
+    REQUIRE(data.normals.size() == data.positions.size());
+    for (std::size_t i = 0; i < data.positions.size(); ++i) {
+        const Vec3 out = glm::normalize(data.positions[i] - Vec3{1, 2, 3});
+        CHECK(glm::dot(out, data.normals[i]) > 0.999f);
+    }
+}
+
+TEST_CASE("load_stl: two solids, capital letters, polygons, and attributes") {
+    const auto loaded = read_stl(
+        bytes_of("  solid a\r\nFACET NORMAL 0 0 1\r\nOUTER LOOP\r\nVERTEX 0 0 0\r\n"
+                 "VERTEX 2 0 0\r\nVERTEX 2 2 0\r\nVERTEX 0 2 0\r\nENDLOOP\r\n"
+                 "ENDFACET\r\nendsolid a\r\nsolid b\r\nendsolid b\r\n"),
+        "x.stl");
+    CHECK(area(loaded.parts.at(0).mesh) == 4);
+    CHECK(loaded.report.content.objects == 2);
+    CHECK(loaded.report[MeshTrouble::edge_open].line == 8);
+    Bytes colored = stl_bytes(ball, false);
+    colored[84 + 48] = 7;
+    CHECK(to_text(read_stl(colored, "x.stl").report) ==
+          "the triangles have attributes, perhaps colours; they are not used.\n");
+    // Bytes behind the last triangle are not read.
+    colored[84 + 48] = 0;
+    colored.push_back(1);
+    CHECK(to_text(read_stl(colored, "x.stl").report).empty());
+}
+
+TEST_CASE("load_stl: a file that cannot be right is refused with a sentence") {
+    const Bytes whole = stl_bytes(ball, false);
+    const Bytes cut(whole.begin(), whole.begin() + 84 + 3 * 50 + 49);
+    Bytes many = cut;
+    many[83] = 255;
+    Bytes none(84, 0);
+    Bytes nowhere = stl_bytes(
+        {.positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles{{0, 1, 2}}}, false);
+    for (const std::size_t at : {84u + 14u, 84u + 15u, 84u + 26u, 84u + 27u})
+        nowhere[at] = 255; // numbers that are none
+    const struct {
+        Bytes bytes;
+        std::string why;
+    } cases[]{
+        {{},
+         "it is neither a text that begins with 'solid' nor a binary STL file, "
+         "whose head has 84 bytes."},
+        {cut, "its head says that it has 320 triangles, but there are bytes for 3 "
+              "only."},
+        {many,
+         "its head says that it has 4278190400 triangles, but there are bytes for "
+         "3 only."},
+        {none, "no face of the file can be used; a text has lines 'vertex 0 0 1' "
+               "between 'outer loop' and 'endloop'."},
+        {nowhere, "no face of the file can be used; the first problem: triangle 1: 1 "
+                  "vertices have coordinates that are not finite numbers; their faces "
+                  "are left out."},
+        {bytes_of("solid\nouter loop\nvertex 0 0 0\n"),
+         "the file ends within a triangle, before its 'endloop'."},
+        {bytes_of("solid\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n"),
+         "no face of the file can be used; the first problem: line 5: 1 faces have "
+         "fewer than three corners; they are left out."},
+    };
+    for (const auto& [bytes, why] : cases) CHECK(message(bytes) == "x.stl: " + why);
+}
+
+TEST_CASE("load_stl: many points that are none take no longer than others") {
+    // Were each of them its own place in the table of places, this took minutes.
+    Bytes bytes(80, 0);
+    const int count = 40000;
+    add_number(bytes, count, 4);
+    for (int i = 0; i < count; ++i) bytes.insert(bytes.end(), 50, 255);
+    CHECK(message(bytes).find("triangle 1: 1 vertices") != std::string::npos);
+}
