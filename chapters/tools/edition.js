@@ -71,6 +71,18 @@ const edition = (function () {
         element.setAttribute("aria-level", level);
     };
 
+    // What would be missing on paper: a picture, a formula, the still of a live figure.
+    function flaws() {
+        const found = Array.from(document.images).filter(one => !one.complete || !one.naturalWidth)
+            .map(one => "no picture " + one.src);
+        for (const one of document.querySelectorAll('[data-mml-node="merror"]'))
+            found.push("a formula in error: " + one.textContent.slice(0, 60));
+        for (const one of document.querySelectorAll(".ljus-live"))
+            if (!one.querySelector("img, svg, table") && !one.closest("#index"))
+                found.push("no still of the live figure " + one.dataset.live);
+        return found;
+    }
+
     // --- The PDF ------------------------------------------------------------------------
 
     function book(parts) {
@@ -241,5 +253,5 @@ const edition = (function () {
         });
     }
 
-    return { book, numbers, short };
+    return { flaws, book, numbers, short };
 })();
