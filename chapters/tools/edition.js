@@ -58,9 +58,10 @@ const edition = (function () {
             if (head && head.querySelector("th") && !table.querySelector("thead"))
                 table.prepend(make("thead", "", head));
             const room = table.closest(".contents").clientWidth;
-            const share = room / table.scrollWidth;
-            if (share < 1) table.style.setProperty("font-size", Math.max(0.72, share) * 8.6 + "pt", "important");
-            if (share < 0.72) table.classList.add("edition-wide");
+            const wide = () => table.getBoundingClientRect().width > room;
+            for (let size = 8.2; wide() && size >= 6; size -= 0.4)
+                table.style.setProperty("font-size", size + "pt", "important");
+            if (wide()) table.classList.add("edition-wide"); // its lines are broken
         }
         for (const one of document.querySelectorAll("pre"))
             if (one.textContent.split("\n").length > 40) one.classList.add("edition-long");
