@@ -18,6 +18,11 @@ execute_process(COMMAND "${PERL}" "${CMAKE_CURRENT_LIST_DIR}/finish" "${HTML}" "
 if(NOT result EQUAL 0)
     message(FATAL_ERROR "The pages could not be finished; see above.")
 endif()
+execute_process(COMMAND "${PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/slides" "${HTML}"
+    RESULT_VARIABLE result)
+if(NOT result EQUAL 0)
+    message(FATAL_ERROR "The slides could not be made; see above.")
+endif()
 set(warnings)
 if(EXISTS "${FOLDER}/warnings.txt")
     file(READ "${FOLDER}/warnings.txt" warnings)

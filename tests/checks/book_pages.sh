@@ -41,6 +41,12 @@ cat >html/ch_sphere.html <<'END'
 Error against time</div></div>
 <div class="fragment"><div class="line">std::<span class="keywordtype">float</span>ing_po<span class="keywordtype">int</span> <a class="code hl_function" href="q.html#x">normal</a>;</div></div><!-- fragment -->
 <dl class="exercise"><dt><b><a class="el" href="exercise.html#_exercise000009">Exercise:</a></b></dt><dd>One by importance, \(k\) of \(\frac{a}{b}\).</dd></dl>
+<p ><details>
+<summary>More</summary> One.</details>
+</p>
+<p ><details>
+Two.</details>
+</p>
 <table class="markdownTable"><tr><td>2.8e+02</td><td>1.5e+00</td><td>-1.01e+04</td><td>5.4e-05</td><td>1e+06 times</td></tr></table>
 </div></div><!-- contents -->
 </body></html>
@@ -56,6 +62,7 @@ grep -q '<img src="plot.svg" alt="Error against time"/>' $page || wrong "a plot 
 grep -q 'std::floating_point normal;' $page || wrong "a listing has wrong links or colours"
 grep -q '<td>280</td><td>1.5</td><td>-10100</td><td>5.4e-05</td><td>1e+06 times</td>' $page ||
     wrong "a cell is not written out: $(grep '<td>' $page)"
+[ "$(grep -c '<details>' $page)" -eq 1 ] || wrong "a fold of two paragraphs is two folds"
 grep -q 'id="_exercise000009".*Exercise 6.1' $page || wrong "an exercise has no number"
 [ "$(grep -c 'rel="prev" href="ch_ray.html"' $page)" -eq 2 ] || wrong "no chapter before"
 grep -q 'One by importance, k of …' html/search-text.js || wrong "the search does not know a word"
