@@ -54,7 +54,6 @@ template <std::floating_point T>
 /// \return t, and v in [0, 1] along the axis; nothing for a miss, or for a ray along
 ///         the axis.
 /// \cost Two square roots and three divisions.
-// [intersect]
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>>
 intersect(const RayT<T>& ray, const CylinderT<T>& cylinder) noexcept {
@@ -84,7 +83,6 @@ intersect(const RayT<T>& ray, const CylinderT<T>& cylinder) noexcept {
     }
     return std::nullopt;
 }
-// [intersect]
 
 /// The area of a cylinder without its ends, \f$ 2 \pi R |A| \f$, in squared scene
 /// units.

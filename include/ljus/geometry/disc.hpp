@@ -46,7 +46,6 @@ template <std::floating_point T>
 /// \return t, and u and v in [-1, 1]: the place relative to the centre along tangent
 ///         and bitangent of frame_around(normal(disc)), in radii. Nothing for a miss.
 /// \cost One division, and a square root for a hit.
-// [intersect]
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
                                                     const DiscT<T>& disc) noexcept {
@@ -65,7 +64,6 @@ template <typename Compute = void, std::floating_point T>
                         static_cast<T>(glm::dot(p, frame.tangent) / r),
                         static_cast<T>(glm::dot(p, frame.bitangent) / r), 0};
 }
-// [intersect]
 
 /// The area, \f$ \pi R^2 \f$, in squared scene units.
 template <std::floating_point T>

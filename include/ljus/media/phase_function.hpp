@@ -47,7 +47,6 @@ template <std::floating_point T>
 /// \param travel  Unit direction of travel before.
 /// \param u       Point of the unit square.
 /// \return Unit direction of travel after.
-// [sample henyey greenstein]
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_henyey_greenstein(T g, const Vec3T<T>& travel,
                                                 const Vec2T<T>& u) noexcept {
@@ -60,7 +59,6 @@ template <std::floating_point T>
     return to_world(frame_around(travel),
                     Vec3T<T>{sine * std::cos(phi), sine * std::sin(phi), cosine});
 }
-// [sample henyey greenstein]
 
 /// \}
 

@@ -159,7 +159,6 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
 /// \param counts  Counts the ray.
 /// \return Radiance against the direction of travel, without the coefficient of
 ///         scattering.
-// [fog light]
 template <AnyWorld W, std::floating_point T, Medium M>
 [[nodiscard]] RgbT<T> fog_light(const W& world, std::uint32_t light,
                                 const FogVertexT<T>& vertex, const M& medium,
@@ -178,7 +177,6 @@ template <AnyWorld W, std::floating_point T, Medium M>
                             detail::passing(visible) * f);
     return weight * f * sampled->weight * visible;
 }
-// [fog light]
 
 /// Equi-angular sampling of a segment for one light: one of the media on it is chosen,
 /// each as often as the others, then a point of it.

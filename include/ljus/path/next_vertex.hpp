@@ -431,7 +431,6 @@ template <AnyWorld W>
 /// ignored. Bodies are closed, and consist of one shape or several.
 /// \return Per scene unit; nothing outside all bodies.
 /// \cost A ray per surface up to the end of the body.
-// [interior_at]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<RgbT<T>> interior_at(const W& world, RayT<T> ray) {
     std::array<MaterialId, 16> entered{};
@@ -458,7 +457,6 @@ template <AnyWorld W, std::floating_point T>
     }
     return std::nullopt;
 }
-// [interior_at]
 
 /// The absorption at a ray's origin, per scene unit: interior_at(), or 0 outside.
 /// \cost A comparison outside the bounding box of all bodies that absorb.

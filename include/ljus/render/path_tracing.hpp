@@ -133,7 +133,6 @@ template <AnyWorld W, std::floating_point T>
 /// Ends a path, or prepares it for its next ray: the limit of depth, and roulette.
 /// \param path  The path after its scattering.
 /// \return Whether it goes on.
-// [goes on]
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] bool goes_on(const PathTracer<W>& tracer, PathStateT<T>& path,
                            Context& context) {
@@ -153,7 +152,6 @@ template <AnyWorld W, std::floating_point T, typename Context>
     ++context.counts.bounce_rays;
     return true;
 }
-// [goes on]
 
 /// What became of a path on its way to the next surface.
 enum class InFog : std::uint8_t { crossed, scattered, ended };

@@ -197,7 +197,6 @@ render_region(const R& renderer, const C& camera, const RenderSettings& picture,
     std::vector<Counts> counts(static_cast<std::size_t>(tiles) *
                                static_cast<std::size_t>(result.image.height));
     // Whole strips, because the rays of a strip are traced together.
-    // [strip]
     const auto strip = [&](long long number) {
         const int row = static_cast<int>(number / tiles);
         const int first =
@@ -218,7 +217,6 @@ render_region(const R& renderer, const C& camera, const RenderSettings& picture,
                 RgbT<T>(sums[std::size_t(x - first)].sum / double(picture.samples));
         counts[static_cast<std::size_t>(number)] = cost;
     };
-    // [strip]
     result.complete =
         parallel_blocks(static_cast<long long>(counts.size()), strip,
                         {.threads = picture.threads, .progress = picture.progress});
