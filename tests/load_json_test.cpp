@@ -458,7 +458,7 @@ TEST_CASE("load_json: for a wrong word the nearest one is proposed") {
          "picture."},
         {"\"type\": \"sphere\"", "\"type\": \"shpere\"",
          "objects[2].type is \"shpere\"; did you mean \"sphere\"? It must be sphere, "
-         "triangles, mesh, quad, box, disc or cylinder."},
+         "triangles, mesh, instances, quad, box, disc or cylinder."},
         {"\"material\": \"glass\"", "\"material\": \"Glas\"",
          "objects[2].material is \"Glas\"; did you mean \"glass\"? It must be one of "
          "the materials glass, matt, mirror or rough."},

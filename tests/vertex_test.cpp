@@ -638,8 +638,11 @@ TEST_CASE("vertex: what a slanted pane lets through, and what glass hides") {
     CHECK(visibility(glass, point(0, 1), point(0, -1)) == D3{0});
 }
 
-TEST_CASE("vertex: a path has a time if something can move, and draws it once") {
-    const World moving(Scene<Shapes<Moving<Sphere>, Quad>, Materials<Lambertian>>{});
+TEST_CASE("vertex: a path has a time if something moves, and draws it once") {
+    Scene<Shapes<Moving<Sphere>, Quad>, Materials<Lambertian>> with_ball;
+    with_ball.add(Moving<Sphere>{{{0, 0, 0}, 1}, {1, 0, 0}},
+                  with_ball.add(Lambertian{}));
+    const World moving(std::move(with_ball));
     const World still(Room{});
     double sum = 0;
     for (std::uint64_t i = 0; i < 1000; ++i) {
