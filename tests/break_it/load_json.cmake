@@ -15,6 +15,7 @@ ljus_break_it(NAME json-last-name HEADER io/detail/json_field.hpp TEST load_json
 ljus_break_it(NAME json-absorption HEADER io/detail/json_materials.hpp TEST load_json
     FROM [["absorption", {JsonKind::vector, 0,]]
     TO   [["absorption", {JsonKind::vector, -1e12,]]
+    COMPILED
     CASES "load_json: the numbers that the table*")
 
 # A film that says where it hangs and not how it grows thicker is an even one.

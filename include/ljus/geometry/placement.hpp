@@ -92,7 +92,8 @@ template <std::floating_point T>
 }
 
 /// The unit normal of a surface after scaling and rotation: it is divided by the scale.
-/// \param normal  Of any length but 0.
+/// \param normal     Of any length but 0.
+/// \param placement  What is done to the surface.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> placed_normal(const Vec3T<T>& normal,
                                      const PlacementT<T>& placement) noexcept {

@@ -104,8 +104,8 @@ void check_region(const SphereT<T>& sphere) {
     require_positive("fog.region.radius", sphere.radius);
 }
 
-/// \copydoc check_region
-/// A box has its lower corner first.
+/// Refuses a box without an inside.
+/// \throws std::invalid_argument  if a number is not finite, or low not below high.
 template <std::floating_point T>
 void check_region(const BoxT<T>& box) {
     require_finite("fog.region.low", box.low);

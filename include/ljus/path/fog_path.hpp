@@ -46,6 +46,7 @@ enum class FogLight : std::uint8_t {
 /// Calls f(medium) with one medium of a world, in its own type.
 /// \param world   The closed scene.
 /// \param number  The number of the medium: types in the order of their list.
+/// \param f       Called once, if there is such a medium.
 template <AnyWorld W, typename F>
 void visit_fog(const W& world, std::uint32_t number, F&& f) {
     const auto visit = [&](const auto& list) {
