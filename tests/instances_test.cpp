@@ -258,6 +258,20 @@ TEST_CASE("instances: a surface does not shadow itself") {
     CHECK(entered == 60 * 400);
     CHECK(shadowed == 0);
     CHECK(rays > 8000);
+
+    // The error says what is rounded at the mesh, and how far a shadow ray may miss.
+    const Instance large(ball, stretch(Vec3(1e6f)));
+    const auto sums = area_sums(large);
+    const auto sum = [](const Vec3& v) {
+        return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+    };
+    constexpr float unit = detail::rounding_bound<float>(1);
+    const Vec2 u{0.3f, 0.6f};
+    const SurfacePoint p = sample_area(large, u, sums);
+    CHECK(sum(p.error) > 5 * unit * sum(p.position));
+    const Vec3 from{1e8f, 2e8f, -1e8f};
+    const SurfacePoint seen = sample_towards(large, from, u, sums).point;
+    CHECK(sum(seen.error) - sum(p.error) > 3 * unit * sum(seen.position - from));
 }
 
 TEST_CASE("instances: points are uniform over the area in the scene") {

@@ -213,6 +213,20 @@ struct JsonGroup {
     return join({"{", text, "}"});
 }
 
+/// An example as code in Markdown, in lines of at most 80 columns.
+[[nodiscard]] inline std::string code_lines(std::string_view example) {
+    std::string code;
+    while (!example.empty()) {
+        std::size_t end = example.size();
+        if (end > 76) end = example.rfind(", \"", 76) + 2;
+        code += join({code.empty() ? "    " : "     ", example.substr(0, end)});
+        if (code.back() == ' ') code.pop_back();
+        code += "\n";
+        example.remove_prefix(end);
+    }
+    return code + "\n";
+}
+
 /// What a value may be, in words.
 [[nodiscard]] inline std::string value_text(const JsonValue& value) {
     const auto with = [&](std::string_view kind) {
@@ -305,7 +319,7 @@ struct JsonGroup {
                                       "\n\n"});
             page += detail::member_rows(table.members) + "\n";
             if (group.name != "scene")
-                page += "    " + detail::example_of(table, group.shared) + "\n\n";
+                page += detail::code_lines(detail::example_of(table, group.shared));
         }
     }
     return page;
