@@ -92,8 +92,7 @@ struct Carrier {
     const char* name;
     double bias;          ///< Of a block, part of its mean and the picture's together.
     double specular_bias; ///< The same in a scene with mirrors or glass.
-    bool blurs =
-        false; ///< Whether it needs indirect photons, and says if it lacks them.
+    bool blurs = false;   ///< Needs indirect photons, and says if it lacks them.
 };
 constexpr std::array carriers{
     Carrier{"rays", 0, 0.03},

@@ -218,7 +218,8 @@ struct JsonGroup {
     std::string code;
     while (!example.empty()) {
         std::size_t end = example.size();
-        if (end > 76) end = example.rfind(", \"", 76) + 2;
+        const std::size_t comma = example.rfind(", \"", 76);
+        if (end > 76 && comma != example.npos) end = comma + 2;
         code += join({code.empty() ? "    " : "     ", example.substr(0, end)});
         if (code.back() == ' ') code.pop_back();
         code += "\n";

@@ -119,8 +119,7 @@ public:
             if (std::none_of(kept_.begin(), kept_.end(), is_it))
                 throw std::invalid_argument(
                     "An instance refers to a mesh that its scene does not keep; it "
-                    "must "
-                    "be made by Instance(scene.add(mesh), place).");
+                    "must be made by Instance(scene.add(mesh), place).");
         }
     }
 
