@@ -1,6 +1,6 @@
 // smoke: --quality draft --width 32 --height 20 --rays 1
-/// \file 43_both_ends.cpp
-/// \brief Chapter 43: what each of four strategies adds to a caustic before a mirror.
+/// \file 47_both_ends.cpp
+/// \brief Chapter 47: what each of four strategies adds to a caustic before a mirror.
 
 #include <array>
 #include <cmath>
@@ -57,7 +57,7 @@ auto mirror_room() {
 /// Renders both_ends-room.png and a picture of each strategy.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 43, both ends: a caustic seen in a mirror.");
+        line.about("Chapter 47, both ends: a caustic seen in a mirror.");
         const examples::Options options =
             line.parse({.draft{.width = 200, .height = 125, .samples = 4},
                         .report{.width = 320, .height = 200, .samples = 2},

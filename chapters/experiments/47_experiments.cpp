@@ -1,6 +1,6 @@
 // smoke: --quality draft --width 8 --height 8 --rungs 2 --seeds 2 --truth 4
-/// \file chapters/experiments/43_experiments.cpp
-/// \brief Chapter 43: error against time by paths, by photons and by both, in a
+/// \file chapters/experiments/47_experiments.cpp
+/// \brief Chapter 47: error against time by paths, by photons and by both, in a
 /// diffuse room and for a caustic before a mirror.
 
 #include <algorithm>
@@ -149,7 +149,7 @@ void measure(const examples::Options& options, const Sizes& sizes, bool shining,
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
-        line.about("Chapter 43, both ends: error against time in two rooms.");
+        line.about("Chapter 47, both ends: error against time in two rooms.");
         line.group("Measurements");
         line.add("--rungs", sizes.rungs, "Efforts, each 4 times the last", 1, 8);
         line.add("--seeds", sizes.seeds, "Runs of each", 1, 1000);

@@ -1,6 +1,6 @@
 // smoke: --quality draft
-/// \file chapters/drawings/42_drawings.cpp
-/// \brief Chapter 42: a ray that is taken to a mesh, and the normal of a stretched one.
+/// \file chapters/drawings/44_drawings.cpp
+/// \brief Chapter 44: a ray that is taken to a mesh, and the normal of a stretched one.
 
 #include <cmath>
 #include <numbers>
@@ -118,7 +118,7 @@ void draw_normals(const std::string& folder) {
 /// Makes the chapter's drawings.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 42, instances: drawings.");
+        line.about("Chapter 44, instances: drawings.");
         const std::string folder = line.parse({}).path("");
         draw_ray(folder);
         draw_normals(folder);

@@ -1,6 +1,6 @@
 // smoke: --quality draft
-/// \file chapters/drawings/43_drawings.cpp
-/// \brief Chapter 43: one path, found by five strategies.
+/// \file chapters/drawings/47_drawings.cpp
+/// \brief Chapter 47: one path, found by five strategies.
 
 #include <array>
 #include <string>
@@ -76,7 +76,7 @@ void draw_strategies(const std::string& folder) {
 /// Makes the chapter's drawing.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 43, both ends: the strategies of a path.");
+        line.about("Chapter 47, both ends: the strategies of a path.");
         const examples::Options options = line.parse({});
         draw_strategies(options.path(""));
     });

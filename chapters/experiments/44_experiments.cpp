@@ -1,6 +1,6 @@
 // smoke: --quality draft
-/// \file chapters/experiments/42_experiments.cpp
-/// \brief Chapter 42: a field of instances against a field of copies.
+/// \file chapters/experiments/44_experiments.cpp
+/// \brief Chapter 44: a field of instances against a field of copies.
 
 #include <string>
 #include <utility>
@@ -105,7 +105,7 @@ void tabulate_trade(const examples::Options& options, const MeshData& ring, int 
 /// Makes the chapter's table.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 42, instances: memory and time against copies.");
+        line.about("Chapter 44, instances: memory and time against copies.");
         const examples::Options options = line.parse({});
         const int around = options.pick(40, 200, 200);
         tabulate_trade(options, torus(Vec3(0), 0.35f, 0.12f, around, around / 4),

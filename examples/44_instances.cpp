@@ -1,6 +1,6 @@
 // smoke: --quality draft --width 24 --height 16 --rays 1 --photons 500
-/// \file 42_instances.cpp
-/// \brief Chapter 42: a field of knots, glass and clay, all of which are one mesh.
+/// \file 44_instances.cpp
+/// \brief Chapter 44: a field of knots, glass and clay, all of which are one mesh.
 
 #include <cmath>
 #include <numbers>
@@ -72,7 +72,7 @@ Affine place(int row, int column, RandomStream& stream) {
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long photons = 0;
-        line.about("Chapter 42, instances: a field of knots.");
+        line.about("Chapter 44, instances: a field of knots.");
         line.add("--photons", photons, "Photons of the caustics", 1, 100000000);
         const examples::Options options =
             line.parse({.draft{.width = 300, .height = 150, .samples = 4},
