@@ -271,7 +271,9 @@ TEST_CASE("final gathering: a radius from the photons") {
     }
     CHECK(typical_radius(PhotonMap{}, 32) == 1);
     CHECK(typical_radius(even_photons(1, 1), 32) == 1);
-    CHECK(typical_radius(make_photon_map(std::vector<Photon>(40)), 32) == 1);
+    CHECK(
+        typical_radius(make_photon_map(std::vector<Photon>(40, {.direction{0, -1, 0}})),
+                       32) == 1);
     // Fewer than k: as far as the farthest.
     const float few = typical_radius(even_photons(5, 1), 32);
     CHECK(few > 0.1f);

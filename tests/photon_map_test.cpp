@@ -737,16 +737,24 @@ TEST_CASE("photon_map: in double") {
     CHECK(gathered > 500);
 }
 
-TEST_CASE("photon_map: data that are not finite are refused with a sentence") {
+TEST_CASE("photon_map: data that are not finite or have no direction are refused") {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     const auto refuse = [](Photon photon) {
         CHECK_THROWS_AS((void)ljus::make_photon_map(std::vector<Photon>{photon}),
                         std::invalid_argument);
     };
-    refuse({.position{nan, 0, 0}});
-    refuse({.position{0, std::numeric_limits<float>::infinity(), 0}});
+    const Vec3 down{0, -1, 0};
+    refuse({.position{nan, 0, 0}, .direction = down});
+    refuse(
+        {.position{0, std::numeric_limits<float>::infinity(), 0}, .direction = down});
     refuse({.direction{0, 0, nan}});
-    refuse({.flux{0, nan, 0}});
+    refuse({.direction = down, .flux{0, nan, 0}});
+    refuse({.direction{0, -1.01f, 0}});
+    CHECK_NOTHROW((void)ljus::make_photon_map(
+        std::vector<Photon>{Photon{.direction{0.6f, -0.8001f, 0}}}));
+    CHECK_THROWS_WITH((void)ljus::make_photon_map(std::vector<Photon>(1)),
+                      "photon.direction is (0, 0, 0); it must be a vector of length "
+                      "1.");
     CHECK_THROWS_WITH(
         (void)ljus::make_photon_map(std::vector<Photon>{Photon{.flux{0, nan, 0}}}),
         "photon.flux is (0, NaN, 0); it must be finite in "
@@ -881,7 +889,8 @@ TEST_CASE("photon_map: the radius that k photons typically take, by hand") {
     // and what is typical is their geometric mean.
     const auto line = [](std::initializer_list<float> places) {
         std::vector<Photon> photons;
-        for (const float x : places) photons.push_back({.position{x, 0, 0}});
+        for (const float x : places)
+            photons.push_back({.position{x, 0, 0}, .direction{0, -1, 0}});
         return ljus::make_photon_map(photons);
     };
     const auto four = line({0, 1, 3, 7});
@@ -899,7 +908,7 @@ TEST_CASE("photon_map: the radius that k photons typically take, by hand") {
     // Of many every few are asked: of 600 in the order of the tree each third.
     std::vector<Photon> many;
     for (int i = 0; i < 600; ++i)
-        many.push_back({.position{float(i) * float(i), 0, 0}});
+        many.push_back({.position{float(i) * float(i), 0, 0}, .direction{0, -1, 0}});
     const auto map = ljus::make_photon_map(many);
     double sum = 0;
     int count = 0;

@@ -130,3 +130,9 @@ ljus_break_it(NAME photon-map-room HEADER photons/irradiance_estimate.hpp TEST p
     FROM "detail::check_disc(gather);\n    if (map.empty())"
     TO   "if (map.empty())"
     CASES "photon_map: an estimate refuses*")
+
+# A photon without direction arrives at no side: it must not be taken in silence.
+ljus_break_it(NAME photon-map-no-direction HEADER photons/photon_map.hpp TEST photon_map
+    FROM "- T(1)) <= T(0.01)"
+    TO   "- T(1)) <= T(1)"
+    CASES "photon_map: data that are not finite*")

@@ -29,14 +29,17 @@ using PhotonMap = PhotonMapT<float>; ///< PhotonMapT in float.
 
 namespace detail {
 
-// The positions of photons whose members are all finite.
+// The positions of photons whose members are right: a direction of (0, 0, 0), for one,
+// would arrive at neither side of a surface.
 template <std::floating_point T>
 [[nodiscard]] std::vector<Vec3T<T>>
 checked_positions(const std::vector<PhotonT<T>>& photons) {
     std::vector<Vec3T<T>> positions(photons.size());
     for (std::size_t i = 0; i < photons.size(); ++i) {
-        require_finite("photon.direction", photons[i].direction);
         require_finite("photon.flux", photons[i].flux);
+        const Vec3T<T>& direction = photons[i].direction;
+        require(std::abs(glm::dot(direction, direction) - T(1)) <= T(0.01),
+                "photon.direction", direction, "a vector of length 1");
         positions[i] = photons[i].position;
     }
     return positions;
@@ -48,7 +51,8 @@ checked_positions(const std::vector<PhotonT<T>>& photons) {
 /// \param photons  In any order.
 /// \param threads  As in ParallelSettings.
 /// \return The map, the same for any number of threads.
-/// \throws std::invalid_argument  if a position, a direction or a flux is not finite.
+/// \throws std::invalid_argument  if a position or a flux is not finite, or a direction
+///         is not of length 1, to 0.5 percent.
 template <std::floating_point T>
 [[nodiscard]] PhotonMapT<T> make_photon_map(const std::vector<PhotonT<T>>& photons,
                                             int threads = 0) {

@@ -199,8 +199,10 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     const long long indirect = count_of(photons, PhotonKind::indirect);
     maps.starved = run.irradiance && indirect < settings.irradiance.least;
     if (maps.starved) maps.remarks.append(starved_remark(indirect, settings) + "\n");
-    const bool blurred = run.general_map && kept.has(PhotonKind::indirect) &&
-                         indirect < std::min(1024LL, settings.general.photons / 10);
+    // Read over a radius, fewer photons than these blur indirect light across a room.
+    const long long sharp = std::min(1024LL, settings.general.photons / 10);
+    const bool blurred =
+        run.general_map && kept.has(PhotonKind::indirect) && indirect < sharp;
     if (blurred && !maps.starved)
         maps.remarks.append(blurred_remark(indirect, settings) + "\n");
     if (maps.starved && !settings.keep_general_map) return maps;
