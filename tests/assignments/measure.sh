@@ -18,7 +18,7 @@ seconds() { # the least of three
 echo "# $("$cxx" --version | head -n 1), -O2; $(sed -n 's/^model name.*: //p' /proc/cpuinfo |
     head -n 1). Seconds of one processor: the least of three runs"
 echo "assignment,tests,points,wrong,compile tests,run tests,compile picture,make picture"
-for number in 1 2 3 4 5 6 7; do
+for number in 1 2 3 4 5 6 7 8; do
     folder=$scratch/$number
     cp -R examples/assignments/"$number"_* "$folder"
     cp "tests/assignments/solutions/$number.hpp" "$folder/answer.hpp"
