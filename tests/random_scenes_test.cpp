@@ -1,4 +1,4 @@
-// long: 8 ways of carrying light in each of 20 scenes
+// long: 9 ways of carrying light in each of 20 scenes
 // concept: photon_mapping
 /// \file random_scenes_test.cpp
 /// \brief Every way of carrying light against path tracing, in scenes drawn at random.
@@ -33,6 +33,7 @@
 #include "ljus/render/gathering.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/progressive.hpp"
+#include "ljus/render/vertex_merging.hpp"
 #include "support/random_scene.hpp"
 #include "support/seed.hpp"
 #include "support/student.hpp"
@@ -103,6 +104,7 @@ constexpr std::array carriers{
     Carrier{"draft", 0.06, 0.06},
     Carrier{"fast", 0.05, 0.05},
     Carrier{"progressive", 0.08, 0.08, true},
+    Carrier{"merging", 0.03, 0.05},
 };
 
 constexpr auto listed = abilities<Gathering, StratifiedStream>;
@@ -145,6 +147,17 @@ bool says_blurred(const DrawnScene& drawn, std::uint64_t seed) {
 Image carried(const DrawnScene& drawn, const std::string& name, std::uint64_t seed) {
     if (name == "draft") return by_preset(drawn, Preset::draft, seed);
     if (name == "fast") return by_preset(drawn, Preset::fast, seed);
+    if (name == "merging") {
+        const VertexMerger merger(
+            drawn.world, {.paths = 20000, .radius = 0.05f, .seed = seed, .threads = 1});
+        return render(merger, drawn.camera,
+                      {.width = small,
+                       .height = small,
+                       .samples = 16,
+                       .seed = seed,
+                       .threads = 1})
+            .image;
+    }
     PhotonMappingSettings settings = map_settings(drawn, seed);
     settings.indirect = name == "rays"     ? IndirectLight::rays
                         : name == "map"    ? IndirectLight::map
@@ -214,6 +227,7 @@ TEST_CASE("random scenes: every carrier of light agrees with path tracing") {
                 ++all.said;
                 continue;
             }
+            if (carrier.name == std::string("merging") && !drawn.merges) continue;
             Blocks blocks_of;
             for (int s = 0; s < carried_seeds; ++s)
                 blocks_of.add(carried(drawn, carrier.name, ++seed));

@@ -8,9 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "ljus/accel/mesh.hpp"
+#include "ljus/accel/instances.hpp"
+#include "ljus/geometry/cylinder.hpp"
+#include "ljus/geometry/disc.hpp"
 #include "ljus/geometry/metaballs.hpp"
 #include "ljus/geometry/moving.hpp"
+#include "ljus/lights/environment.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/lights/spot_light.hpp"
 #include "ljus/lights/sun_light.hpp"
@@ -22,6 +25,7 @@
 #include "ljus/materials/mixture.hpp"
 #include "ljus/materials/oren_nayar.hpp"
 #include "ljus/materials/rough_diffuse.hpp"
+#include "ljus/materials/rough_glass.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/materials/textured.hpp"
 #include "ljus/scene/camera.hpp"
@@ -33,13 +37,15 @@ namespace ljus_test {
 
 using Checkered = ljus::Textured<ljus::Lambertian, ljus::Checker>;
 using RandomScene = ljus::Scene<
-    ljus::Shapes<ljus::Quad, ljus::Sphere, ljus::Triangle, ljus::Mesh, ljus::Metaballs,
+    ljus::Shapes<ljus::Quad, ljus::Sphere, ljus::Triangle, ljus::Disc, ljus::Cylinder,
+                 ljus::Mesh, ljus::Instance, ljus::Metaballs,
                  ljus::Moving<ljus::Sphere>, ljus::Moving<ljus::Quad>>,
     ljus::Materials<ljus::Lambertian, ljus::OrenNayar, ljus::Eon, ljus::RoughDiffuse,
                     Checkered, ljus::Glossy, ljus::RoughMetal, ljus::CompensatedGlossy,
-                    ljus::Mirror, ljus::Metal, ljus::Glass, ljus::ThinGlass,
-                    ljus::SoapFilm, ljus::Mixture>,
-    ljus::Lights<ljus::PointLight, ljus::SpotLight, ljus::SunLight>>;
+                    ljus::Mirror, ljus::Metal, ljus::Glass, ljus::RoughGlass,
+                    ljus::ThinGlass, ljus::SoapFilm, ljus::Mixture>,
+    ljus::Lights<ljus::PointLight, ljus::SpotLight, ljus::SunLight,
+                 ljus::EnvironmentLight>>;
 
 /// A drawn scene.
 struct DrawnScene {
@@ -51,6 +57,7 @@ struct DrawnScene {
     bool sharp = false;    ///< Whether some gloss is nearly a mirror.
     bool point = false;    ///< Whether a light has no area.
     bool open = false;     ///< Whether light leaves it.
+    bool merges = true;    ///< Whether vertex merging does not refuse it.
 };
 
 /// Draws scenes. Objects touch neither each other nor a wall. A path tracer finds no
@@ -93,7 +100,8 @@ public:
                 glossy_,
                 sharp_,
                 point_,
-                open_};
+                open_,
+                merges_};
     }
 
 private:
@@ -164,7 +172,7 @@ private:
     /// \param solid  Whether the shape is closed, so that something can be inside.
     Id specular(bool solid) {
         specular_ = true;
-        switch (draws_.below(solid ? 6 : 4)) {
+        switch (draws_.below(solid ? 7 : 4)) {
         case 0:
             say("mirror");
             return scene_.add(ljus::Mirror{.reflectance = color(0.6f, 0.95f)});
@@ -183,6 +191,14 @@ private:
             const float index = draws_.between(1.2f, 1.9f);
             return scene_.add(
                 ljus::Glass{.index = index, .absorption = color(0, 1.5f)});
+        }
+        case 5: {
+            const float roughness = draws_.between(0.2f, 0.7f);
+            say("rough-glass" + std::to_string(roughness).substr(0, 4));
+            sharp_ = sharp_ || roughness < 0.42f;
+            return scene_.add(ljus::RoughGlass{.index = draws_.between(1.2f, 1.9f),
+                                               .roughness = roughness,
+                                               .absorption = color(0, 1)});
         }
         default: {
             say("mixture");
@@ -257,8 +273,8 @@ private:
         const float high = draws_.between(-0.98f + reach, -0.3f);
         const V center{cell % 2 == 0 ? -0.45f : 0.45f, high,
                        (cell / 2 == 0 ? -0.5f : 0.25f) * length};
-        const int shape = draws_.below(8);
-        const bool solid = shape < 5;
+        const int shape = draws_.below(11);
+        const bool solid = shape < 5 || shape > 8;
         switch (shape) {
         case 0:
         case 1:
@@ -295,6 +311,7 @@ private:
         }
         case 5: {
             say("moving-ball");
+            merges_ = false;
             const V way = 0.7f * reach * draws_.direction<float>();
             scene_.add(
                 ljus::Moving<ljus::Sphere>{{center - 0.5f * way, 0.6f * reach}, way},
@@ -307,6 +324,35 @@ private:
             const V u = reach * V{std::cos(angle), 0, std::sin(angle)};
             const V v{0, 1.2f * reach, 0};
             scene_.add(ljus::Quad{center - 0.5f * (u + v), u, v}, any(solid));
+            break;
+        }
+        case 7:
+            say("disc");
+            scene_.add(ljus::Disc{center, draws_.direction<float>(), reach},
+                       any(solid));
+            break;
+        case 9: {
+            say("cylinder");
+            const V axis = 1.2f * reach * draws_.direction<float>();
+            const ljus::Cylinder tube{center - 0.5f * axis, axis, 0.6f * reach};
+            const Id material = any(solid);
+            scene_.add(tube, material);
+            for (const ljus::Disc& end : ljus::ends_of(tube)) scene_.add(end, material);
+            break;
+        }
+        case 10: { // turned, stretched, and now and then mirrored
+            say("instance");
+            const V u = draws_.direction<float>();
+            const V v = glm::normalize(glm::cross(u, draws_.direction<float>()));
+            const float mirror = draws_.below(3) == 0 ? -1.0f : 1.0f;
+            const ljus::Affine place(
+                mirror * reach * u, draws_.between(0.4f, 1.f) * reach * v,
+                draws_.between(0.4f, 1.f) * reach * glm::cross(u, v), center);
+            const auto mesh = scene_.add(ljus::Mesh(
+                draws_.below(2) == 0
+                    ? ljus::icosphere(ljus::Sphere{V{0}, 1}, 1 + draws_.below(3))
+                    : ljus::torus(V{0}, 0.7f, 0.28f, 24, 12)));
+            scene_.add(ljus::Instance(mesh, place), any(solid));
             break;
         }
         default:
@@ -342,12 +388,14 @@ private:
                                     .outer_degrees = draws_.between(35.f, 90.f)});
             } else {
                 say("SUN");
+                merges_ = false;
                 const V to = draws_.direction<float>();
                 scene_.add(ljus::SunLight{.direction = V{0, -1, 0} + 0.6f * to,
                                           .irradiance = light});
             }
             return;
         }
+        if (open_ && draws_.below(2) == 0) return sky(light);
         const Id black = scene_.add(ljus::Lambertian{.albedo = Rgb{0}});
         switch (draws_.below(6)) {
         case 0:
@@ -377,6 +425,7 @@ private:
             break;
         default:
             say("MOVING");
+            merges_ = false;
             scene_.add(
                 ljus::Moving<ljus::Quad>{
                     {center - V{size, 0, size}, {2 * size, 0, 0}, {0, 0, 2 * size}},
@@ -386,13 +435,23 @@ private:
         }
     }
 
+    /// A sky that is brighter at one side.
+    void sky(const Rgb& light) {
+        say("SKY");
+        merges_ = false;
+        ljus::Image picture = ljus::make_image(8, 4);
+        for (Rgb& pixel : picture.pixels) pixel = 0.05f * draws_.unit<float>() * light;
+        picture.pixels[std::size_t(draws_.below(16))] = light;
+        scene_.add(ljus::EnvironmentLight{.picture = std::move(picture)});
+    }
+
     float unit() { return draws_.unit<float>(); }
 
     Draws draws_;
     RandomScene scene_{};
     std::string what_{};
     bool specular_ = false, glossy_ = false, sharp_ = false, point_ = false,
-         open_ = false;
+         open_ = false, merges_ = true;
 };
 
 } // namespace ljus_test
