@@ -190,6 +190,15 @@ template <Refractive M>
     return m;
 }
 
+/// A material that differs between wavelengths, like glass that makes a rainbow:
+/// `at_wavelength(m, nm)` returns it at one, as a material whose colours are those of
+/// all wavelengths. A path that meets it has one wavelength from there on; see
+/// \ref dispersion.
+template <typename M>
+concept Dispersive = requires(const M& m, typename M::Scalar nm) {
+    at_wavelength(m, nm);
+};
+
 /// Whether a material scatters light through its surface into a lobe with a density: it
 /// is that of a transparent body, and has a glossy lobe. Light from both sides then
 /// counts at a vertex, not only that of the side of `wo`.
@@ -263,6 +272,8 @@ template <Material M>
              requires(O m) { absorption(m); }},
         Hook{"refractive_index", "contact with another body", "opaque in contact",
              requires(O m) { refractive_index(m); }},
+        Hook{"at_wavelength", "dispersion", "one index for all light",
+             requires(O m, typename M::Scalar nm) { at_wavelength(m, nm); }},
         Hook{"emission", "its own light", "black",
              requires(O m) { emission(m); }},
         Hook{"at_point", "varies over the surface", "the same anywhere",
