@@ -23,7 +23,7 @@ concept DispersionLaw = requires(const Law& law, T nm) {
 };
 
 /// The smooth boundary of a transparent body that disperses light; GlassT at any one
-/// wavelength. Outside is z > 0 and has index 1.
+/// wavelength \cite musgrave1989. Outside is z > 0 and has index 1.
 ///
 ///     scene.add(DispersiveGlass{.law = sf10<float>});
 template <std::floating_point T, DispersionLaw<T> Law = SellmeierT<T>>

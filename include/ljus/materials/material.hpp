@@ -272,8 +272,6 @@ template <Material M>
              requires(O m) { absorption(m); }},
         Hook{"refractive_index", "contact with another body", "opaque in contact",
              requires(O m) { refractive_index(m); }},
-        Hook{"at_wavelength", "dispersion", "one index for all light",
-             requires(O m, typename M::Scalar nm) { at_wavelength(m, nm); }},
         Hook{"emission", "its own light", "black",
              requires(O m) { emission(m); }},
         Hook{"at_point", "varies over the surface", "the same anywhere",
@@ -284,6 +282,8 @@ template <Material M>
              requires(O m, V wo, Transport way) { split(m, wo, way); }},
         Hook{"pass_through", "light that goes straight on", "opaque",
              requires(O m, V position, V wo) { pass_through(m, position, wo); }},
+        Hook{"at_wavelength", "dispersion", "one index for all light",
+             requires(O m, typename M::Scalar nm) { at_wavelength(m, nm); }},
         Hook{"only_specular", "no evaluate(), no pdf()", "write both",
              requires { M::only_specular; }},
         // [material hooks]

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/optics/dispersion.hpp
-/// \brief Indices of refraction that depend on the wavelength; the wavelength of a path,
-/// and its colour.
+/// \brief Indices of refraction that depend on the wavelength; the wavelength of a
+/// path, and its colour.
 
 #include <array>
 #include <cmath>

@@ -193,10 +193,10 @@ template <AnyWorld W, std::floating_point T>
 }
 
 /// Calls f(material) with the material of a vertex. A textured material is its base
-/// with the colour at the vertex, a soap film has its thickness at the vertex, and glass
-/// that disperses light is the glass of the path's wavelength.
-/// Where a transparent body touches another one, its index is relative to that of the
-/// other. Other materials are the same everywhere.
+/// with the colour at the vertex, a soap film has its thickness at the vertex, and
+/// glass that disperses light is that of the path's wavelength. Where a transparent
+/// body touches another one, its index is relative to that of the other. Other
+/// materials are the same everywhere.
 // [visit_material_at]
 template <AnyWorld W, std::floating_point T, typename F>
 decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f) {
@@ -559,8 +559,9 @@ template <AnyWorld W, std::floating_point T>
 }
 
 /// Advances a path to its next vertex. Its throughput is attenuated by media and thin
-/// surfaces, and is coloured by the first material that disperses light. medium_at() finds the medium at the start of a path, and where the path
-/// leaves a body that may lie inside another.
+/// surfaces, and coloured by the first material that disperses light. medium_at() finds
+/// the medium at the start of a path, and where the path leaves a body that may lie
+/// inside another.
 /// \param world   The closed scene.
 /// \param path    Receives its depth, the last segment of its ray and its throughput.
 /// \param stream  Advanced to the start of the bounce; one number is drawn per thin

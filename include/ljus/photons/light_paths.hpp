@@ -139,7 +139,8 @@ void trace_light_path(const W& world, const LightPathSettings& settings, Stream 
 }
 // [light path]
 
-/// Refuses lights, shapes and materials on which light paths cannot be joined with others.
+/// Refuses lights, shapes and materials on which light paths cannot be joined with
+/// others.
 /// \throws std::invalid_argument  with the number of the light, of moving shapes, or of
 ///         materials that disperse light.
 template <AnyWorld W>
