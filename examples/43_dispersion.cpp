@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
                         .report{.width = 720, .height = 360, .samples = 64},
                         .reference{.width = 1440, .height = 720, .samples = 1024}});
         if (!line.given("--photons"))
-            photons = options.pick(100000LL, 6000000LL, 60000000LL);
+            photons = options.pick(100000LL, 10000000LL, 100000000LL);
 
         const auto show = [&](Table scene, const View& view, float radius,
                               const std::string& name) {
@@ -108,13 +108,13 @@ int main(int argc, char** argv) {
                                octagon({1.2f, 1.15f, 0}, 0.55f)})),
                  gems.add(DispersiveGlass{.law = diamond<float>}));
         for (const Vec3 aim : {Vec3{-1.6f, 0.8f, 0}, Vec3{1.2f, 0.8f, 0}}) {
-            SpotLight lamp{.direction{0.3f, -0.8f, 0.3f}, .intensity = Rgb{300}};
+            SpotLight lamp{.direction{0.3f, -0.8f, 0.3f}, .intensity = Rgb{900}};
             lamp.position = aim - 8.0f * lamp.direction;
             lamp.inner_degrees = lamp.outer_degrees = 6.3f;
             gems.add(lamp);
         }
         show(std::move(gems),
              {.position{0.5f, 5, 6}, .target{0.5f, 0.2f, 0.4f}, .vfov_degrees = 33},
-             0.025f, "gems");
+             0.03f, "gems");
     });
 }
