@@ -82,7 +82,6 @@ int main(int argc, char** argv) {
             save_png(picture.image, options.path("dispersion-" + name + ".png"));
         };
         Table prism;
-        // [prism]
         const auto flint = prism.add(DispersiveGlass{.law = sf10<float>});
         const auto triangle = [](float y) -> std::vector<Vec3> {
             return {{-0.5f, y, -0.3f}, {0, y, 0.566f}, {0.5f, y, -0.3f}};
@@ -95,7 +94,6 @@ int main(int argc, char** argv) {
         prism.add(Quad{slit + 0.02f * along, 9.0f * along, up}, black);
         prism.add(Quad{slit - 0.02f * along, -9.0f * along, up}, black);
         prism.add(SunLight{.direction{0.868f, -0.1f, 0.497f}, .irradiance = Rgb{80}});
-        // [prism]
         show(std::move(prism),
              {.position{0.8f, 5, 3.6f}, .target{0.8f, 0, -0.6f}, .vfov_degrees = 26},
              0.015f, "prism");

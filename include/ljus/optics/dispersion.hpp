@@ -171,12 +171,10 @@ struct WavelengthTable {
 /// \param nm  The wavelength, in [360, 830].
 /// \return At least 0, and the three channels add up to 3. The mean over
 ///         sample_wavelength() is (1, 1, 1).
-// [wavelength_color]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> wavelength_color(T nm) {
     return RgbT<T>(detail::wavelength_table().colors[detail::band_of(double(nm))]);
 }
-// [wavelength_color]
 
 /// The density of sample_wavelength(): the mean of the three responses.
 /// \param nm  The wavelength.
@@ -195,7 +193,6 @@ template <std::floating_point T>
 /// \param u  In [0, 1); neighbours become neighbours.
 /// \return In nm, in [360, 830].
 /// \cost A binary search among 94 bands.
-// [sample_wavelength]
 template <std::floating_point T>
 [[nodiscard]] T sample_wavelength(T u) {
     const auto [first, last] = detail::visible<double>;
@@ -203,7 +200,6 @@ template <std::floating_point T>
     const auto band = detail::choose_interval(std::span<const double>(sums), double(u));
     return T(first + (last - first) * (band.index + band.within) / double(sums.size()));
 }
-// [sample_wavelength]
 
 /// \}
 
