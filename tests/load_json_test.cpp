@@ -454,7 +454,8 @@ TEST_CASE("load_json: for a wrong word the nearest one is proposed") {
          "materials.matt.type is \"lambert\"; did you mean \"lambertian\"? It must be "
          "lambertian, oren-nayar, mirror, dielectric, mixture, oren-nayar-full, "
          "oren-nayar-printed, fujii, fon, eon, metal, rough-metal, full-rough-metal, "
-         "glossy, full-glossy, rough-glass, thin-glass, soap-film, checker or "
+         "glossy, full-glossy, rough-glass, dispersive-glass, measured-glass, "
+         "thin-glass, soap-film, checker or "
          "picture."},
         {"\"type\": \"sphere\"", "\"type\": \"shpere\"",
          "objects[2].type is \"shpere\"; did you mean \"sphere\"? It must be sphere, "
@@ -635,6 +636,30 @@ TEST_CASE("load_json: each name makes its own material") {
     CHECK(frost.index == 1.25f);
     CHECK(frost.roughness == 0.5f);
     CHECK(frost.absorption == Rgb{3, 0, 3});
+    using Flint = DispersiveGlassT<float, Cauchy>;
+    const LoadedScene made =
+        read_json_scene(with(R"({"type": "dispersive-glass", "ior": 1.75, "abbe": 28,
+                                 "absorption": [3, 0, 3]})"),
+                        "a");
+    const Flint flint = std::get<std::vector<Flint>>(made.scene.materials).at(0);
+    CHECK(refractive_index(flint) == doctest::Approx(1.75));
+    CHECK(abbe_number(flint.law) == doctest::Approx(28));
+    CHECK(flint.absorption == Rgb{3, 0, 3});
+    const std::pair<const char*, Sellmeier> media[] = {{"bk7", bk7<float>},
+                                                       {"sf10", sf10<float>},
+                                                       {"sf66", sf66<float>},
+                                                       {"water", water<float>},
+                                                       {"diamond", diamond<float>}};
+    for (const auto& [name, law] : media) {
+        const LoadedScene measured =
+            read_json_scene(with(R"({"type": "measured-glass", "medium": ")" +
+                                 std::string(name) + R"(", "absorption": [3, 0, 3]})"),
+                            "a");
+        const auto glass =
+            std::get<std::vector<DispersiveGlass>>(measured.scene.materials).at(0);
+        CHECK(glass.law.b == law.b);
+        CHECK(glass.absorption == Rgb{3, 0, 3});
+    }
 }
 
 TEST_CASE("load_json: textures by a plane, a globe and the shape's own coordinates") {
@@ -943,7 +968,8 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
          "materials.glass.type is \"crystal\"; it must be lambertian, oren-nayar, "
          "mirror, dielectric, mixture, oren-nayar-full, oren-nayar-printed, fujii, "
          "fon, eon, metal, rough-metal, full-rough-metal, glossy, full-glossy, "
-         "rough-glass, thin-glass, soap-film, checker or picture."},
+         "rough-glass, dispersive-glass, measured-glass, thin-glass, soap-film, "
+         "checker or picture."},
         {"\"ior\": 1.5", "\"ior\": 1.5, \"tint\": [1, 1, 1]",
          "materials.glass.tint is not known; the fields here are type, ior and "
          "absorption."},
@@ -1452,6 +1478,8 @@ TEST_CASE("load_json: each number of each material and light has its limits") {
           Limit{R"({"type": "fujii", "albedo": [1, 1, 1])", "sigma_deg", 0, 90},
           Limit{R"({"type": "dielectric")", "ior", 1e-3, 1e3},
           Limit{R"({"type": "thin-glass", "tint": [1, 1, 1])", "ior", 1e-3, 1e3},
+          Limit{R"({"type": "dispersive-glass", "abbe": 30)", "ior", 1, 100},
+          Limit{R"({"type": "dispersive-glass", "ior": 100)", "abbe", 1, 1e6},
           Limit{R"({"type": "fon", "albedo": [1, 1, 1])", "roughness", 0, 1},
           Limit{R"({"type": "eon", "albedo": [1, 1, 1])", "roughness", 0, 1},
           Limit{metal, "roughness", 0.01, 1}, Limit{gloss, "roughness", 0.01, 1},

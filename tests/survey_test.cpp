@@ -309,7 +309,8 @@ TEST_CASE("survey: a hook that is misspelt shows") {
         " has emission; without absorption (clear), refractive_index (opaque in "
         "contact), at_point (the same anywhere), uses_uv (uv is 0), split (one "
         "branch at random), "
-        "pass_through (opaque), only_specular (write both)"));
+        "pass_through (opaque), at_wavelength (one index for all light), only_specular "
+        "(write both)"));
     CHECK(lines[2].starts_with("material "));
     CHECK(lines[3].starts_with(
         "material GlassT<float> has absorption, "

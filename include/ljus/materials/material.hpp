@@ -190,6 +190,15 @@ template <Refractive M>
     return m;
 }
 
+/// A material that differs between wavelengths, like glass that makes a rainbow:
+/// `at_wavelength(m, nm)` returns it at one, as a material whose colours are those of
+/// all wavelengths. A path that meets it has one wavelength from there on; see
+/// \ref dispersion.
+template <typename M>
+concept Dispersive = requires(const M& m, typename M::Scalar nm) {
+    at_wavelength(m, nm);
+};
+
 /// Whether a material scatters light through its surface into a lobe with a density: it
 /// is that of a transparent body, and has a glossy lobe. Light from both sides then
 /// counts at a vertex, not only that of the side of `wo`.
@@ -273,6 +282,8 @@ template <Material M>
              requires(O m, V wo, Transport way) { split(m, wo, way); }},
         Hook{"pass_through", "light that goes straight on", "opaque",
              requires(O m, V position, V wo) { pass_through(m, position, wo); }},
+        Hook{"at_wavelength", "dispersion", "one index for all light",
+             requires(O m, typename M::Scalar nm) { at_wavelength(m, nm); }},
         Hook{"only_specular", "no evaluate(), no pdf()", "write both",
              requires { M::only_specular; }},
         // [material hooks]

@@ -4,6 +4,7 @@
 /// \brief Converts a spectrum to three channels, by the CIE's observer of 1931.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "ljus/image/color.hpp"
@@ -15,6 +16,10 @@ namespace ljus {
 /// \{
 
 namespace detail {
+
+/// The range of wavelengths that sums cover, in nm; the rest is invisible.
+template <std::floating_point T>
+inline constexpr std::array<T, 2> visible{T(360), T(830)};
 
 /// A Gaussian, at most 1, with inverse widths `left` and `right` (1/nm) below and above
 /// its centre.

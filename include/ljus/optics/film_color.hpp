@@ -17,14 +17,6 @@ namespace ljus {
 /// integrated over the spectrum.
 /// \{
 
-namespace detail {
-
-/// The range of wavelengths that sums cover, in nm; the rest is invisible.
-template <std::floating_point T>
-inline constexpr std::array<T, 2> visible{T(360), T(830)};
-
-} // namespace detail
-
 /// The colour of a spectrum.
 /// \param spectrum  Called with a wavelength in nm; 1 for white.
 /// \param step      Distance of the samples, nm.

@@ -14,6 +14,7 @@
 #include "ljus/math/frame.hpp"
 #include "ljus/math/random.hpp"
 #include "ljus/optics/absorption.hpp"
+#include "ljus/optics/dispersion.hpp"
 #include "ljus/path/path_state.hpp"
 #include "ljus/scene/world.hpp"
 
@@ -37,6 +38,7 @@ struct VertexT {
     T distance = T(0);    ///< From the previous vertex, in scene units.
     T time = T(0);        ///< Time of the path, in [0, 1].
     T stop_probability = T(1); ///< Probability of not passing a thin surface.
+    T wavelength = line_d<T>; ///< Of the path, in nm, at which dispersive glass is met.
     bool smooth = false; ///< Whether the shading normal differs from the geometric one.
     bool turned = false; ///< Whether the normals disagree about the side of `wo`.
 
@@ -82,11 +84,15 @@ inline void set_frame(VertexT<T>& vertex, const RayT<T>& ray, Vec3T<T> normal) {
 }
 // [set_frame]
 
-/// The index of refraction of a body; 1 if its material does not know it.
+/// The index of refraction of a body at a wavelength; 1 if its material does not know
+/// it.
 template <AnyWorld W>
-[[nodiscard]] typename W::Scalar index_of(const W& world, MaterialId material) {
-    return world.visit_material(material, []<typename M>(const M& m) {
-        if constexpr (Refractive<M>)
+[[nodiscard]] typename W::Scalar index_of(const W& world, MaterialId material,
+                                          typename W::Scalar wavelength) {
+    return world.visit_material(material, [&]<typename M>(const M& m) {
+        if constexpr (Dispersive<M>)
+            return refractive_index(at_wavelength(m, wavelength));
+        else if constexpr (Refractive<M>)
             return refractive_index(m);
         else
             return typename W::Scalar(1);
@@ -101,8 +107,43 @@ template <AnyWorld W, std::floating_point T>
     const PlaceHitT<T> place = place_of(world, ray, hit);
     vertex.point.error += place.depth;
     if (place.entered == vertex.object.material && place.left != no_body)
-        vertex.outside = index_of(world, place.left);
+        vertex.outside = index_of(world, place.left, vertex.wavelength);
 }
+
+/// Whether a type of scene lists a material that disperses light.
+template <AnyWorld W>
+inline constexpr bool lists_dispersive = W::any_material([]<typename M>() {
+    return Dispersive<M>;
+});
+
+/// Whether a material disperses light; no_body does not.
+template <AnyWorld W>
+[[nodiscard]] bool disperses(const W& world, MaterialId material) {
+    return material != no_body &&
+           world.visit_material(material,
+                                []<typename M>(const M&) { return Dispersive<M>; });
+}
+
+/// At the first material that disperses light, on either side of a contact too, a path
+/// turns from light of all wavelengths into that of one, by chance. Its throughput is
+/// multiplied by the colour of the wavelength, whose mean is white.
+/// \param path    Keeps the wavelength from there on.
+/// \param vertex  A vertex of fill_vertex(); receives the wavelength.
+/// \param stream  One number is drawn at that first material.
+// [disperse]
+template <AnyWorld W, std::floating_point T, StreamLike Stream>
+void disperse(const W& world, PathStateT<T>& path, VertexT<T>& vertex,
+              const SceneHitT<T>& hit, Stream& stream) {
+    if (path.wavelength == T(0)) {
+        if (!disperses(world, vertex.object.material) &&
+            !(hit.shared && disperses(world, place_of(world, path.ray, hit).left)))
+            return;
+        path.wavelength = sample_wavelength(next_1d<T>(stream));
+        path.throughput *= wavelength_color(path.wavelength);
+    }
+    vertex.wavelength = path.wavelength;
+}
+// [disperse]
 
 /// Sets a vertex to the result of vertex_at(), in place: next_vertex() would otherwise
 /// copy 160 bytes per ray.
@@ -152,18 +193,25 @@ template <AnyWorld W, std::floating_point T>
 }
 
 /// Calls f(material) with the material of a vertex. A textured material is its base
-/// with the colour at the vertex, and a soap film has its thickness at the vertex.
-/// Where a transparent body touches another one, its index is relative to that of the
-/// other. Other materials are the same everywhere.
+/// with the colour at the vertex, a soap film has its thickness at the vertex, and
+/// glass that disperses light is that of the path's wavelength. Where a transparent
+/// body touches another one, its index is relative to that of the other. Other
+/// materials are the same everywhere.
 // [visit_material_at]
 template <AnyWorld W, std::floating_point T, typename F>
 decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f) {
-    return world.visit_material(vertex.object.material, [&](const auto& m) {
-        const auto& here = material_at(m, vertex.point.position, vertex.uv);
-        if constexpr (Refractive<std::remove_cvref_t<decltype(here)>>)
+    const auto in_contact = [&]<typename M>(const M& here) {
+        if constexpr (Refractive<M>)
             return f(relative_to(here, vertex.outside));
         else
             return f(here);
+    };
+    return world.visit_material(vertex.object.material, [&](const auto& m) {
+        const auto& here = material_at(m, vertex.point.position, vertex.uv);
+        if constexpr (Dispersive<std::remove_cvref_t<decltype(here)>>)
+            return in_contact(at_wavelength(here, vertex.wavelength));
+        else
+            return in_contact(here);
     });
 }
 // [visit_material_at]
@@ -511,12 +559,13 @@ template <AnyWorld W, std::floating_point T>
 }
 
 /// Advances a path to its next vertex. Its throughput is attenuated by media and thin
-/// surfaces. medium_at() finds the medium at the start of a path, and where the path
-/// leaves a body that may lie inside another.
+/// surfaces, and coloured by the first material that disperses light. medium_at() finds
+/// the medium at the start of a path, and where the path leaves a body that may lie
+/// inside another.
 /// \param world   The closed scene.
 /// \param path    Receives its depth, the last segment of its ray and its throughput.
 /// \param stream  Advanced to the start of the bounce; one number is drawn per thin
-///                surface.
+///                surface, and one where the path gets a wavelength.
 /// \return The vertex; nothing if the path leaves the scene along its ray.
 // [next_vertex]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
@@ -537,6 +586,8 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     if (!hit) return vertex;
 
     detail::fill_vertex(vertex.emplace(), world, path.ray, *hit);
+    if constexpr (detail::lists_dispersive<W>)
+        detail::disperse(world, path, *vertex, *hit, stream);
     if (hit->shared) detail::set_contact(*vertex, world, path.ray, *hit);
     vertex->medium = path.medium;
     vertex->distance += passage.distance;

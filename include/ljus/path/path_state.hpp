@@ -27,6 +27,8 @@ struct PathStateT {
     bool medium_known = false; ///< False: next_vertex() finds the medium.
     Vec3T<T> previous{T(0)};   ///< The last vertex.
     T pdf = T(0);              ///< Pdf of its direction, per steradian; 0: delta.
+    T wavelength = T(0);       ///< In nm, once it has met a Dispersive material; until
+                               ///< then 0, and it carries light of all wavelengths.
     bool specular = false;     ///< Whether its last scattering was specular.
     bool met_diffuse = false;  ///< Whether any scattering was not specular.
     bool met_specular = false; ///< Whether any scattering was specular.

@@ -139,8 +139,10 @@ void trace_light_path(const W& world, const LightPathSettings& settings, Stream 
 }
 // [light path]
 
-/// Refuses lights and shapes on which light paths cannot be joined with others.
-/// \throws std::invalid_argument  with the number of the light, or of moving shapes.
+/// Refuses lights, shapes and materials on which light paths cannot be joined with
+/// others.
+/// \throws std::invalid_argument  with the number of the light, of moving shapes, or of
+///         materials that disperse light.
 template <AnyWorld W>
 [[gnu::cold]] void require_joints(const W& world) {
     for (std::uint32_t i = 0; i < world.light_count(); ++i)
@@ -153,6 +155,14 @@ template <AnyWorld W>
                 static_cast<long long>(list.size()), "0, or paths differ in time");
     };
     std::apply([&](const auto&... lists) { (rest(lists), ...); }, world.shapes());
+    const auto one_index = []<typename M>(const std::vector<M>& list) {
+        require(!Dispersive<M> || list.empty(),
+                "the number of materials that disperse light",
+                static_cast<long long>(list.size()),
+                "0, or joined paths differ in wavelength");
+    };
+    std::apply([&](const auto&... lists) { (one_index(lists), ...); },
+               world.materials());
 }
 
 } // namespace detail
@@ -162,7 +172,7 @@ template <AnyWorld W>
 /// \param settings  How many, and how they can be joined.
 /// \return The paths, the same for any number of threads; none without a light.
 /// \throws std::invalid_argument  if a setting is out of range, a light is neither a
-///         lamp nor a point nor a spot, or a shape moves.
+///         lamp nor a point nor a spot, a shape moves, or a material disperses light.
 /// \cost Some 350 bytes per vertex.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] LightPathsT<typename W::Scalar>

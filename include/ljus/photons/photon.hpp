@@ -100,7 +100,8 @@ template <std::floating_point T>
 /// Where the emitted flux of a photon pass went; in W, summed in double.
 ///
 /// For each path, absorbed + escaped + cut + roulette = emitted. `roulette` is what
-/// terminated photons lost minus what survivors gained; its mean is 0.
+/// terminated photons lost minus what survivors gained, and what photons lost minus
+/// what they gained when a wavelength was chosen; its mean is 0.
 struct FluxAudit {
     RgbT<double> emitted{0};  ///< By the lights.
     RgbT<double> absorbed{0}; ///< By materials and media.

@@ -292,12 +292,19 @@ void trace_photon(const W& world, MapType map, const SentPhotonT<T>& sent,
     audit.emitted += RgbT<double>(photon.flux);
     bool by_gloss = false; // whether a glossy lobe counted as a mirror
     while (path.depth < pass.max_bounces) {
-        const RgbT<double> before{path.throughput};
+        RgbT<double> before{path.throughput};
+        [[maybe_unused]] const T wavelength = path.wavelength;
         const auto vertex = next_vertex(world, path, stream);
         if (!vertex) {
             audit.escaped += before;
             return;
         }
+        if constexpr (lists_dispersive<W>)
+            if (path.wavelength != wavelength) { // which carries on the flux of all
+                const RgbT<double> all = before;
+                before *= RgbT<double>(wavelength_color(path.wavelength));
+                audit.roulette += all - before;
+            }
         const bool first = path.depth == 1;
         if (first && sent.target && vertex->id != *sent.target) {
             audit.cut += before;

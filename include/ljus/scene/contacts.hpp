@@ -179,7 +179,8 @@ void put_color(ContactKey& key, std::size_t at, const RgbT<T>& color) {
 template <Material M>
 [[gnu::cold]] void put_material(ContactKey& key, const M& m) {
     using T = typename M::Scalar;
-    if constexpr (Refractive<M>) key[4] = -double(refractive_index(m));
+    if constexpr (requires { refractive_index(m); })
+        key[4] = -double(refractive_index(m));
     if constexpr (MayAbsorb<M>) put_color(key, 5, absorption(m));
     const Vec3T<T> wo{T(0.6), T(0), T(0.8)}, up{T(0), T(0), T(1)};
     const auto& here = material_at(m, Vec3T<T>{T(0)}, Vec2T<T>{T(0.5)});

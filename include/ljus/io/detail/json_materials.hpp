@@ -12,6 +12,7 @@
 
 #include "ljus/io/detail/json_textures.hpp"
 #include "ljus/materials/compensated_glossy.hpp"
+#include "ljus/materials/dispersive_glass.hpp"
 #include "ljus/materials/eon.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
@@ -57,6 +58,14 @@ struct MaterialFields {
     ConductorIndexT<T> metal() const {
         const std::string name = in.word("metal");
         return name == "gold" ? gold<T> : name == "copper" ? copper<T> : silver<T>;
+    }
+    SellmeierT<T> medium() const {
+        const std::string name = in.word("medium");
+        return name == "bk7"     ? bk7<T>
+               : name == "sf10"  ? sf10<T>
+               : name == "sf66"  ? sf66<T>
+               : name == "water" ? water<T>
+                                 : diamond<T>;
     }
     GlossyT<T, ConductorIndexT<T>> rough_metal() const {
         return {metal(), value("roughness")};
@@ -128,6 +137,8 @@ inline constexpr std::string_view metal_words[]{"gold", "copper", "silver"};
 inline constexpr JsonMember metal_row =
     needed("metal", {.kind = JsonKind::word, .words = metal_words},
            "whose measured index of refraction", "\"gold\"");
+inline constexpr std::string_view medium_words[]{"bk7", "sf10", "sf66", "water",
+                                                 "diamond"};
 inline constexpr JsonValue ior_value{JsonKind::number, 1e-3, 1e3,
                                      "within [0.001, 1000]"};
 inline constexpr JsonMember ior_row =
@@ -232,6 +243,26 @@ constexpr auto material_rows() {
             [](In in) {
                 return RoughGlassT<T>{in.value("ior"), in.value("roughness"),
                                       in.color("absorption")};
+            }),
+        row("dispersive-glass", "", "glass that makes a spectrum, by two numbers",
+            {needed("ior", {JsonKind::number, 1, 100, "within [1, 100]"},
+                    "index of refraction for yellow light", "1.62", "index"),
+             needed("abbe", {JsonKind::number, 1, 1e6, "within [1, 1e6]"},
+                    "Abbe's number: 64 for crown glass, 21 for heavy flint", "36"),
+             absorption_row},
+            [](In in) {
+                return DispersiveGlassT<T, CauchyT<T>>{
+                    cauchy_from_abbe(in.value("ior"), in.value("abbe")),
+                    in.color("absorption")};
+            }),
+        row("measured-glass", "", "glass, water or diamond with a measured spectrum",
+            {needed("medium", {.kind = JsonKind::word, .words = medium_words},
+                    "crown glass N-BK7, flint SF10, heavy flint N-SF66, water or "
+                    "diamond",
+                    "\"sf66\""),
+             absorption_row},
+            [](In in) {
+                return DispersiveGlassT<T>{in.medium(), in.color("absorption")};
             }),
         row("thin-glass", "", "a pane",
             {ior_row, needed("tint", color_value, "of what passes", "[0.9, 1, 0.9]")},
