@@ -16,12 +16,6 @@ ljus_break_it(NAME layers-delayed HEADER render/layers.hpp TEST layers
     TO   "if (false)"
     CASES "layers: the picture keeps*")
 
-# The layers use up random numbers of the picture.
-ljus_break_it(NAME layers-numbers HEADER render/layers.hpp TEST layers
-    FROM "auto own = stream;"
-    TO   "auto& own = stream;"
-    CASES "layers: the picture keeps*")
-
 # Objects of different types have the same number.
 ljus_break_it(NAME layers-object HEADER render/layers.hpp TEST layers
     FROM "number += world.objects()[type].size();"

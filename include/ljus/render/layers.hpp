@@ -66,6 +66,29 @@ struct RenderedLayersT {
     std::vector<LayerT<T>> layers{}; ///< In the order of LayerSettings.
 };
 
+/// The layers of a picture before it is rendered: their names and channels, all 0.
+/// \param which   The layers.
+/// \param width   Of the picture, in pixels.
+/// \param height  Of the picture, in pixels.
+/// \throws std::invalid_argument  as make_image().
+template <std::floating_point T>
+[[nodiscard]] std::vector<LayerT<T>> make_layers(const LayerSettings& which, int width,
+                                                 int height) {
+    std::vector<LayerT<T>> layers;
+    const auto add = [&](bool asked, const std::string& name,
+                         std::vector<std::string> channels) {
+        if (asked)
+            layers.push_back({name, std::move(channels), make_image<T>(width, height)});
+    };
+    add(which.normal, "N", {"X", "Y", "Z"});
+    add(which.albedo, "albedo", {"R", "G", "B"});
+    add(which.depth, "", {"Z"});
+    add(which.position, "P", {"X", "Y", "Z"});
+    add(which.object, "", {"id"});
+    for (const PathLayer& one : which.paths) add(true, one.name, {"R", "G", "B"});
+    return layers;
+}
+
 namespace detail {
 
 /// The largest number of mirrors and boundaries of glass that are followed.
@@ -207,25 +230,6 @@ private:
     typename BatchOf<R>::Type batch_{};
 };
 
-/// The layers of a picture, still black.
-template <std::floating_point T>
-[[nodiscard]] std::vector<LayerT<T>> empty_layers(const LayerSettings& which, int width,
-                                                  int height) {
-    std::vector<LayerT<T>> layers;
-    const auto add = [&](bool asked, const std::string& name,
-                         std::vector<std::string> channels) {
-        if (asked)
-            layers.push_back({name, std::move(channels), make_image<T>(width, height)});
-    };
-    add(which.normal, "N", {"X", "Y", "Z"});
-    add(which.albedo, "albedo", {"R", "G", "B"});
-    add(which.depth, "", {"Z"});
-    add(which.position, "P", {"X", "Y", "Z"});
-    add(which.object, "", {"id"});
-    for (const PathLayer& one : which.paths) add(true, one.name, {"R", "G", "B"});
-    return layers;
-}
-
 /// The values of one pixel in all layers, in their order.
 /// \param means   Sums over its rays, divided by their number.
 /// \param world   The closed scene.
@@ -291,7 +295,7 @@ render_layers(const R& renderer, const C& camera, const RenderSettings& picture,
     RenderedLayersT<T> result;
     RenderedT<T>& rendered = result.rendered;
     rendered.image = make_image<T>(picture.width, picture.height);
-    result.layers = detail::empty_layers<T>(which, picture.width, picture.height);
+    result.layers = make_layers<T>(which, picture.width, picture.height);
     const PictureRays rays(picture);
     std::vector<Counts> counts(static_cast<std::size_t>(picture.height));
     const auto row = [&](long long number) {

@@ -91,7 +91,7 @@ ImageT<T> read_sky(const JsonMembersOf& in, const Files& files) {
         if (path.ends_with(".hdr")) return load_hdr<T>(path);
         if (path.ends_with(".pfm")) return load_pfm<T>(path);
         if (path.ends_with(".exr")) {
-            if constexpr (requires { files.template load_picture<T>(path); })
+            if constexpr (requires { &Files::template load_picture<T>; })
                 return files.template load_picture<T>(path);
             throw std::runtime_error("load_json() reads no EXR pictures unless it is "
                                      "given WithExr, from ljus/io/exr.hpp.");
