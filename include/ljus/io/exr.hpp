@@ -143,8 +143,8 @@ public:
                 refuse(join({"has layers of ", to_text(window.width), " x ",
                              to_text(window.height), " pixels, ",
                              to_text(static_cast<long long>(wanted.size())),
-                             " of which are read; there must be at most ",
-                             to_text(most), " pixels in all of them"}));
+                             " of them are read; there must be at most ", to_text(most),
+                             " pixels in all of them"}));
             pixels += window.width * window.height;
             // The largest number of pixels per byte: ZIP packs 1032 bytes into one, and
             // DWA keeps one number of 64 where all are alike.
@@ -502,10 +502,9 @@ LayerT<T> layer_in(LayerT<float>&& layer) {
 
 } // namespace detail
 
-/// Loads all layers of an EXR file: scanlines or tiles, one part or several, any
-/// compression and type of number. The parts of a file without colours, normals or
-/// other pixels, such as deep ones, are left out, and so are channels with fewer values
-/// than pixels.
+/// Loads all layers of an EXR file: scanlines or tiles, one part or several, numbers of
+/// any type, by each compression that OpenEXRCore reads. Deep parts are left out, and
+/// so are channels with fewer values than pixels.
 /// \param path  The file.
 /// \return In the order of the parts, and within a part of the names: channels R, G, B
 ///         or X, Y, Z of one name together, each other channel alone. In a file of
