@@ -42,6 +42,8 @@ ljus_package(benchmark HEADER benchmark/benchmark.h PACKAGE benchmark
     REPOSITORY https://github.com/google/benchmark.git
     COMMIT 192ef10025eb2c4cdd392bc502f0c852196baa48 # 1.9.5
     INCLUDE BUILD) # not only headers: it is compiled as a CMake project of its own
+ljus_package(openexr PACKAGE OpenEXR TARGET OpenEXR::OpenEXRCore APT libopenexr-dev
+    INCLUDE BUILD) # a library with libraries of its own: it is not fetched
 
 # ljus_dependency(<name> [REQUIRED])
 #
@@ -61,14 +63,14 @@ function(ljus_dependency name)
     mark_as_advanced(LJUS_${upper}_REPOSITORY LJUS_${upper}_COMMIT)
 
     add_library(ljus_${name} INTERFACE)
-    if(NOT LJUS_FETCH STREQUAL "ALWAYS")
+    if(NOT LJUS_FETCH STREQUAL "ALWAYS" OR NOT ${about}_REPOSITORY)
         ljus_find_installed(${name} found)
         if(found)
             message(STATUS "Ljus: ${name} found: ${found}")
             return()
         endif()
     endif()
-    if(LJUS_FETCH)
+    if(LJUS_FETCH AND ${about}_REPOSITORY)
         message(STATUS "Ljus: ${name} is fetched from ${LJUS_${upper}_REPOSITORY} "
                        "(faster: sudo apt-get install ${${about}_APT})")
         ljus_fetch(${name} "${LJUS_${upper}_REPOSITORY}" "${LJUS_${upper}_COMMIT}")

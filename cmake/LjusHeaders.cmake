@@ -2,7 +2,8 @@
 #
 # A header that needs a package other than GLM and stb is optional: it is checked only if
 # that package is installed, and no other header includes it.
-set(LJUS_OPTIONAL_PACKAGES nlohmann/json.hpp tiny_obj_loader.h stb/stb_image.h)
+set(LJUS_OPTIONAL_PACKAGES nlohmann/json.hpp tiny_obj_loader.h stb/stb_image.h
+    OpenEXR/openexr.h)
 
 function(ljus_sort_headers required optional)
     file(GLOB_RECURSE headers CONFIGURE_DEPENDS "${LJUS_INCLUDE_DIR}/ljus/*.hpp")

@@ -17,6 +17,7 @@
 
 #include "common/command_line.hpp"
 #include "common/error_map.hpp"
+#include "common/exr_files.hpp"
 #include "common/plot.hpp"
 #include "common/program_files.hpp"
 #include "ljus/image/hdr_flip.hpp"
@@ -61,6 +62,7 @@ Image load(const std::string& path) {
     const std::string type = type_of(path);
     const Image image = type == ".pfm"   ? load_pfm(path)
                         : type == ".hdr" ? load_hdr(path)
+                        : type == ".exr" ? examples::load_exr(path)
                                          : load_image(path);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         if (is_finite(image.pixels[i])) continue;
@@ -258,8 +260,8 @@ void save_map(const Image& image, const Image& reference, const Request& request
 
 void body(examples::CommandLine& line) {
     Request request;
-    line.about("How much a picture differs from a reference. PFM and HDR files hold "
-               "radiance; others, such as PNG, are converted to linear first.");
+    line.about("How much a picture differs from a reference. PFM, HDR and EXR files "
+               "hold radiance; others, such as PNG, are converted to linear first.");
     line.without({"--quality", "--seed", "--threads", "--width", "--height", "--rays"});
     line.add_positional("PICTURE", request.image, "The picture");
     line.add_positional("REFERENCE", request.reference, "The truth");

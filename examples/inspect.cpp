@@ -1,15 +1,21 @@
 /// \file inspect.cpp
-/// \brief What a mesh file has in it, and what is odd about it: ljus-inspect.
+/// \brief What a mesh file or an EXR file has in it, and what is odd about it:
+/// ljus-inspect.
 ///
 ///     ljus-inspect teapot.obj
 ///     ljus-inspect duck.glb --picture duck.png
+///     ljus-inspect room.exr
 ///
 /// It prints what was read and what was made of it: triangles, box, area, whether the
 /// mesh is closed and its volume, the materials, cameras and lights; then each problem
 /// with its place in the file, and what is done about it. The picture shows the meshes
-/// as they are made by add_meshes(), path-traced.
+/// as they are made by add_meshes(), path-traced. Of an EXR file it prints the layers
+/// and the range of their values.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <stdexcept>
 #include <string>
 
 #include "common/command_line.hpp"
@@ -111,12 +117,40 @@ void draw(const std::string& mesh, const MeshFileSettings& settings,
     examples::save_picture(rendered.image, file, 0);
 }
 
+/// Prints the layers of an EXR file.
+void print_layers(const std::string& path) {
+    std::printf("%s\n", shown_path(path).c_str());
+    for (const Layer& layer : examples::load_exr_layers(path)) {
+        std::string names;
+        double low = 0, high = 0, sum = 0;
+        long long finite = 0, others = 0;
+        for (std::size_t c = 0; c < layer.channels.size(); ++c) {
+            names += (c == 0 ? "" : ", ") + shown(channel_name(layer, c));
+            for (const Rgb& color : layer.image.pixels) {
+                const double value = color[int(c)];
+                if (!std::isfinite(value)) {
+                    ++others;
+                    continue;
+                }
+                low = finite == 0 ? value : std::min(low, value);
+                high = finite == 0 ? value : std::max(high, value);
+                sum += value;
+                ++finite;
+            }
+        }
+        std::printf("  layer      %s: %d x %d, from %.6g to %.6g, mean %.6g; %lld "
+                    "values are not finite\n",
+                    names.c_str(), layer.image.width, layer.image.height, low, high,
+                    finite == 0 ? 0 : sum / double(finite), others);
+    }
+}
+
 void body(examples::CommandLine& line) {
     std::string path, picture, camera;
     MeshFileSettings settings;
     line.about(
         "Prints what a mesh file (OBJ, PLY, STL, glTF) has in it, and what is odd "
-        "about it.");
+        "about it; or the layers of an EXR file.");
     line.file_types(
         {".obj"}); // no folder for files of its own, which parse() would try
     line.without({"--quality", "--seed", "--threads", "--width", "--height", "--rays",
@@ -124,9 +158,15 @@ void body(examples::CommandLine& line) {
     line.add_positional("MESH", path, "The file");
     line.add("--scale", settings.scale, "Factor of every coordinate", 1e-9, 1e9);
     line.add("--normals", settings.normals, "Of the file, smooth, or flat");
-    line.add("--picture", picture, "Makes this picture of it (PNG, HDR or PFM)");
+    line.add("--picture", picture, "Makes this picture of it (PNG, HDR, PFM or EXR)");
     line.add("--camera", camera, "The camera of the picture, by its name in the file");
     (void)line.parse();
+    if (examples::is_exr(path)) {
+        for (const std::string& option : line.all_given())
+            throw std::invalid_argument(option + " is for meshes; '" + path +
+                                        "' is an EXR file");
+        return print_layers(path);
+    }
 
     const LoadedMeshT<double> loaded = load_mesh<double>(path, settings);
     std::printf("%s\n", shown_path(path).c_str());

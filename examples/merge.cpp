@@ -47,7 +47,7 @@ void body(examples::CommandLine& line) {
     line.about("Merges the slices of a picture, made by `render --slice K/N`.");
     line.without({"--quality", "--seed", "--threads", "--width", "--height", "--rays"});
     line.add("SLICE", names, "Files, or folders of files NAME.slice");
-    line.file_types({".png", ".hdr", ".pfm"});
+    line.file_types(examples::picture_types());
     const examples::Options options = line.parse();
     const std::string path =
         options.path(options.file.empty() ? "picture.png" : options.file);

@@ -6,6 +6,7 @@
 ///     render scene.json --renderer normals     what each ray hits first
 ///     render scene.json --seconds 5            the best picture for that time
 ///     render scene.json --region 40,30,64,48   some of its pixels
+///     render scene.json --layers normal,albedo,light-paths --out picture.exr
 ///     render scene.json --plan                 what would run, and why
 ///     render --schema > ljus.schema.json       what a scene file may contain
 ///     render scene.json --passes 100 --checkpoint a.check --preview a.png
@@ -22,6 +23,7 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
+#include "common/layer_options.hpp"
 #include "common/options_together.hpp"
 #include "common/picture_cost.hpp"
 #include "common/program_files.hpp"
@@ -56,8 +58,8 @@ FileRoom(World<S>, LensCameraT<typename S::Scalar>) -> FileRoom<S>;
 /// Renders, or explains one pixel.
 /// \return What was rendered; no image if a pixel was explained.
 template <typename Renderer, std::floating_point T>
-RenderedT<T> run(const Renderer& renderer, const LensCameraT<T>& camera,
-                 const Request& r) {
+RenderedLayersT<T> run(const Renderer& renderer, const LensCameraT<T>& camera,
+                       const Request& r) {
     RenderSettings picture = r.picture;
     if (!r.pixel.empty()) {
         const auto [x, y] = pixel_of(r);
@@ -67,7 +69,8 @@ RenderedT<T> run(const Renderer& renderer, const LensCameraT<T>& camera,
     const examples::StopWatch watch;
     examples::ProgressBar bar("render", r.quiet);
     picture.progress = bar;
-    RenderedT<T> rendered;
+    RenderedLayersT<T> result;
+    RenderedT<T>& rendered = result.rendered;
     if (r.more_rays > 0) {
         picture.samples += r.more_rays; // at most
         auto adaptive = render_adaptive(renderer, camera, picture,
@@ -76,18 +79,21 @@ RenderedT<T> run(const Renderer& renderer, const LensCameraT<T>& camera,
                                          .batches = 1,
                                          .disagreement = r.disagreement});
         rendered = {std::move(adaptive.image), adaptive.counts, adaptive.complete};
+    } else if (!r.layers.empty()) {
+        result = render_layers(renderer, camera, picture,
+                               examples::layer_settings(r.layers));
     } else if (!r.region.empty()) {
         rendered = render_region(renderer, camera, picture, examples::region_of(r));
     } else if (r.part.count > 0) {
         const RowRange rows = examples::rows_of(r.part, picture.height);
-        if (rows.first == rows.last) return rendered; // more slices than rows
+        if (rows.first == rows.last) return result; // more slices than rows
         rendered = render_rows(renderer, camera, picture, rows);
     } else {
         rendered = render(renderer, camera, picture);
     }
     examples::stop_if_asked();
     if (!r.quiet) examples::print_cost(rendered.counts, watch.seconds());
-    return rendered;
+    return result;
 }
 
 /// Prints remarks on the terminal, a line each.
@@ -97,15 +103,16 @@ void tell(const std::vector<std::string>& remarks) {
 }
 
 template <typename S>
-RenderedT<typename S::Scalar> path_trace(const FileRoom<S>& room, const Request& r) {
+RenderedLayersT<typename S::Scalar> path_trace(const FileRoom<S>& room,
+                                               const Request& r) {
     tell(path_remarks(room.world));
     const PathTracer tracer(room.world, r.path);
     return run(tracer, room.camera, r);
 }
 
 template <typename S>
-RenderedT<typename S::Scalar> show_first_hit(const FileRoom<S>& room,
-                                             const Request& r) {
+RenderedLayersT<typename S::Scalar> show_first_hit(const FileRoom<S>& room,
+                                                   const Request& r) {
     const FirstHitRenderer renderer(room.world, *examples::first_hit_of(r.renderer));
     return run(renderer, room.camera, r);
 }
@@ -128,7 +135,7 @@ void fill_cache(Mapper& mapper, const LensCameraT<T>& camera, const Request& r) 
 
 /// Makes the photon maps, the irradiance cache if there is one, and then the picture.
 template <typename S>
-RenderedT<typename S::Scalar> map_photons(const FileRoom<S>& room, Request& r) {
+RenderedLayersT<typename S::Scalar> map_photons(const FileRoom<S>& room, Request& r) {
     const examples::StopWatch watch;
     examples::ProgressBar caustics("caustics photons", r.quiet);
     examples::ProgressBar general("general photons", r.quiet);
@@ -264,7 +271,7 @@ template <std::floating_point T>
 LoadedSceneT<T> load_scene(Request& r) {
     const FilesRead read;
     std::string troubles;
-    auto loaded = load_json<T>(r.scene, MeshFilesT<T>{&troubles});
+    auto loaded = load_json<T>(r.scene, examples::with_exr(MeshFilesT<T>{&troubles}));
     if (!r.quiet) std::fputs(troubles.c_str(), stderr);
     r.reads = examples::paths_of(read);
     r.scene_hash = read.hash();
@@ -284,19 +291,25 @@ std::string path_of(const Request& r, const examples::Options& options) {
 void check_files(const Request& r) {
     examples::check_pass_files(r.passes);
     const bool alone = r.part.count > 0 || !r.photons.empty();
-    examples::require_outputs(
-        {{"--out", r.file},
-         {"the file of settings beside --out", alone ? "" : r.file + ".json"},
-         {"--preview", r.passes.preview},
-         {"--checkpoint", r.passes.checkpoint}},
-        r.reads);
+    std::vector<examples::OutputFile> files{
+        {"--out", r.file},
+        {"the file of settings beside --out", alone ? "" : r.file + ".json"},
+        {"--preview", r.passes.preview},
+        {"--checkpoint", r.passes.checkpoint}};
+    if (!r.layers.empty() && !examples::is_exr(r.file))
+        for (const Layer& layer :
+             make_layers<float>(examples::layer_settings(r.layers), 1, 1))
+            files.push_back(
+                {"the layer beside --out", examples::layer_file(r.file, layer)});
+    examples::require_outputs(files, r.reads);
 }
 
 /// Saves a picture, and beside it a file that says how it was made; or a slice, which
 /// holds both.
 template <std::floating_point T>
 void save_result(const Request& r, nlohmann::ordered_json json,
-                 const RenderedT<T>& rendered, double seconds) {
+                 const RenderedLayersT<T>& result, double seconds) {
+    const RenderedT<T>& rendered = result.rendered;
     if (r.part.count > 0) {
         json["scene_hash"] = examples::hex_text(r.scene_hash);
         json["version"] = {LJUS_VERSION_MAJOR, LJUS_VERSION_MINOR, LJUS_VERSION_PATCH};
@@ -311,7 +324,7 @@ void save_result(const Request& r, nlohmann::ordered_json json,
                                              .pixels = {rendered.image.pixels.begin(),
                                                         rendered.image.pixels.end()}});
     }
-    examples::save_picture(rendered.image, r.file, r.exposure);
+    examples::save_with_layers(rendered.image, result.layers, r.file, r.exposure);
     if (!r.photons.empty()) return;
     json["cost"] = examples::cost_json(rendered.counts, seconds);
     const std::string text = json.dump(2) + "\n";
@@ -363,8 +376,9 @@ void run_request(examples::CommandLine& line, Request& r,
     r.file = path_of(r, options);
     if (!r.quiet || r.plan) print_heading(room.world, loaded.name, r);
     const bool prints = r.plan || r.hooks;
-    // Refuse wrong pixels before any work is done.
+    // Refuse wrong pixels and layers before any work is done.
     if (!r.region.empty()) (void)region_of(r);
+    if (!r.layers.empty()) (void)examples::layer_settings(r.layers);
     if (!r.pixel.empty())
         (void)pixel_of(r);
     else if (!prints)
@@ -379,17 +393,17 @@ void run_request(examples::CommandLine& line, Request& r,
                            "continued is made by --passes N --checkpoint FILE");
     const examples::StopWatch watch;
     const bool promised = r.promise.seconds > 0 || r.promise.error > 0;
-    const RenderedT<T> rendered =
-        !r.photons.empty()                   ? draw_photons(room, r)
-        : promised                           ? render_promised(room, r)
+    const RenderedLayersT<T> result =
+        !r.photons.empty() ? RenderedLayersT<T>{draw_photons(room, r)}
+        : promised         ? RenderedLayersT<T>{render_promised(room, r)}
         : examples::first_hit_of(r.renderer) ? show_first_hit(room, r)
         : r.renderer == RendererName::path   ? path_trace(room, r)
-        : r.passes.passes > 0                ? render_passes(room, r)
-                                             : map_photons(room, r);
+        : r.passes.passes > 0 ? RenderedLayersT<T>{render_passes(room, r)}
+                              : map_photons(room, r);
     if (!r.pixel.empty()) return;
     const double seconds = watch.seconds();
     line.fill({r.picture.width, r.picture.height, r.picture.samples});
-    save_result(r, to_json(line, r), rendered, seconds);
+    save_result(r, to_json(line, r), result, seconds);
     examples::when_stopped_say("'" + r.file + "' is saved");
     if (r.quiet) return;
     std::printf("  %-16s %8.2f s\n  %s\n", "all passes", seconds, r.file.c_str());
@@ -397,8 +411,9 @@ void run_request(examples::CommandLine& line, Request& r,
 
 void body(examples::CommandLine& line) {
     Request request;
-    line.about("Renders a scene file into one picture: --out NAME.png, NAME.hdr or "
-               "NAME.pfm, or a folder for SCENE.png (of a slice: NAME.slice).");
+    line.about(
+        "Renders a scene file into one picture: --out NAME.png, NAME.hdr, "
+        "NAME.pfm or NAME.exr, or a folder for SCENE.png (of a slice: NAME.slice).");
     line.without({"--quality"});
     add_settings(line, request);
     line.prints("--schema", "Print the JSON schema of scene files, for editors",

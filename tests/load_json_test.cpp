@@ -813,8 +813,11 @@ TEST_CASE("load_json: an environment is a constant, a gradient or a picture") {
         refused(sky(fields),
                 "lights[0] must have one of the fields radiance, gradient and file.");
     refused(sky(R"(, "file": "a.png")"),
-            "lights[0].file is \"a.png\"; it must be a picture with the ending .hdr or "
-            ".pfm.");
+            "lights[0].file is \"a.png\"; it must be a picture with the ending .hdr, "
+            ".pfm or .exr.");
+    CHECK(refusal(sky(R"(, "file": "none.exr")"))
+              .starts_with("a.json: lights[0].file cannot be used: load_json() reads "
+                           "no EXR pictures unless it is given WithExr"));
     CHECK(refusal(sky(R"(, "file": "none.hdr")"))
               .starts_with(
                   "a.json: lights[0].file cannot be used: cannot read 'none.hdr'"));

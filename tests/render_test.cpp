@@ -58,9 +58,10 @@ struct Late {
     struct Batch {
         std::uint32_t item = 0;
         std::vector<std::pair<std::uint32_t, Rgb>> answers{};
-        void finish(const Late&, Counts& counts, std::span<Rgb> samples) {
+        template <typename Give>
+        void finish(const Late&, Counts& counts, const Give& give) {
             counts.map_queries += answers.size();
-            for (const auto& [to, light] : answers) samples[to] += light;
+            for (const auto& [to, light] : answers) give(to, light);
             answers.clear();
         }
     };

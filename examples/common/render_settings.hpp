@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command_line.hpp"
+#include "exr_files.hpp"
 #include "ljus/image/image.hpp"
 #include "ljus/render/first_hit.hpp"
 #include "ljus/render/path_tracing.hpp"
@@ -71,6 +72,7 @@ struct RenderRequest {
     std::string slice{};           ///< "3/16", or nothing.
     SliceNumber part{};            ///< The same as a number.
     std::string region{};          ///< "40,30,64,48", or nothing.
+    std::string layers{};          ///< "normal,albedo", or nothing.
     std::string pixel{};           ///< "120,80", or nothing.
     std::string photons{};         ///< Kind of photons to draw as dots, or nothing.
     bool plan = false;             ///< Print what would run.
@@ -91,13 +93,19 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.group("Program", {"--help", "--version", "--threads", "--quiet"});
     line.group("Files", {"--out"});
     line.add_positional("SCENE.json", r.scene, "The scene file");
-    line.file_types({".png", ".hdr", ".pfm", ".slice"});
+    auto types = picture_types();
+    types.push_back(".slice");
+    line.file_types(types);
     line.add("--slice K/N", r.slice,
              "Render the K-th of N slices, which ljus-merge joins");
 
     line.group(common_groups[0], {"--width", "--height", "--rays", "--seed"});
     line.add("--region X,Y,W,H", r.region,
              "Only these pixels, counted from the upper left corner");
+    line.add(
+        "--layers LIST", r.layers,
+        "With normal, albedo, depth, position, object, light-paths, or NAME=CLASS\n"
+        "of light paths, as glass=ES+.*L: in NAME.exr, or in files NAME.*.pfm");
     line.add("--more-rays", r.more_rays,
              "More rays beside pixels whose first rays disagree", 0, million);
     line.add("--disagreement", r.disagreement,
@@ -251,8 +259,9 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
         options = line.fill({width, height, 1});
         r.more_rays = 0;
     }
-    for (const auto& [option, given] :
-         {std::pair{"--slice", r.part.count > 0}, {"--region", !r.region.empty()}})
+    for (const auto& [option, given] : {std::pair{"--slice", r.part.count > 0},
+                                        {"--region", !r.region.empty()},
+                                        {"--layers", !r.layers.empty()}})
         if (given && r.more_rays > 0)
             throw std::invalid_argument(
                 "--more-rays is " + std::to_string(r.more_rays) + "; with " + option +
@@ -295,6 +304,7 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
     nlohmann::ordered_json json{
         {"scene", std::filesystem::path(r.scene).filename().string()}};
     if (!r.region.empty()) json["region"] = r.region;
+    if (!r.layers.empty()) json["layers"] = r.layers;
     for (const std::string& group : groups)
         for (const auto& [name, value] : line.values(group))
             json[name] = nlohmann::ordered_json::parse(value);

@@ -6,13 +6,19 @@
 #include <filesystem>
 #include <string>
 
+#include "exr_files.hpp"
 #include "ljus/io/hdr.hpp"
 #include "ljus/io/pfm.hpp"
 #include "ljus/io/png.hpp"
 
 namespace examples {
 
-/// Saves a picture as PFM or HDR, which hold radiance, or else as PNG.
+/// Whether a file's name says that it is an EXR file.
+[[nodiscard]] inline bool is_exr(const std::string& path) {
+    return std::filesystem::path(path).extension() == ".exr";
+}
+
+/// Saves a picture as PFM, HDR or EXR, which hold radiance, or else as PNG.
 /// \param image     Linear colours.
 /// \param path      The file; its ending says what it becomes.
 /// \param exposure  Of a PNG file, in stops.
@@ -24,6 +30,8 @@ void save_picture(const ljus::ImageT<T>& image, const std::string& path,
         ljus::save_pfm(image, path);
     else if (kind == ".hdr")
         ljus::save_hdr(image, path);
+    else if (is_exr(path))
+        save_exr(image, path);
     else
         ljus::save_png(image, path, {.exposure = exposure});
 }

@@ -1,5 +1,6 @@
 # Only the first class is told where a path begins.
-ljus_break_it(NAME class-means-begin HEADER inspect/class_means.hpp TEST side_by_side
+ljus_break_it(NAME class-means-begin HEADER path/light_transport.hpp
+    TEST side_by_side
     FROM "for (auto& log : logs) log.begin();"
     TO   "if (!logs.empty()) logs.front().begin();"
     CASES "side_by_side: classes*")

@@ -49,7 +49,7 @@ nothing() {
     done < <(cd "$code" && grep -rnE "$1" ljus | sort -t: -k1,1 -u)
 }
 
-optional=" $(grep -rlE '#include <(nlohmann/json\.hpp|stb/stb_image\.h)>|#include "ljus/io/load_image' \
+optional=" $(grep -rlE '#include <(nlohmann/json\.hpp|stb/stb_image\.h|OpenEXR/openexr\.h)>|#include "ljus/io/load_image' \
     ljus | tr '\n' ' ')"
 
 for name in $names; do

@@ -31,7 +31,7 @@ options=("--width 7" "--height 7" "--rays 3" "--seed 2" "--more-rays 40"
     "--skip-bounces" "--skip-radius 0.2" "--skip-tolerance 0.9" "--skip-risk 0.9"
     "--path-lights rays" "--roulette-threshold 3" "--roulette-max 0.3" "--passes 2"
     "--alpha 0.1" "--every 1" "--plan" "--hooks" "--explain 3,5" "--show-photons all"
-    "--slice 1/2" "--region 2,1,4,5")
+    "--slice 1/2" "--region 2,1,4,5" "--layers depth")
 # What need not show in a PNG file of few pixels, though it is at work there; nor does any
 # number in a plan, or a photon where it only tells that a ray is needed.
 slight=" --split-glass --roulette --roulette-threshold --roulette-max --skip --skip-bounces"

@@ -42,6 +42,22 @@ for indirect in rays map photons gather cache none; do
     "$render" "$scene" "${few[@]}" --indirect $indirect --general-photons 500 \
         --caustic-kernel cone --general-nearest 20 --depth 3 --roulette 2 --quiet --out $indirect.pfm
 done
+
+# Layers beside a picture of the same bytes, and in one EXR file if OpenEXR is there.
+"$render" "$scene" "${few[@]}" --quiet --out lone.pfm
+"$render" "$scene" "${few[@]}" --layers normal,depth,light-paths,glass=ES+.*L --quiet --out layered.pfm
+cmp lone.pfm layered.pfm || wrong "--layers changes the picture"
+for layer in N Z emission direct caustics indirect glass; do
+    [ -s layered.$layer.pfm ] || wrong "no layered.$layer.pfm"
+done
+cmp -s layered.direct.pfm layered.indirect.pfm && wrong "direct light is indirect light"
+grep -q '"layers": "normal,depth,light-paths,glass=ES+.\*L"' layered.pfm.json ||
+    wrong "no layers in $(cat layered.pfm.json)"
+if "$render" "$scene" "${few[@]}" --layers object,albedo --quiet --out layered.exr 2>err.txt; then
+    [ -s layered.exr ] && [ ! -e layered.albedo.pfm ] || wrong "no layered.exr alone"
+else
+    grep -q 'must end in .png, .hdr' err.txt || wrong "EXR: $(cat err.txt)"
+fi
 cmp -s rays.pfm none.pfm && wrong "--indirect none changes nothing"
 cmp -s map.pfm photons.pfm && wrong "--indirect photons changes nothing"
 
@@ -213,6 +229,11 @@ refused "Is a directory" new
 refused "--explain is 20,0; it must be X,Y" "$scene" "${few[@]}" --explain 20,0
 refused "--explain is 1; it must be X,Y" "$scene" "${few[@]}" --explain 1
 refused "--explain is 1,2,3; it must be X,Y" "$scene" "${few[@]}" --explain 1,2,3
+refused "--layers has the word 'nromal'; did you mean normal? It may have" "$scene" --layers nromal
+refused "two layers with the name 'albedo'" "$scene" --layers albedo=EDL,albedo
+refused "The class of paths 'ESX'" "$scene" --layers x=ESX
+refused "--region cannot be combined with --layers" "$scene" --layers depth --region 0,0,2,2
+refused "with --layers, which takes the same rays" "$scene" --layers depth --preset fast
 refused "--rays" "$scene" --rays 0
 refused "--width" "$scene" --width -5
 refused "--caustic-radius" "$scene" --caustic-radius nan

@@ -71,6 +71,12 @@ int main(int argc, char** argv) {
     jpeg.insert(jpeg.end(), {0, 0, 0, 0, 0xff, 0xd9});
     save_file(file("png", "short.jpg"), jpeg);
 
+    for (const char* name : {"b44a", "dwaa", "grey", "none", "parts", "piz", "pxr24",
+                             "rle", "tiled", "zips"})
+        save_file(file("exr", name),
+                  load_file(std::string(LJUS_TEST_INPUTS "/exr/") + name + ".exr",
+                            std::size_t(1) << 20));
+
     const MeshData ball = icosphere(Sphere{.center{0, 0, 0}, .radius = 1}, 0);
     for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"})
         save_file(file("ply", format), ljus_test::ply_bytes(ball, format));

@@ -14,30 +14,6 @@ namespace ljus {
 /// \addtogroup light_path_expression
 /// \{
 
-namespace detail {
-
-/// Several ExpressionLogs that record the same path.
-template <std::floating_point T>
-struct ClassesLog {
-    std::vector<detail::ExpressionLog<T>> logs{}; ///< One per class.
-
-    /// A path begins at the eye.
-    void begin() noexcept {
-        for (auto& log : logs) log.begin();
-    }
-    /// The path was scattered.
-    void vertex(char letter, const Vec3T<T>& at, const RgbT<T>& share, T pdf) noexcept {
-        for (auto& log : logs) log.vertex(letter, at, share, pdf);
-    }
-    /// Radiance was added.
-    void term(std::string_view owner, std::string_view letters,
-              const RgbT<T>& value) noexcept {
-        for (auto& log : logs) log.term(owner, letters, value);
-    }
-};
-
-} // namespace detail
-
 /// The mean radiance of a picture that a renderer really computes, class by class.
 ///
 /// It is measured from the letters that the renderer reports. All classes see the same
@@ -71,9 +47,7 @@ class_means(const R& renderer, const C& camera, const RenderSettings& picture,
         Counts counts;
         for (int x = 0; x < picture.width; ++x)
             for (int i = 0; i < picture.samples; ++i) {
-                detail::ClassesLog<T> log; // without the pixel filter
-                for (const LightPathExpression& wanted : classes)
-                    log.logs.push_back({wanted});
+                detail::ClassesLog<T> log(classes); // without the pixel filter
                 const auto found =
                     trace_pixel(renderer, camera, rays, {x, int(y), i}, counts, log);
                 for (std::size_t k = 0; k < classes.size(); ++k)

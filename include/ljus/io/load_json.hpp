@@ -171,7 +171,7 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
                     load_meshes);
     if (in.has("lights"))
         for (std::size_t i = 0; i < list_size(in["lights"]); ++i)
-            read_light(entry(in["lights"], i), groups, loaded.scene);
+            read_light(entry(in["lights"], i), groups, loaded.scene, load_meshes);
     if (in.has("fog"))
         for (std::size_t i = 0; i < list_size(in["fog"]); ++i)
             read_fog(entry(in["fog"], i), loaded.scene);
@@ -185,7 +185,7 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
 /// \param source  The text.
 /// \param file    The name of the file for messages.
 /// \param load_meshes  Called as load_meshes(path, scale, normals), once for each mesh
-///         file, scale and normals; returns a vector of meshes.
+///         file, scale and normals; returns a vector of meshes. WithExr adds pictures.
 /// \return The scene. Two triangles that form a parallelogram become one quad.
 /// \throws std::runtime_error  with one sentence that names the file, the path of the
 ///         field, its value and what would be right: "scene.json: objects[3].radius is
@@ -200,7 +200,7 @@ template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT
 
 /// Loads a scene file.
 /// \param path  The file.
-/// \param load_meshes  As for read_json_scene(): MeshFiles, or nothing.
+/// \param load_meshes  As for read_json_scene(): MeshFiles, WithExr, or nothing.
 /// \throws std::runtime_error  as read_json_scene(), or with path and reason if the
 ///         file cannot be read.
 template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT<T>>

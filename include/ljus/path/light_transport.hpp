@@ -3,6 +3,9 @@
 /// \file ljus/path/light_transport.hpp
 /// \brief Renderers that carry a subset of all light paths, and the g of Eq. 1.
 
+#include <span>
+#include <vector>
+
 #include "ljus/path/light_path_expression.hpp"
 #include "ljus/path/renderer.hpp"
 #include "ljus/ref.hpp"
@@ -48,17 +51,56 @@ struct ExpressionLog {
         states = wanted.step(states, letter);
     }
 
-    /// Adds radiance.
+    /// Whether the path is of the class if it goes on to a light.
     /// \param letters  From here to the light. If a photon map stands for a whole
     ///                 class, as "DS+L", its shortest path decides.
-    void term(std::string_view, std::string_view letters,
-              const RgbT<T>& value) noexcept {
+    [[nodiscard]] bool takes(std::string_view letters) const noexcept {
         std::uint64_t here = states;
         for (const char letter : letters) {
             if (letter == '|') break;
             if (letter != '+' && letter != '.') here = wanted.step(here, letter);
         }
-        if ((here & wanted.last) != 0) sum += value;
+        return (here & wanted.last) != 0;
+    }
+
+    /// Adds radiance, if the path is of the class.
+    void term(std::string_view, std::string_view letters,
+              const RgbT<T>& value) noexcept {
+        if (takes(letters)) sum += value;
+    }
+};
+
+/// Several ExpressionLogs that record the same path.
+template <std::floating_point T>
+struct ClassesLog {
+    std::vector<ExpressionLog<T>> logs{};  ///< One per class.
+    std::vector<std::uint64_t> takers{};   ///< Of each delayed term: a bit per class.
+    std::uint32_t* next_delayed = nullptr; ///< Receives takers.size() after delay().
+
+    /// \param classes  Must outlive the log.
+    explicit ClassesLog(std::span<const LightPathExpression> classes) {
+        for (const LightPathExpression& wanted : classes) logs.push_back({wanted});
+    }
+    /// A path begins at the eye.
+    void begin() noexcept {
+        for (auto& log : logs) log.begin();
+    }
+    /// The path was scattered.
+    void vertex(char letter, const Vec3T<T>& at, const RgbT<T>& share, T pdf) noexcept {
+        for (auto& log : logs) log.vertex(letter, at, share, pdf);
+    }
+    /// Radiance was added.
+    void term(std::string_view owner, std::string_view letters,
+              const RgbT<T>& value) noexcept {
+        for (auto& log : logs) log.term(owner, letters, value);
+    }
+    /// A batch will find the radiance of at most 64 classes.
+    void delay(std::string_view letters) {
+        std::uint64_t bits = 0;
+        for (std::size_t k = 0; k < logs.size(); ++k)
+            bits |= std::uint64_t(logs[k].takes(letters)) << k;
+        takers.push_back(bits);
+        *next_delayed = static_cast<std::uint32_t>(takers.size());
     }
 };
 

@@ -73,6 +73,13 @@ void log_arrival(Log& log, const Vec3T<T>& position) {
     if constexpr (requires { log.arrive(position); }) log.arrive(position);
 }
 
+/// Reports a term whose value a batch finds later to a log that has delay().
+/// \param suffix  The letters from here to the light.
+template <typename Log>
+void log_delay(Log& log, std::string_view suffix) {
+    if constexpr (requires { log.delay(suffix); }) log.delay(suffix);
+}
+
 /// Reports the last scattering of a path to a log.
 /// \param path  The path after continue_path().
 template <typename Log, std::floating_point T>

@@ -67,7 +67,8 @@ constexpr bool cut_if(bool cut, Counts& counts) noexcept {
 
 /// A receiver of a path's events, in Heckbert's notation: its start, each scattering
 /// and each term of radiance. A log may also have `arrive(position)`, which is called
-/// for each surface that the path hits.
+/// for each surface that the path hits, and `delay(letters)`, which is called instead
+/// of `term` where a batch finds the value later.
 template <typename L, typename T = float>
 concept LogLike = requires(L& log, const Vec3T<T>& v, T pdf) {
     log.begin();

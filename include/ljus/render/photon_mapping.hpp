@@ -472,7 +472,7 @@ void light_at(const PhotonMapper<W, X...>& mapper, const VertexT<T>& vertex,
         part = part_of_caustics(mapper, resting);
     if (detail::put_off(context.batch, resting, material, add.throughput / part,
                         settings.caustics_estimate))
-        return;
+        return detail::log_delay(context.log, "DS+L");
     const auto caustic = [&](const PhotonMapT<T>& map,
                              const DensityEstimateSettings& how) {
         return ask(map, how, light_kinds) / part;

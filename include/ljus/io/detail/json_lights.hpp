@@ -51,7 +51,8 @@ inline constexpr JsonMember environment_members[]{
     optional("radiance", light_value, "the same all around, W/(m^2 sr)", "[1, 1, 1]"),
     optional("gradient", {.kind = JsonKind::object, .of = "gradient"},
              "a sky: ljus::gradient_sky()"),
-    optional("file", text_value, "a picture, .hdr or .pfm, beside the scene file"),
+    optional("file", text_value,
+             "a picture, .hdr, .pfm or .exr, beside the scene file"),
     preset("strength", factor_value, 1, "factor of the radiance"),
     preset("rotation_deg", angle_value, 0, "about the y axis, degrees", {},
            "rotation_degrees")};
@@ -71,8 +72,9 @@ inline constexpr JsonTable light_tables[]{
      sky_words}};
 
 // A picture of the sky: exactly one of three fields says how it is made.
-template <std::floating_point T>
-ImageT<T> read_sky(const JsonMembersOf& in) {
+// \param files  What reads meshes; WithExr reads EXR pictures as well.
+template <std::floating_point T, typename Files>
+ImageT<T> read_sky(const JsonMembersOf& in, const Files& files) {
     if (in.has("radiance") + in.has("gradient") + in.has("file") != 1)
         refuse(in.field(), "must have one of the fields radiance, gradient and file");
     if (in.has("radiance")) return make_image<T>(1, 1, RgbT<T>{in.vector("radiance")});
@@ -85,18 +87,25 @@ ImageT<T> read_sky(const JsonMembersOf& in) {
     }
     const JsonField file = in["file"];
     const std::string path = path_beside(file);
-    const bool hdr = path.ends_with(".hdr");
-    if (!hdr && !path.ends_with(".pfm"))
-        refuse_value(file, "a picture with the ending .hdr or .pfm");
     try {
-        return hdr ? load_hdr<T>(path) : load_pfm<T>(path);
+        if (path.ends_with(".hdr")) return load_hdr<T>(path);
+        if (path.ends_with(".pfm")) return load_pfm<T>(path);
+        if (path.ends_with(".exr")) {
+            if constexpr (requires { &Files::template load_picture<T>; })
+                return files.template load_picture<T>(path);
+            throw std::runtime_error("load_json() reads no EXR pictures unless it is "
+                                     "given WithExr, from ljus/io/exr.hpp.");
+        }
     } catch (const std::runtime_error& error) {
         refuse_for(file, error);
     }
+    refuse_value(file, "a picture with the ending .hdr, .pfm or .exr");
 }
 
-template <typename Scene, std::floating_point T = typename Scene::Scalar>
-void read_light(const JsonField& field, const LampGroups& groups, Scene& scene) {
+template <typename Scene, typename Files,
+          std::floating_point T = typename Scene::Scalar>
+void read_light(const JsonField& field, const LampGroups& groups, Scene& scene,
+                const Files& files) {
     const JsonField type = member(field, "type");
     const std::string& name = text(type);
     const JsonTable* const table = table_of(light_tables, name);
@@ -120,7 +129,7 @@ void read_light(const JsonField& field, const LampGroups& groups, Scene& scene) 
         if (!std::get<std::vector<EnvironmentLightT<T>>>(scene.lights).empty())
             refuse(field, "is a second environment; a scene file has at most one");
         EnvironmentLightT<T> sky{
-            .picture = read_sky<T>(in),
+            .picture = read_sky<T>(in, files),
             .strength = factor * static_cast<T>(in.number("strength")),
             .rotation_degrees = static_cast<T>(in.number("rotation_deg"))};
         if (factor > T(0)) add(sky);

@@ -19,12 +19,12 @@ struct CausticsBatch {
     std::vector<EstimatePlaceT<T>> places{}; ///< In the order of the samples.
     BallBlocks found{};                      ///< Storage for the search.
 
-    /// Computes the estimates and adds them to the samples.
+    /// Computes the estimates.
     /// \param mapper   The maps and the settings of an estimate.
     /// \param counts   Counts queries and photons.
-    /// \param samples  The samples, by index.
-    template <typename Mapper>
-    void finish(const Mapper& mapper, Counts& counts, std::span<RgbT<T>> samples) {
+    /// \param give     Called as give(item, light) with light for a sample.
+    template <typename Mapper, typename Give>
+    void finish(const Mapper& mapper, Counts& counts, const Give& give) {
         if (places.empty()) return;
         const auto& maps = mapper.maps();
         const DensityEstimateSettings& how = mapper.settings().caustics_estimate;
@@ -34,7 +34,7 @@ struct CausticsBatch {
             estimates_together<T>(
                 map, places, estimate, light_kinds, counts.map_photons, found,
                 [&](const EstimatePlaceT<T>& place, const RgbT<T>& light) {
-                    samples[place.item] += sign * place.throughput * light;
+                    give(place.item, sign * place.throughput * light);
                 });
         };
         add(maps.caustics, how, T(1));

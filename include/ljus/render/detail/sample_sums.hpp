@@ -18,10 +18,11 @@ namespace ljus::detail {
 /// type `Batch` collects them, as Context::batch, and has
 ///
 ///     std::uint32_t item;  // index of the sample that is being traced
-///     void finish(const R& renderer, Counts& counts, std::span<RgbT<T>> samples);
+///     void finish(const R& renderer, Counts& counts, const auto& give);
 ///
-/// finish() answers the queries and adds the results to the samples. Batching must not
-/// change any result.
+/// finish() answers the queries by give(item, light), which adds light to a sample.
+/// Batching must not change any result. A renderer that reports light paths calls
+/// log_delay() for each query that it delays.
 template <typename R>
 concept Batches = requires(typename R::Batch& batch) {
     batch.item;
@@ -74,7 +75,10 @@ public:
     void finish() {
         const auto count = static_cast<std::size_t>(count_);
         if constexpr (Batches<R>)
-            batch_.finish(renderer_, cost_, std::span(samples_.data(), count));
+            batch_.finish(renderer_, cost_,
+                          [&](std::uint32_t item, const RgbT<T>& light) {
+                              samples_[item] += light;
+                          });
         for (std::size_t i = 0; i < count; ++i) {
             if (!is_finite(samples_[i])) {
                 ++cost_.rejected;

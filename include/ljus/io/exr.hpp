@@ -1,0 +1,607 @@
+#pragma once
+
+/// \file ljus/io/exr.hpp
+/// \brief OpenEXR files: pictures and their layers, in float or half.
+
+#if __has_include(<OpenEXR/openexr.h>)
+#include <OpenEXR/openexr.h>
+#else
+#include <openexr.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "ljus/image/layer.hpp"
+#include "ljus/io/detail/picture_size.hpp"
+#include "ljus/io/file.hpp"
+
+namespace ljus {
+
+/// \defgroup exr EXR
+/// \brief Optional (OpenEXR 3.1 or later): the file format of films, in which one file
+/// holds a picture and its layers. A program links OpenEXRCore, with -lOpenEXRCore-3_1
+/// or by its CMake target OpenEXR::OpenEXRCore.
+/// \{
+
+/// How numbers are stored in an EXR file.
+enum class ExrNumbers {
+    floats, ///< 32 bits: a float keeps its bits.
+    halves  ///< 16 bits: 11 significant ones, up to 65504, and infinite beyond.
+};
+
+namespace detail {
+
+/// The largest EXR file that is read, in bytes.
+inline constexpr std::size_t max_exr_file = std::size_t(1) << 30;
+
+/// The largest number of pixels in all layers of a file together.
+inline constexpr long long max_layer_pixels = 1LL << 27;
+
+/// The largest piece of a file that is decompressed at a time, in bytes.
+inline constexpr std::uint64_t max_exr_chunk = std::uint64_t(1) << 28;
+
+// An open file in memory, which is closed at the end of the scope.
+struct ExrFile {
+    exr_context_t context = nullptr;
+    ExrFile() = default;
+    ExrFile(const ExrFile&) = delete;
+    ExrFile& operator=(const ExrFile&) = delete;
+    ~ExrFile() {
+        if (context != nullptr) exr_finish(&context);
+    }
+};
+
+inline exr_context_initializer_t exr_settings(void* data) {
+    exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    settings.user_data = data;
+    settings.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
+    // Nothing that a file declares is larger than a chunk and its work space.
+    settings.alloc_fn = [](std::size_t bytes) {
+        return bytes > 4 * max_exr_chunk ? nullptr : std::malloc(bytes);
+    };
+    settings.free_fn = [](void* memory) { std::free(memory); };
+    return settings;
+}
+
+// The float of a half's bits: the same number, which is NaN or infinite if the half is.
+inline float float_of_half(std::uint32_t half) {
+    const std::uint32_t sign = (half & 0x8000u) << 16;
+    const std::uint32_t exponent = half >> 10 & 31u, mantissa = half & 1023u;
+    if (exponent == 0) { // denormal: a multiple of 2^-24
+        const float size = static_cast<float>(mantissa) / 16777216;
+        return sign != 0 ? -size : size;
+    }
+    const std::uint32_t biased = exponent == 31 ? 255 : exponent + 112;
+    return std::bit_cast<float>(sign | biased << 23 | mantissa << 13);
+}
+
+// A number of a file, which is little-endian.
+inline float exr_number(const unsigned char* bytes, std::uint16_t type) {
+    std::uint32_t bits = bytes[0] | std::uint32_t(bytes[1]) << 8;
+    if (type == EXR_PIXEL_HALF) return float_of_half(bits);
+    bits |= std::uint32_t(bytes[2]) << 16 | std::uint32_t(bytes[3]) << 24;
+    return type == EXR_PIXEL_UINT ? static_cast<float>(bits)
+                                  : std::bit_cast<float>(bits);
+}
+
+// The channels of one layer in a file.
+struct ExrLayer {
+    int part = 0;
+    std::string name{};
+    std::vector<std::string> channels{};
+    std::vector<int> places{}; // of the channels, in the part's list
+};
+
+// Reads an EXR file. Each error is a sentence that begins with its name.
+class ExrReader {
+public:
+    ExrReader(const Bytes& bytes, const std::string& path)
+        : bytes_(bytes), path_(path) {
+        auto settings = exr_settings(const_cast<Bytes*>(&bytes)); // it is only read
+        settings.size_fn = [](exr_const_context_t, void* data) {
+            return static_cast<std::int64_t>(static_cast<const Bytes*>(data)->size());
+        };
+        settings.read_fn = [](exr_const_context_t, void* data, void* to,
+                              std::uint64_t size, std::uint64_t at,
+                              exr_stream_error_func_ptr_t) -> std::int64_t {
+            const Bytes& all = *static_cast<const Bytes*>(data);
+            const std::uint64_t left =
+                all.size() - std::min<std::uint64_t>(at, all.size());
+            const std::uint64_t count = std::min(size, left);
+            if (count > 0) std::memcpy(to, all.data() + at, count);
+            return static_cast<std::int64_t>(count);
+        };
+        settings.flags = EXR_CONTEXT_FLAG_SILENT_HEADER_PARSE |
+                         EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+        require(exr_start_read(&file_.context, "file", &settings), "in its header");
+        find_layers();
+    }
+
+    // What the file holds, in the order of its parts.
+    [[nodiscard]] const std::vector<ExrLayer>& layers() const { return layers_; }
+
+    [[noreturn, gnu::cold]] void refuse(std::string_view why) const {
+        throw std::runtime_error(join({shown_path(path_), " ", why, "."}));
+    }
+
+    // Decodes layers. All pixels together are at most `most`.
+    [[nodiscard]] std::vector<LayerT<float>> decode(const std::vector<ExrLayer>& wanted,
+                                                    long long most) const {
+        std::vector<LayerT<float>> result;
+        long long pixels = 0;
+        for (const ExrLayer& layer : wanted) {
+            const Window window = window_of(layer.part);
+            const long long room = most - pixels;
+            if (window.width > room / window.height)
+                refuse(join({"has layers of ", to_text(window.width), " x ",
+                             to_text(window.height), " pixels, ",
+                             to_text(static_cast<long long>(wanted.size())),
+                             " of them are read; there must be at most ", to_text(most),
+                             " pixels in all of them"}));
+            pixels += window.width * window.height;
+            // The largest number of pixels per byte: ZIP packs 1032 bytes into one, and
+            // DWA keeps one number of 64 where all are alike.
+            exr_compression_t method{};
+            require(exr_get_compression(file_.context, layer.part, &method),
+                    "in its header");
+            const bool dwa =
+                method == EXR_COMPRESSION_DWAA || method == EXR_COMPRESSION_DWAB;
+            if (std::size_t(window.width * window.height) / (dwa ? 65536 : 1024) >
+                bytes_.size())
+                refuse("is damaged: it ends in the middle of its pixels");
+        }
+        for (const ExrLayer& layer : wanted) {
+            const Window window = window_of(layer.part);
+            result.push_back({layer.name, layer.channels,
+                              make_image(int(window.width), int(window.height))});
+        }
+        int parts = 0;
+        require(exr_get_count(file_.context, &parts), "in its header");
+        for (int part = 0; part < parts; ++part) decode_part(part, wanted, result);
+        for (LayerT<float>& layer : result)
+            if (layer.channels.size() == 1)
+                for (Rgb& color : layer.image.pixels) color = Rgb{color.x};
+        return result;
+    }
+
+private:
+    // The pixels that a part stores.
+    struct Window {
+        long long x = 0, y = 0, width = 0, height = 0;
+    };
+
+    // A chunk's decoder.
+    struct Decoder {
+        exr_const_context_t context;
+        exr_decode_pipeline_t pipeline{};
+        ~Decoder() { exr_decoding_destroy(context, &pipeline); }
+    };
+
+    void require(exr_result_t result, std::string_view where) const {
+        if (result == EXR_ERR_SUCCESS) return;
+        if (result == EXR_ERR_OUT_OF_MEMORY)
+            refuse(join({"needs more memory than there is or is allowed, ", where}));
+        if (result == EXR_ERR_FEATURE_NOT_IMPLEMENTED)
+            refuse("is compressed by a method that OpenEXRCore does not read, such as "
+                   "DWAA; save it with ZIP or PIZ");
+        std::string why = exr_get_default_error_message(result);
+        while (!why.empty() && why.back() == '.') why.pop_back();
+        refuse(join(
+            {"is damaged, or not an EXR file that can be read: ", why, ", ", where}));
+    }
+
+    [[nodiscard]] Window window_of(int part) const {
+        exr_attr_box2i_t box{};
+        require(exr_get_data_window(file_.context, part, &box), "in its header");
+        const Window window{box.min.x, box.min.y,
+                            static_cast<long long>(box.max.x) - box.min.x + 1,
+                            static_cast<long long>(box.max.y) - box.min.y + 1};
+        constexpr long long most_side = 1 << 24;
+        if (window.width < 1 || window.height < 1 || window.width > most_side ||
+            window.height > most_side)
+            refuse(
+                join({"has ", to_text(window.width), " x ", to_text(window.height),
+                      " pixels; width and height must be 1 to ", to_text(most_side)}));
+        return window;
+    }
+
+    // Groups R, G and B, and X, Y and Z; each other channel is a layer of its own.
+    void find_layers() {
+        int parts = 0;
+        require(exr_get_count(file_.context, &parts), "in its header");
+        for (int part = 0; part < parts; ++part) {
+            exr_storage_t storage{};
+            require(exr_get_storage(file_.context, part, &storage), "in its header");
+            if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED)
+                continue; // deep pixels
+            const exr_attr_chlist_t* list = nullptr;
+            require(exr_get_channels(file_.context, part, &list), "in its header");
+            std::string part_name;
+            if (const char* name = nullptr;
+                parts > 1 &&
+                exr_get_name(file_.context, part, &name) == EXR_ERR_SUCCESS)
+                part_name = name;
+            std::vector<std::pair<std::string, std::string>> names; // layer, channel
+            for (int i = 0; i < list->num_channels; ++i) {
+                const exr_attr_chlist_entry_t& entry = list->entries[i];
+                const std::string full(entry.name.str, std::size_t(entry.name.length));
+                const std::size_t dot = full.rfind('.');
+                const bool whole = entry.x_sampling == 1 && entry.y_sampling == 1;
+                names.emplace_back(dot == std::string::npos ? part_name
+                                                            : full.substr(0, dot),
+                                   whole ? full.substr(dot + 1) : ""); // npos + 1 = 0
+            }
+            add_layers(part, names);
+        }
+    }
+    void add_layers(int part,
+                    const std::vector<std::pair<std::string, std::string>>& names) {
+        const auto place_of = [&](const std::string& layer, const char* channel) {
+            const auto at = std::find(names.begin(), names.end(),
+                                      std::pair{layer, std::string(channel)});
+            return at == names.end() ? -1 : int(at - names.begin());
+        };
+        std::vector<bool> taken(names.size(), false);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const auto& [layer, channel] = names[i];
+            if (taken[i] || channel.empty()) continue;
+            ExrLayer found{part, layer, {channel}, {int(i)}};
+            for (const auto& three : {std::array{"R", "G", "B"}, {"X", "Y", "Z"}}) {
+                const std::vector<int> places{place_of(layer, three[0]),
+                                              place_of(layer, three[1]),
+                                              place_of(layer, three[2])};
+                if (std::count(places.begin(), places.end(), -1) == 0 &&
+                    std::count(places.begin(), places.end(), int(i)) == 1)
+                    found = {part, layer, {three.begin(), three.end()}, places};
+            }
+            for (const int place : found.places) taken[std::size_t(place)] = true;
+            layers_.push_back(std::move(found));
+        }
+    }
+
+    void decode_part(int part, const std::vector<ExrLayer>& wanted,
+                     std::vector<LayerT<float>>& layers) const {
+        if (std::none_of(wanted.begin(), wanted.end(),
+                         [&](const ExrLayer& layer) { return layer.part == part; }))
+            return;
+        const Window window = window_of(part);
+        exr_storage_t storage{};
+        require(exr_get_storage(file_.context, part, &storage), "in its header");
+        const auto decode_chunk = [&](const exr_chunk_info_t& chunk, long long x,
+                                      long long y) {
+            const std::string where = join(
+                {"in the pixels from column ", to_text(x), " and row ", to_text(y)});
+            if (chunk.unpacked_size > max_exr_chunk)
+                refuse(join({"has more than ",
+                             to_text(static_cast<long long>(max_exr_chunk)),
+                             " bytes in one piece, ", where}));
+            if (chunk.packed_size > bytes_.size())
+                require(EXR_ERR_CORRUPT_CHUNK, where);
+            Decoder decoder{file_.context};
+            exr_decode_pipeline_t& pipeline = decoder.pipeline;
+            require(exr_decoding_initialize(file_.context, part, &chunk, &pipeline),
+                    where);
+            require(
+                exr_decoding_choose_default_routines(file_.context, part, &pipeline),
+                where);
+            pipeline.unpack_and_convert_fn = nullptr; // 3.1's own is unsafe
+            require(exr_decoding_run(file_.context, part, &pipeline), where);
+            if (!unpack(pipeline, wanted, layers, x, y))
+                require(EXR_ERR_CORRUPT_CHUNK, where);
+        };
+        exr_chunk_info_t chunk{};
+        if (storage == EXR_STORAGE_SCANLINE) {
+            int lines = 0;
+            require(exr_get_scanlines_per_chunk(file_.context, part, &lines),
+                    "in its header");
+            for (long long y = 0; y < window.height; y += std::max(lines, 1)) {
+                require(exr_read_scanline_chunk_info(file_.context, part,
+                                                     int(window.y + y), &chunk),
+                        join({"in the pixels of row ", to_text(y)}));
+                decode_chunk(chunk, 0, y);
+            }
+            return;
+        }
+        int wide = 0, high = 0; // the largest level only
+        require(exr_get_tile_sizes(file_.context, part, 0, 0, &wide, &high),
+                "in its header");
+        if (wide < 1 || high < 1) require(EXR_ERR_INVALID_ATTR, "in its tiles");
+        for (long long y = 0; y < window.height; y += high)
+            for (long long x = 0; x < window.width; x += wide) {
+                require(exr_read_tile_chunk_info(file_.context, part, int(x / wide),
+                                                 int(y / high), 0, 0, &chunk),
+                        join({"in the tile at column ", to_text(x), " and row ",
+                              to_text(y)}));
+                decode_chunk(chunk, x, y);
+            }
+    }
+
+    // Puts a decompressed chunk into layers, from (x, y) on: row by row, and in a row
+    // channel by channel.
+    // \return Whether it has all its pixels.
+    [[nodiscard]] static bool unpack(const exr_decode_pipeline_t& pipeline,
+                                     const std::vector<ExrLayer>& wanted,
+                                     std::vector<LayerT<float>>& layers, long long x,
+                                     long long y) {
+        const exr_chunk_info_t& chunk = pipeline.chunk;
+        const auto* at = static_cast<const unsigned char*>(pipeline.unpacked_buffer);
+        std::uint64_t left = pipeline.decompress_fn == nullptr
+                                 ? std::min(chunk.packed_size, chunk.unpacked_size)
+                                 : chunk.unpacked_size;
+        for (int row = 0; row < chunk.height; ++row)
+            for (int c = 0; c < pipeline.channel_count; ++c) {
+                const exr_coding_channel_info_t& channel = pipeline.channels[c];
+                // Of some channels only every second row is stored.
+                if (channel.y_samples > 1 &&
+                    (chunk.start_y + row) % channel.y_samples != 0)
+                    continue;
+                const auto size = std::uint64_t(channel.bytes_per_element);
+                const std::uint64_t needed = size * std::uint64_t(channel.width);
+                if (channel.width < 0 || left < needed) return false;
+                left -= needed;
+                for (std::size_t i = 0; i < wanted.size(); ++i) {
+                    const std::vector<int>& places = wanted[i].places;
+                    const auto place = std::find(places.begin(), places.end(), c);
+                    if (wanted[i].part != pipeline.part_index || place == places.end())
+                        continue;
+                    Image& image = layers[i].image;
+                    if (x + channel.width > image.width || y + row >= image.height)
+                        return false;
+                    for (int k = 0; k < channel.width; ++k)
+                        pixel(image, int(x) + k,
+                              int(y) + row)[int(place - places.begin())] =
+                            exr_number(at + size * std::uint64_t(k), channel.data_type);
+                }
+                at += needed;
+            }
+        return true;
+    }
+
+    const Bytes& bytes_;
+    const std::string& path_;
+    ExrFile file_{};
+    std::vector<ExrLayer> layers_{};
+};
+
+// One channel of a file that is written.
+struct ExrChannel {
+    std::string name{};
+    std::size_t layer = 0;
+    int place = 0; // 0 to 2, in the layer
+};
+
+// The channels of all layers in the order of their names, as files have them.
+template <std::floating_point T>
+std::vector<ExrChannel> exr_channels(const std::vector<LayerT<T>>& layers) {
+    require(!layers.empty(), "the number of layers", 0LL, "at least 1");
+    std::vector<ExrChannel> channels;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const LayerT<T>& layer = layers[i];
+        require_same_size(layer.image, layers.front().image);
+        require(layer.channels.size() == 1 || layer.channels.size() == 3,
+                "the number of channels of a layer",
+                static_cast<long long>(layer.channels.size()), "1 or 3");
+        for (std::size_t c = 0; c < layer.channels.size(); ++c)
+            channels.push_back({channel_name(layer, c), i, int(c)});
+    }
+    const auto by_name = [](const ExrChannel& a, const ExrChannel& b) {
+        return a.name < b.name;
+    };
+    std::sort(channels.begin(), channels.end(), by_name);
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        const std::string& name = channels[i].name;
+        if (name.empty() || name.size() > 255 || name.find('\0') != std::string::npos)
+            throw std::invalid_argument(
+                join({"A channel is called '", shown(name),
+                      "'; a name of an EXR file has 1 to 255 bytes, none of them 0."}));
+        if (i > 0 && name == channels[i - 1].name)
+            throw std::invalid_argument(
+                join({"Two channels are called '", shown(name),
+                      "'; the layers of an EXR file must have names of their own."}));
+    }
+    return channels;
+}
+
+// The bytes of an EXR file.
+template <std::floating_point T>
+Bytes exr_bytes(const std::vector<LayerT<T>>& layers,
+                const std::vector<ExrChannel>& channels, ExrNumbers numbers) {
+    Bytes bytes;
+    auto settings = exr_settings(&bytes);
+    settings.write_fn = [](exr_const_context_t, void* data, const void* from,
+                           std::uint64_t size, std::uint64_t at,
+                           exr_stream_error_func_ptr_t) -> std::int64_t {
+        Bytes& all = *static_cast<Bytes*>(data);
+        try {
+            if (at + size > all.size()) all.resize(at + size);
+        } catch (const std::bad_alloc&) {
+            return -1; // no exception may cross C
+        }
+        std::memcpy(all.data() + at, from, size);
+        return static_cast<std::int64_t>(size);
+    };
+    const auto require_done = [](exr_result_t result) {
+        if (result == EXR_ERR_SUCCESS) return;
+        if (result == EXR_ERR_OUT_OF_MEMORY || result == EXR_ERR_WRITE_IO)
+            throw std::bad_alloc();
+        throw std::runtime_error(join({"OpenEXR cannot make a file of these layers: ",
+                                       exr_get_default_error_message(result), "."}));
+    };
+    const int width = layers.front().image.width, height = layers.front().image.height;
+    ExrFile file;
+    exr_context_t& context = file.context;
+    int part = 0, lines = 0;
+    require_done(exr_start_write(&context, "file", EXR_WRITE_FILE_DIRECTLY, &settings));
+    require_done(exr_set_longname_support(context, 1));
+    require_done(exr_add_part(context, nullptr, EXR_STORAGE_SCANLINE, &part));
+    require_done(exr_initialize_required_attr_simple(context, part, width, height,
+                                                     EXR_COMPRESSION_ZIP));
+    const auto type = numbers == ExrNumbers::halves ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+    for (const ExrChannel& channel : channels)
+        require_done(exr_add_channel(context, part, channel.name.c_str(), type,
+                                     EXR_PERCEPTUALLY_LINEAR, 1, 1));
+    require_done(exr_write_header(context));
+    require_done(exr_get_scanlines_per_chunk(context, part, &lines));
+
+    std::vector<float> values; // of some rows: channel by channel
+    for (int y = 0; y < height; y += lines) {
+        values.clear();
+        const int end = std::min(y + lines, height);
+        for (const ExrChannel& channel : channels)
+            for (int row = y; row < end; ++row)
+                for (int x = 0; x < width; ++x)
+                    values.push_back(static_cast<float>(
+                        pixel(layers[channel.layer].image, x, row)[channel.place]));
+        struct Encoder {
+            exr_const_context_t context;
+            exr_encode_pipeline_t pipeline{};
+            ~Encoder() { exr_encoding_destroy(context, &pipeline); }
+        } encoder{context};
+        exr_chunk_info_t chunk{};
+        require_done(exr_write_scanline_chunk_info(context, part, y, &chunk));
+        require_done(exr_encoding_initialize(context, part, &chunk, &encoder.pipeline));
+        const std::size_t size = values.size() / channels.size();
+        for (std::size_t i = 0; i < channels.size(); ++i) { // both lists are sorted
+            auto& channel = encoder.pipeline.channels[i];
+            channel.encode_from_ptr =
+                reinterpret_cast<const std::uint8_t*>(values.data() + i * size);
+            channel.user_bytes_per_element = sizeof(float);
+            channel.user_data_type = EXR_PIXEL_FLOAT;
+            channel.user_pixel_stride = sizeof(float);
+            channel.user_line_stride = int(sizeof(float)) * width;
+        }
+        require_done(
+            exr_encoding_choose_default_routines(context, part, &encoder.pipeline));
+        require_done(exr_encoding_run(context, part, &encoder.pipeline));
+    }
+    const exr_result_t closed = exr_finish(&context);
+    context = nullptr;
+    require_done(closed);
+    return bytes;
+}
+
+// A layer in another precision.
+template <std::floating_point T>
+LayerT<T> layer_in(LayerT<float>&& layer) {
+    if constexpr (std::same_as<T, float>) {
+        return std::move(layer);
+    } else {
+        const auto& from = layer.image;
+        return {layer.name,
+                layer.channels,
+                {from.width, from.height, {from.pixels.begin(), from.pixels.end()}}};
+    }
+}
+
+} // namespace detail
+
+/// Loads all layers of an EXR file: scanlines or tiles, one part or several, numbers of
+/// any type, by each compression that OpenEXRCore reads. Deep parts are left out, and
+/// so are channels with fewer values than pixels.
+/// \param path  The file.
+/// \return In the order of the parts, and within a part of the names: channels R, G, B
+///         or X, Y, Z of one name together, each other channel alone. In a file of
+///         several parts the name of the part is that of its channels without a name.
+///         A layer has the pixels of its part's data window.
+/// \throws std::runtime_error  with path and reason, if it cannot be read, is damaged,
+///         or has more than 2^27 pixels in all layers together.
+/// \cost At most 12 bytes per pixel and layer, and a chunk of 256 MB.
+template <std::floating_point T = float>
+[[nodiscard]] std::vector<LayerT<T>> load_exr_layers(const std::string& path) {
+    const Bytes bytes = load_file(path, detail::max_exr_file, "\x76\x2f\x31\x01");
+    const detail::ExrReader reader(bytes, path);
+    std::vector<LayerT<T>> layers;
+    for (auto& layer : reader.decode(reader.layers(), detail::max_layer_pixels))
+        layers.push_back(detail::layer_in<T>(std::move(layer)));
+    return layers;
+}
+
+/// Loads one picture from an EXR file: its channels R, G and B, or the grey picture of
+/// its channel Y.
+/// \param path   The file.
+/// \param layer  The name of a layer, as "albedo"; "": the picture itself.
+/// \return The picture of the data window, as it is stored: values may be negative,
+///         infinite or NaN.
+/// \throws std::runtime_error  as load_exr_layers(), or for a file without that
+///         picture, with the names of what it has; or with more than 2^25 pixels.
+template <std::floating_point T = float>
+[[nodiscard]] ImageT<T> load_exr(const std::string& path,
+                                 const std::string& layer = "") {
+    const Bytes bytes = load_file(path, detail::max_exr_file, "\x76\x2f\x31\x01");
+    const detail::ExrReader reader(bytes, path);
+    const detail::ExrLayer* found = nullptr;
+    std::string names;
+    for (const detail::ExrLayer& one : reader.layers()) {
+        const bool three = one.channels.size() == 3;
+        const std::string full =
+            three ? one.name : channel_name(Layer{one.name, one.channels, {}}, 0);
+        if (full == (three || !layer.empty() ? layer : "Y") &&
+            (found == nullptr || three))
+            found = &one;
+        if (names.size() < 400) names += " '" + (full.empty() ? "RGB" : full) + "'";
+    }
+    if (found == nullptr)
+        reader.refuse(detail::join(
+            {"has no ",
+             layer.empty() ? "picture of R, G and B" : "layer '" + shown(layer) + "'",
+             "; it has", shown(names, 400)}));
+    auto layers = reader.decode({*found}, detail::max_image_pixels);
+    return detail::layer_in<T>(std::move(layers.front())).image;
+}
+
+/// Saves layers as one EXR file of one part, in scanlines compressed by ZIP.
+/// \param layers   Of one size, at least one; no two channels have the same name.
+/// \param path     The file.
+/// \param numbers  How they are stored; a double is rounded to float first.
+/// \throws std::invalid_argument  for no layer, another size, a name that occurs twice
+///         or does not have 1 to 255 bytes, and as check(); std::runtime_error as
+///         save_file().
+/// \cost The file in memory, and twice 16 rows.
+template <std::floating_point T>
+void save_exr_layers(const std::vector<LayerT<T>>& layers, const std::string& path,
+                     ExrNumbers numbers = ExrNumbers::floats) {
+    save_file(path, detail::exr_bytes(layers, detail::exr_channels(layers), numbers));
+}
+
+/// Saves an image as an EXR file with the channels R, G and B.
+/// \param image    Linear colours.
+/// \param path     The file.
+/// \param numbers  How they are stored.
+/// \throws std::invalid_argument  as check(); std::runtime_error as save_file().
+template <std::floating_point T>
+void save_exr(const ImageT<T>& image, const std::string& path,
+              ExrNumbers numbers = ExrNumbers::floats) {
+    save_exr_layers(std::vector<LayerT<T>>{{.image = image}}, path, numbers);
+}
+
+/// What a scene file may name, with EXR pictures of the sky among it:
+/// load_json("scene.json", WithExr{MeshFiles{}}).
+template <typename Files>
+struct WithExr {
+    Files files{}; ///< Reads meshes: MeshFiles.
+
+    /// Reads a mesh file.
+    [[nodiscard]] auto operator()(const std::string& path, double scale,
+                                  const std::string& normals) const {
+        return files(path, scale, normals);
+    }
+    /// Reads a picture; see load_exr().
+    template <std::floating_point T>
+    [[nodiscard]] ImageT<T> load_picture(const std::string& path) const {
+        return load_exr<T>(path);
+    }
+};
+/// Deduces what reads meshes.
+template <typename Files>
+WithExr(Files) -> WithExr<Files>;
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,35 @@
+# The smallest halves are taken for twice what they are.
+ljus_break_it(NAME exr-half-denormal HEADER io/exr.hpp TEST exr
+    FROM "static_cast<float>(mantissa) / 16777216"
+    TO   "static_cast<float>(mantissa) / 8388608"
+    CASES "exr: every half*")
+
+# Rows are counted from 0, wherever the data window begins.
+ljus_break_it(NAME exr-window HEADER io/exr.hpp TEST exr
+    FROM "int(window.y + y)"
+    TO   "int(y)"
+    CASES "exr: what another library*")
+
+# A channel alone is red.
+ljus_break_it(NAME exr-grey HEADER io/exr.hpp TEST exr
+    FROM "for (Rgb& color : layer.image.pixels) color = Rgb{color.x};"
+    TO   ""
+    CASES "exr: several parts*")
+
+# A channel with half of the rows is read as one that has all.
+ljus_break_it(NAME exr-half-the-rows HEADER io/exr.hpp TEST exr
+    FROM "channel.y_samples > 1 &&"
+    TO   "channel.y_samples > 2 &&"
+    CASES "exr: several parts*")
+
+# A short file makes a large picture.
+ljus_break_it(NAME exr-short HEADER io/exr.hpp TEST exr
+    FROM "dwa ? 65536 : 1024"
+    TO   "1 << 30"
+    CASES "exr: what is wrong*")
+
+# Of two channels of one name the file keeps one.
+ljus_break_it(NAME exr-two-names HEADER io/exr.hpp TEST exr
+    FROM "name == channels[i - 1].name"
+    TO   "name.empty()"
+    CASES "exr: layers that no file*")

@@ -1,0 +1,263 @@
+// needs: openexr
+/// \file exr_test.cpp
+/// \brief EXR files: what is saved is loaded, files that OpenEXR's C++ library has
+/// written, and damaged ones.
+
+#include "ljus/io/exr.hpp"
+
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "scratch_folder.hpp"
+
+using namespace ljus;
+
+namespace {
+
+const ScratchFolder folder;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
+/// A file in tests/inputs/exr. OpenEXR 3.1.5's library for C++ has written them, 6 x 8
+/// pixels with the channels below; "zips" begins at column -2 and row -3.
+std::string input(const std::string& name) {
+    return LJUS_TEST_INPUTS "/exr/" + name + ".exr";
+}
+Rgb input_color(int x, int y) {
+    const auto u = float(x), v = float(y);
+    return {u / 16, v / 32, -0.25f + u * v / 1024};
+}
+
+/// An image of one row.
+Image row_of(const std::vector<Rgb>& pixels) {
+    return {.width = int(pixels.size()), .height = 1, .pixels = pixels};
+}
+
+std::string refusal_of(const std::string& path) {
+    try {
+        (void)load_exr(path);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+void require_bits(float a, float b) {
+    REQUIRE(std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b));
+}
+
+} // namespace
+
+TEST_CASE("exr: floats keep their bits, even NaN, infinity and denormals") {
+    std::vector<Rgb> pixels{{0, -0.0f, 1},
+                            {infinity, -infinity, not_a_number},
+                            {1e-45f, -1e-40f, 3.4e38f},
+                            {std::bit_cast<float>(0x7fa12345u), 65536, -2.5f}};
+    Image image = make_image(4, 40);
+    for (int y = 0; y < 40; ++y)
+        for (int x = 0; x < 4; ++x)
+            pixel(image, x, y) = pixels[std::size_t((x + y) % 4)];
+    const std::string file = folder.file("floats.exr");
+    save_exr(image, file);
+    const Image loaded = load_exr(file);
+    REQUIRE(loaded.width == 4);
+    REQUIRE(loaded.height == 40);
+    for (std::size_t i = 0; i < loaded.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            require_bits(loaded.pixels[i][c], image.pixels[i][c]);
+}
+
+TEST_CASE("exr: a double is rounded to float, and loaded as a double") {
+    auto image = make_image<double>(2, 1, RgbT<double>{0.1, 1e300, 2});
+    const std::string file = folder.file("doubles.exr");
+    save_exr(image, file);
+    const auto loaded = load_exr<double>(file);
+    CHECK(loaded.pixels[1] == RgbT<double>{double(0.1f), double(infinity), 2.0});
+}
+
+TEST_CASE("exr: every half is loaded as the number that it is, and saved as itself") {
+    // By the definition of binary16, in double.
+    std::vector<Rgb> pixels;
+    for (std::uint32_t bits = 0; bits < 0x10000; ++bits) {
+        const double sign = bits >= 0x8000 ? -1 : 1, mantissa = bits & 1023;
+        const int exponent = int(bits >> 10 & 31);
+        const double size = exponent == 0   ? std::ldexp(mantissa, -24)
+                            : exponent < 31 ? std::ldexp(1024 + mantissa, exponent - 25)
+                            : mantissa == 0 ? double(infinity)
+                                            : double(not_a_number);
+        const float value = detail::float_of_half(bits);
+        if (std::isnan(size)) {
+            REQUIRE(std::isnan(value));
+        } else {
+            require_bits(value, float(sign * size));
+        }
+        pixels.push_back(Rgb{value});
+    }
+    const std::string file = folder.file("halves.exr");
+    Image image = make_image(256, 256);
+    image.pixels = pixels;
+    save_exr(image, file, ExrNumbers::halves);
+    const Image loaded = load_exr(file);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        if (std::isnan(pixels[i].x)) {
+            REQUIRE(std::isnan(loaded.pixels[i].x));
+        } else {
+            require_bits(loaded.pixels[i].x, pixels[i].x);
+        }
+}
+
+TEST_CASE("exr: what no half can hold is rounded, or is infinite") {
+    const std::string file = folder.file("rounded.exr");
+    save_exr(
+        row_of({{65504, 65519, 65520}, {1e9f, -1e9f, 1e-9f}, {1.0004f, 1.0006f, 2}}),
+        file, ExrNumbers::halves);
+    const Image loaded = load_exr(file);
+    CHECK(loaded.pixels[0] == Rgb{65504, 65504, infinity});
+    CHECK(loaded.pixels[1] == Rgb{infinity, -infinity, 0});
+    CHECK(loaded.pixels[2] == Rgb{1, 1.0009765625f, 2});
+}
+
+TEST_CASE("exr: layers come back with their names, channels and values") {
+    // The names are not in the order of the file, which sorts them.
+    std::vector<Layer> layers(4);
+    layers[0].image = make_image(5, 33, Rgb{1, 2, 3});
+    layers[1] = {"N", {"X", "Y", "Z"}, make_image(5, 33, Rgb{-1, 0, 0.5f})};
+    layers[2] = {"", {"Z"}, make_image(5, 33, Rgb{7})};
+    layers[3] = {"light.of lamps", {"R", "G", "B"}, make_image(5, 33, Rgb{4, 5, 6})};
+    pixel(layers[3].image, 4, 32) = Rgb{9, 8, 7};
+    const std::string file = folder.file("layers.exr");
+    save_exr_layers(layers, file);
+    const auto loaded = load_exr_layers(file);
+    REQUIRE(loaded.size() == 4);
+    for (const Layer& layer : layers) {
+        bool found = false;
+        for (const Layer& other : loaded)
+            found = found ||
+                    (other.name == layer.name && other.channels == layer.channels &&
+                     other.image.pixels == layer.image.pixels);
+        CAPTURE(channel_name(layer, 0));
+        CHECK(found);
+    }
+    CHECK(load_exr(file).pixels == layers[0].image.pixels);
+    CHECK(load_exr(file, "N").pixels == layers[1].image.pixels);
+    CHECK(load_exr(file, "Z").pixels == layers[2].image.pixels);
+    CHECK(load_exr(file, "light.of lamps").pixels == layers[3].image.pixels);
+    CHECK_THROWS_WITH_AS((void)load_exr(file, "albedo"),
+                         (file + " has no layer 'albedo'; it has 'RGB' 'N' 'Z' "
+                                 "'light.of lamps'.")
+                             .c_str(),
+                         std::runtime_error);
+}
+
+TEST_CASE("exr: what another library has written, by every compression that is read") {
+    for (const char* name : {"none", "rle", "zips", "piz", "pxr24", "b44a", "tiled"}) {
+        CAPTURE(name);
+        const auto layers = load_exr_layers<double>(input(name));
+        const bool tiled = layers.size() == 1; // of which the largest level counts
+        REQUIRE((tiled || layers.size() == 3));
+        for (int y = 0; y < 8; ++y)
+            for (int x = 0; x < 6; ++x) {
+                CHECK(pixel(layers[0].image, x, y) == RgbT<double>(input_color(x, y)));
+                if (tiled) continue;
+                CHECK(pixel(layers[1].image, x, y).x == x / 16.0);       // half.R
+                CHECK(pixel(layers[2].image, x, y).y == x * 1000.0 + y); // id, whole
+            }
+    }
+}
+
+TEST_CASE("exr: several parts, a data window of its own, and a grey picture") {
+    const auto parts = load_exr_layers(input("parts"));
+    REQUIRE(parts.size() == 2);
+    CHECK(parts[0].name == "beauty");
+    CHECK(parts[0].image.width == 6);
+    CHECK(pixel(parts[0].image, 3, 4) == Rgb{3 / 16.f, 4 / 32.f, 3 / 16.f});
+    // Tiles of 4 x 4 pixels, from column 2 and row 3 of the picture on.
+    CHECK(channel_name(parts[1], 0) == "depth.Z");
+    CHECK(parts[1].image.width == 4);
+    CHECK(parts[1].image.height == 5);
+    for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 4; ++x)
+            CHECK(pixel(parts[1].image, x, y).x == float(x + 2 + 100 * (y + 3)));
+    CHECK(load_exr(input("parts"), "depth.Z").width == 4);
+    CHECK(refusal_of(input("parts")) ==
+          input("parts") + " has no picture of R, G and B; it has 'beauty' 'depth.Z'.");
+    // Luminance, in rows from the bottom up, and colours for every second pixel.
+    const Image grey = load_exr(input("grey"));
+    CHECK(load_exr_layers(input("grey")).size() == 1);
+    CHECK(pixel(grey, 5, 7) == Rgb{5 / 16.f});
+}
+
+TEST_CASE("exr: layers that no file can hold are refused") {
+    const auto refused = [](const std::vector<Layer>& layers, const char* why) {
+        CHECK_THROWS_WITH_AS(save_exr_layers(layers, folder.file("never.exr")),
+                             doctest::Contains(why), std::invalid_argument);
+    };
+    const Image one = make_image(1, 1);
+    refused({}, "layers is 0; it must be at least 1");
+    refused({{.image = one}, {.image = make_image(2, 1)}}, "1 x 1");
+    refused({{.image = one}, {.image = one}}, "Two channels are called 'B'");
+    refused({{.channels{"R", "G"}, .image = one}}, "is 2; it must be 1 or 3");
+    refused({{.channels{""}, .image = one}}, "1 to 255 bytes");
+    refused({{.name = std::string(254, 'n'), .image = one}}, "1 to 255 bytes");
+    refused({{.image = {}}}, "0 x 0");
+    save_exr_layers(std::vector<Layer>{{std::string(253, 'n'), {"R", "G", "B"}, one}},
+                    folder.file("long.exr"));
+    CHECK(load_exr_layers(folder.file("long.exr"))[0].name == std::string(253, 'n'));
+}
+
+TEST_CASE("exr: what is wrong with a file is said in a sentence") {
+    CHECK(refusal_of(folder.file("none.exr")).starts_with("cannot read"));
+    CHECK(refusal_of(input("dwaa")) ==
+          input("dwaa") + " is compressed by a method that OpenEXRCore does not read, "
+                          "such as DWAA; save it with ZIP or PIZ.");
+    const std::string file = folder.file("hostile.exr");
+    const auto with = [&](Bytes bytes) {
+        save_file(file, bytes);
+        return refusal_of(file);
+    };
+    CHECK(with({'P', 'F', '\n'}).find("another kind of file") != std::string::npos);
+    const Bytes whole = load_file(input("none"), 1 << 20);
+    CHECK(with(whole) == "accepted");
+    // Cut anywhere, it ends in a sentence.
+    for (std::size_t size = 4; size < whole.size(); size += 7) {
+        const std::string why =
+            with({whole.begin(), whole.begin() + std::ptrdiff_t(size)});
+        REQUIRE(why.starts_with(file + " is damaged, or not an EXR file"));
+        REQUIRE(why.ends_with("."));
+    }
+    // A picture that is wider than the file has bytes takes no memory.
+    const std::string attribute = "dataWindow";
+    const auto at =
+        std::search(whole.begin(), whole.end(), attribute.begin(), attribute.end()) -
+        whole.begin();
+    const auto window = std::size_t(at) + attribute.size() + 1 + 6 + 4; // box2i, size
+    const auto with_corner = [&](std::initializer_list<std::uint32_t> numbers) {
+        Bytes bytes = whole;
+        std::size_t place = window + 8;
+        for (const std::uint32_t number : numbers)
+            for (int shift = 0; shift < 32; shift += 8)
+                bytes[place++] = static_cast<unsigned char>(number >> shift);
+        return with(bytes);
+    };
+    CHECK(with_corner({5, 7}) == "accepted");
+    CHECK(with_corner({4095, 4095}).find("it ends in the middle of its pixels") !=
+          std::string::npos);
+    CHECK(with_corner({0x7ffffff0, 7}).find(" is damaged, or not") !=
+          std::string::npos);
+    CHECK(with_corner({0x00ffffff, 0x00ffffff}).find("16777216 x 16777216 pixels") !=
+          std::string::npos);
+    CHECK(with_corner({0xffffffff, 7}).starts_with(file + " is damaged"));
+}
+
+TEST_CASE("exr: what reads meshes reads pictures as well") {
+    const WithExr files{
+        [](const std::string& path, double scale, const std::string& normals) {
+            return path + " " + std::to_string(int(scale)) + " " + normals;
+        }};
+    CHECK(files("a.obj", 3, "flat") == "a.obj 3 flat");
+    CHECK(files.load_picture<float>(input("piz")).pixels ==
+          load_exr(input("none")).pixels);
+}
