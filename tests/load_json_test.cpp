@@ -18,6 +18,7 @@
 
 #include "ljus/io/load_json.hpp"
 #include "ljus/io/png.hpp"
+#include "ljus/path/next_vertex.hpp"
 #include "ljus/scene/world.hpp"
 #include "scratch_folder.hpp"
 
@@ -684,6 +685,23 @@ TEST_CASE("load_json: a picture as a texture, and one that is not there") {
         std::get<std::vector<Wallpaper>>(loaded.scene.materials).at(0);
     CHECK(material_at(paper, Vec3{5}, Vec2{0.25f, 0.5f}).albedo == Rgb{1, 0, 0});
     CHECK(material_at(paper, Vec3{5}, Vec2{0.75f, 0.5f}).albedo == Rgb{0, 0, 1});
+    // On a mesh it is found by the coordinates of the mesh.
+    const auto wall = [](const auto&...) {
+        return std::vector<Mesh>{Mesh({.positions{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}},
+                                       .triangles{{0, 1, 2}},
+                                       .uv{{0, 0}, {1, 0}, {0, 1}}})};
+    };
+    std::string hung = scene;
+    const std::string list = "\"objects\": [";
+    hung.insert(hung.find(list) + list.size(),
+                R"({"type": "mesh", "file": "m.obj", "material": "glass"}, )");
+    const World world(read(hung, wall, folder.file("a.json")).scene);
+    const Ray ray{.origin{3, 0.5f, 9}, .direction{0, 0, -1}};
+    const auto vertex = vertex_at(world, ray, closest_hit(world, ray).value());
+    const Vec3 up{0, 0, 1};
+    CHECK(visit_material_at(world, vertex, [&](const auto& m) {
+              return evaluate(m, up, up);
+          }) == Rgb{0, 0, std::numbers::inv_pi_v<float>});
     refused(scene, "materials.glass.file cannot be used: cannot read 'two.png': No "
                    "such file or directory.");
     refused(with(R"({"type": "picture", "file": "a\nb.png", "map": "uv"})"),
@@ -1267,18 +1285,18 @@ TEST_CASE("load_json: a mesh file is read once for each scale and normals") {
         data.triangles.resize(triangles, data.triangles[0]);
         return std::vector<Mesh>{Mesh(triangle), Mesh(data)};
     };
-    const auto objects = [](int count, const char* rest, int different = 1) {
+    const auto objects = [](int count, int different = 1) {
         std::string text;
         for (int i = 0; i < count; ++i)
             text += R"({"type": "mesh", "file": "m.obj", "material": ")" +
-                    std::string(i % 2 == 0 ? "matt" : "glass") + "\"" + rest +
+                    std::string(i % 2 == 0 ? "matt" : "glass") + "\"" +
                     (different > 1 ? ", \"scale\": " + std::to_string(1 + i % different)
                                    : "") +
                     "}, ";
         return changed("\"objects\": [", "\"objects\": [" + text);
     };
     LoadedScene loaded;
-    REQUIRE_NOTHROW(loaded = read(objects(100, "", 3), load));
+    REQUIRE_NOTHROW(loaded = read(objects(100, 3), load));
     CHECK(calls == 3);
     const auto& meshes = std::get<std::vector<Mesh>>(loaded.scene.shapes);
     REQUIRE(meshes.size() == 200);
@@ -1289,13 +1307,18 @@ TEST_CASE("load_json: a mesh file is read once for each scale and normals") {
                loaded.scene.objects[3][i % 4].material));
     }
     CHECK(loaded.scene.objects[3][0].material != loaded.scene.objects[3][2].material);
+    // All meshes of a file shine, if one does.
+    const std::string lamp =
+        R"({"type": "mesh", "file": "m.obj", "material": "matt", "emission": [1, 1, 1]}, )";
+    CHECK(read(changed("\"objects\": [", "\"objects\": [" + lamp), load)
+              .scene.light_count() == 3);
 
-    CHECK(refusal(objects(40, "", 16), load) == "accepted");
-    refused(objects(40, "", 17),
+    CHECK(refusal(objects(40, 16), load) == "accepted");
+    refused(objects(40, 17),
             "objects[16].file is named with more than 16 scales and normals.", load);
     triangles = (1 << 19) - 1; // and one
-    CHECK(refusal(objects(9, ""), load) == "accepted");
-    refused(objects(10, ""),
+    CHECK(refusal(objects(9), load) == "accepted");
+    refused(objects(10),
             "objects[9].file is named once more; meshes that are named again have "
             "at most 4194304 triangles together.",
             load);
