@@ -4,8 +4,8 @@
 ///     ljus-inspect teapot.obj
 ///     ljus-inspect duck.glb --picture duck.png
 ///
-/// It prints what was read and what add_meshes() makes of it; then each problem with its
-/// place in the file, and what is done about it. The picture is path-traced.
+/// It prints what was read and what add_meshes() makes of it, then each problem with
+/// its place in the file, and what is done about it. The picture is path-traced.
 
 #include <cstdio>
 #include <string>
