@@ -6,11 +6,9 @@
 ///     ljus-inspect duck.glb --picture duck.png
 ///     ljus-inspect room.exr
 ///
-/// It prints what was read and what was made of it: triangles, box, area, whether the
-/// mesh is closed and its volume, the materials, cameras and lights; then each problem
-/// with its place in the file, and what is done about it. The picture shows the meshes
-/// as they are made by add_meshes(), path-traced. Of an EXR file it prints the layers
-/// and the range of their values.
+/// It prints what was read and what add_meshes() makes of it, then each problem with
+/// its place in the file, and what is done about it; of an EXR file the layers and the
+/// range of their values. The picture is path-traced.
 
 #include <algorithm>
 #include <cmath>
@@ -30,52 +28,66 @@ namespace {
 
 using namespace ljus;
 
-std::string vector_text(const glm::dvec3& v) {
-    char text[100];
-    std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g)", v.x, v.y, v.z);
-    return text;
-}
-
 /// What add_meshes() makes of a material.
 std::string surface_text(const MeshMaterial& is) {
     std::string text = is.is_glass()    ? "glass of index " + to_text(is.index)
-                       : is.is_mirror() ? "mirror of " + vector_text(is.specular)
-                                        : "matt " + vector_text(is.diffuse);
+                       : is.is_mirror() ? "mirror of " + to_text(Vec3(is.specular))
+                                        : "matt " + to_text(Vec3(is.diffuse));
     if (is.is_mirror() && is.roughness > 0)
         text += ", roughness " + to_text(is.roughness);
-    if (is.emission != glm::dvec3(0)) text += ", emits " + vector_text(is.emission);
+    if (is.emission != glm::dvec3(0)) text += ", emits " + to_text(Vec3(is.emission));
     if (!is.picture.empty()) text += ", picture " + shown_path(is.picture);
     return text;
 }
 
-void print_whole(const LoadedMeshT<double>& loaded) {
+Box box_of(const LoadedMesh& loaded) {
+    Box box;
+    for (const auto& part : loaded.parts) box = box_union(box, part.mesh.tree().box());
+    return box;
+}
+
+void print_content(const LoadedMesh& loaded) {
     const MeshContent& has = loaded.report.content;
+    std::printf("  read       %lld vertices (%lld in no face), %lld normals, %lld "
+                "texture coordinates,\n             %lld objects, %lld groups\n",
+                has.vertices, has.unused, has.normals, has.uvs, has.objects,
+                has.groups);
+    std::printf("  faces      %lld, %lld of them with more than three corners, which "
+                "are cut;\n             %lld without normals, %lld without texture "
+                "coordinates\n",
+                has.faces, has.polygons, has.flat_faces, has.no_uv_faces);
     double area = 0;
-    BoxT<double> box;
     std::size_t triangles = 0;
     for (const auto& part : loaded.parts) {
         area += part.mesh.area_up_to().back();
         triangles += part.mesh.size();
-        box = box_union(box, part.mesh.tree().box());
     }
-    std::printf(
-        "  read       %lld vertices (%lld in no face), %lld normals, %lld texture "
-        "coordinates,\n             %lld objects, %lld groups\n",
-        has.vertices, has.unused, has.normals, has.uvs, has.objects, has.groups);
-    std::printf(
-        "  faces      %lld, %lld of them with more than three corners, which are "
-        "cut;\n             %lld without normals, %lld without texture "
-        "coordinates\n",
-        has.faces, has.polygons, has.flat_faces, has.no_uv_faces);
-    std::printf("  triangles  %zu; materials %zu\n", triangles, loaded.parts.size());
-    std::printf("  box        %s to %s\n", vector_text(box.low).c_str(),
-                vector_text(box.high).c_str());
-    std::printf("  area       %.6g\n", area);
+    const Box box = box_of(loaded);
+    std::printf("  triangles  %zu; materials %zu\n  box        %s to %s\n"
+                "  area       %.6g\n",
+                triangles, loaded.parts.size(), to_text(box.low).c_str(),
+                to_text(box.high).c_str(), area);
     if (has.closed)
         std::printf("  closed     yes; volume %.6g%s\n", has.volume,
                     has.volume < 0 ? ": the faces look inwards, it is inside out" : "");
     else
         std::printf("  closed     no\n");
+    for (const auto& [mesh, material] : loaded.parts)
+        std::printf("  material   %s: %u triangles, %s, %s, %s\n",
+                    material.name.empty() ? "(none)" : shown(material.name).c_str(),
+                    mesh.size(), surface_text(material).c_str(),
+                    mesh.data().normals.empty() ? "flat" : "smooth",
+                    mesh.data().uv.empty() ? "no texture coordinates"
+                                           : "with texture coordinates");
+    for (const MeshCameraT<float>& one : loaded.cameras)
+        std::printf("  camera     %s at %s\n",
+                    one.name.empty() ? "(no name)" : one.name.c_str(),
+                    to_text(one.camera.position).c_str());
+    if (loaded.points.size() + loaded.spots.size() + loaded.suns.size() > 0)
+        std::printf("  lights     %zu points, %zu spots, %zu suns\n",
+                    loaded.points.size(), loaded.spots.size(), loaded.suns.size());
+    const std::string odd = to_text(loaded.report);
+    std::printf("%s%s", odd.empty() ? "nothing is odd\n" : "odd:\n", odd.c_str());
 }
 
 /// The camera of this name, or the first one if the name is empty. Without cameras, one
@@ -89,19 +101,15 @@ Camera camera_of(const LoadedMesh& loaded, const std::string& name) {
     if (!name.empty())
         throw std::invalid_argument("--camera is " + shown(name) + "; the file has " +
                                     (names.empty() ? "no camera" : names) + ".");
-    BoxT<float> box;
-    for (const auto& part : loaded.parts) box = box_union(box, part.mesh.tree().box());
-    const Vec3 middle = 0.5f * (box.low + box.high);
-    return look_at(View{.position = middle + glm::distance(box.low, box.high) *
-                                                 Vec3{0.6f, 0.5f, 1.2f},
-                        .target = middle,
-                        .vfov_degrees = 40});
+    const auto [low, high] = box_of(loaded);
+    const Vec3 middle = 0.5f * (low + high), way{0.6f, 0.5f, 1.2f};
+    return look_at({.position = middle + glm::distance(low, high) * way,
+                    .target = middle,
+                    .vfov_degrees = 40});
 }
 
-/// Makes a picture of all meshes in their own colours; under a sky if nothing glows.
-void draw(const std::string& mesh, const MeshFileSettings& settings,
-          const std::string& camera, const std::string& file) {
-    const LoadedMesh loaded = load_mesh(mesh, settings);
+/// A picture of all meshes in their own colours; under a sky if nothing glows.
+Image picture_of(const LoadedMesh& loaded, const Camera& camera) {
     Scene<Shapes<Mesh>,
           Materials<Lambertian, Mirror, Glossy, Glass, MeshPicture, MeshMetalPicture>,
           Lights<PointLight, SpotLight, SunLight, EnvironmentLight>>
@@ -109,12 +117,11 @@ void draw(const std::string& mesh, const MeshFileSettings& settings,
     add_meshes(scene, loaded);
     if (scene.light_count() == 0)
         scene.add(
-            EnvironmentLight{.picture = gradient_sky({1, 1, 1}, {1.5f, 1.5f, 1.5f},
-                                                     {0.3f, 0.3f, 0.3f})});
+            EnvironmentLight{.picture = gradient_sky(Rgb{1}, Rgb{1.5f}, Rgb{0.3f})});
     const World world(std::move(scene));
-    const auto rendered = render(PathTracer(world), camera_of(loaded, camera),
-                                 {.width = 400, .height = 300, .samples = 64});
-    examples::save_picture(rendered.image, file, 0);
+    return render(PathTracer(world), camera,
+                  {.width = 400, .height = 300, .samples = 64})
+        .image;
 }
 
 /// Prints the layers of an EXR file.
@@ -151,8 +158,7 @@ void body(examples::CommandLine& line) {
     line.about(
         "Prints what a mesh file (OBJ, PLY, STL, glTF) has in it, and what is odd "
         "about it; or the layers of an EXR file.");
-    line.file_types(
-        {".obj"}); // no folder for files of its own, which parse() would try
+    line.file_types({".obj"}); // parse() tries no folder for files of its own
     line.without({"--quality", "--seed", "--threads", "--width", "--height", "--rays",
                   "--out", "--quiet"});
     line.add_positional("MESH", path, "The file");
@@ -168,28 +174,12 @@ void body(examples::CommandLine& line) {
         return print_layers(path);
     }
 
-    const LoadedMeshT<double> loaded = load_mesh<double>(path, settings);
+    const LoadedMesh loaded = load_mesh(path, settings);
     std::printf("%s\n", shown_path(path).c_str());
-    print_whole(loaded);
-    for (const auto& [mesh, material] : loaded.parts)
-        std::printf("  material   %s: %u triangles, %s, %s, %s\n",
-                    material.name.empty() ? "(none)" : shown(material.name).c_str(),
-                    mesh.size(), surface_text(material).c_str(),
-                    mesh.data().normals.empty() ? "flat" : "smooth",
-                    mesh.data().uv.empty() ? "no texture coordinates"
-                                           : "with texture coordinates");
-    for (const MeshCameraT<double>& one : loaded.cameras)
-        std::printf("  camera     %s at %s\n",
-                    one.name.empty() ? "(no name)" : one.name.c_str(),
-                    vector_text(one.camera.position).c_str());
-    if (const std::size_t points = loaded.points.size(), spots = loaded.spots.size(),
-        suns = loaded.suns.size();
-        points + spots + suns > 0)
-        std::printf("  lights     %zu points, %zu spots, %zu suns\n", points, spots,
-                    suns);
-    const std::string odd = to_text(loaded.report);
-    std::printf("%s%s", odd.empty() ? "nothing is odd\n" : "odd:\n", odd.c_str());
-    if (!picture.empty()) draw(path, settings, camera, picture);
+    print_content(loaded);
+    if (!picture.empty())
+        examples::save_picture(picture_of(loaded, camera_of(loaded, camera)), picture,
+                               0);
 }
 
 } // namespace

@@ -102,21 +102,6 @@ void tell(const std::vector<std::string>& remarks) {
         std::fprintf(stderr, "%s\n", remark.c_str());
 }
 
-template <typename S>
-RenderedLayersT<typename S::Scalar> path_trace(const FileRoom<S>& room,
-                                               const Request& r) {
-    tell(path_remarks(room.world));
-    const PathTracer tracer(room.world, r.path);
-    return run(tracer, room.camera, r);
-}
-
-template <typename S>
-RenderedLayersT<typename S::Scalar> show_first_hit(const FileRoom<S>& room,
-                                                   const Request& r) {
-    const FirstHitRenderer renderer(room.world, *examples::first_hit_of(r.renderer));
-    return run(renderer, room.camera, r);
-}
-
 /// Fills the irradiance cache of a photon mapper.
 template <typename Mapper, std::floating_point T>
 void fill_cache(Mapper& mapper, const LensCameraT<T>& camera, const Request& r) {
@@ -358,8 +343,6 @@ void print_plan(const W& world, const Request& r) {
         for (const PlanItem* item : plan.items())
             std::fputs(to_text(*item).c_str(), stdout);
         tell(plan.remarks);
-    } else if (r.plan && r.renderer == RendererName::path) {
-        tell(path_remarks(world));
     }
     if (r.hooks)
         for (const std::string& line : survey_hooks(world)) std::puts(line.c_str());
@@ -384,6 +367,8 @@ void run_request(examples::CommandLine& line, Request& r,
     else if (!prints)
         check_files(r);
     tell_idle_options(line, r, choose_passes(needs(room.world), r.photon));
+    const bool paths = r.renderer == RendererName::path && r.photons.empty();
+    if (paths && (r.plan || !r.hooks)) tell(path_remarks(room.world));
     if (prints) return print_plan(room.world, r);
     r.passes.picture = text_of_passes(line, r);
 
@@ -393,11 +378,12 @@ void run_request(examples::CommandLine& line, Request& r,
                            "continued is made by --passes N --checkpoint FILE");
     const examples::StopWatch watch;
     const bool promised = r.promise.seconds > 0 || r.promise.error > 0;
+    const auto first_hit = examples::first_hit_of(r.renderer);
     const RenderedLayersT<T> result =
         !r.photons.empty() ? RenderedLayersT<T>{draw_photons(room, r)}
         : promised         ? RenderedLayersT<T>{render_promised(room, r)}
-        : examples::first_hit_of(r.renderer) ? show_first_hit(room, r)
-        : r.renderer == RendererName::path   ? path_trace(room, r)
+        : first_hit ? run(FirstHitRenderer(room.world, *first_hit), room.camera, r)
+        : paths     ? run(PathTracer(room.world, r.path), room.camera, r)
         : r.passes.passes > 0 ? RenderedLayersT<T>{render_passes(room, r)}
                               : map_photons(room, r);
     if (!r.pixel.empty()) return;

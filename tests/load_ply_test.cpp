@@ -2,7 +2,7 @@
 
 #include "ljus/io/load_ply.hpp"
 #include "ljus/scenes/mesh_formulas.hpp"
-#include "support/mesh_bytes.hpp"
+#include "support/mesh_checks.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
@@ -33,17 +33,7 @@ TEST_CASE("load_ply: a mesh is the same in text and in bytes of either order") {
     for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
         CAPTURE(format);
         const auto loaded = read_ply(ply_bytes(data, format), "x.ply");
-        CHECK(to_text(loaded.report).empty());
-        CHECK(loaded.report.content.closed);
-        const Mesh& mesh = loaded.parts.at(0).mesh;
-        REQUIRE(mesh.size() == data.triangles.size());
-        CHECK(mesh.data().positions.size() == data.positions.size());
-        CHECK(double(area(mesh)) == doctest::Approx(area_of(data)).epsilon(1e-6));
-        CHECK(mesh.triangle(7).v2 == data.positions[data.triangles[7][1]]);
-        const auto& normals = mesh.data().normals;
-        REQUIRE(normals.size() == data.normals.size());
-        CHECK(glm::dot(normals[mesh.data().triangles[7][1]],
-                       data.normals[data.triangles[7][1]]) == doctest::Approx(1));
+        check_normal(check_whole(loaded, data), data);
     }
     CHECK(double(area(
               read_ply(ply_bytes(data, "ascii"), "x", {.scale = 2}).parts[0].mesh)) ==

@@ -119,7 +119,7 @@ TEST_CASE("map_key: whatever a scene is made of is part of its key") {
     const std::uint64_t before = Parts{}.hash();
     CHECK(Parts{}.hash() == before);
     std::vector<std::uint64_t> seen{before};
-    const auto other = [&](auto change) {
+    const auto other = [&](void (*change)(Parts&)) {
         Parts parts;
         change(parts);
         const std::uint64_t hash = parts.hash();
@@ -174,7 +174,7 @@ TEST_CASE(
 
 TEST_CASE("map_key: settings that change a light map count, and no others") {
     const auto room = matt_cornell_box();
-    const auto same = [&](auto change) {
+    const auto same = [&](void (*change)(RadiositySettings&)) {
         RadiositySettings settings;
         change(settings);
         return light_map_key(room.world, settings) == light_map_key(room.world, {});

@@ -23,7 +23,7 @@ struct Recipe {
     std::string name{};                     ///< Its name for the user.
     ljus::PhotonMappingSettings settings{}; ///< The settings of one picture.
     int rays = 1;                           ///< Rays per pixel.
-    double bias = 0; ///< Squared bias in relMSE, as in the rooms of chapter 35.
+    double bias = 0; ///< Squared bias in relMSE, as in the rooms of Trades.
 };
 
 /// The recipes that a promise chooses from, the quickest first: the presets, with

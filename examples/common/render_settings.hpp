@@ -109,11 +109,11 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--more-rays", r.more_rays,
              "More rays beside pixels whose first rays disagree", 0, million);
     line.add("--disagreement", r.disagreement,
-             "Relative standard error above which they do", 1e-6, 1e6);
+             "Relative standard error above which first rays disagree", 1e-6, 1e6);
     line.add("--sampling", r.picture.sampling, "Pattern of the rays in a pixel");
     line.add("--precision", r.in_double, "Precision of scene, photons and light",
              {{"float", false}, {"double", true}});
-    line.add("--exposure", r.exposure, "Of PNG files, in stops", -100, 100);
+    line.add("--exposure", r.exposure, "Exposure of PNG files, in stops", -100, 100);
 
     line.group(common_groups[1]);
     line.add("--renderer", r.renderer,
@@ -126,7 +126,7 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--depth", photon.max_depth,
              "Largest number of surfaces on a path, mirrors included", 1, 1000);
     line.add("--roulette", photon.roulette_depth,
-             "Surface from which roulette may end a path", 1, million);
+             "First surface at which roulette may end a path", 1, million);
 
     line.group("Promise: all other settings are chosen");
     line.add("--seconds", r.promise.seconds,
@@ -156,7 +156,7 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
              "How mirrors, glass and lights share them: as lights see them;\n"
              "equally; or for the least error of the flux, of each caustic,\n"
              "or of what the eye sees");
-    line.add("--photon-numbers", photon.caustics.numbers, "Chance, or evenly spread");
+    line.add("--photon-numbers", photon.caustics.numbers, "Random, or spread evenly");
     line.add("--photon-bounces", photon.caustics.max_bounces,
              "Largest number of surfaces on a photon's path", 1, million);
     line.add("--photon-memory", r.photon_memory, "GB that a photon pass may take", 1e-6,
@@ -181,11 +181,11 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--irradiance-every", photon.irradiance.every,
              "Photons for each point with precomputed irradiance", 2, million);
     line.add("--irradiance-nearest", photon.irradiance.nearest,
-             "Photons in its estimate", 2, max_nearest);
+             "Photons in the estimate at such a point", 2, max_nearest);
     line.add("--irradiance-radius", photon.irradiance.radius,
-             "Radius of its estimate; 0: from the photons", 0, 1e6);
+             "Radius of that estimate; 0: from the photons", 0, 1e6);
     line.add("--irradiance-shadow-rays", photon.irradiance.shadow_rays,
-             "Shadow rays from it to each light", 1, 10'000);
+             "Shadow rays from such a point to each light", 1, 10'000);
     line.add("--gather-rays", photon.gather.rays, "Rays from each point of the cache",
              1, million);
     line.add("--gather-tile", photon.gather.tile,
@@ -193,9 +193,9 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--gather-nearest", photon.gather.nearest,
              "Points of the cache that a pixel interpolates", 2, max_cache_nearest);
     line.add("--gather-reach", photon.gather.reach,
-             "Its reach, relative to the mean distance that it sees", 1e-3, 1e3);
-    line.add("--gather-depth", photon.gather.max_depth, "Surfaces on a gather ray", 2,
-             million);
+             "Reach of such a point, relative to the mean distance it sees", 1e-3, 1e3);
+    line.add("--gather-depth", photon.gather.max_depth,
+             "Largest number of surfaces on a gather ray", 2, million);
 
     line.group(photon_groups[4]);
     line.add("--skip", photon.skip.rule,
@@ -203,8 +203,8 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
              "photons agree; or where enough of them agree");
     line.add("--skip-bounces", photon.skip.indirect_rays,
              "Skip indirect rays where no indirect photon is near");
-    line.add("--skip-radius", photon.skip.radius, "How near; 0: from the photons", 0,
-             1e6);
+    line.add("--skip-radius", photon.skip.radius,
+             "Distance that counts as near; 0: from the photons", 0, 1e6);
     line.add("--skip-tolerance", photon.skip.tolerance,
              "Hidden fraction of a light that is ignored (enough)", 1e-6, 0.999);
     line.add("--skip-risk", photon.skip.risk, "Risk that more is hidden (enough)", 1e-9,

@@ -13,7 +13,7 @@
 #include "ljus/optics/fresnel.hpp"
 #include "ljus/optics/refraction.hpp"
 
-/// A world of two dimensions with the concepts of the book: chapter 38.
+/// A world of two dimensions with the concepts of the book: chapter 23.
 namespace flatland {
 
 using ljus::Transport, ljus::Vec3T;

@@ -25,7 +25,7 @@ struct Photon {
 };
 
 /// The photons of a scene. Flatland has few, so they are a list that is searched
-/// linearly. For more there is the k-d tree of chapter 23.
+/// linearly. For more there is the k-d tree of chapter 24.
 using PhotonMap = std::vector<Photon>;
 
 /// Settings of a photon pass.

@@ -24,7 +24,7 @@ class FunctionRef;
 template <typename R, typename... A>
 class FunctionRef<R(A...)> {
 public:
-    /// Refers to a callable with a name.
+    /// Refers to a callable that is not a temporary.
     template <typename F>
     requires(
         !std::same_as<std::remove_cv_t<F>, FunctionRef> && std::is_object_v<F> &&
@@ -34,7 +34,7 @@ public:
                   (*static_cast<F*>(const_cast<void*>(f)))(static_cast<A&&>(a)...));
           }) {}
 
-    /// Not to a temporary: give the callable a name.
+    /// Refuses a temporary: give the callable a name.
     template <typename F>
     requires(!std::same_as<std::remove_cvref_t<F>, FunctionRef>) FunctionRef(const F&&)
     = delete;

@@ -56,7 +56,7 @@ ljus_break_it(NAME load-obj-seam HEADER io/detail/mesh_builder.hpp TEST load_obj
 ljus_break_it(NAME load-obj-picture HEADER io/mesh_file.hpp TEST load_obj
     FROM "if (pictured) return scene.add(painted(matt));"
     TO   "if (false) return scene.add(painted(matt));"
-    CASES "load_obj: a path-traced wall*")
+    CASES "load_obj: a wall shows*")
 
 # The first line that is met in place of the first line of the file.
 ljus_break_it(NAME load-obj-first-line HEADER io/mesh_report.hpp TEST load_obj

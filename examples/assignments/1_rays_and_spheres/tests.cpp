@@ -48,7 +48,7 @@ TEST_CASE("1.2 (2 points) the edges of the picture are where the angle says") {
          "y.\n"
          "Likely: degrees, the whole angle, a scale for each axis, y upside down, "
          "or no normalize().\n"
-         "Read: Primary rays; chapter 1.");
+         "Read: Primary rays; the chapter First picture.");
     const Eye eye{.vfov_degrees = 90};
     const Ray top = primary_ray(eye, {300, 0}, 600, 300);
     CHECK(distance(top.direction, normalize(Vec3{0, 1, -1})) < 1e-5f);
@@ -61,7 +61,7 @@ TEST_CASE("1.2 (2 points) the edges of the picture are where the angle says") {
 TEST_CASE("1.3 (2 points) a ray meets a ball where it enters or where it leaves") {
     INFO("Expected: the smaller root, or the larger one if the smaller one lies "
          "before t_min: a ray that starts inside of a ball leaves it.\n"
-         "Read: Ray and ball; chapter 6.");
+         "Read: Ray and ball; the chapter Sphere.");
     const Ball ball{.center{0, 0, -5}};
     const auto before = intersect(Ray{}, ball);
     REQUIRE(before);
@@ -101,7 +101,7 @@ TEST_CASE("1.5 (2 points) t counts in lengths of the direction") {
 TEST_CASE("1.6 (3 points) random rays hit what they should and end on the ball") {
     INFO("Expected: the same decision as in double, and a point on the ball.\n"
          "Likely: D.D, a sign, or the centre missing in m.\n"
-         "Read: Ray and ball; chapter 6.");
+         "Read: Ray and ball; the chapter Sphere.");
     auto stream = course::stream(1);
     int hits = 0;
     for (int i = 0; i < 5000; ++i) {
@@ -131,7 +131,7 @@ TEST_CASE("1.6 (3 points) random rays hit what they should and end on the ball")
 TEST_CASE("1.7 (3 points) a ball 1000 radii away keeps its outline") {
     INFO("Expected: at most 20 wrong decisions. b^2 - c subtracts two large "
          "floats: measure the distance from the nearest point P.\n"
-         "Read: Ray and ball; chapter 6.");
+         "Read: Ray and ball; the chapter Sphere.");
     auto stream = course::stream(2);
     int wrong = 0, hits = 0;
     for (int i = 0; i < 4000; ++i) {
@@ -150,7 +150,7 @@ TEST_CASE("1.7 (3 points) a ball 1000 radii away keeps its outline") {
 TEST_CASE("1.8 (1 point) the normal has length 1 and points away from the centre") {
     INFO("Expected: (point - centre) of length 1.\n"
          "Likely: not divided by the radius, or the wrong way around.\n"
-         "Read: chapter 6.");
+         "Read: the chapter Sphere.");
     const Ball ball{.center{1, 2, 3}, .radius = 4};
     CHECK(distance(normal(ball, {1, 6, 3}), Vec3{0, 1, 0}) < 1e-6f);
     CHECK(distance(normal(ball, {-3, 2, 3}), Vec3{-1, 0, 0}) < 1e-6f);
@@ -159,7 +159,7 @@ TEST_CASE("1.8 (1 point) the normal has length 1 and points away from the centre
 TEST_CASE("1.9 (2 points) the nearest ball is found whatever the order of the list") {
     INFO("Expected: t = 4 and the index of that ball.\n"
          "Likely: the last hit is kept, or the index of another ball.\n"
-         "Read: chapter 1.");
+         "Read: the chapter First picture.");
     std::vector<Ball> balls{{{0, 0, -9}, 1},
                             {{0, 0, -5}, 1},
                             {{0, 0, 5}, 1},
@@ -195,7 +195,7 @@ TEST_CASE("1.11 (3 points) no ball shades itself whatever the unit of length") {
     INFO("Expected: no ball shades itself. Step along the normal, in proportion to "
          "the coordinates: a step along the way to the lamp hardly leaves the "
          "surface if the lamp is low.\n"
-         "Read: Shadows; chapter 5.");
+         "Read: Shadows; the chapter Ray.");
     for (const float scale : {0.001f, 1.0f, 1000.0f}) {
         auto stream = course::stream(3);
         int wrong = 0;

@@ -28,7 +28,7 @@ const Ray down{.origin{0, 0, 5}, .direction{0, 0, -1}};
 TEST_CASE("2.1 (1 point) a mirror turns the part of a ray along the normal") {
     INFO("Expected: D - 2 (D.N) N for either side.\n"
          "Likely: the 2 forgotten, or a sign that depends on the side of N.\n"
-         "Read: Reflection; chapter 10.");
+         "Read: Reflection; the chapter Reflection.");
     const Vec3 d = normalize(Vec3{1, 2, -3});
     for (const Vec3& n : {Vec3{0, 0, 1}, Vec3{0, 0, -1}}) // either side
         CHECK(distance(reflect(d, n), normalize(Vec3{1, 2, 3})) < 1e-6f);
@@ -42,7 +42,7 @@ TEST_CASE("2.1 (1 point) a mirror turns the part of a ray along the normal") {
 TEST_CASE("2.2 (2 points) refraction obeys Snell's law on both sides of the normal") {
     INFO("Expected: sin behind = eta sin before, length 1, onwards.\n"
          "Likely: N not turned to the ray, or eta upside down (n_1/n_2).\n"
-         "Read: Refraction; chapter 11.");
+         "Read: Refraction; the chapter Refraction.");
     for (const double theta : {0.0, 0.3, 0.7, 1.2})
         for (const float eta : {1 / 1.5f, 0.75f, 1.05f})
             for (const float side : {1.0f, -1.0f}) {
@@ -70,7 +70,7 @@ TEST_CASE("2.3 (2 points) beyond the critical angle nothing passes") {
 TEST_CASE("2.4 (3 points) Fresnel's share is right at the angles that one knows") {
     INFO("Expected: the mean of both polarisations.\n"
          "Likely: one of them, Schlick, or n_1 and n_2 swapped in Snell's law.\n"
-         "Read: Fresnel; chapter 12.");
+         "Read: Fresnel; the chapter Fresnel.");
     CHECK(fresnel(1, 1, 1.5f) == doctest::Approx(0.04));
     CHECK(fresnel(1e-4f, 1, 1.5f) > 0.99f);
     const double brewster = std::atan(1.5); // one polarisation is not reflected at all
@@ -90,7 +90,7 @@ TEST_CASE("2.5 (3 points) a diffuse surface shows its lamps by cosine and distan
     INFO("Expected: albedo / pi * I cos / r^2, the sum over the lamps, each on the "
          "side that the ray comes from.\n"
          "Likely: 1/pi, r^2, |cos|, or a normal that is not turned to the ray.\n"
-         "Read: Diffuse surfaces; chapter 2.");
+         "Read: Diffuse surfaces; the chapter Radiance.");
     Room room{.objects{diffuse_ball}};
     const Rgb f = Rgb{0.9f, 0.6f, 0.3f} / pi;
     const auto see = [&] { return diffuse_light(room, *nearest(room, down), down); };
@@ -131,7 +131,7 @@ TEST_CASE("2.7 (1 point) a ray sees the sky and diffuse objects") {
 
 TEST_CASE("2.8 (2 points) a mirror shows what lies behind it in its colour") {
     INFO("Expected: the mirror's colour times what the reflected ray sees.\n"
-         "Read: The tree; chapter 17.");
+         "Read: The tree; the chapter Whitted's ray tracing.");
     const Room room{.objects{{ljus::Sphere{{0, 0, 0}, 1}, {Kind::mirror, Rgb{0.5f}}},
                              {ljus::Sphere{{5, 0, 1}, 1}, {.color = Rgb{1}}}},
                     .lamps{{{2, 0, 1}, Rgb{4}}}, // at distance 2 of the diffuse ball
@@ -150,7 +150,7 @@ TEST_CASE("2.9 (3 points) a glass ball in an even sky cannot be seen") {
     INFO("Expected: 1, since R + (1 - R) = 1.\n"
          "Likely: a ray too few, a share twice, a colour or a factor n^2 in the "
          "glass.\n"
-         "Read: The tree; chapter 17.");
+         "Read: The tree; the chapter Whitted's ray tracing.");
     const Room room{.objects{{ljus::Sphere{{0, 0, 0}, 1}, {.kind = Kind::glass}}},
                     .sky = Rgb{1}};
     for (const float beside : {0.0f, 0.3f, 0.7f, 0.9f, 0.97f}) {
@@ -197,7 +197,7 @@ TEST_CASE("2.10 (3 points) glass shows what it lets through and what it throws b
 TEST_CASE("2.11 (1 point) each mirror and each surface of glass uses up depth") {
     INFO("Expected: black when the depth is used up; every mirror and every "
          "surface of glass uses 1, by reflection and by refraction.\n"
-         "Read: The tree; chapter 17.");
+         "Read: The tree; the chapter Whitted's ray tracing.");
     const Room room{
         .objects{
             {ljus::Quad{{-9, -9, 0}, {18, 0, 0}, {0, 18, 0}}, {Kind::mirror, Rgb{1}}},

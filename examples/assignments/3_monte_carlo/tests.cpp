@@ -87,7 +87,7 @@ TEST_CASE("3.1 (2 points) the standard error is that of the mean") {
     INFO("Expected: sqrt(s^2 / n) with s^2 = sum (y - mean)^2 / (n - 1).\n"
          "Likely: n for n - 1, or the deviation of one sample in place of the "
          "mean's.\n"
-         "Read: Estimate; chapter 3.");
+         "Read: Estimate; the chapter Monte Carlo.");
     const Estimate four = estimate({1, 2, 3, 6});
     CHECK(four.mean == doctest::Approx(3));
     CHECK(four.error == doctest::Approx(std::sqrt(14.0 / 3 / 4)));
@@ -126,7 +126,7 @@ TEST_CASE("3.2 (2 points) points of the disc are even in area") {
 TEST_CASE("3.3 (2 points) uniform directions and their density agree") {
     INFO("Expected: 1/(2 pi) above the horizon, 0 below, and z uniform in (0, 1].\n"
          "Likely: the angle uniform in place of its cosine.\n"
-         "Read: Inversion; chapter 13.");
+         "Read: Inversion; the chapter Directions.");
     check_sampler(sample_uniform, pdf_uniform, 1, {0, 0, 1});
     CHECK(pdf_uniform({0, 0, 1}) == doctest::Approx(0.5 / pi));
     CHECK(pdf_uniform(normalize(Vec3{0, 1, -1})) == 0);
@@ -140,7 +140,7 @@ TEST_CASE("3.3 (2 points) uniform directions and their density agree") {
 TEST_CASE("3.4 (2 points) cosine-weighted directions and their density agree") {
     INFO("Expected: cos/pi above the horizon, 0 below, and z > 0 for every u: at "
          "the rim 1 - x^2 - y^2 may round to 0 or below it.\n"
-         "Read: Inversion; chapter 13.");
+         "Read: Inversion; the chapter Directions.");
     check_sampler(sample_cosine, pdf_cosine, 1, {0, 0, 1});
     CHECK(pdf_cosine({0, 0.6f, 0.8f}) == doctest::Approx(0.8 / pi));
     CHECK(pdf_cosine(normalize(Vec3{0, 1, -1})) == 0);
@@ -171,7 +171,7 @@ TEST_CASE("3.6 (3 points) all ways have the mean of the closed form") {
     INFO("Expected: L cos / density, and 0 for a direction of the cone below the "
          "floor.\n"
          "Likely: the cosine forgotten, or negative there.\n"
-         "Read: Irradiance; chapter 2.");
+         "Read: Irradiance; the chapter Radiance.");
     const Night night;
     const Sky sky = night.sky();
     auto stream = course::stream(4);
@@ -199,7 +199,7 @@ TEST_CASE("3.7 (2 points) an even sky costs cosine-weighted directions no noise"
     INFO("Expected: L pi from every cosine-weighted direction, since the cosine "
          "cancels.\n"
          "Likely: the cosine twice.\n"
-         "Read: Irradiance; chapter 13.");
+         "Read: Irradiance; the chapter Directions.");
     const Sky even = [](const Vec3& d) { return d.z > 0 ? 2.0 : 0.0; };
     auto stream = course::stream(6);
     Mean cosine, uniform;
@@ -225,7 +225,7 @@ TEST_CASE("3.9 (4 points) both ways together are right and have less noise") {
          "Likely: a density of the other direction in a weight, weights swapped, a "
          "mean of the two ways, or pdf_cone() = 0 for a direction that was drawn "
          "in the cone.\n"
-         "Read: Two ways; chapter 3.");
+         "Read: Two ways; the chapter Monte Carlo.");
     const Night night;
     const Sky sky = night.sky();
     auto stream = course::stream(7);
@@ -265,7 +265,7 @@ TEST_CASE("3.9 (4 points) both ways together are right and have less noise") {
 TEST_CASE("3.10 (2 points) each cell of the grid gets one point") {
     INFO("Expected: one point in each cell, x and y by chance and independent.\n"
          "Likely: one number for both, or for all cells.\n"
-         "Read: Strata; chapter 3.");
+         "Read: Strata; the chapter Monte Carlo.");
     auto stream = course::stream(8);
     Mean offset, product;
     for (const int n : {1, 3, 8}) {
@@ -292,7 +292,7 @@ TEST_CASE("3.10 (2 points) each cell of the grid gets one point") {
 TEST_CASE("3.11 (1 point) roulette keeps the mean") {
     INFO("Expected: value / chance where u < chance, otherwise 0.\n"
          "Likely: not divided, or divided by the other chance.\n"
-         "Read: Roulette; chapter 3.");
+         "Read: Roulette; the chapter Monte Carlo.");
     auto stream = course::stream(9);
     Mean value;
     int ended = 0;

@@ -81,7 +81,7 @@ TEST_CASE("4.1 (2 points) points are chosen on lamps only and their density is r
     INFO("Expected: density 1/(n A), points even over each lamp.\n"
          "Likely: the choice of the lamp missing in the density, or one random "
          "number for the choice and for the point.\n"
-         "Read: A point of a lamp; chapter 19.");
+         "Read: A point of a lamp; the chapter Path tracing.");
     Room room{.objects{floor_of_half, lamp_at(0, 2, Rgb{1}), lamp_at(5, 2, Rgb{1})}};
     auto stream = course::stream(10);
     Mean left, front, area;
@@ -170,7 +170,7 @@ TEST_CASE("4.7 (3 points) a closed room has the light of all bounces") {
          "Likely: throughput multiplied too early, a cosine twice, a normal that "
          "is not turned, roulette without its division, or a path that ends at a "
          "lamp.\n"
-         "Read: The path; chapter 19.");
+         "Read: The path; the chapter Path tracing.");
     for (const float albedo : {0.2f, 0.5f, 0.8f}) {
         const Globe globe{.albedo = albedo};
         CAPTURE(albedo);
@@ -193,7 +193,7 @@ TEST_CASE("4.8 (3 points) a large lamp is not counted twice") {
 TEST_CASE("4.9 (2 points) paths between white walls end and lose nothing") {
     INFO("Expected: light of hundreds of bounces.\n"
          "Likely: a limit on their number, or roulette without its division.\n"
-         "Read: The end; chapter 19.");
+         "Read: The end; the chapter Path tracing.");
     for (const float r : {0.4f, 0.1f}) { // the small lamp gets little of it back
         const Globe globe{.r = r, .albedo = 0.97f};
         CAPTURE(r);

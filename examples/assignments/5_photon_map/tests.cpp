@@ -86,7 +86,7 @@ TEST_CASE("5.1 (2 points) all photons together carry the flux of all lamps") {
     INFO("Expected: pi L A of each lamp, over its chance and the number of "
          "photons, in the colour of the lamp.\n"
          "Likely: the chance, pi, or the colour missing.\n"
-         "Read: Flux; chapter 22.");
+         "Read: Flux; the chapter Photons.");
     const Room room{.objects{lamp_at(0, Rgb{1, 2, 3}), lamp_at(9, Rgb{3, 3, 3})}};
     auto stream = course::stream(20);
     constexpr int count = 20000;
@@ -106,7 +106,7 @@ TEST_CASE("5.1 (2 points) all photons together carry the flux of all lamps") {
 TEST_CASE("5.2 (2 points) a lamp sends its flux along the cosine") {
     INFO("Expected: cosine-weighted directions around the normal, even over the "
          "lamp, and no further cosine in the flux.\n"
-         "Read: Place and direction; chapter 22.");
+         "Read: Place and direction; the chapter Photons.");
     const Room room{.objects{lamp_at(0, Rgb{1})}};
     auto stream = course::stream(22);
     constexpr int count = 40000;
@@ -131,7 +131,7 @@ TEST_CASE("5.2 (2 points) a lamp sends its flux along the cosine") {
 TEST_CASE("5.3 (2 points) a black wall gets the flux of the lamp") {
     INFO("Expected: each photon stored where it arrives, the first surface "
          "included, with the flux that arrives there.\n"
-         "Read: On its way; chapter 22.");
+         "Read: On its way; the chapter Photons.");
     const Globe globe{.albedo = 0};
     std::vector<Photon> stored;
     CHECK(on_the_wall(globe, 5000, stored).agrees(globe.flux(), 1e-3));
@@ -204,7 +204,7 @@ TEST_CASE("5.6 (1 point) the mean of the kernel over the disc is 1") {
 TEST_CASE("5.7 (3 points) even photons make an even floor whatever their direction") {
     INFO("Expected: albedo/pi E for any direction of the photons.\n"
          "Likely: a cosine, which flux has already, or a factor pi.\n"
-         "Read: The estimate; chapter 24.");
+         "Read: The estimate; the chapter The density estimate.");
     const double exact = 0.5 / pi * 3;
     CHECK(seen(rain(0, {0, 0, -1})) == doctest::Approx(exact).epsilon(0.01));
     CHECK(seen(rain(0, {2, 1, -1})) == doctest::Approx(exact).epsilon(0.01));
@@ -215,7 +215,7 @@ TEST_CASE("5.8 (3 points) only photons of this side of this surface count") {
          "both sides of it.\n"
          "Likely: a normal that is not turned to the ray, or |height| without its "
          "bars.\n"
-         "Read: Which photons; chapter 24.");
+         "Read: Which photons; the chapter The density estimate.");
     std::vector<Photon> photons = rain(0, {0, 0, -1});
     const auto add = [&](const std::vector<Photon>& more) {
         photons.insert(photons.end(), more.begin(), more.end());
@@ -231,7 +231,7 @@ TEST_CASE("5.8 (3 points) only photons of this side of this surface count") {
 TEST_CASE("5.9 (4 points) the map of a closed room shows the light of all bounces") {
     INFO("Expected: emission, bounces and estimate together. If 5.1 to 5.8 pass, "
          "look at what travels from one to the other.\n"
-         "Read: The estimate; chapter 24.");
+         "Read: The estimate; the chapter The density estimate.");
     const Globe globe{.albedo = 0.7f};
     const Room room = globe.room();
     Mean mean;

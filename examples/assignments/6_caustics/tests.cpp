@@ -55,7 +55,7 @@ Fan through(double theta, double drop) {
 TEST_CASE("6.1 (2 points) each light path has the owner that the table says") {
     INFO("Expected: L S+ D S* E.\n"
          "Likely: one S only, a second D, or no S after the diffuse surface.\n"
-         "Read: Which paths; chapter 27.");
+         "Read: Which paths; the chapter Two passes.");
     for (const char* path : {"LSDE", "LSSDE", "LSSSSDE", "LSDSE", "LSSDSSE"}) {
         CAPTURE(path);
         CHECK(belongs_to_caustics_map(path));
@@ -71,7 +71,7 @@ TEST_CASE("6.2 (2 points) the flux towards a ball is that of its cone") {
     INFO("Expected: 2 pi (1 - cos) I.\n"
          "Likely: the whole lamp's 4 pi I, pi (R/d)^2 for a near ball, or 1 - cos "
          "in floats for a far one.\n"
-         "Read: Aiming; chapter 22.");
+         "Read: Aiming; the chapter Photons.");
     // A lamp at sqrt(2) radii sees the ball under 45 degrees.
     const PointLamp near{{0, std::sqrt(2.0f), 0}, Rgb{1, 2, 3}};
     const double cone = 2 * pi * (1 - std::sqrt(0.5));
@@ -116,7 +116,7 @@ TEST_CASE("6.3 (3 points) aimed photons meet the ball and are even in solid angl
 TEST_CASE("6.4 (2 points) only photons that met glass or a mirror arrive") {
     INFO("Expected: nothing for L D, the mirror's colour once for L S D, and "
          "nothing after more than 20 mirrors.\n"
-         "Read: Following; chapter 26.");
+         "Read: Following; the chapter Caustics.");
     Room room = lens(2);
     auto stream = course::stream(32);
     const Flight beside{{.origin{3, 0, 4}, .direction{0, 0, -1}}, Rgb{1}};

@@ -69,7 +69,7 @@ double middle(int number) {
 TEST_CASE("7.1 (3 points) the radius shrinks at the rate that alpha asks for") {
     INFO("Expected: the square of the radius times (i + alpha)/(i + 1).\n"
          "Likely: the radius itself times that, or passes counted from 0.\n"
-         "Read: The radius; chapter 32.");
+         "Read: The radius; the chapter Progressive photons.");
     for (const float alpha : {1.0f / 3, 2.0f / 3, 1.0f}) {
         float radius = 0.5f;
         for (int i = 1; i < 1000; ++i) radius = next_radius(radius, i, alpha);
@@ -118,7 +118,7 @@ TEST_CASE("7.4 (3 points) the standard error is that of the mean even far from 0
     INFO("Expected: sqrt(s/(n (n - 1))), with s the sum of (x - mean)^2.\n"
          "Likely: s/n^2, the deviation of one pass, or squares of large numbers whose "
          "difference is lost in rounding.\n"
-         "Read: The sums; chapter 32.");
+         "Read: The sums; the chapter Progressive photons.");
     Progress progress;
     add_pass(progress, {1.0, 1e9});
     REQUIRE(standard_error(progress).size() == 2);
@@ -152,7 +152,7 @@ TEST_CASE("7.6 (3 points) a pass is right on the average where light is even") {
     INFO("Expected: the irradiance 1 in the middle of the square.\n"
          "Likely: the flux divided by the photons that landed, not by all that were "
          "sent out.\n"
-         "Read: A pass; chapter 22.");
+         "Read: A pass; the chapter Photons.");
     Mean mean;
     for (int number = 1; number <= 2000; ++number) mean.add(middle(number));
     CHECK(mean.mean() > 0);
@@ -186,7 +186,7 @@ TEST_CASE("7.8 (4 points) the passes converge as fast as they should also at an 
         "passes leave of the light; on the edge always one half.\n"
         "Likely: a radius that photon_pass() does not use. If 7.1 to 7.7 pass, look at "
         "what travels from one function to the other.\n"
-        "Read: What converges; chapter 32.");
+        "Read: What converges; the chapter Progressive photons.");
     const std::vector<double> distances{0, 0.05, 0.1, 0.3};
     std::vector<Vec2> points;
     for (const double d : distances) points.push_back({0.1f, 0.5f - float(d)});

@@ -68,7 +68,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 class InstanceT {
 public:
-    using Wide = WideT<T>; ///< Of the inverse map, so that it is as good as the map.
+    using Wide = WideT<T>; ///< For the inverse map: double for float.
 
     /// What an instance is made of.
     struct Data {

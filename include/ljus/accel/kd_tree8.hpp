@@ -143,8 +143,9 @@ public:
                        detail::BallBlocks& found) const {
         detail::find_in_balls(parts_, balls, center, radius, expect, found);
     }
-    /// Calls `visit(index, distance2)` for each point within a closed ball, given as
-    /// for visit_blocks(), with the index in the tree's order and the squared distance.
+    /// Calls `visit(index, distance2)` for each point within a closed ball: its index
+    /// in the tree's order and its squared distance. The ball is given as in
+    /// visit_blocks().
     template <typename Visit>
     void visit_within(const Vec3T<T>& center, T radius, Visit&& visit) const {
         within(center, radius, [&](std::size_t first, std::uint32_t found) {

@@ -90,8 +90,8 @@ template <typename M, std::floating_point T>
     return wi.z < T(0) ? absorption(material) : RgbT<T>{T(0)};
 }
 
-/// Whether light leaves a body along `wi`, perhaps into another around it: then
-/// medium_at() knows what medium_beyond() does not.
+/// Whether light leaves a body along `wi`. Another body may surround it, which
+/// medium_at() finds and medium_beyond() does not.
 template <typename M, std::floating_point T>
 [[nodiscard]] bool leaves_body(const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
     return MayAbsorb<M> && wo.z < T(0) && wi.z > T(0);

@@ -120,8 +120,8 @@ template <AnyWorld W, std::floating_point T>
 namespace detail {
 
 /// The mean of the channels of fog's transmittance: about the probability that fog lets
-/// a path pass. By this factor a scattered ray finds a light less often than a shadow
-/// ray does, and so much less is its weight.
+/// a path pass. A scattered ray finds a light less often than a shadow ray by this
+/// factor, and its weight is smaller by the same factor.
 template <std::floating_point T>
 [[nodiscard]] T passing(const RgbT<T>& transmittance) noexcept {
     return (transmittance.x + transmittance.y + transmittance.z) / T(3);

@@ -252,8 +252,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
     return throughput * light / chosen.probability;
 }
 
-/// The light of one light, chosen by power, that fog on a segment scatters towards the
-/// path: by a shadow ray from a point of equi-angular sampling \cite kulla2012.
+/// What fog on a segment scatters towards the path from one light, chosen by power: a
+/// shadow ray starts at a point from equi-angular sampling \cite kulla2012.
 ///
 /// Flights favour points near the start of the segment, and in thin fog most of them
 /// reach the surface; equi-angular sampling favours points near the light.

@@ -330,7 +330,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     [[nodiscard]] static constexpr bool any_material(F f) noexcept {
         return (f.template operator()<M>() || ...);
     }
-    /// As any_shape(), for lights in their form within a World.
+    /// As any_shape(), for the types of lights that a World makes of them.
     template <typename F>
     [[nodiscard]] static constexpr bool any_light([[maybe_unused]] F f) noexcept {
         return (f.template operator()<InSceneT<L>>() || ...);

@@ -32,8 +32,8 @@ template <std::floating_point T>
     return result;
 }
 
-/// The reach of a search: a limit in double, which decides, and two bounds in T, which
-/// suffice nearly always.
+/// The radius of a search: the limit itself in double, and two bounds in T that decide
+/// for nearly all points.
 ///
 /// A squared distance computed in T has at most five roundings of half an ulp. A
 /// distance up to `sure` is within the limit; one above `last` is beyond it. 16
