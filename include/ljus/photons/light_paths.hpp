@@ -152,7 +152,7 @@ template <AnyWorld W>
         require(!is_moving<G> || list.empty(), "the number of moving shapes",
                 static_cast<long long>(list.size()), "0, or paths differ in time");
     };
-    std::apply([&](const auto&... lists) { (rest(lists), ...); }, world.shapes());
+    each_array(world.shapes(), rest);
 }
 
 } // namespace detail

@@ -222,17 +222,13 @@ template <AnyWorld W>
 /// The number of materials whose facets have slopes beyond a right angle.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] long long steep_materials(const W& world) {
-    const auto count = [](const auto& array) {
-        return std::count_if(array.begin(), array.end(), [](const auto& material) {
+    long long steep = 0;
+    each_array(world.materials(), [&](const auto& array) {
+        for ([[maybe_unused]] const auto& material : array)
             if constexpr (requires { material.sigma > 0; })
-                return material.sigma > decltype(material.sigma)(1.6);
-            else
-                return false;
-        });
-    };
-    return std::apply(
-        [&](const auto&... arrays) { return (0LL + ... + count(arrays)); },
-        world.materials());
+                steep += material.sigma > decltype(material.sigma)(1.6);
+    });
+    return steep;
 }
 
 /// The rule that decides a contact, as the end of a sentence.
