@@ -231,6 +231,16 @@ template <AnyWorld W>
     return steep;
 }
 
+/// Adds a sentence for each rule that decides what is met where surfaces of different
+/// objects lie in one place.
+/// \param type_of  The name of an object's shape, such as "QuadT<float>".
+[[gnu::cold]] LJUS_CORE_INLINE void
+add_contact_remarks(const Contacts& contacts,
+                    FunctionRef<std::string(ObjectId)> type_of,
+                    std::vector<std::string>& remarks);
+
+#ifndef LJUS_CORE // otherwise defined in ljus::core
+
 /// The rule that decides a contact, as the end of a sentence.
 /// \param met    The kind of the surface that is met.
 /// \param other  The kind of the other one.
@@ -260,13 +270,9 @@ contact_rule(const Contact& contact, ContactKind met, ContactKind other) noexcep
                          : nullptr;
 }
 
-/// Adds a sentence for each rule that decides what is met where surfaces of different
-/// objects lie in one place.
-/// \param type_of  The name of an object's shape, such as "QuadT<float>".
-[[gnu::cold]] inline void
-add_contact_remarks(const Contacts& contacts,
-                    FunctionRef<std::string(ObjectId)> type_of,
-                    std::vector<std::string>& remarks) {
+LJUS_CORE_INLINE void add_contact_remarks(const Contacts& contacts,
+                                          FunctionRef<std::string(ObjectId)> type_of,
+                                          std::vector<std::string>& remarks) {
     struct Found {
         const char* rule;
         const Contact* first;
@@ -300,6 +306,8 @@ add_contact_remarks(const Contacts& contacts,
                           "surfaces lie in one place, their order may decide what is "
                           "met");
 }
+
+#endif
 
 /// The share of all directions in which the middle of a scene sees a sky: about half in
 /// the open, little in a room with a window, and 0 without a sky.
