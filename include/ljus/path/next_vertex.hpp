@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "ljus/geometry/shape.hpp"
 #include "ljus/image/texture.hpp"

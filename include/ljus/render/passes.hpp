@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <limits>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "ljus/hook.hpp"
