@@ -78,9 +78,23 @@ LJUS_CORE_EXTERN template LightChoice start_pass<float>(const PhotonPassSettings
                                                         LightChoice);
 LJUS_CORE_EXTERN template TracedPhotonsT<float>
 run_pass(MapType, const PhotonPassSettings&, BlockTracerT<float>);
+LJUS_CORE_EXTERN template bool scatter_photon(PathStateT<float>&, const VertexT<float>&,
+                                              const Lambertian&, MapType, SobolStream&,
+                                              FluxAudit&, bool);
+LJUS_CORE_EXTERN template bool scatter_photon(PathStateT<float>&, const VertexT<float>&,
+                                              const OrenNayar&, MapType, SobolStream&,
+                                              FluxAudit&, bool);
+LJUS_CORE_EXTERN template bool scatter_photon(PathStateT<float>&, const VertexT<float>&,
+                                              const Mirror&, MapType, SobolStream&,
+                                              FluxAudit&, bool);
+LJUS_CORE_EXTERN template bool scatter_photon(PathStateT<float>&, const VertexT<float>&,
+                                              const Glass&, MapType, SobolStream&,
+                                              FluxAudit&, bool);
+LJUS_CORE_EXTERN template Sphere sphere_around(const std::vector<Sphere>&);
 } // namespace detail
 LJUS_CORE_EXTERN template PhotonMap make_photon_map(const std::vector<Photon>&, int);
 LJUS_CORE_EXTERN template float typical_radius(const PhotonMap&, std::size_t);
+LJUS_CORE_EXTERN template PhotonMap lone_photons(const PhotonMap&, float);
 LJUS_CORE_EXTERN template RgbT<double>
 detail::flux_in_disc(const KdTree8&, const detail::PhotonRecordsT<float>&,
                      const detail::FluxDiscT<float>&, std::uint64_t&);
@@ -100,6 +114,7 @@ LJUS_CORE_EXTERN template Rgb estimate_radiance(const PhotonMap&, const VertexT<
                                                 PhotonKinds, std::uint64_t&);
 
 // Pictures.
+LJUS_CORE_EXTERN template Vec2 detail::sample_filter_axis(Filter, float);
 LJUS_CORE_EXTERN template Camera look_at(const ViewT<float>&);
 LJUS_CORE_EXTERN template Bytes encode_png(const Image&, const PngSettings&);
 LJUS_CORE_EXTERN template void save_png(const Image&, const std::string&,

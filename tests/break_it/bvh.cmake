@@ -60,10 +60,10 @@ ljus_break_it(NAME triangle-bvh-start HEADER accel/triangle_bvh.hpp TEST bvh8
 
 # Of two types of shapes the second is numbered as the first.
 ljus_break_it(NAME world-type HEADER scene/world.hpp TEST world
-    FROM "all.push_back({type, i});
+    FROM "all[next] = {type, i};
             }
             ++type;"
-    TO   "all.push_back({type, i});
+    TO   "all[next] = {type, i};
             }
             type += 0;"
     CASES "world: in double*")

@@ -26,8 +26,8 @@ ljus_break_it(NAME scene-aim-density HEADER photons/scene_aim.hpp TEST scene_aim
 
 # A far lamp belongs to the scene, whose sphere is then as large as its distance.
 ljus_break_it(NAME scene-aim-far-lamp HEADER photons/scene_aim.hpp TEST scene_aim
-    FROM "return !lamp ||"
-    TO   "return true || !lamp ||"
+    FROM "<= lamp.radius + matt.radius"
+    TO   ">= 0"
     CASES "scene aim: the sphere*,scene aim: far lamps*")
 
 # The sphere of the box, not of the objects.

@@ -182,7 +182,7 @@ public:
     ///                others are unsorted.
     /// \param wanted  Called with an index in the tree's order; false skips the point.
     /// \tparam Most   Upper bound of found.size(); up to 512 no code for a heap is
-    ///                generated.
+    ///                generated, nor for a single point.
     /// \return The number of points found. A tie is broken arbitrarily, but always in
     ///         the same way.
     /// \cost On average O(log n) and some steps per wanted point, even if many points
@@ -193,7 +193,8 @@ public:
                                       std::span<Neighbor> found,
                                       Wanted wanted = {}) const {
         if (found.empty() || parts_.blocks.empty()) return 0;
-        if constexpr (std::is_same_v<Wanted, detail::AnyPoint>)
+        if constexpr (Most > detail::max_counted &&
+                      std::is_same_v<Wanted, detail::AnyPoint>)
             if (found.size() == 1) {
                 const auto one = nearest(center, radius);
                 if (one) found[0] = *one;

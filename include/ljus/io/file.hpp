@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/file.hpp
-/// \brief Writes files whole or not at all, and reads them up to a limit.
+/// \brief Reads files up to a limit.
 
 #include <algorithm>
 #include <cerrno>
@@ -28,8 +28,7 @@
 
 namespace ljus {
 
-/// \defgroup file Files
-/// \brief A save that fails leaves no half-written file, and keeps the older one.
+/// \addtogroup file
 /// \{
 
 namespace detail {
@@ -63,27 +62,6 @@ inline std::string one_path(const std::string& path) {
 }
 
 } // namespace detail
-
-/// Writes a file beside `path`, and renames it once every write, the flush and the
-/// close have succeeded. If anything fails, an older file is unchanged and nothing else
-/// is left. The new file has the older one's permissions. (A program that wants to
-/// receive the error of a file-size limit must ignore SIGXFSZ.)
-/// \throws std::runtime_error  "cannot write 'out/a.png': No space left on device.".
-[[gnu::cold]] inline void save_file(const std::string& path, const Bytes& bytes) {
-    detail::FileBeside file(detail::file_to_replace(path));
-    file.write(bytes);
-    file.close();
-    file.rename_to_path();
-}
-
-/// Tests whether save_file() could write a file, before work is done: writes one byte
-/// beside it, and removes that again.
-/// \throws std::runtime_error  as save_file().
-inline void require_writable(const std::string& path) {
-    detail::FileBeside probe(detail::file_to_replace(path));
-    probe.write({0});
-    probe.close();
-}
 
 /// The files that load_file() is asked for, by one thread and while the list exists:
 /// what a scene was made of, meshes, materials and pictures included, as it was when it

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/io/file_beside.hpp
-/// \brief The new file beside an older one, which it replaces when it is complete.
+/// \brief Writes files whole or not at all: a new file beside the older one replaces
+/// it when it is complete.
 
 #include <cerrno>
 #include <cstddef>
@@ -28,7 +29,8 @@
 
 namespace ljus {
 
-/// \addtogroup file
+/// \defgroup file Files
+/// \brief A save that fails leaves no half-written file, and keeps the older one.
 /// \{
 
 /// The content of a file.
@@ -201,6 +203,27 @@ private:
 };
 
 } // namespace detail
+
+/// Writes a file beside `path`, and renames it once every write, the flush and the
+/// close have succeeded. If anything fails, an older file is unchanged and nothing else
+/// is left. The new file has the older one's permissions. (A program that wants to
+/// receive the error of a file-size limit must ignore SIGXFSZ.)
+/// \throws std::runtime_error  "cannot write 'out/a.png': No space left on device.".
+[[gnu::cold]] inline void save_file(const std::string& path, const Bytes& bytes) {
+    detail::FileBeside file(detail::file_to_replace(path));
+    file.write(bytes);
+    file.close();
+    file.rename_to_path();
+}
+
+/// Tests whether save_file() could write a file, before work is done: writes one byte
+/// beside it, and removes that again.
+/// \throws std::runtime_error  as save_file().
+inline void require_writable(const std::string& path) {
+    detail::FileBeside probe(detail::file_to_replace(path));
+    probe.write({0});
+    probe.close();
+}
 
 /// \}
 

@@ -60,7 +60,7 @@
 
 #include "ljus/image/color.hpp"
 #include "ljus/image/image.hpp"
-#include "ljus/io/file.hpp"
+#include "ljus/io/file_beside.hpp"
 
 namespace ljus {
 

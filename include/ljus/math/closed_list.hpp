@@ -39,4 +39,16 @@ decltype(auto) visit_element(const Tuple& arrays, std::uint32_t type,
     return f(std::get<I>(arrays)[index]);
 }
 
+/// Calls f(array) with each array of a tuple. All have different types.
+template <typename... A, typename F>
+void each_array([[maybe_unused]] const std::tuple<A...>& arrays, F&& f) {
+    (f(std::get<A>(arrays)), ...);
+}
+
+/// Whether f(array) is true for an array of a tuple; those after it are not asked.
+template <typename... A, typename F>
+[[nodiscard]] bool any_array([[maybe_unused]] const std::tuple<A...>& arrays, F&& f) {
+    return (f(std::get<A>(arrays)) || ...);
+}
+
 } // namespace ljus::detail

@@ -53,7 +53,7 @@ void visit_fog(const W& world, std::uint32_t number, F&& f) {
         if (number < list.size()) f(list[number]);
         number -= static_cast<std::uint32_t>(list.size()); // wraps once it was found
     };
-    std::apply([&](const auto&... lists) { (visit(lists), ...); }, world.media());
+    detail::each_array(world.media(), visit);
 }
 
 /// Calls f(number, medium, span) for each medium on a segment, with the part of the ray
@@ -67,7 +67,7 @@ void each_fog_on(const W& world, const RayT<T>& ray, F&& f) {
             ++number;
         }
     };
-    std::apply([&](const auto&... lists) { (ask(lists), ...); }, world.media());
+    detail::each_array(world.media(), ask);
 }
 
 namespace detail {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "ljus/geometry/shape.hpp"
 #include "ljus/image/texture.hpp"
@@ -307,27 +308,17 @@ template <AnyWorld W, std::floating_point T>
 /// type.
 template <AnyWorld W>
 [[nodiscard]] bool has_thin_surfaces(const W& world) noexcept {
-    return std::apply(
-        [](const auto&... array) {
-            return ((ThinSurface<
-                         typename std::remove_cvref_t<decltype(array)>::value_type> &&
-                     !array.empty()) ||
-                    ...);
-        },
-        world.materials());
+    return any_array(world.materials(), []<typename M>(const std::vector<M>& array) {
+        return ThinSurface<M> && !array.empty();
+    });
 }
 
 /// Whether a scene has a shape that moves; false if it only lists such a type.
 template <AnyWorld W>
 [[nodiscard]] bool has_moving(const W& world) noexcept {
-    return std::apply(
-        [](const auto&... array) {
-            return (
-                (is_moving<typename std::remove_cvref_t<decltype(array)>::value_type> &&
-                 !array.empty()) ||
-                ...);
-        },
-        world.shapes());
+    return any_array(world.shapes(), []<typename G>(const std::vector<G>& array) {
+        return is_moving<G> && !array.empty();
+    });
 }
 
 /// Samples the time of a new path while the shutter is open \cite cook1984.
@@ -531,7 +522,7 @@ template <AnyWorld W, std::floating_point T>
             if (const auto span = span_in(medium, ray))
                 depth += (span->last - span->first) * unit * extinction(medium);
     };
-    std::apply([&](const auto&... lists) { (add(lists), ...); }, world.media());
+    detail::each_array(world.media(), add);
     return depth;
 }
 // [optical depth]

@@ -154,15 +154,14 @@ template <AnyWorld W>
         require(!is_moving<G> || list.empty(), "the number of moving shapes",
                 static_cast<long long>(list.size()), "0, or paths differ in time");
     };
-    std::apply([&](const auto&... lists) { (rest(lists), ...); }, world.shapes());
+    each_array(world.shapes(), rest);
     const auto one_index = []<typename M>(const std::vector<M>& list) {
         require(!Dispersive<M> || list.empty(),
                 "the number of materials that disperse light",
                 static_cast<long long>(list.size()),
                 "0, or joined paths differ in wavelength");
     };
-    std::apply([&](const auto&... lists) { (one_index(lists), ...); },
-               world.materials());
+    each_array(world.materials(), one_index);
 }
 
 } // namespace detail

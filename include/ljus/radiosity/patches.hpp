@@ -94,7 +94,7 @@ void each_shape(const W& world, F f) {
             f(shapes[i], ObjectId{type, i});
         ++type;
     };
-    std::apply([&](const auto&... shapes) { (all(shapes), ...); }, world.shapes());
+    each_array(world.shapes(), all);
 }
 
 // True if anything in the scene may lie in front of a side of a flat shape. A ball

@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <limits>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "ljus/hook.hpp"
@@ -222,18 +221,24 @@ template <AnyWorld W>
 /// The number of materials whose facets have slopes beyond a right angle.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] long long steep_materials(const W& world) {
-    const auto count = [](const auto& array) {
-        return std::count_if(array.begin(), array.end(), [](const auto& material) {
+    long long steep = 0;
+    each_array(world.materials(), [&](const auto& array) {
+        for ([[maybe_unused]] const auto& material : array)
             if constexpr (requires { material.sigma > 0; })
-                return material.sigma > decltype(material.sigma)(1.6);
-            else
-                return false;
-        });
-    };
-    return std::apply(
-        [&](const auto&... arrays) { return (0LL + ... + count(arrays)); },
-        world.materials());
+                steep += material.sigma > decltype(material.sigma)(1.6);
+    });
+    return steep;
 }
+
+/// Adds a sentence for each rule that decides what is met where surfaces of different
+/// objects lie in one place.
+/// \param type_of  The name of an object's shape, such as "QuadT<float>".
+[[gnu::cold]] LJUS_CORE_INLINE void
+add_contact_remarks(const Contacts& contacts,
+                    FunctionRef<std::string(ObjectId)> type_of,
+                    std::vector<std::string>& remarks);
+
+#ifndef LJUS_CORE // otherwise defined in ljus::core
 
 /// The rule that decides a contact, as the end of a sentence.
 /// \param met    The kind of the surface that is met.
@@ -264,13 +269,9 @@ contact_rule(const Contact& contact, ContactKind met, ContactKind other) noexcep
                          : nullptr;
 }
 
-/// Adds a sentence for each rule that decides what is met where surfaces of different
-/// objects lie in one place.
-/// \param type_of  The name of an object's shape, such as "QuadT<float>".
-[[gnu::cold]] inline void
-add_contact_remarks(const Contacts& contacts,
-                    FunctionRef<std::string(ObjectId)> type_of,
-                    std::vector<std::string>& remarks) {
+LJUS_CORE_INLINE void add_contact_remarks(const Contacts& contacts,
+                                          FunctionRef<std::string(ObjectId)> type_of,
+                                          std::vector<std::string>& remarks) {
     struct Found {
         const char* rule;
         const Contact* first;
@@ -304,6 +305,8 @@ add_contact_remarks(const Contacts& contacts,
                           "surfaces lie in one place, their order may decide what is "
                           "met");
 }
+
+#endif
 
 /// The share of all directions in which the middle of a scene sees a sky: about half in
 /// the open, little in a room with a window, and 0 without a sky.

@@ -313,9 +313,9 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
         const double by = contact_distance(box, std::numeric_limits<float>::epsilon());
         return Box{Vec3((box.low - by) / unit), Vec3((box.high + by) / unit)};
     };
-    std::vector<Box> boxes;
-    for (const ContactObject& object : search.objects)
-        boxes.push_back(in_units(object.box));
+    std::vector<Box> boxes(search.objects.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        boxes[i] = in_units(search.objects[i].box);
     const LookTree whole(std::move(boxes), looks);
     ContactPieces pieces;
     for (std::uint32_t i = 0; i < whole.size(); ++i) {

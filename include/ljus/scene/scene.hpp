@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <memory>
+#include <list>
 #include <stdexcept>
 #include <tuple>
 #include <vector>
@@ -106,15 +106,15 @@ public:
     Prototypes& operator=(Prototypes&&) = default; ///< References stay valid.
     /// Keeps one.
     const P& keep(P one) {
-        kept_.push_back(std::make_unique<const P>(std::move(one)));
-        return *kept_.back();
+        kept_.push_back(std::move(one));
+        return kept_.back();
     }
     /// \throws std::invalid_argument  if a shape refers to what is not kept.
     template <typename S>
     void require_kept(const S& shape) const {
         if constexpr (!std::is_void_v<typename PrototypeOf<S>::type>) {
             const auto is_it = [mesh = &prototype(shape)](const auto& one) {
-                return one.get() == mesh;
+                return &one == mesh;
             };
             if (std::none_of(kept_.begin(), kept_.end(), is_it))
                 throw std::invalid_argument(
@@ -124,7 +124,7 @@ public:
     }
 
 private:
-    std::vector<std::unique_ptr<const P>> kept_;
+    std::list<P> kept_; // which are not moved when one is added
 };
 /// Shapes that refer to nothing.
 template <>
@@ -365,11 +365,9 @@ private:
 
     bool has(MaterialId id) const noexcept {
         std::uint32_t type = 0;
-        return std::apply(
-            [&](const auto&... array) {
-                return ((type++ == id.type && id.index < array.size()) || ...);
-            },
-            materials);
+        return detail::any_array(materials, [&](const auto& array) {
+            return type++ == id.type && id.index < array.size();
+        });
     }
 };
 

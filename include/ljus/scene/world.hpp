@@ -191,9 +191,11 @@ public:
         find_bounds();
         make_frames();
         make_tree();
-        std::apply([](const auto&... lists) { (check_all(lists), ...); },
-                   scene.materials);
-        std::apply([](const auto&... lists) { (check_all(lists), ...); }, fog_);
+        const auto check_all = [](const auto& list) {
+            for (const auto& element : list) check(element);
+        };
+        detail::each_array(scene.materials, check_all);
+        detail::each_array(fog_, check_all);
         close_lights(scene);
         materials_ = std::move(scene.materials);
         if constexpr (any_material([]<typename M>() { return MayAbsorb<M>; }))
@@ -248,8 +250,7 @@ public:
     [[nodiscard]] const auto& media() const noexcept { return fog_; }
     /// Whether the scene has a medium.
     [[nodiscard]] bool has_fog() const noexcept {
-        return std::apply([](const auto&... lists) { return (!lists.empty() || ...); },
-                          fog_);
+        return detail::any_array(fog_, [](const auto& list) { return !list.empty(); });
     }
 
     /// The properties of an object.
@@ -264,10 +265,10 @@ public:
     /// \param light  Its number.
     [[nodiscard]] bool can_be_met(std::uint32_t light) const {
         if constexpr (any_light([]<typename L>() { return FillsSky<L>; }))
-            if (lights_[light].type > 0)
+            if (lights_[light].is_light)
                 return visit_light(light,
                                    []<typename L>(const L&) { return FillsSky<L>; });
-        return lights_[light].type == 0;
+        return !lights_[light].is_light;
     }
     /// Calls f(shape) with the shape of an object, in its own type.
     template <typename F>
@@ -283,10 +284,9 @@ public:
     /// object, otherwise its form within a World.
     template <typename F>
     decltype(auto) visit_light(std::uint32_t number, F&& f) const {
-        const LightId& id = lights_[number];
+        const AddedId& id = lights_[number];
         if constexpr (std::tuple_size_v < Kept >> 0)
-            if (id.type > 0)
-                return detail::visit_element(kept_, id.type - 1, id.index, f);
+            if (id.is_light) return detail::visit_element(kept_, id.type, id.index, f);
         const Lamp& lamp = lamps_[id.index];
         return visit_shape(lamp.object, [&]<typename G>(const G& shape) {
             return f(AreaLightT<G>{shape, lamp.known});
@@ -311,18 +311,10 @@ public:
 
 private:
     using Kept = typename detail::KeptLights<decltype(S::lights)>::Type;
-    struct LightId {
-        std::uint32_t type = 0;  // 0: a lamp; else one more than in Lights<...>
-        std::uint32_t index = 0; // in lamps_ or in the type's array
-    };
     struct Lamp {
         ObjectId object;
         LampT<Scalar> known;
     };
-
-    static void check_all(const auto& list) {
-        for (const auto& element : list) check(element);
-    }
 
     void find_bounds() {
         std::size_t type = 0;
@@ -340,7 +332,7 @@ private:
             size_ += list.size();
             ++type;
         };
-        std::apply([&](const auto&... lists) { (add(lists), ...); }, shapes_);
+        detail::each_array(shapes_, add);
         if (size_ == 0) box_ = {Vec3T<Scalar>{0}, Vec3T<Scalar>{0}};
     }
 
@@ -349,33 +341,36 @@ private:
     void make_frames() {
         std::size_t type = 0;
         const auto add = [&]<typename G>(const std::vector<G>& list) {
-            if constexpr (detail::is_plane<G>)
+            if constexpr (detail::is_plane<G>) {
+                auto& frames = frames_[type] = std::vector<FrameT<Scalar>>(list.size());
                 for (std::size_t i = 0; i < list.size(); ++i) {
                     const auto n = normal(list[i]);
-                    frames_[type].push_back(
-                        frame_around(objects_[type][i].inside_out ? -n : n));
+                    frames[i] = frame_around(objects_[type][i].inside_out ? -n : n);
                 }
+            }
             ++type;
         };
-        std::apply([&](const auto&... lists) { (add(lists), ...); }, shapes_);
+        detail::each_array(shapes_, add);
     }
 
     void make_tree() {
         if (!detail::needs_tree(size_)) return;
-        std::vector<BoxT<Scalar>> boxes;
-        std::vector<ObjectId> all;
+        std::vector<BoxT<Scalar>> boxes(size_);
+        std::vector<ObjectId> all(size_);
+        std::size_t next = 0;
         std::uint32_t type = 0;
         const auto add = [&](const auto& list) {
-            for (std::uint32_t i = 0; i < list.size(); ++i) {
-                boxes.push_back(detail::box_around(list[i]));
-                all.push_back({type, i});
+            for (std::uint32_t i = 0; i < list.size(); ++i, ++next) {
+                boxes[next] = detail::box_around(list[i]);
+                all[next] = {type, i};
             }
             ++type;
         };
-        std::apply([&](const auto&... lists) { (add(lists), ...); }, shapes_);
+        detail::each_array(shapes_, add);
         tree_ = Tree(boxes, {.leaf_size = 1});
-        for (const std::uint32_t primitive : tree_.primitive_ids())
-            ids_.push_back(all[primitive]);
+        ids_ = std::vector<ObjectId>(size_);
+        for (std::size_t slot = 0; slot < size_; ++slot)
+            ids_[slot] = all[tree_.primitive_ids()[slot]];
     }
 
     [[gnu::cold]] void find_media() {
@@ -394,7 +389,7 @@ private:
                 });
             ++type;
         };
-        std::apply([&](const auto&... lists) { (add(lists), ...); }, shapes_);
+        detail::each_array(shapes_, add);
         for (std::size_t i = 0; i < bodies.size(); ++i) {
             const auto& [box, absorbs] = bodies[i];
             if (!absorbs) continue;
@@ -416,7 +411,7 @@ private:
         const auto add = [&](const auto& list) {
             for (const auto& medium : list) all = box_union(all, bounds(medium));
         };
-        std::apply([&](const auto&... lists) { (add(lists), ...); }, fog_);
+        detail::each_array(fog_, add);
         const Vec3T<Scalar> half = (all.high - all.low) / Scalar(2);
         return {.center = all.low + half, .radius = Scalar(1.001) * glm::length(half)};
     }
@@ -435,7 +430,7 @@ private:
         (std::make_index_sequence<std::tuple_size_v<Kept>>{});
         for (const AddedId& added : scene.order)
             if (added.is_light)
-                add_light({added.type + 1, added.index});
+                add_light(added);
             else
                 add_lamp(scene, {added.type, added.index});
         choice_ = ljus::light_choice(powers_);
@@ -452,10 +447,10 @@ private:
                     {id, detail::make_lamp(shape, object.emission, object.inside_out)});
         });
         object.light = static_cast<std::uint32_t>(lights_.size());
-        add_light({0, static_cast<std::uint32_t>(lamps_.size() - 1)});
+        add_light({0, static_cast<std::uint32_t>(lamps_.size() - 1), false});
     }
 
-    [[gnu::cold]] void add_light(LightId id) {
+    [[gnu::cold]] void add_light(const AddedId& id) {
         lights_.push_back(id);
         powers_.push_back(visit_light(static_cast<std::uint32_t>(lights_.size() - 1),
                                       [](const auto& light) { return power(light); }));
@@ -479,7 +474,7 @@ private:
     std::vector<ObjectId> ids_{};
     Kept kept_{};
     std::vector<Lamp> lamps_{};
-    std::vector<LightId> lights_{};
+    std::vector<AddedId> lights_{}; // of kept_; of a lamp the index is that in lamps_
     std::vector<RgbT<Scalar>> powers_{};
     LightChoice choice_{};
     Contacts contacts_{};
@@ -638,7 +633,7 @@ closest_hit_plain(const World<S, Compute>& world, const RayT<T>& asked) {
         }
         ++type;
     };
-    std::apply([&](const auto&... shapes) { (ask_all(shapes), ...); }, world.shapes());
+    detail::each_array(world.shapes(), ask_all);
     if (closest && world.may_share_place(asked, closest->at.t))
         return place_of(world, asked, *closest).met;
     return closest;
@@ -655,8 +650,7 @@ template <typename S, typename Compute, std::floating_point T>
             if (detail::is_met<Compute>(ray, shape)) return true;
         return false;
     };
-    return std::apply([&](const auto&... shapes) { return (any(shapes) || ...); },
-                      world.shapes());
+    return detail::any_array(world.shapes(), any);
 }
 
 /// The first object that a ray meets, found by the tree. The result is the same as that
