@@ -172,26 +172,22 @@ concept MayAbsorb = requires(const detail::Own<M>& m) {
     absorption(m);
 };
 
+/// The material of a transparent body: it provides `refractive_index(m)`, which is 0 if
+/// it is opaque after all. What it is at a point (material_at()) has a member `index`.
+template <typename M>
+concept Refractive = requires(const M& m) {
+    { refractive_index(m) } -> std::same_as<typename M::Scalar>;
+};
+
 /// A material whose body touches another one instead of air. At the boundary only the
 /// ratio of the indices counts.
 /// \param m        The material.
 /// \param outside  Index of refraction of the other body.
-template <typename M>
-requires requires(M m, typename M::Scalar outside) {
-    m.index /= outside;
-}
+template <Refractive M>
 [[nodiscard]] constexpr M relative_to(M m, typename M::Scalar outside) noexcept {
     m.index /= outside;
     return m;
 }
-
-/// The material of a transparent body: it provides `refractive_index(m)`, which is 0 if
-/// it is opaque after all, and a member `index`.
-template <typename M>
-concept Refractive = requires(M m) {
-    { refractive_index(m) } -> std::same_as<typename M::Scalar>;
-    relative_to(m, refractive_index(m));
-};
 
 /// The material of a body that light enters: it has an index or a medium inside.
 template <typename M>

@@ -86,14 +86,6 @@ template <Refractive Base>
     return refractive_index(nested.base);
 }
 
-/// The same, against another body than air.
-template <Refractive Base>
-[[nodiscard]] constexpr Nested<Base>
-relative_to(Nested<Base> nested, typename Base::Scalar outside) noexcept {
-    nested.base = relative_to(nested.base, outside);
-    return nested;
-}
-
 /// The absorption coefficient inside, per scene unit.
 template <typename Base>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
