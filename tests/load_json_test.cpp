@@ -129,7 +129,7 @@ TEST_CASE("load_json: everything in the file is in the scene") {
     CHECK(mirrors[0].reflectance == Rgb{0.9f, 0.8f, 0.7f});
     const auto& glasses = std::get<3>(scene.materials);
     REQUIRE(glasses.size() == 1);
-    CHECK(glasses[0].index == 1.5f);
+    CHECK(glasses[0].base.index == 1.5f);
     const World world(std::move(loaded.scene));
     CHECK(world
               .visit_material(world.object({0, 0}).material,
@@ -440,7 +440,8 @@ TEST_CASE("load_json: the names of C++ are read as well, but not both") {
                                 "{\"type\": \"glass\", \"index\": 1.25}"),
                         "a.json")
             .scene;
-    CHECK(std::get<std::vector<Glass>>(scene.materials).at(0).index == 1.25f);
+    CHECK(std::get<std::vector<Nested<Glass>>>(scene.materials).at(0).base.index ==
+          1.25f);
     const auto camera =
         read_json_scene(changed("\"look_at\"", "\"target\""), "a.json").camera;
     CHECK(camera.pinhole.forward == Vec3{0, 0, -1});
@@ -624,14 +625,23 @@ TEST_CASE("load_json: each name makes its own material") {
           evaluate(compensated_glossy(copper_), wo, wi));
     const LoadedScene green = read_json_scene(
         with(R"({"type": "dielectric", "ior": 1.25, "absorption": [3, 0, 3]})"), "a");
-    CHECK(std::get<std::vector<Glass>>(green.scene.materials).at(0).absorption ==
-          Rgb{3, 0, 3});
+    const auto& made = std::get<std::vector<Nested<Glass>>>(green.scene.materials);
+    CHECK(made.at(0).base.absorption == Rgb{3, 0, 3});
+    CHECK(made.at(0).priority == 0);
+    const World in_order(
+        read_json_scene(with(R"({"type": "dielectric", "ior": 1.3, "priority": 2})"),
+                        "a")
+            .scene);
+    CHECK(in_order.has_priorities());
+    CHECK_FALSE(
+        World(read_json_scene(with(R"({"type": "dielectric", "ior": 1.3})"), "a").scene)
+            .has_priorities());
     const LoadedScene frosted =
         read_json_scene(with(R"({"type": "rough-glass", "ior": 1.25, "roughness": 0.5,
                                  "absorption": [3, 0, 3]})"),
                         "a");
     const RoughGlass frost =
-        std::get<std::vector<RoughGlass>>(frosted.scene.materials).at(0);
+        std::get<std::vector<Nested<RoughGlass>>>(frosted.scene.materials).at(0).base;
     CHECK(frost.index == 1.25f);
     CHECK(frost.roughness == 0.5f);
     CHECK(frost.absorption == Rgb{3, 0, 3});

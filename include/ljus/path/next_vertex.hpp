@@ -391,7 +391,7 @@ struct PassageT {
 
 /// Traces a path through thin surfaces and hidden ones. At each thin one the path stops
 /// for reflection with the mean reflectance of the channels as probability, or passes.
-/// \param path    Receives the last segment of its ray, and the bodies before and behind
+/// \param path    Receives the last segment of its ray, and the bodies on both sides of
 ///                the surface where it stops.
 /// \param hit     The first hit of the ray; receives that of its last segment.
 /// \param stream  One number is drawn per thin surface.
@@ -470,8 +470,8 @@ medium_of_rank(const W& world, std::uint8_t rank) {
 
 } // namespace detail
 
-/// The absorption in the innermost body around a ray's origin, or in that of the highest
-/// priority. A body contains the origin if the ray leaves its surface without having
+/// The absorption in the innermost body around a ray's origin; with priorities in the
+/// highest one. A body contains the origin if the ray leaves its surface without having
 /// entered it. Opaque surfaces are ignored. Bodies are closed, and consist of one shape
 /// or several.
 /// \return Per scene unit; nothing outside all bodies.

@@ -81,7 +81,6 @@ SurfacePointT<T> each_body_at(const W& world, const RayT<T>& ray,
 /// \param known  The bodies before the hit, as far as they are known. A body that ends
 ///               at the hit is among them.
 /// \cost Two surface points; in contact with others two searches of the place.
-// [crossing]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] CrossingT<T> crossing_at(const W& world, const RayT<T>& ray,
                                        const SceneHitT<T>& hit, const BodyList& known) {
@@ -89,6 +88,7 @@ template <AnyWorld W, std::floating_point T>
     if (!world.has_priorities() ||
         world.rank_of(world.object(hit.object).material) == 0)
         return crossing;
+    // [crossing]
     const auto cross = [&](std::uint8_t rank, const SceneHitT<T>&, bool front) {
         if (front) {
             crossing.behind = crossing.behind.with(rank);
@@ -101,6 +101,7 @@ template <AnyWorld W, std::floating_point T>
     detail::each_body_at(world, ray, hit, cross);
     const std::uint8_t from = crossing.before.top(), to = crossing.behind.top();
     crossing.hidden = from == to;
+    // [crossing]
     const auto choose = [&](std::uint8_t rank, const SceneHitT<T>& at, bool front) {
         if (rank != (front ? to : from) || crossing.entered) return;
         crossing.hit.at = at.at;
@@ -110,7 +111,6 @@ template <AnyWorld W, std::floating_point T>
     detail::each_body_at(world, ray, hit, choose);
     return crossing;
 }
-// [crossing]
 
 /// All bodies around a ray's origin: those whose surface the ray leaves without having
 /// entered it. Bodies are closed, and consist of one shape or several.
