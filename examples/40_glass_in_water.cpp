@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
         line.about("Chapter 40, rough glass, and glass in water: bodies that overlap.");
         const examples::Options options =
             line.parse({.draft{.width = 200, .height = 200, .samples = 16},
-                        .report{.width = 400, .height = 400, .samples = 64},
+                        .report{.width = 300, .height = 300, .samples = 36},
                         .reference{.width = 1000, .height = 1000, .samples = 2048}});
         for (const int rank : {1, 0}) {
             Table table;
@@ -72,15 +72,15 @@ int main(int argc, char** argv) {
             const PhotonMapper mapper(
                 world, {.split_glass = true,
                         .indirect = IndirectLight::photons,
-                        .caustics{.photons = options.pick(50000, 1000000, 5000000),
+                        .caustics{.photons = options.pick(20000, 50000, 5000000),
                                   .seed = options.seed,
                                   .threads = options.threads},
-                        .general{.photons = options.pick(20000, 300000, 3000000),
+                        .general{.photons = options.pick(10000, 20000, 3000000),
                                  .seed = options.seed,
                                  .shadow_photons = false,
                                  .threads = options.threads},
-                        .caustics_estimate{.radius = options.pick(0.08f, 0.03f, 0.02f)},
-                        .general_estimate{.radius = options.pick(0.3f, 0.2f, 0.1f)}});
+                        .caustics_estimate{.radius = options.pick(0.1f, 0.08f, 0.02f)},
+                        .general_estimate{.radius = options.pick(0.4f, 0.3f, 0.1f)}});
             const char* const name = rank ? "glass_in_water" : "glass_in_water-none";
             const auto picture = examples::rendered(name, mapper, camera, options);
             save_png(picture.image, options.path(std::string(name) + ".png"));
