@@ -955,8 +955,8 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
          "fon, eon, metal, rough-metal, full-rough-metal, glossy, full-glossy, "
          "rough-glass, thin-glass, soap-film, checker or picture."},
         {"\"ior\": 1.5", "\"ior\": 1.5, \"tint\": [1, 1, 1]",
-         "materials.glass.tint is not known; the fields here are type, ior and "
-         "absorption."},
+         "materials.glass.tint is not known; the fields here are type, ior, "
+         "absorption and priority."},
         {"\"type\": \"sphere\"", "\"type\": \"cube\"",
          "objects[2].type is \"cube\"; it must be sphere, triangles, mesh, instances, "
          "quad, box, disc or cylinder."},

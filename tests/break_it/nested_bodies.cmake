@@ -56,13 +56,6 @@ ljus_break_it(NAME nested_bodies-unknown HEADER scene/nested_bodies.hpp
     TO   ""
     CASES "nested bodies: what a ray crosses*")
 
-# Of two bodies in contact the one that begins ends at once.
-ljus_break_it(NAME nested_bodies-contact HEADER scene/nested_bodies.hpp
-    TEST nested_bodies
-    FROM "begun = begun.with(rank);"
-    TO   "entered = entered.with(rank);"
-    CASES "nested bodies: two of one material*")
-
 # A list has the lowest body first.
 ljus_break_it(NAME nested_bodies-list HEADER scene/body_list.hpp TEST nested_bodies
     FROM "if (rank > place) std::swap(rank, place);"

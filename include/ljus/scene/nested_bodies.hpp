@@ -124,17 +124,15 @@ template <AnyWorld W, std::floating_point T>
     for (int surfaces = 0; surfaces < 256; ++surfaces) {
         const auto hit = closest_hit(world, ray);
         if (!hit) break;
-        BodyList begun; // of several in one place, counted after all that end there
         const auto cross = [&](std::uint8_t rank, const SceneHitT<T>&, bool front) {
             if (front)
-                begun = begun.with(rank);
+                entered = entered.with(rank);
             else if (entered.has(rank))
                 entered = entered.without(rank);
             else
                 around = around.with(rank);
         };
         const auto point = detail::each_body_at(world, ray, *hit, cross);
-        for (const std::uint8_t rank : begun.ranks) entered = entered.with(rank);
         ray = spawn_ray(point, ray.direction, ray.time);
     }
     return around;
