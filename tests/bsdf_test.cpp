@@ -9,6 +9,7 @@
 #include <string>
 
 #include "ljus/materials/glass.hpp"
+#include "ljus/materials/nested.hpp"
 
 using ljus::Lobes, ljus::Rgb, ljus::Transport, ljus::Vec3;
 
