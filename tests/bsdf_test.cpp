@@ -9,6 +9,7 @@
 #include <string>
 
 #include "ljus/materials/glass.hpp"
+#include "ljus/materials/nested.hpp"
 
 using ljus::Lobes, ljus::Rgb, ljus::Transport, ljus::Vec3;
 
@@ -135,6 +136,8 @@ TEST_CASE("bsdf: which hooks a material has, by name") {
     CHECK(names(ljus::detail::material_hooks<reader::Lamp>()) == "emission ");
     CHECK(names(ljus::detail::material_hooks<ljus::Glass>()) ==
           "absorption refractive_index split only_specular ");
+    CHECK(names(ljus::detail::material_hooks<ljus::Nested<ljus::Glass>>()) ==
+          "absorption refractive_index priority emission at_point split ");
     CHECK(names(ljus::detail::material_hooks<ljus::ThinGlass>()) ==
           "pass_through only_specular ");
     CHECK(names(ljus::detail::material_hooks<reader::Wall>()) == "at_point uses_uv ");

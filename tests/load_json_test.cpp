@@ -142,7 +142,7 @@ TEST_CASE("load_json: everything in the file is in the scene") {
     CHECK(mirrors[0].reflectance == Rgb{0.9f, 0.8f, 0.7f});
     const auto& glasses = std::get<3>(scene.materials);
     REQUIRE(glasses.size() == 1);
-    CHECK(glasses[0].index == 1.5f);
+    CHECK(glasses[0].base.index == 1.5f);
     const World world(std::move(loaded.scene));
     CHECK(world
               .visit_material(world.object({0, 0}).material,
@@ -440,7 +440,8 @@ TEST_CASE("load_json: the names of C++ are read as well, but not both") {
     const auto scene = read(changed("{\"type\": \"dielectric\", \"ior\": 1.5}",
                                     "{\"type\": \"glass\", \"index\": 1.25}"))
                            .scene;
-    CHECK(std::get<std::vector<Glass>>(scene.materials).at(0).index == 1.25f);
+    CHECK(std::get<std::vector<Nested<Glass>>>(scene.materials).at(0).base.index ==
+          1.25f);
     const auto camera = read(changed("\"look_at\"", "\"target\"")).camera;
     CHECK(camera.pinhole.forward == Vec3{0, 0, -1});
     refused("\"ior\": 1.5", "\"ior\": 1.5, \"index\": 1.5",
@@ -622,22 +623,28 @@ TEST_CASE("load_json: each name makes its own material") {
           evaluate(compensated_glossy(copper_), wo, wi));
     const LoadedScene green =
         read(with(R"({"type": "dielectric", "ior": 1.25, "absorption": [3, 0, 3]})"));
-    CHECK(std::get<std::vector<Glass>>(green.scene.materials).at(0).absorption ==
-          Rgb{3, 0, 3});
+    const auto& glasses = std::get<std::vector<Nested<Glass>>>(green.scene.materials);
+    CHECK(glasses.at(0).base.absorption == Rgb{3, 0, 3});
+    CHECK(glasses.at(0).priority == 0);
+    const World in_order(
+        read(with(R"({"type": "dielectric", "ior": 1.3, "priority": 2})")).scene);
+    CHECK(in_order.has_priorities());
+    CHECK_FALSE(World(read(with(R"({"type": "dielectric", "ior": 1.3})")).scene)
+                    .has_priorities());
     const LoadedScene frosted =
         read(with(R"({"type": "rough-glass", "ior": 1.25, "roughness": 0.5,
                                  "absorption": [3, 0, 3]})"));
     const RoughGlass frost =
-        std::get<std::vector<RoughGlass>>(frosted.scene.materials).at(0);
+        std::get<std::vector<Nested<RoughGlass>>>(frosted.scene.materials).at(0).base;
     CHECK(frost.index == 1.25f);
     CHECK(frost.roughness == 0.5f);
     CHECK(frost.absorption == Rgb{3, 0, 3});
     using Flint = DispersiveGlassT<float, Cauchy>;
     const LoadedScene made =
-        read_json_scene(with(R"({"type": "dispersive-glass", "ior": 1.75, "abbe": 28,
-                                 "absorption": [3, 0, 3]})"),
-                        "a");
-    const Flint flint = std::get<std::vector<Flint>>(made.scene.materials).at(0);
+        read(with(R"({"type": "dispersive-glass", "ior": 1.75, "abbe": 28,
+                                 "absorption": [3, 0, 3]})"));
+    const Flint flint =
+        std::get<std::vector<Nested<Flint>>>(made.scene.materials).at(0).base;
     CHECK(refractive_index(flint) == doctest::Approx(1.75));
     CHECK(abbe_number(flint.law) == doctest::Approx(28));
     CHECK(flint.absorption == Rgb{3, 0, 3});
@@ -648,11 +655,12 @@ TEST_CASE("load_json: each name makes its own material") {
                                                        {"diamond", diamond<float>}};
     for (const auto& [name, law] : media) {
         const LoadedScene measured =
-            read_json_scene(with(R"({"type": "measured-glass", "medium": ")" +
-                                 std::string(name) + R"(", "absorption": [3, 0, 3]})"),
-                            "a");
+            read(with(R"({"type": "measured-glass", "medium": ")" + std::string(name) +
+                      R"(", "absorption": [3, 0, 3]})"));
         const auto glass =
-            std::get<std::vector<DispersiveGlass>>(measured.scene.materials).at(0);
+            std::get<std::vector<Nested<DispersiveGlass>>>(measured.scene.materials)
+                .at(0)
+                .base;
         CHECK(glass.law.b == law.b);
         CHECK(glass.absorption == Rgb{3, 0, 3});
     }
@@ -986,8 +994,8 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
          "rough-glass, dispersive-glass, measured-glass, thin-glass, soap-film, "
          "checker or picture."},
         {"\"ior\": 1.5", "\"ior\": 1.5, \"tint\": [1, 1, 1]",
-         "materials.glass.tint is not known; the fields here are type, ior and "
-         "absorption."},
+         "materials.glass.tint is not known; the fields here are type, ior, "
+         "absorption and priority."},
         {"\"type\": \"sphere\"", "\"type\": \"cube\"",
          "objects[2].type is \"cube\"; it must be sphere, triangles, mesh, instances, "
          "quad, box, disc or cylinder."},

@@ -307,14 +307,15 @@ TEST_CASE("survey: a hook that is misspelt shows") {
     CHECK(lines[1].starts_with("shape QuadT<float> has bounds, area, "));
     CHECK(lines[2].ends_with(
         " has emission; without absorption (clear), refractive_index (opaque in "
-        "contact), at_point (the same anywhere), uses_uv (uv is 0), split (one "
+        "contact), priority (0), at_point (the same anywhere), uses_uv (uv is 0), "
+        "split (one "
         "branch at random), "
         "pass_through (opaque), at_wavelength (one index for all light), only_specular "
         "(write both)"));
     CHECK(lines[2].starts_with("material "));
-    CHECK(lines[3].starts_with(
-        "material GlassT<float> has absorption, "
-        "refractive_index, split, only_specular; without emission (black), "));
+    CHECK(lines[3].starts_with("material GlassT<float> has absorption, "
+                               "refractive_index, split, only_specular; without "
+                               "priority (0), emission (black), "));
 }
 
 TEST_CASE("survey: the hooks of the house's own types") {

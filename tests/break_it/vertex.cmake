@@ -50,8 +50,8 @@ ljus_break_it(NAME vertex-stale-pdf HEADER path/continue_path.hpp TEST vertex
 # Shadow rays that find all things where they were when the shutter opened; the second row
 # in scenes with thin surfaces.
 ljus_break_it(NAME vertex-shadow-time HEADER path/next_vertex.hpp TEST vertex
-    FROM "occluded(world, spawn_ray_to(from, to, time))"
-    TO   "occluded(world, spawn_ray_to(from, to))"
+    FROM "const RayT<T> ray = spawn_ray_to(from, to, time);"
+    TO   "const RayT<T> ray = spawn_ray_to(from, to);"
     CASES "vertex: what stands in the way*")
 ljus_break_it(NAME vertex-shadow-time-thin HEADER path/next_vertex.hpp TEST vertex
     FROM "spawn_ray_to(last, to, time)"

@@ -18,6 +18,7 @@
 #include "ljus/materials/glossy.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
+#include "ljus/materials/nested.hpp"
 #include "ljus/materials/textured.hpp"
 #include "ljus/scene/camera.hpp"
 #include "ljus/scene/scene.hpp"
@@ -138,6 +139,8 @@ void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded) {
         const MaterialId id = [&] {
             if constexpr (Scene::template lists<GlassT<T>>)
                 if (is.is_glass()) return scene.add(glass);
+            if constexpr (Scene::template lists<Nested<GlassT<T>>>)
+                if (is.is_glass()) return scene.add(Nested<GlassT<T>>{glass});
             if constexpr (Scene::template lists<MirrorT<T>>)
                 if (is.is_mirror() && !rough) return scene.add(mirror);
             if constexpr (Scene::template lists<MeshMetalPictureT<T, At>>)

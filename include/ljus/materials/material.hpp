@@ -173,11 +173,10 @@ concept MayAbsorb = requires(const detail::Own<M>& m) {
 };
 
 /// The material of a transparent body: it provides `refractive_index(m)`, which is 0 if
-/// it is opaque after all, and a member `index`.
+/// it is opaque after all. What it is at a point (material_at()) has a member `index`.
 template <typename M>
-concept Refractive = requires(M m) {
+concept Refractive = requires(const M& m) {
     { refractive_index(m) } -> std::same_as<typename M::Scalar>;
-    m.index /= refractive_index(m);
 };
 
 /// A material whose body touches another one instead of air. At the boundary only the
@@ -197,6 +196,24 @@ template <Refractive M>
 template <typename M>
 concept Dispersive = requires(const M& m, typename M::Scalar nm) {
     at_wavelength(m, nm);
+};
+
+/// The material of a body that light enters: it has an index or a medium inside.
+template <typename M>
+concept Transparent = Refractive<M> || MayAbsorb<M>;
+
+/// The default priority where transparent bodies overlap; see \ref nested_bodies.
+/// \return 0.
+template <typename M>
+requires std::floating_point<typename M::Scalar>
+[[nodiscard]] constexpr int priority(const M&) noexcept {
+    return 0;
+}
+
+/// A material that provides priority().
+template <typename M>
+concept HasPriority = requires(const detail::Own<M>& m) {
+    priority(m);
 };
 
 /// Whether a material scatters light through its surface into a lobe with a density: it
@@ -272,6 +289,8 @@ template <Material M>
              requires(O m) { absorption(m); }},
         Hook{"refractive_index", "contact with another body", "opaque in contact",
              requires(O m) { refractive_index(m); }},
+        Hook{"priority", "overlaps other bodies", "0",
+             requires(O m) { priority(m); }},
         Hook{"emission", "its own light", "black",
              requires(O m) { emission(m); }},
         Hook{"at_point", "varies over the surface", "the same anywhere",

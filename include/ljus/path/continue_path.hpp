@@ -108,6 +108,8 @@ void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
     path.eta_scale *= next.eta_scale;
     path.medium = medium_beyond(path.medium, material, vertex.wo, next.wi);
     if constexpr (MayAbsorb<M>) path.medium_known = !leaves_body<M>(vertex.wo, next.wi);
+    if constexpr (Transparent<M>)
+        if (!same_side(vertex.wo, next.wi)) path.bodies = path.behind;
     path.previous = vertex.point.position;
     path.pdf = next.pdf;
     path.specular = next.specular;

@@ -17,7 +17,7 @@
 #include "ljus/optics/absorption.hpp"
 #include "ljus/optics/dispersion.hpp"
 #include "ljus/path/path_state.hpp"
-#include "ljus/scene/world.hpp"
+#include "ljus/scene/nested_bodies.hpp"
 
 namespace ljus {
 
@@ -128,15 +128,16 @@ template <AnyWorld W>
 /// At the first material that disperses light, on either side of a contact too, a path
 /// turns from light of all wavelengths into that of one, by chance. Its throughput is
 /// multiplied by the colour of the wavelength, whose mean is white.
-/// \param path    Keeps the wavelength from there on.
-/// \param vertex  A vertex of fill_vertex(); receives the wavelength.
-/// \param stream  One number is drawn at that first material.
+/// \param path     Keeps the wavelength from there on.
+/// \param vertex   A vertex of fill_vertex(); receives the wavelength.
+/// \param outside  The material of the body on the outside; no_body: air.
+/// \param stream   One number is drawn at that first material.
 // [disperse]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 void disperse(const W& world, PathStateT<T>& path, VertexT<T>& vertex,
-              const SceneHitT<T>& hit, Stream& stream) {
+              const SceneHitT<T>& hit, MaterialId outside, Stream& stream) {
     if (path.wavelength == T(0)) {
-        if (!disperses(world, vertex.object.material) &&
+        if (!disperses(world, vertex.object.material) && !disperses(world, outside) &&
             !(hit.shared && disperses(world, place_of(world, path.ray, hit).left)))
             return;
         path.wavelength = sample_wavelength(next_1d<T>(stream));
@@ -248,7 +249,8 @@ template <std::floating_point T>
 /// \}
 
 /// \defgroup next_vertex The next vertex
-/// \brief Intersection, media, thin surfaces and the shutter in one function.
+/// \brief Intersection, media, bodies in each other, thin surfaces and the shutter in
+/// one function.
 ///
 /// A thin surface, such as a soap film, reflects some light and transmits the rest
 /// without deflection. Transmission is not scattering: the path keeps its letters, its
@@ -358,25 +360,30 @@ template <AnyWorld W, std::floating_point T>
         });
 }
 
-/// After more thin surfaces than this a ray counts as blocked.
+/// After more thin or hidden surfaces than this a ray counts as blocked.
 inline constexpr int max_thin_surfaces = 1000;
 
-// visibility() in a scene with thin surfaces.
+// visibility() in a scene with thin surfaces, or between bodies in each other.
 // [visibility]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> visibility_through(const W& world, const SurfacePointT<T>& from,
                                          const SurfacePointT<T>& to, T time) {
     RgbT<T> through{T(1)};
     SurfacePointT<T> last = from;
+    BodyList bodies = bodies_at(world, spawn_ray_to(from, to, time));
     for (int surfaces = 0; surfaces < max_thin_surfaces; ++surfaces) {
         const RayT<T> ray = spawn_ray_to(last, to, time);
         const auto hit = closest_hit(world, ray);
         if (!hit) return through;
+        const CrossingT<T> crossing = crossing_at(world, ray, *hit, bodies);
         VertexT<T> vertex = vertex_at(world, ray, *hit);
         vertex.wo = glm::normalize(vertex.wo); // the ray is as long as the distance
-        const auto passed = passed_through(world, vertex);
-        if (!passed) break;
-        through *= *passed;
+        if (!crossing.hidden) {
+            const auto passed = passed_through(world, vertex);
+            if (!passed) break;
+            through *= *passed;
+        }
+        bodies = crossing.behind;
         last = vertex.point;
     }
     return RgbT<T>{T(0)};
@@ -390,51 +397,70 @@ template <AnyWorld W, std::floating_point T>
 
 /// The fraction of light that arrives from one point at another.
 /// \return 0 if anything occludes it; otherwise the product of the transmittances of
-///         the thin surfaces, or of the fog, between them.
-/// \cost That of occluded(); with thin surfaces a closest_hit() for each, and one more.
+///         the thin surfaces, or of the fog, between them. A surface that a body of
+///         higher priority hides does not occlude.
+/// \cost That of occluded(); with thin or hidden surfaces a closest_hit() for each, and
+///       one more.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> visibility(const W& world, const SurfacePointT<T>& from,
                                  const SurfacePointT<T>& to, T time = T(0)) {
     if constexpr (detail::lists_thin_surfaces<W>)
         if (detail::has_thin_surfaces(world))
             return detail::visibility_through(world, from, to, time);
-    if constexpr (W::lists_fog) {
-        const RayT<T> ray = spawn_ray_to(from, to, time);
-        return occluded(world, ray) ? RgbT<T>{T(0)} : fog_transmittance(world, ray);
+    const RayT<T> ray = spawn_ray_to(from, to, time);
+    if (occluded(world, ray)) {
+        if constexpr (W::lists_priorities)
+            if (world.has_priorities() && world.may_be_in_medium(ray.origin))
+                return detail::visibility_through(world, from, to, time);
+        return RgbT<T>{T(0)};
     }
-    return RgbT<T>{occluded(world, spawn_ray_to(from, to, time)) ? T(0) : T(1)};
+    if constexpr (W::lists_fog) return fog_transmittance(world, ray);
+    return RgbT<T>{T(1)};
 }
 
 namespace detail {
 
-/// The effect of the thin surfaces between two vertices.
+/// The effect of the surfaces between two vertices.
 template <std::floating_point T>
 struct PassageT {
     RgbT<T> through{T(1)};     ///< Transmittance over its probability.
-    T distance = T(0);         ///< From the vertex to the last thin surface.
+    T distance = T(0);         ///< From the vertex to the last surface passed.
     T stop_probability = T(1); ///< Probability of reflection at a stop; else 1.
+    std::uint8_t outside = 0;  ///< Rank of the body on the outside where it stops.
 };
 
-/// Traces a ray through thin surfaces. At each one the path stops for reflection with
-/// the mean reflectance of the channels as probability, or passes.
-/// \param ray     Receives its last segment.
+/// Traces a path through thin surfaces and hidden ones. At each thin one the path stops
+/// for reflection with the mean reflectance of the channels as probability, or passes.
+/// \param path    Receives the last segment of its ray, and the bodies on both sides of
+///                the surface where it stops.
 /// \param hit     The first hit of the ray; receives that of its last segment.
 /// \param stream  One number is drawn per thin surface.
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
-[[nodiscard]] PassageT<T> pass_thin_surfaces(const W& world, RayT<T>& ray,
-                                             std::optional<SceneHitT<T>>& hit,
-                                             Stream& stream) {
+[[nodiscard]] PassageT<T> pass_surfaces(const W& world, PathStateT<T>& path,
+                                        std::optional<SceneHitT<T>>& hit,
+                                        Stream& stream) {
     PassageT<T> passage;
+    RayT<T>& ray = path.ray;
+    if (path.bodies.top() == 0 || !world.may_be_in_medium(ray.origin))
+        path.bodies = bodies_at(world, ray);
     for (int surfaces = 0; hit && surfaces < max_thin_surfaces; ++surfaces) {
+        const CrossingT<T> crossing = crossing_at(world, ray, *hit, path.bodies);
+        path.bodies = crossing.hidden ? crossing.behind : crossing.before;
+        path.behind = crossing.behind;
+        passage.outside = crossing.outside();
+        hit = crossing.hit;
+        if (!crossing.hidden && !has_thin_surfaces(world)) return passage;
         const VertexT<T> vertex = vertex_at(world, ray, *hit);
-        const auto passed = passed_through(world, vertex);
-        if (!passed) return passage;
-        const T stop = T(1) - (passed->x + passed->y + passed->z) / T(3);
-        if (next_1d<T>(stream) < stop) {
-            passage.stop_probability = stop;
-            return passage;
+        if (!crossing.hidden) {
+            const auto passed = passed_through(world, vertex);
+            if (!passed) return passage;
+            const T stop = T(1) - (passed->x + passed->y + passed->z) / T(3);
+            if (next_1d<T>(stream) < stop) {
+                passage.stop_probability = stop;
+                return passage;
+            }
+            passage.through *= *passed / (T(1) - stop);
         }
-        passage.through *= *passed / (T(1) - stop);
         passage.distance += hit->at.t;
         ray = spawn_ray(vertex.point, ray.direction, ray.time);
         hit = closest_hit(world, ray);
@@ -443,10 +469,21 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     return passage;
 }
 
-/// Whether a type of scene lists a material with an absorbing interior.
+/// What a path passes on its way to its next vertex; see pass_surfaces().
+template <AnyWorld W, std::floating_point T, StreamLike Stream>
+[[nodiscard]] inline PassageT<T> passage(const W& world, PathStateT<T>& path,
+                                         std::optional<SceneHitT<T>>& hit,
+                                         Stream& stream) {
+    if constexpr (lists_thin_surfaces<W> || W::lists_priorities)
+        if (has_thin_surfaces(world) || world.has_priorities())
+            return pass_surfaces(world, path, hit, stream);
+    return {};
+}
+
+/// Whether a type of scene lists a material with an interior.
 template <AnyWorld W>
 inline constexpr bool lists_media = W::any_material([]<typename M>() {
-    return MayAbsorb<M>;
+    return Transparent<M>;
 });
 
 /// The absorption in a body of a material; nothing if the material is opaque.
@@ -463,15 +500,26 @@ template <AnyWorld W>
         });
 }
 
+/// The absorption in a body of a rank; nothing outside all bodies.
+template <AnyWorld W>
+[[nodiscard]] std::optional<RgbT<typename W::Scalar>>
+medium_of_rank(const W& world, std::uint8_t rank) {
+    if (rank == 0) return std::nullopt;
+    return medium_of(world, world.material_of_rank(rank));
+}
+
 } // namespace detail
 
-/// The absorption in the innermost body around a ray's origin. A body contains the
-/// origin if the ray leaves its surface without having entered it. Opaque surfaces are
-/// ignored. Bodies are closed, and consist of one shape or several.
+/// The absorption in the innermost body around a ray's origin; with priorities in the
+/// highest one. A body contains the origin if the ray leaves its surface without having
+/// entered it. Opaque surfaces are ignored. Bodies are closed, and consist of one shape
+/// or several.
 /// \return Per scene unit; nothing outside all bodies.
 /// \cost A ray per surface up to the end of the body.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<RgbT<T>> interior_at(const W& world, RayT<T> ray) {
+    if (world.has_priorities())
+        return detail::medium_of_rank(world, bodies_at(world, ray).top());
     std::array<MaterialId, 16> entered{};
     std::size_t count = 0;
     for (int surfaces = 0; surfaces < 256; ++surfaces) {
@@ -549,10 +597,40 @@ template <AnyWorld W, std::floating_point T>
     return transmittance(optical_depth(world, ray), T(1));
 }
 
+namespace detail {
+
+/// Finds the medium at the start of a path, and where it leaves a body.
+template <AnyWorld W, std::floating_point T>
+inline void find_medium(const W& world, PathStateT<T>& path) {
+    if constexpr (lists_media<W>) {
+        if (!path.medium_known && !world.has_priorities() &&
+            (path.depth == 0 || world.has_nested_media()))
+            path.medium = medium_at(world, path.ray);
+        path.medium_known = true;
+    }
+}
+
+/// Sets, in a scene with priorities, the index on the outside of a vertex, and the
+/// medium of the path: that of the highest body around it.
+/// \param outside  The rank of the body on the outside; 0: air.
+template <AnyWorld W, std::floating_point T>
+inline void set_bodies(VertexT<T>& vertex, const W& world, PathStateT<T>& path,
+                       std::uint8_t outside) {
+    if constexpr (W::lists_priorities) {
+        if (!world.has_priorities()) return;
+        vertex.outside = outside == 0 ? T(1)
+                                      : index_of(world, world.material_of_rank(outside),
+                                                 vertex.wavelength);
+        path.medium = medium_of_rank(world, path.bodies.top()).value_or(RgbT<T>{T(0)});
+    }
+}
+
+} // namespace detail
+
 /// Advances a path to its next vertex. Its throughput is attenuated by media and thin
 /// surfaces, and coloured by the first material that disperses light. medium_at() finds
 /// the medium at the start of a path, and where the path leaves a body that may lie
-/// inside another.
+/// inside another; in a scene with priorities the path knows in which bodies it is.
 /// \param world   The closed scene.
 /// \param path    Receives its depth, the last segment of its ray and its throughput.
 /// \param stream  Advanced to the start of the bounce; one number is drawn per thin
@@ -562,24 +640,21 @@ template <AnyWorld W, std::floating_point T>
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] std::optional<VertexT<T>> next_vertex(const W& world, PathStateT<T>& path,
                                                     Stream& stream) {
-    if constexpr (detail::lists_media<W>) {
-        if (!path.medium_known && (path.depth == 0 || world.has_nested_media()))
-            path.medium = medium_at(world, path.ray);
-        path.medium_known = true;
-    }
+    detail::find_medium(world, path);
     start_bounce(stream, path.branch + static_cast<std::uint64_t>(++path.depth));
     auto hit = closest_hit(world, path.ray);
-    detail::PassageT<T> passage;
-    if constexpr (detail::lists_thin_surfaces<W>)
-        if (detail::has_thin_surfaces(world))
-            passage = detail::pass_thin_surfaces(world, path.ray, hit, stream);
+    const detail::PassageT<T> passage = detail::passage(world, path, hit, stream);
     std::optional<VertexT<T>> vertex;
     if (!hit) return vertex;
 
     detail::fill_vertex(vertex.emplace(), world, path.ray, *hit);
     if constexpr (detail::lists_dispersive<W>)
-        detail::disperse(world, path, *vertex, *hit, stream);
+        detail::disperse(world, path, *vertex, *hit,
+                         passage.outside == 0 ? no_body
+                                              : world.material_of_rank(passage.outside),
+                         stream);
     if (hit->shared) detail::set_contact(*vertex, world, path.ray, *hit);
+    detail::set_bodies(*vertex, world, path, passage.outside);
     vertex->medium = path.medium;
     vertex->distance += passage.distance;
     vertex->stop_probability = passage.stop_probability;

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "ljus/geometry/ray.hpp"
+#include "ljus/scene/body_list.hpp"
 
 namespace ljus {
 
@@ -25,6 +26,9 @@ struct PathStateT {
     T eta_scale = T(1);        ///< The factor (n_i/n_t)^2 in the throughput.
     RgbT<T> medium{T(0)};      ///< Absorption at its position, per scene unit.
     bool medium_known = false; ///< False: next_vertex() finds the medium.
+    BodyList bodies{}; ///< Around it, in a scene with priorities. Empty: next_vertex()
+                       ///< looks for them.
+    BodyList behind{}; ///< Beyond the surface of its vertex, in such a scene.
     Vec3T<T> previous{T(0)};   ///< The last vertex.
     T pdf = T(0);              ///< Pdf of its direction, per steradian; 0: delta.
     T wavelength = T(0);       ///< In nm, once it has met a Dispersive material; until

@@ -308,6 +308,67 @@ LJUS_CORE_INLINE void add_contact_remarks(const Contacts& contacts,
 
 #endif
 
+/// Warns of bodies that lie in each other without an order, and of thin surfaces in a
+/// body. A point in the middle of what two bounding boxes share tells; not each overlap
+/// is found, but what is found overlaps.
+/// \cost A ray per surface for each two bodies whose boxes overlap, up to 4096.
+template <AnyWorld W>
+[[gnu::cold]] void add_overlap_remarks(const W& world,
+                                       std::vector<std::string>& remarks) {
+    using T = typename W::Scalar;
+    struct Body {
+        BoxT<T> box;
+        bool thin;
+    };
+    std::vector<Body> all;
+    for (ObjectId id; id.type < world.objects().size(); ++id.type)
+        for (id.index = 0; id.index < world.objects()[id.type].size(); ++id.index) {
+            const MaterialId material = world.object(id).material;
+            const bool thin = world.visit_material(
+                material, []<typename M>(const M&) { return ThinSurface<M>; });
+            if (thin || world.rank_of(material) != 0)
+                all.push_back(
+                    {world.visit_shape(
+                         id, [](const auto& shape) { return box_around(shape); }),
+                     thin});
+        }
+    const auto priority_of = [&](std::uint8_t rank) {
+        return world.visit_material(world.material_of_rank(rank),
+                                    [](const auto& m) { return priority(m); });
+    };
+    bool tied = false, film = false;
+    int probes = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t k = 0; k < i && probes < 4096; ++k) {
+            const BoxT<T> shared{glm::max(all[i].box.low, all[k].box.low),
+                                 glm::min(all[i].box.high, all[k].box.high)};
+            if (!glm::all(glm::lessThanEqual(shared.low, shared.high))) continue;
+            ++probes;
+            const Vec3T<T> middle = shared.low + (shared.high - shared.low) / T(2);
+            const BodyList around = bodies_around(
+                world, RayT<T>{.origin = middle,
+                               .direction = glm::normalize(Vec3T<T>{1, 2, 3})});
+            const auto say = [&](bool& said, std::string_view what) {
+                if (!said) remarks.push_back(join({what, to_text(Vec3(middle))}));
+                said = true;
+            };
+            if ((all[i].thin || all[k].thin) && around.top() != 0)
+                say(film, "a thin surface lies in a transparent body, where it "
+                          "reflects as it does in air; around ");
+            for (std::size_t n = 1; n < around.ranks.size() && around.ranks[n] != 0;
+                 ++n)
+                if (around.ranks[n] != around.ranks[n - 1] &&
+                    priority_of(around.ranks[n]) == priority_of(around.ranks[n - 1]))
+                    say(tied, world.has_priorities()
+                                  ? "transparent bodies of equal priority overlap, "
+                                    "and that of the higher index holds: give them "
+                                    "different priorities; around "
+                                  : "transparent bodies overlap, and each surface "
+                                    "counts as one between its body and air: give "
+                                    "them priorities; around ");
+        }
+}
+
 /// The share of all directions in which the middle of a scene sees a sky: about half in
 /// the open, little in a room with a window, and 0 without a sky.
 /// \cost 256 rays in a scene that lists a light that fills the sky.
@@ -373,6 +434,7 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
             id, []<typename G>(const G&) { return detail::type_name<G>(); });
     };
     detail::add_contact_remarks(world.contacts(), type_of, remarks);
+    if constexpr (W::lists_priorities) detail::add_overlap_remarks(world, remarks);
     return remarks;
 }
 

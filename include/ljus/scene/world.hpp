@@ -13,6 +13,7 @@
 #include "ljus/accel/bvh8.hpp"
 #include "ljus/math/frame.hpp"
 #include "ljus/ref.hpp"
+#include "ljus/scene/body_list.hpp"
 #include "ljus/scene/contacts.hpp"
 
 namespace ljus {
@@ -198,7 +199,8 @@ public:
         detail::each_array(fog_, check_all);
         close_lights(scene);
         materials_ = std::move(scene.materials);
-        if constexpr (any_material([]<typename M>() { return MayAbsorb<M>; }))
+        if constexpr (lists_priorities) rank_bodies();
+        if constexpr (any_material([]<typename M>() { return Transparent<M>; }))
             find_media();
         contacts_ = find_contacts(*this);
         has_contacts_ = !contacts_.pairs.empty();
@@ -216,8 +218,8 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     /// The bounding box of the bounding spheres of all shapes.
     [[nodiscard]] const BoxT<Scalar>& box() const noexcept { return box_; }
-    /// Whether a point may lie in an absorbing body, in a scene with fog in any
-    /// transparent body: whether it lies in their common bounding box.
+    /// Whether a point may lie in an absorbing body, in a scene with fog or priorities
+    /// in any transparent body: whether it lies in their common bounding box.
     [[nodiscard]] bool may_be_in_medium(const Vec3T<Scalar>& point) const noexcept {
         return glm::all(glm::lessThanEqual(media_.low, point)) &&
                glm::all(glm::lessThanEqual(point, media_.high));
@@ -225,6 +227,22 @@ public:
     /// Whether the bounding box of an absorbing body overlaps that of another body with
     /// a medium: a path that leaves one of them may still be in the other.
     [[nodiscard]] bool has_nested_media() const noexcept { return nested_media_; }
+    /// Whether the scene lists a type of material that may have a priority.
+    static constexpr bool lists_priorities =
+        S::any_material([]<typename M>() { return HasPriority<M>; });
+    /// Whether a material has a priority other than 0; see \ref nested_bodies.
+    [[nodiscard]] bool has_priorities() const noexcept {
+        return lists_priorities && ranks_.prioritized;
+    }
+    /// The place of a material among the transparent ones: a higher rank holds where
+    /// bodies overlap. 0 for an opaque one.
+    [[nodiscard]] std::uint8_t rank_of(MaterialId id) const noexcept {
+        return ranks_.ranks.empty() ? std::uint8_t(0) : ranks_.ranks[id.type][id.index];
+    }
+    /// The material of a rank, which is at least 1.
+    [[nodiscard]] MaterialId material_of_rank(std::uint8_t rank) const noexcept {
+        return ranks_.materials[rank - 1u];
+    }
     /// Which objects have surfaces in one place.
     [[nodiscard]] const Contacts& contacts() const noexcept { return contacts_; }
     /// Whether surfaces of several objects may lie at a point of a ray.
@@ -373,19 +391,66 @@ private:
             ids_[slot] = all[tree_.primitive_ids()[slot]];
     }
 
+    [[gnu::cold]] void rank_bodies() {
+        struct Body {
+            std::array<double, 5> order; // priority, index, absorption
+            MaterialId id;
+        };
+        std::vector<Body> bodies;
+        MaterialId id;
+        const auto add = [&]<typename M>(const std::vector<M>& list) {
+            ranks_.ranks.emplace_back(list.size());
+            for (id.index = 0; id.index < list.size(); ++id.index) {
+                const M& m = list[id.index];
+                if (detail::kind_of(m) != ContactKind::body) continue;
+                double index = 1;
+                if constexpr (Refractive<M>) index = double(refractive_index(m));
+                const RgbT<double> absorbed{absorption(m)};
+                bodies.push_back(
+                    {{double(priority(m)), index, absorbed.x, absorbed.y, absorbed.z},
+                     id});
+                ranks_.prioritized |= priority(m) != 0;
+            }
+            ++id.type;
+        };
+        std::apply([&](const auto&... lists) { (add(lists), ...); }, materials_);
+        if (bodies.size() > 255) {
+            require(!ranks_.prioritized, "the number of transparent materials",
+                    static_cast<long long>(bodies.size()),
+                    "at most 255 in a scene with priorities");
+            ranks_.ranks.clear();
+            return;
+        }
+        std::stable_sort(
+            bodies.begin(), bodies.end(),
+            [](const Body& a, const Body& b) { return a.order < b.order; });
+        for (const Body& body : bodies) {
+            ranks_.materials.push_back(body.id);
+            ranks_.ranks[body.id.type][body.id.index] =
+                static_cast<std::uint8_t>(ranks_.materials.size());
+        }
+        for (const auto& list : objects_)
+            for (const auto& object : list)
+                require(!has_priorities() || is_black(object.emission) ||
+                            rank_of(object.material) == 0,
+                        "the radiance of a transparent body", object.emission,
+                        "black in a scene with priorities: another body may hide it");
+    }
+
     [[gnu::cold]] void find_media() {
         struct Body {
             BoxT<Scalar> box;
-            bool absorbs; // or keeps out fog
+            bool absorbs; // or keeps out fog, or may overlap
         };
         std::vector<Body> bodies;
         std::uint32_t type = 0;
         const auto add = [&](const auto& list) {
             for (std::uint32_t i = 0; i < list.size(); ++i)
                 visit_material(objects_[type][i].material, [&]<typename M>(const M& m) {
-                    if constexpr (MayAbsorb<M>)
+                    if constexpr (Transparent<M>)
                         bodies.push_back({detail::box_around(list[i]),
-                                          has_fog() || !is_black(absorption(m))});
+                                          has_fog() || has_priorities() ||
+                                              !is_black(absorption(m))});
                 });
             ++type;
         };
@@ -468,6 +533,7 @@ private:
     BoxT<Scalar> box_{};
     BoxT<Scalar> media_{}; // of absorbing bodies, in fog of all; empty if none
     bool nested_media_ = false;
+    BodyRanks ranks_{};
     bool has_contacts_ = false;
     BoxT<Scalar> contact_box_{};
     Tree tree_{};
@@ -533,6 +599,70 @@ struct PlaceHitT {
     T depth = T(0);               ///< Distance of the other surfaces, in scene units.
 };
 
+namespace detail {
+
+/// The surface point at a hit, with its normal on the outside.
+template <typename S, typename Compute, std::floating_point T>
+[[nodiscard]] SurfacePointT<T> surface_at(const World<S, Compute>& world,
+                                          const RayT<T>& ray, const SceneHitT<T>& hit) {
+    auto point = world.visit_shape(hit.object, [&](const auto& shape) {
+        return surface_point(shape, ray, hit.at);
+    });
+    if (world.object(hit.object).inside_out) point.normal = -point.normal;
+    return point;
+}
+
+/// Calls f(object, hit, front) for each surface in one place, if the box around what
+/// objects share holds it; `front` is whether the ray arrives from its outside.
+/// \param hit   A hit of the ray; first of all f is called with it.
+/// \param here  Its object.
+/// \return The largest distance of the other surfaces, in scene units; nothing if the
+///         hit is alone.
+template <typename S, typename Compute, std::floating_point T, typename F>
+[[nodiscard]] std::optional<T> visit_place(const World<S, Compute>& world,
+                                           const RayT<T>& ray, const SceneHitT<T>& hit,
+                                           const TouchingObject& here, F&& f) {
+    const Contacts& contacts = world.contacts();
+    const auto arrives = [&](const SurfacePointT<T>& point) {
+        return glm::dot(ray.direction, point.normal) < T(0);
+    };
+    std::optional<SurfacePointT<T>> point;
+    std::optional<T> depth;
+    RayT<T> near = ray; // only around the hit
+    for (std::uint32_t i = here.contact; i != no_contact;) {
+        const Contact& contact = contacts.pairs[i];
+        const std::size_t mine = &contacts.objects[contact.pair[0]] == &here ? 0 : 1;
+        const TouchingObject& other = contacts.objects[contact.pair[1 - mine]];
+        i = contact.next[mine];
+        const BoxT<T> box{Vec3T<T>(contact.box.low), Vec3T<T>(contact.box.high)};
+        if (!may_be_in(box, ray, hit.at.t)) continue;
+        if (!point) {
+            point = surface_at(world, ray, hit);
+            const T across = std::abs(glm::dot(ray.direction, point->normal));
+            const T reach = T(2) * leaving_distance(*point) /
+                                glm::max(across, T(1e-3) * glm::length(ray.direction)) +
+                            T(16) * std::numeric_limits<T>::epsilon() * hit.at.t;
+            near.t_min = glm::max(ray.t_min, hit.at.t - reach);
+            near.t_max = glm::min(ray.t_max, hit.at.t + reach);
+            f(here, hit, arrives(*point));
+        }
+        const auto found = world.visit_shape(other.object, [&](const auto& shape) {
+            return hit_of<Compute>(near, shape);
+        });
+        if (!found) continue;
+        const SceneHitT<T> at{*found, other.object};
+        const SurfacePointT<T> there = surface_at(world, ray, at);
+        const T apart =
+            std::abs(glm::dot(point->normal, there.position - point->position));
+        if (!(apart <= leaving_distance(*point))) continue;
+        depth = glm::max(depth.value_or(T(0)), apart);
+        f(other, at, arrives(there));
+    }
+    return depth;
+}
+
+} // namespace detail
+
 /// Decides which of several surfaces in one place a ray meets.
 /// \param world  The closed scene.
 /// \param ray    Its direction may have any length.
@@ -543,26 +673,14 @@ template <typename S, typename Compute, std::floating_point T>
 [[nodiscard, gnu::noinline]] PlaceHitT<T>
 place_of(const World<S, Compute>& world, const RayT<T>& ray, const SceneHitT<T>& hit) {
     PlaceHitT<T> place{.met = hit};
-    const Contacts& contacts = world.contacts();
-    const TouchingObject* const here = contacts.find(hit.object);
+    const TouchingObject* const here = world.contacts().find(hit.object);
     if (here == nullptr) return place;
 
-    const auto point_of = [&](const SceneHitT<T>& at) {
-        auto point = world.visit_shape(at.object, [&](const auto& shape) {
-            return surface_point(shape, ray, at.at);
-        });
-        if (world.object(at.object).inside_out) point.normal = -point.normal;
-        return point;
-    };
-    std::optional<SurfacePointT<T>> point;
-    RayT<T> near = ray; // only around the hit
     const TouchingObject *met = here, *left = nullptr, *entered = nullptr;
     SceneHitT<T> into{};
-    bool shared = false;
     const auto pass = [&](const TouchingObject& object, const SceneHitT<T>& at,
-                          const Vec3T<T>& normal) {
+                          bool front) {
         if (object.kind == ContactKind::body) {
-            const bool front = glm::dot(ray.direction, normal) < T(0);
             const TouchingObject*& best = front ? entered : left;
             if (best == nullptr || object.key < best->key) {
                 best = &object;
@@ -575,39 +693,11 @@ place_of(const World<S, Compute>& world, const RayT<T>& ray, const SceneHitT<T>&
             place.met = at;
         }
     };
-    for (std::uint32_t i = here->contact; i != no_contact;) {
-        const Contact& contact = contacts.pairs[i];
-        const std::size_t mine = &contacts.objects[contact.pair[0]] == here ? 0 : 1;
-        const TouchingObject& other = contacts.objects[contact.pair[1 - mine]];
-        i = contact.next[mine];
-        const BoxT<T> box{Vec3T<T>(contact.box.low), Vec3T<T>(contact.box.high)};
-        if (!detail::may_be_in(box, ray, hit.at.t)) continue;
-        if (!point) {
-            point = point_of(hit);
-            const T across = std::abs(glm::dot(ray.direction, point->normal));
-            const T reach = T(2) * detail::leaving_distance(*point) /
-                                glm::max(across, T(1e-3) * glm::length(ray.direction)) +
-                            T(16) * std::numeric_limits<T>::epsilon() * hit.at.t;
-            near.t_min = glm::max(ray.t_min, hit.at.t - reach);
-            near.t_max = glm::min(ray.t_max, hit.at.t + reach);
-            pass(*here, hit, point->normal);
-        }
-        const auto found = world.visit_shape(other.object, [&](const auto& shape) {
-            return detail::hit_of<Compute>(near, shape);
-        });
-        if (!found) continue;
-        const SceneHitT<T> at{*found, other.object};
-        const SurfacePointT<T> there = point_of(at);
-        const T apart =
-            std::abs(glm::dot(point->normal, there.position - point->position));
-        if (!(apart <= detail::leaving_distance(*point))) continue;
-        shared = true;
-        place.depth = glm::max(place.depth, apart);
-        pass(other, at, there.normal);
-    }
+    const std::optional<T> depth = detail::visit_place(world, ray, hit, *here, pass);
     // Of a body that ends and one that begins, the path meets the one that begins.
     if (entered != nullptr && met->kind == ContactKind::body) place.met = into;
-    place.met.shared = shared;
+    place.depth = depth.value_or(T(0));
+    place.met.shared = depth.has_value();
     return place;
 }
 

@@ -18,6 +18,7 @@
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
+#include "ljus/materials/nested.hpp"
 #include "ljus/materials/rough_glass.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/materials/textured.hpp"
@@ -54,6 +55,7 @@ struct MaterialFields {
     T radians(const char* name) const {
         return static_cast<T>(in.number(name) * std::numbers::pi / 180);
     }
+    int priority() const { return static_cast<int>(in.number("priority")); }
     GlossyT<T> gloss() const { return {color("reflectance"), value("roughness")}; }
     ConductorIndexT<T> metal() const {
         const std::string name = in.word("metal");
@@ -145,6 +147,9 @@ inline constexpr JsonMember ior_row =
     needed("ior", ior_value, "index of refraction", "1.5", "index");
 inline constexpr JsonMember absorption_row = preset(
     "absorption", {JsonKind::vector, 0, 1e12, "within [0, 1e12]"}, 0, "per scene unit");
+inline constexpr JsonMember priority_row =
+    preset("priority", {JsonKind::whole, 0, 1000, {}}, 0,
+           "where bodies overlap, the highest holds");
 inline constexpr JsonMember even_row =
     needed("even", color_value, "albedo of the even fields", "[0.9, 0.9, 0.9]");
 inline constexpr JsonMember odd_row =
@@ -192,9 +197,11 @@ constexpr auto material_rows() {
             }),
         row("mirror", "", "a smooth mirror", {reflectance_row},
             [](In in) { return MirrorT<T>{in.color("reflectance")}; }),
-        row("dielectric", "glass", "smooth glass or water", {ior_row, absorption_row},
+        row("dielectric", "glass", "smooth glass or water",
+            {ior_row, absorption_row, priority_row},
             [](In in) {
-                return GlassT<T>{in.value("ior"), in.color("absorption")};
+                return Nested<GlassT<T>>{{in.value("ior"), in.color("absorption")},
+                                         in.priority()};
             }),
         row("mixture", "", "the report's sliders",
             {needed("color", color_value, "of the body", "[0.8, 0.6, 0.4]"),
@@ -239,30 +246,33 @@ constexpr auto material_rows() {
             {reflectance_row, roughness_row},
             [](In in) { return in.full(in.gloss()); }),
         row("rough-glass", "", "frosted glass",
-            {ior_row, roughness_row, absorption_row},
+            {ior_row, roughness_row, absorption_row, priority_row},
             [](In in) {
-                return RoughGlassT<T>{in.value("ior"), in.value("roughness"),
-                                      in.color("absorption")};
+                return Nested<RoughGlassT<T>>{
+                    {in.value("ior"), in.value("roughness"), in.color("absorption")},
+                    in.priority()};
             }),
         row("dispersive-glass", "", "glass that makes a spectrum, by two numbers",
             {needed("ior", {JsonKind::number, 1, 100, "within [1, 100]"},
                     "index of refraction for yellow light", "1.62", "index"),
              needed("abbe", {JsonKind::number, 1, 1e6, "within [1, 1e6]"},
                     "Abbe's number: 64 for crown glass, 21 for heavy flint", "36"),
-             absorption_row},
+             absorption_row, priority_row},
             [](In in) {
-                return DispersiveGlassT<T, CauchyT<T>>{
-                    cauchy_from_abbe(in.value("ior"), in.value("abbe")),
-                    in.color("absorption")};
+                return Nested<DispersiveGlassT<T, CauchyT<T>>>{
+                    {cauchy_from_abbe(in.value("ior"), in.value("abbe")),
+                     in.color("absorption")},
+                    in.priority()};
             }),
         row("measured-glass", "", "glass, water or diamond with a measured spectrum",
             {needed("medium", {.kind = JsonKind::word, .words = medium_words},
                     "crown glass N-BK7, flint SF10, heavy flint N-SF66, water or "
                     "diamond",
                     "\"sf66\""),
-             absorption_row},
+             absorption_row, priority_row},
             [](In in) {
-                return DispersiveGlassT<T>{in.medium(), in.color("absorption")};
+                return Nested<DispersiveGlassT<T>>{
+                    {in.medium(), in.color("absorption")}, in.priority()};
             }),
         row("thin-glass", "", "a pane",
             {ior_row, needed("tint", color_value, "of what passes", "[0.9, 1, 0.9]")},

@@ -1,0 +1,119 @@
+#pragma once
+
+/// \file ljus/materials/nested.hpp
+/// \brief A transparent material with a priority, for bodies that overlap.
+
+#include "ljus/materials/material.hpp"
+
+namespace ljus {
+
+/// \addtogroup nested_bodies
+/// \{
+
+/// Glass, rough glass or another transparent material with a priority, for bodies that
+/// overlap others. A scene that lists no such type pays nothing for it.
+///
+///     const auto glass = scene.add(Nested<Glass>{{.index = 1.5f}, 2});
+///     const auto water = scene.add(Nested<Glass>{{.index = 1.33f}, 1});
+/// \tparam Base  The material.
+/// \cite schmidt2002
+template <Material Base>
+requires Transparent<Base>
+struct Nested {
+    using Scalar = typename Base::Scalar; ///< The precision of its numbers.
+    Base base{};                          ///< The material.
+    int priority = 0; ///< Where bodies overlap, the highest holds; others have 0.
+};
+
+/// The base; see material_at().
+template <typename Base, std::floating_point T>
+[[nodiscard]] constexpr decltype(auto) at_point(const Nested<Base>& nested,
+                                                const Vec3T<T>& position,
+                                                const Vec2T<T>& uv) noexcept {
+    return material_at(nested.base, position, uv);
+}
+
+/// The priority where bodies overlap.
+template <typename Base>
+[[nodiscard]] constexpr int priority(const Nested<Base>& nested) noexcept {
+    return nested.priority;
+}
+
+/// \name Functions of the base
+/// \{
+
+/// The lobes of the base.
+template <typename Base>
+[[nodiscard]] constexpr Lobes lobes(const Nested<Base>& nested) noexcept {
+    return lobes(nested.base);
+}
+
+/// The BSDF of the base, against air.
+/// \return f in 1/sr, without the cosine.
+template <typename Base, std::floating_point T>
+[[nodiscard]] RgbT<T> evaluate(const Nested<Base>& nested, const Vec3T<T>& wo,
+                               const Vec3T<T>& wi) noexcept {
+    return evaluate(nested.base, wo, wi);
+}
+
+/// The density of the base's sample(), against air.
+/// \return Per steradian.
+template <typename Base, std::floating_point T>
+[[nodiscard]] T pdf(const Nested<Base>& nested, const Vec3T<T>& wo, const Vec3T<T>& wi,
+                    Lobes which = Lobes::all) noexcept {
+    return pdf(nested.base, wo, wi, which);
+}
+
+/// Samples the base, against air.
+template <typename Base, std::floating_point T>
+[[nodiscard]] std::optional<BsdfSampleT<T>>
+sample(const Nested<Base>& nested, const Vec3T<T>& wo, const Vec3T<T>& u,
+       Transport transport, Lobes which = Lobes::all) noexcept {
+    return sample(nested.base, wo, u, transport, which);
+}
+
+/// Both branches of the base, against air.
+template <typename Base, std::floating_point T>
+[[nodiscard]] auto split(const Nested<Base>& nested, const Vec3T<T>& wo,
+                         Transport transport) noexcept
+    -> decltype(split(nested.base, wo, transport)) {
+    return split(nested.base, wo, transport);
+}
+
+/// The index of refraction inside; 0 if the base is opaque.
+template <Refractive Base>
+[[nodiscard]] constexpr auto refractive_index(const Nested<Base>& nested) noexcept {
+    return refractive_index(nested.base);
+}
+
+/// The base at one wavelength, if it disperses light.
+template <Dispersive Base, std::floating_point T>
+[[nodiscard]] constexpr auto at_wavelength(const Nested<Base>& nested, T nm) noexcept {
+    return at_wavelength(nested.base, nm);
+}
+
+/// The absorption coefficient inside, per scene unit.
+template <typename Base>
+[[nodiscard]] constexpr RgbT<typename Base::Scalar>
+absorption(const Nested<Base>& nested) noexcept {
+    return absorption(nested.base);
+}
+
+/// The emitted radiance of the base, W/(m^2 sr).
+template <typename Base>
+[[nodiscard]] constexpr RgbT<typename Base::Scalar>
+emission(const Nested<Base>& nested) noexcept {
+    return emission(nested.base);
+}
+
+/// Checks the base.
+template <typename Base>
+void check(const Nested<Base>& nested) {
+    check(nested.base);
+}
+
+/// \}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,69 @@
+# Every surface is there.
+ljus_break_it(NAME nested_bodies-hidden HEADER scene/nested_bodies.hpp
+    TEST nested_bodies
+    FROM "crossing.hidden = from == to;"
+    TO   "crossing.hidden = false;"
+    CASES "nested bodies: the boundaries along*")
+
+# Each body stands in air.
+ljus_break_it(NAME nested_bodies-outside HEADER path/next_vertex.hpp TEST nested_bodies
+    FROM "outside == 0 ? T(1) : index_of("
+    TO   "true ? T(1) : index_of("
+    CASES "nested bodies: water on glass*")
+
+# The index on the outside is always that behind the surface.
+ljus_break_it(NAME nested_bodies-entered HEADER scene/nested_bodies.hpp
+    TEST nested_bodies
+    FROM "return entered ? before.top() : behind.top();"
+    TO   "return behind.top();"
+    CASES "nested bodies: what a ray crosses*")
+
+# The lowest priority holds.
+ljus_break_it(NAME nested_bodies-order HEADER scene/world.hpp TEST nested_bodies
+    FROM "return a.order < b.order;"
+    TO   "return a.order > b.order;"
+    CASES "nested bodies: the boundaries along*")
+
+# The light on a path is absorbed by the body behind its vertex.
+ljus_break_it(NAME nested_bodies-medium HEADER path/next_vertex.hpp TEST nested_bodies
+    FROM "medium_of_rank(world, path.bodies.top()).value_or"
+    TO   "medium_of_rank(world, path.behind.top()).value_or"
+    CASES "nested bodies: the boundaries along*")
+
+# A hidden surface casts a shadow.
+ljus_break_it(NAME nested_bodies-shadow HEADER path/next_vertex.hpp TEST nested_bodies
+    FROM "if (world.has_priorities() && world.may_be_in_medium(ray.origin))"
+    TO   "if (false)"
+    CASES "nested bodies: shadow rays*")
+
+# A path that goes through a surface stays in the bodies before it.
+ljus_break_it(NAME nested_bodies-through HEADER path/continue_path.hpp
+    TEST nested_bodies
+    FROM "if (!same_side(vertex.wo, next.wi)) path.bodies = path.behind;"
+    TO   ""
+    CASES "nested bodies: a random path*")
+
+# A path begins outside all bodies.
+ljus_break_it(NAME nested_bodies-start HEADER path/next_vertex.hpp TEST nested_bodies
+    FROM "path.bodies = bodies_at(world, ray);"
+    TO   "path.bodies = {};"
+    CASES "nested bodies: the boundaries along*")
+
+# A body that ends was not there if the path did not know it.
+ljus_break_it(NAME nested_bodies-unknown HEADER scene/nested_bodies.hpp
+    TEST nested_bodies
+    FROM "crossing.before = crossing.before.with(rank);"
+    TO   ""
+    CASES "nested bodies: what a ray crosses*")
+
+# A list has the lowest body first.
+ljus_break_it(NAME nested_bodies-list HEADER scene/body_list.hpp TEST nested_bodies
+    FROM "if (rank > place) std::swap(rank, place);"
+    TO   "if (rank < place || place == 0) std::swap(rank, place);"
+    CASES "nested bodies: a list*")
+
+# Any two bodies that overlap are without an order.
+ljus_break_it(NAME nested_bodies-remark HEADER render/passes.hpp TEST nested_bodies
+    FROM "priority_of(around.ranks[n]) == priority_of(around.ranks[n - 1])"
+    TO   "true"
+    CASES "nested bodies: what cannot be*")
