@@ -1,13 +1,13 @@
 # An image upside down.
 ljus_break_it(NAME texture-upside-down HEADER image/texture.hpp TEST texture
-    FROM "(T(1) - repeat(at.y)) * T(image.height)"
-    TO   "repeat(at.y) * T(image.height)"
+    FROM "(T(1) - inside(at.y)) * T(image.height)"
+    TO   "inside(at.y) * T(image.height)"
     CASES "texture: an image*")
 
 # Pixels by their corners in place of their middles.
 ljus_break_it(NAME texture-half-pixel HEADER image/texture.hpp TEST texture
-    FROM "const T x = repeat(at.x) * T(image.width) - T(0.5);"
-    TO   "const T x = repeat(at.x) * T(image.width);"
+    FROM "const T x = wide - T(0.5), y"
+    TO   "const T x = wide, y"
     CASES "texture: an image*")
 
 # Rounded towards zero: the fields around the origin are twice as wide.
@@ -44,8 +44,8 @@ ljus_break_it(NAME texture-ball HEADER geometry/sphere.hpp TEST texture
 
 # The repetitions forgotten.
 ljus_break_it(NAME texture-scale HEADER image/texture.hpp TEST texture
-    FROM "return map.scale * uv;"
-    TO   "return uv;"
+    FROM "scaled = map.scale * uv;"
+    TO   "scaled = uv;"
     CASES "texture: a UvMap*")
 
 # A chunk's sum is not asked.
@@ -80,8 +80,8 @@ ljus_break_it(NAME textured-transport HEADER materials/textured.hpp TEST texture
 
 # A picture is as high as wide.
 ljus_break_it(NAME picture-height HEADER image/texture.hpp TEST texture
-    FROM "(T(1) - repeat(at.y)) * T(image.height)"
-    TO   "(T(1) - repeat(at.y)) * T(image.width)"
+    FROM "(T(1) - inside(at.y)) * T(image.height)"
+    TO   "(T(1) - inside(at.y)) * T(image.width)"
     CASES "texture: rows and columns*")
 
 # Nobody looks for the marker behind the coded pixels.

@@ -4,6 +4,7 @@
 /// \brief The closed scene that renderers and photon passes take.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "ljus/accel/bvh8.hpp"
+#include "ljus/image/texture.hpp"
 #include "ljus/math/frame.hpp"
 #include "ljus/ref.hpp"
 #include "ljus/scene/contacts.hpp"
@@ -196,6 +198,8 @@ public:
         std::apply([](const auto&... lists) { (check_all(lists), ...); }, fog_);
         close_lights(scene);
         materials_ = std::move(scene.materials);
+        if constexpr (any_material([]<typename M>() { return NormalMapped<M>; }))
+            check_normal_maps();
         if constexpr (any_material([]<typename M>() { return MayAbsorb<M>; }))
             find_media();
         contacts_ = find_contacts(*this);
@@ -378,6 +382,24 @@ private:
             ids_.push_back(all[primitive]);
     }
 
+    [[gnu::cold]] void check_normal_maps() const {
+        std::size_t type = 0;
+        const auto check_list = [&]<typename G>(const std::vector<G>&) {
+            if constexpr (!HasTangents<G>)
+                for (const ObjectT<Scalar>& object : objects_[type])
+                    visit_material(object.material, []<typename M>(const M&) {
+                        if constexpr (NormalMapped<M>)
+                            throw std::invalid_argument(detail::join(
+                                {"a shape of the type ", detail::type_name<G>(),
+                                 " has a normal map, but no texture_tangents() in "
+                                 "which its normals would be; meshes, quads and "
+                                 "triangles have them."}));
+                    });
+            ++type;
+        };
+        std::apply([&](const auto&... lists) { (check_list(lists), ...); }, shapes_);
+    }
+
     [[gnu::cold]] void find_media() {
         struct Body {
             BoxT<Scalar> box;
@@ -511,6 +533,79 @@ struct Closed {
 
 } // namespace detail
 
+namespace detail {
+
+/// Whether a type of scene lists a material with holes.
+template <AnyWorld W>
+inline constexpr bool lists_cut_outs = W::any_material([]<typename M>() {
+    return CutOutMaterial<M>;
+});
+
+/// A ray that meets more holes than this in one object counts as one that misses it.
+inline constexpr int max_holes = 1000;
+
+/// The first hit of a ray on a shape of this material that is not in a hole.
+/// \tparam Compute  As for intersect().
+/// \cost An intersection more for each hole, and its place in the mask.
+// [solid_hit]
+template <typename Compute, std::floating_point T, typename G, CutOutMaterial M>
+[[nodiscard]] std::optional<ShapeHitT<T>> solid_hit(RayT<T> ray, const G& shape,
+                                                    const M& material) {
+    for (int holes = 0; holes < max_holes; ++holes) {
+        const auto hit = hit_of<Compute>(ray, shape);
+        if (!hit) break;
+        const SurfacePointT<T> point = surface_point(shape, ray, *hit);
+        Vec2T<T> uv{T(0)};
+        if constexpr (UsesUv<M>) uv = texture_coordinates(shape, *hit, point);
+        if (!is_open(material, point.position, uv)) return hit;
+        ray.t_min = std::nextafter(hit->t, std::numeric_limits<T>::infinity());
+    }
+    return std::nullopt;
+}
+// [solid_hit]
+
+/// Calls f() for an object without holes, or f(material) with its material. A scene
+/// that lists no material with holes compiles f() only.
+template <AnyWorld W, typename F>
+[[nodiscard]] decltype(auto) with_holes(const W& world, ObjectId id, F&& f) {
+    if constexpr (lists_cut_outs<W>)
+        return world.visit_material(world.object(id).material,
+                                    [&]<typename M>(const M& m) {
+                                        if constexpr (CutOutMaterial<M>)
+                                            return f(m);
+                                        else
+                                            return f();
+                                    });
+    else
+        return f();
+}
+
+/// As hit_of(), for an object of a scene: what lies in a hole is no hit.
+template <typename Compute, AnyWorld W, std::floating_point T, typename G>
+[[nodiscard]] std::optional<ShapeHitT<T>> hit_on(const W& world, ObjectId id,
+                                                 const RayT<T>& ray, const G& shape) {
+    return with_holes(world, id, [&](const auto&... cut) {
+        if constexpr (sizeof...(cut) > 0)
+            return solid_hit<Compute>(ray, shape, cut...);
+        else
+            return hit_of<Compute>(ray, shape);
+    });
+}
+
+/// As is_met(), for an object of a scene.
+template <typename Compute, AnyWorld W, std::floating_point T, typename G>
+[[nodiscard]] bool meets_object(const W& world, ObjectId id, const RayT<T>& ray,
+                                const G& shape) {
+    return with_holes(world, id, [&](const auto&... cut) {
+        if constexpr (sizeof...(cut) > 0)
+            return solid_hit<Compute>(ray, shape, cut...).has_value();
+        else
+            return is_met<Compute>(ray, shape);
+    });
+}
+
+} // namespace detail
+
 /// Refuses a scene with fog, for what carries no light through it.
 /// \param world  The closed scene.
 /// \param what   What that is, such as "photon maps".
@@ -598,7 +693,7 @@ place_of(const World<S, Compute>& world, const RayT<T>& ray, const SceneHitT<T>&
             pass(*here, hit, point->normal);
         }
         const auto found = world.visit_shape(other.object, [&](const auto& shape) {
-            return detail::hit_of<Compute>(near, shape);
+            return detail::hit_on<Compute>(world, other.object, near, shape);
         });
         if (!found) continue;
         const SceneHitT<T> at{*found, other.object};
@@ -631,7 +726,8 @@ closest_hit_plain(const World<S, Compute>& world, const RayT<T>& asked) {
     std::uint32_t type = 0;
     const auto ask_all = [&](const auto& shapes) {
         for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-            const auto found = detail::hit_of<Compute>(ray, shapes[i]);
+            const auto found =
+                detail::hit_on<Compute>(world, {type, i}, ray, shapes[i]);
             if (!found || (closest && !(found->t < ray.t_max))) continue;
             ray.t_max = found->t;
             closest = SceneHitT<T>{*found, {type, i}};
@@ -650,9 +746,12 @@ closest_hit_plain(const World<S, Compute>& world, const RayT<T>& asked) {
 /// \return True at the first hit found, whichever it is.
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] bool occluded_plain(const World<S, Compute>& world, const RayT<T>& ray) {
+    std::uint32_t type = 0;
     const auto any = [&](const auto& shapes) {
-        for (const auto& shape : shapes)
-            if (detail::is_met<Compute>(ray, shape)) return true;
+        for (std::uint32_t i = 0; i < shapes.size(); ++i)
+            if (detail::meets_object<Compute>(world, {type, i}, ray, shapes[i]))
+                return true;
+        ++type;
         return false;
     };
     return std::apply([&](const auto&... shapes) { return (any(shapes) || ...); },
@@ -672,7 +771,7 @@ closest_hit(const World<S, Compute>& world, const RayT<T>& ray) {
     const auto nearest =
         nearest_hit(world.tree(), ray, [&](std::uint32_t slot, const RayT<T>& rest) {
             return world.visit_shape(world.ids()[slot], [&](const auto& shape) {
-                return detail::hit_of<Compute>(rest, shape);
+                return detail::hit_on<Compute>(world, world.ids()[slot], rest, shape);
             });
         });
     if (!nearest.found) return std::nullopt;
@@ -690,7 +789,7 @@ template <typename S, typename Compute, std::floating_point T>
     if (world.ids().empty()) return occluded_plain(world, ray);
     return world.tree().any(ray, [&](std::uint32_t slot) {
         return world.visit_shape(world.ids()[slot], [&](const auto& shape) {
-            return detail::is_met<Compute>(ray, shape);
+            return detail::meets_object<Compute>(world, world.ids()[slot], ray, shape);
         });
     });
 }
