@@ -38,7 +38,12 @@ std::string surface_text(const MeshMaterial& is) {
     if (is.is_mirror() && is.roughness > 0)
         text += ", roughness " + to_text(is.roughness);
     if (is.emission != glm::dvec3(0)) text += ", emits " + vector_text(is.emission);
-    if (!is.picture.empty()) text += ", picture " + shown_path(is.picture);
+    const auto named = [&](const char* what, const MeshImage& image) {
+        if (!image.name.empty()) text += what + shown_path(image.name);
+    };
+    named(", picture ", is.picture);
+    named(", holes by ", is.mask);
+    named(", normals by ", is.normals);
     return text;
 }
 
