@@ -17,7 +17,6 @@
 using namespace ljus;
 
 namespace {
-
 constexpr float pi = std::numbers::pi_v<float>;
 
 /// A picture of color_of(u, v), on the shape's own coordinates.
@@ -39,7 +38,7 @@ float half_width(float v) {
     return std::max(v < 0.12f ? 0.02f : 0.0f, leaf * teeth);
 }
 
-/// A square with the shape of a leaf; its veins are paler.
+/// A square with the shape of a leaf, and paler veins.
 auto leaf(const Rgb& color) {
     const auto alpha = [](float u, float v) {
         return Rgb{std::abs(u - 0.5f) < half_width(v) ? 1.0f : 0.0f};
@@ -48,25 +47,22 @@ auto leaf(const Rgb& color) {
         const float x = std::abs(u - 0.5f), along = std::abs(std::sin(24 * (v - x)));
         return Rgb{x < 0.015f || along < 0.12f ? 1.0f : 0.7f};
     };
-    const CutOut<Lambertian, UvPicture> cut{{.albedo = color},
-                                            {.mask = drawn(128, {}, alpha)}};
-    return Textured<CutOut<Lambertian, UvPicture>, UvPicture>{cut,
-                                                              drawn(128, {}, veins)};
+    return Textured<CutOut<Lambertian, UvPicture>, UvPicture>{
+        {{.albedo = color}, {.mask = drawn(128, {}, alpha)}}, drawn(128, {}, veins)};
 }
 // [leaf]
 
 // [tiles]
-/// A floor of tiles: grey joints, and a normal map that rounds the rims and bends the
-/// middles a little.
+/// Tiles with grey joints, and normals that round their rims and make them wavy.
 auto tiles(float count) {
     const UvMap map{.scale{count, count}};
-    const auto rim = [](float x) { return std::max(0.0f, std::abs(x - 0.5f) - 0.42f); };
+    const auto rim = [](float x) { return std::max(0.0f, std::abs(x - 0.5f) - 0.4f); };
     const auto color = [&](float u, float v) {
-        return std::max(rim(u), rim(v)) > 0.055f ? Rgb{0.35f} : Rgb{0.62f, 0.4f, 0.28f};
+        return std::max(rim(u), rim(v)) > 0.08f ? Rgb{0.35f} : Rgb{0.62f, 0.4f, 0.28f};
     };
     const auto normal = [&](float u, float v) {
         const auto slope = [&](float x, float y) {
-            return std::copysign(14 * rim(x), x - 0.5f) + 0.12f * std::sin(6 * pi * y);
+            return std::copysign(8 * rim(x), x - 0.5f) + 0.15f * std::sin(6 * pi * y);
         };
         return 0.5f + 0.5f * glm::normalize(Vec3{slope(u, v), slope(v, u), 1});
     };
@@ -103,22 +99,21 @@ int main(int argc, char** argv) {
             scene;
         const std::array green{scene.add(leaf({0.22f, 0.5f, 0.1f})),
                                scene.add(leaf({0.75f, 0.45f, 0.08f}))};
-        scene.add(Quad{{-8, 0, 8}, {16, 0, 0}, {0, 0, -16}}, scene.add(tiles(20)));
+        scene.add(Quad{{-8, 0, 8}, {16, 0, 0}, {0, 0, -16}}, scene.add(tiles(16)));
         RandomStream stream = random_stream(45, Pass::user, 0, 0);
         for (int i = 0; i < 130; ++i) {
             const Vec3 at = next_3d<float>(stream);
             const Vec3 center{4.4f * at.x - 2.2f, 0.25f + 1.7f * at.y, 2.6f * at.z - 2};
             scene.add(turned_square(center, 0.42f, stream), green[i % 3 == 0 ? 1 : 0]);
         }
-        scene.add(Sphere{{-5, 9, 3}, 0.5f}, scene.add(Lambertian{}),
+        scene.add(Sphere{{-8, 6, 1}, 0.5f}, scene.add(Lambertian{}),
                   Rgb{330, 300, 240});
-        scene.add(
-            EnvironmentLight{.picture = make_image(4, 2, Rgb{0.3f, 0.4f, 0.55f})});
+        scene.add(EnvironmentLight{.picture = make_image(4, 2, Rgb{0.3f, 0.4f, 0.5f})});
         const World world(std::move(scene));
         const Camera camera = look_at(
             {.position{0, 1.7f, 3.6f}, .target{0, 0.55f, -0.4f}, .vfov_degrees = 42});
-        const auto picture =
-            examples::rendered("leaves", PathTracer(world), camera, options);
+        const PathTracer tracer(world);
+        const auto picture = examples::rendered("leaves", tracer, camera, options);
         save_png(picture.image, options.path("textures-leaves.png"));
     });
 }

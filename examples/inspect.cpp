@@ -102,7 +102,8 @@ void draw(const std::string& mesh, const MeshFileSettings& settings,
           const std::string& camera, const std::string& file) {
     const LoadedMesh loaded = load_mesh(mesh, settings);
     Scene<Shapes<Mesh>,
-          Materials<Lambertian, Mirror, Glossy, Glass, MeshPicture, MeshMetalPicture>,
+          Materials<Lambertian, Mirror, Glossy, Glass, MeshPicture, MeshMetalPicture,
+                    MeshDetailed, MeshMetalDetailed>,
           Lights<PointLight, SpotLight, SunLight, EnvironmentLight>>
         scene;
     add_meshes(scene, loaded);

@@ -161,3 +161,21 @@ ljus_break_it(NAME jpeg-padding HEADER io/detail/picture_damage.hpp TEST texture
     FROM "if (kind == padding) {"
     TO   "if (kind == padding) return;\n        if (kind == padding) {"
     CASES "texture: files that other readers*")
+
+# Beyond its border a picture repeats, although it ends there.
+ljus_break_it(NAME texture-clamp HEADER image/texture.hpp TEST texture
+    FROM "return repeats ? (i + size) % size : std::clamp(i, 0, size - 1);"
+    TO   "return (i + size) % size;"
+    CASES "texture: a picture ends*")
+
+# The nearest pixel is a row too low.
+ljus_break_it(NAME texture-nearest HEADER image/texture.hpp TEST texture
+    FROM "std::ceil(high) - T(1)"
+    TO   "std::floor(high)"
+    CASES "texture: a picture ends*")
+
+# Turned the other way round.
+ljus_break_it(NAME texture-turn HEADER image/texture.hpp TEST texture
+    FROM "map.turn.x * scaled.x - map.turn.y * scaled.y,"
+    TO   "map.turn.x * scaled.x + map.turn.y * scaled.y,"
+    CASES "texture: a UvMap scales*")
