@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
         line.about("Chapter 45, textures: leaves over a floor of tiles.");
         const examples::Options options =
             line.parse({.draft{.width = 300, .height = 170, .samples = 8},
-                        .report{.width = 720, .height = 400, .samples = 144},
+                        .report{.width = 720, .height = 400, .samples = 64},
                         .reference{.width = 1440, .height = 800, .samples = 1024}});
 
         Scene<Shapes<Quad, Sphere>,

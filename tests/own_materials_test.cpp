@@ -12,6 +12,7 @@
 
 #include "ljus/io/load_json.hpp"
 #include "ljus/io/load_mesh.hpp"
+#include "ljus/io/png.hpp"
 #include "ljus/path/direct_light.hpp"
 #include "scratch_folder.hpp"
 #include "support/mesh_bytes.hpp"
@@ -171,20 +172,22 @@ TEST_CASE("own materials: three of an MTL file, in a scene file and in code") {
     write(folder, "a.obj",
           "mtllib a.mtl\n" + square(0, 1, "red") + square(1, 5, "mirror") +
               square(2, 9, "lamp") + square(3, 13, "leaf"));
-    const std::string objects = R"({"type": "mesh", "file": "a.obj", "lamp_group": "x",
-        "emission": [0.5, 0.5, 0.5]},
+    const auto objects = [](const char* emission) {
+        return std::string(R"({"type": "mesh", "file": "a.obj", "lamp_group": "x")") +
+               emission + R"(},
         {"type": "mesh", "file": "a.obj", "material": "grey",
          "transform": {"translate": [0, 9, 0]}},
         {"type": "mesh", "file": "a.obj", "material": "file",
          "transform": {"translate": [0, -9, 0]}},
         {"type": "instances", "file": "a.obj",
          "places": [[1, 0, 0, 20, 0, 1, 0, 0, 0, 0, 1, 0]]})";
-    // The first one glows by itself as well, without its holes: a lamp has none.
-    std::string dark = objects;
-    dark.erase(dark.find(",\n        \"emission\""), 36);
-    std::string text = scene_text(dark);
-    text.insert(text.find("\"lights\""), "\"lamp_groups\": {\"x\": 2}, ");
-    const World world = world_of(folder, text);
+    };
+    const auto whole = [&](const char* emission) {
+        std::string text = scene_text(objects(emission));
+        text.insert(text.find("\"lights\""), "\"lamp_groups\": {\"x\": 2}, ");
+        return text;
+    };
+    const World world = world_of(folder, whole(""));
     for (const Vec2 at : {Vec2{0, 0}, Vec2{0, -9}, Vec2{20, 0}}) {
         const auto seen = [&](float x, float y) {
             return color_seen(world, at.x + x, at.y + y);
@@ -210,8 +213,8 @@ TEST_CASE("own materials: three of an MTL file, in a scene file and in code") {
     CHECK(radiance(2.5f, -8.5f) == Rgb{3, 2, 1});
     CHECK(radiance(22.5f, 0.5f) == Rgb{3, 2, 1});
     // What has holes cannot glow.
-    CHECK(refusal(folder, scene_text(objects)).find("the radiance of a cut-out") !=
-          std::string::npos);
+    CHECK(refusal(folder, whole(", \"emission\": [1, 1, 1]"))
+              .find("the radiance of a cut-out") != std::string::npos);
 
     // The same in code; a scene that lists no holes has none.
     const auto loaded = load_obj(folder.file("a.obj"));
@@ -229,7 +232,10 @@ TEST_CASE("own materials: three of an MTL file, in a scene file and in code") {
 
 TEST_CASE("own materials: pictures of MTL files") {
     const ScratchFolder folder;
-    save_file(folder.file("grey.bmp"), bmp(2, {{255, 9, 9, 0}, {90, 255, 255, 0}}));
+    Image grey = make_image<float>(2, 1); // bytes of 150 and 90 in red
+    pixel(grey, 0, 0) = {srgb_decode(150.0f / 255), 0, 0};
+    pixel(grey, 1, 0) = {srgb_decode(90.0f / 255), 1, 1};
+    save_png(grey, folder.file("grey.png"));
     save_file(folder.file("lean.bmp"), bmp(1, {{204, 128, 230, 255}}));
     write(folder, "a.obj", "mtllib a.mtl\n" + square(0, 1, "a"));
     const auto notes = [&](const std::string& material) {
@@ -239,8 +245,8 @@ TEST_CASE("own materials: pictures of MTL files") {
             text += note.substr(note.rfind("a.mtl")) + "\n";
         return text;
     };
-    // A mask without alpha counts by its red. (A BMP file whose alpha is 0 has none.)
-    CHECK(notes("map_d -s 3 3 3 grey.bmp\nnorm lean.bmp\n") ==
+    // A mask without alpha counts by its red, as a number.
+    CHECK(notes("map_d -s 3 3 3 grey.png\nnorm lean.bmp\n") ==
           "a.mtl, line 2: map_d has options, -s; they are not used.\n");
     const World world =
         world_of(folder, scene_text(R"({"type": "mesh", "file": "a.obj"})"));
@@ -252,10 +258,10 @@ TEST_CASE("own materials: pictures of MTL files") {
     CHECK(notes("map_Bump -bm 2 lean.bmp\n") ==
           "a.mtl, line 2: map_Bump is a map of heights, which is not used; norm names "
           "one of normals.\n");
-    CHECK(notes("Ke 1 1 1\nmap_d grey.bmp\n") ==
+    CHECK(notes("Ke 1 1 1\nmap_d grey.png\n") ==
           "a.mtl, line 3: a picture of holes or normals is on what glows; it is not "
           "used.\n");
-    CHECK(notes("map_Kd -o 0.5 -s 2 0 -clamp on -blendu on grey.bmp\n") ==
+    CHECK(notes("map_Kd -o 0.5 -s 2 0 -clamp on -blendu on grey.png\n") ==
           "a.mtl, line 2: map_Kd has options, -s -blendu; they are not used.\n");
     const auto loaded = load_obj(folder.file("a.obj"));
     const MeshMaterial& is = loaded.parts.at(0).material;
@@ -324,31 +330,36 @@ TEST_CASE("own materials: what a glTF file has and we have not is said once") {
         (void)world_of(folder, scene_text(gltf_object + ", " + gltf_object), &report);
         return report;
     };
+    const std::string open = folder.file("a.gltf") +
+                             ":\ntriangle 1: 4 edges belong to one face only; the mesh "
+                             "is not closed, and unsuitable for glass.\n";
     const std::string gloss =
-        folder.file("a.gltf") +
-        ":\nthe gloss over the colour of what is no metal is left out.\n";
-    const std::string has = gloss + "materials[0] has what is not used: ";
-    CHECK(notes(pictured()) == gloss);
+        "the gloss over the colour of what is no metal is left out.\n";
+    const auto unused = [&](const std::string& what) {
+        return open + "materials[0] has what is not used: " + what + ".\n" + gloss;
+    };
+    CHECK(notes(pictured()) == open + gloss);
     json odd = pictured();
     odd["normalTexture"] = {{"index", 2}, {"scale", 0.5}};
     odd["alphaMode"] = "BLEND";
     odd["extensions"]["KHR_materials_clearcoat"] = json::object();
-    CHECK(notes(odd) == has + "a normalTexture that lies otherwise than the colours, "
-                              "scale of normalTexture, alphaMode BLEND and "
-                              "KHR_materials_clearcoat.\n");
+    CHECK(
+        notes(odd) ==
+        unused("a normalTexture that lies otherwise, scale of normalTexture, alphaMode "
+               "BLEND and KHR_materials_clearcoat"));
     json lamp = pictured();
     lamp["emissiveFactor"] = {1, 1, 1};
     lamp["alphaMode"] = "MASK";
-    CHECK(notes(lamp) == has + "holes and normals of what glows.\n");
+    CHECK(notes(lamp) == unused("holes and normals of what glows"));
     json mirrored = pictured();
     CHECK(notes(mirrored, {{"samplers", {{{"wrapS", 33648}}, {{"wrapS", 33071}}}}}) ==
-          has + "a part of how baseColorTexture lies.\n");
+          unused("a part of how baseColorTexture lies"));
     // Its lamps stay where they are.
     CHECK(notes(pictured(), json::parse(R"({"nodes": [{"mesh": 0, "extensions":
                                 {"KHR_lights_punctual": {"light": 0}}}],
                     "extensions": {"KHR_lights_punctual":
                                    {"lights": [{"type": "point"}]}}})")) ==
-          gloss + "its lights are not used; write them into the scene file.\n");
+          open + gloss + "its lights are not used; write them into the scene file.\n");
 }
 
 TEST_CASE("own materials: pictures in scene files lie as they are told") {

@@ -263,7 +263,7 @@ TEST_CASE("texture: a picture ends at its border, and each pixel has an edge") {
     };
     // Clamped: beyond the middles of the outer pixels their colours go on.
     const Rgb red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1}, white{1};
-    for (const float far : {0.0f, -1e-3f, -1.0f, -1e6f, -3e38f, -INFINITY}) {
+    for (const float far : {0.0f, -1e-3f, -1.0f, -1e6f, -3e38f}) {
         CHECK(at(far, 0.75f) == red);
         CHECK(at(0.75f, far) == white);
         CHECK(at(1 - far, 0.25f) == white);

@@ -177,8 +177,8 @@ template <std::floating_point T>
            hit.v * uv[corner[2]];
 }
 
-/// The directions in which a triangle's texture coordinates grow: its edges, if the mesh
-/// has none.
+/// The directions in which a triangle's texture coordinates grow: its edges, if the
+/// mesh has none.
 /// \return The derivatives of the point by u and by v; 0 on a triangle whose texture
 ///         coordinates span no area.
 // [texture_tangents]

@@ -78,8 +78,8 @@ concept Samplable = Shape<S> && HasArea<S> &&
 };
 
 /// A shape that tells in which directions its texture coordinates grow, for normal
-/// maps: `texture_tangents(shape, hit)` returns the derivatives of the point by u and by
-/// v, of any length; 0 where there are none.
+/// maps: `texture_tangents(shape, hit)` returns the derivatives of the point by u and
+/// by v, of any length; 0 where there are none.
 template <typename S>
 concept HasTangents = requires(const S& shape, const ShapeHitT<ScalarOf<S>>& hit) {
     { texture_tangents(shape, hit) } -> std::same_as<std::array<Vec3T<ScalarOf<S>>, 2>>;

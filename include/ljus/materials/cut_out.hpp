@@ -10,8 +10,8 @@ namespace ljus {
 /// \defgroup cut_out Cut-outs
 /// \brief A leaf is a square with holes. Chapter: \ref ch_textures.
 ///
-/// The holes belong to the search for the nearest hit, as in \cite pharr2023: a hit in a
-/// hole counts for no ray and for no photon. A scene that lists no such material
+/// The holes belong to the search for the nearest hit, as in \cite pharr2023: a hit in
+/// a hole counts for no ray and for no photon. A scene that lists no such material
 /// compiles nothing of this.
 /// \{
 

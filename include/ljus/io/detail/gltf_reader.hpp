@@ -431,8 +431,7 @@ private:
                 lookup.map.turn != material.map.turn ||
                 lookup.map.offset != material.map.offset ||
                 lookup.wrap != material.wrap)
-                unused.push_back(
-                    "a normalTexture that lies otherwise than the colours");
+                unused.push_back("a normalTexture that lies otherwise");
             else
                 material.normals = {picture_of(*texture), "a normalTexture"};
             if (number_of(*texture, "scale", 1, -1e6, 1e6) != 1)
