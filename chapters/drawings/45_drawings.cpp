@@ -47,8 +47,8 @@ void draw_holes(const std::string& folder) {
     ray(0.7, 1.7, {});
     ray(2, 0.9, {1.7});
     ray(3.1, 0, {1.7, 0.9});
-    draw_label(drawing, {5.5, 1.75}, "alpha 1", colors::green);
-    draw_label(drawing, {5.5, 2.1}, "alpha 0", "#777777");
+    draw_label(drawing, {4.45, 1.95}, "alpha 1", colors::green);
+    draw_label(drawing, {2.7, 1.95}, "alpha 0", "#777777");
     save_drawing(folder, drawing);
 }
 
@@ -57,10 +57,10 @@ void draw_normals(const std::string& folder) {
     Drawing drawing{.name = "textures-frame",
                     .description =
                         "A flat surface with normals that turn as those of a groove "
-                        "would, drawn dashed below it; one of them with the axes u "
+                        "would, which is drawn below it; one of them with the axes u "
                         "and z of its picture",
                     .low{-0.3, -0.9},
-                    .high{6.6, 1.6},
+                    .high{7.2, 1.6},
                     .scale = 90};
     const auto slope = [](double x) {
         const double from = x - 2;
