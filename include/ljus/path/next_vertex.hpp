@@ -186,7 +186,9 @@ inline void fill_vertex(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
         if (detail::uses_uv(world, vertex.object.material))
             vertex.uv = texture_coordinates(shape, hit.at, vertex.point);
         if constexpr (lists_normal_maps<W> && HasTangents<G>)
-            if (map_normal(vertex, world, ray, shape, hit.at)) return;
+            if (world.has_material([]<typename M>() { return NormalMapped<M>; }) &&
+                map_normal(vertex, world, ray, shape, hit.at))
+                return;
         if constexpr (requires { shading_normal(shape, hit.at, geometric); })
             set_frame(vertex, ray, shading_normal(shape, hit.at, geometric));
         else if constexpr (!one_frame)
@@ -319,14 +321,7 @@ template <AnyWorld W, std::floating_point T>
 /// type.
 template <AnyWorld W>
 [[nodiscard]] bool has_thin_surfaces(const W& world) noexcept {
-    return std::apply(
-        [](const auto&... array) {
-            return ((ThinSurface<
-                         typename std::remove_cvref_t<decltype(array)>::value_type> &&
-                     !array.empty()) ||
-                    ...);
-        },
-        world.materials());
+    return world.has_material([]<typename M>() { return ThinSurface<M>; });
 }
 
 /// Whether a scene has a shape that moves; false if it only lists such a type.

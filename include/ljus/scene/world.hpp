@@ -198,6 +198,7 @@ public:
         std::apply([](const auto&... lists) { (check_all(lists), ...); }, fog_);
         close_lights(scene);
         materials_ = std::move(scene.materials);
+        has_holes_ = has_material([]<typename M>() { return CutOutMaterial<M>; });
         if constexpr (any_material([]<typename M>() { return NormalMapped<M>; }))
             check_normal_maps();
         if constexpr (any_material([]<typename M>() { return MayAbsorb<M>; }))
@@ -307,6 +308,17 @@ public:
     [[nodiscard]] static constexpr bool any_material(F f) noexcept {
         return S::any_material(f);
     }
+    /// As any_material(), for the types of which the scene has a material.
+    template <typename F>
+    [[nodiscard]] bool has_material([[maybe_unused]] F f) const noexcept {
+        return std::apply(
+            [&]<typename... M>(const std::vector<M>&... list) {
+                return ((f.template operator()<M>() && !list.empty()) || ...);
+            },
+            materials_);
+    }
+    /// Whether a material of the scene has holes.
+    [[nodiscard]] bool has_holes() const noexcept { return has_holes_; }
     /// As Scene::any_light().
     template <typename F>
     [[nodiscard]] static constexpr bool any_light(F f) noexcept {
@@ -496,6 +508,7 @@ private:
     BoxT<Scalar> media_{}; // of absorbing bodies, in fog of all; empty if none
     bool nested_media_ = false;
     bool has_contacts_ = false;
+    bool has_holes_ = false;
     BoxT<Scalar> contact_box_{};
     Tree tree_{};
     std::vector<ObjectId> ids_{};
@@ -565,10 +578,12 @@ template <typename Compute, std::floating_point T, typename G, CutOutMaterial M>
 // [solid_hit]
 
 /// Calls f() for an object without holes, or f(material) with its material. A scene
-/// that lists no material with holes compiles f() only.
+/// that lists no material with holes compiles f() only; one that has none pays a
+/// comparison.
 template <AnyWorld W, typename F>
 [[nodiscard]] decltype(auto) with_holes(const W& world, ObjectId id, F&& f) {
-    if constexpr (lists_cut_outs<W>)
+    if constexpr (lists_cut_outs<W>) {
+        if (!world.has_holes()) return f();
         return world.visit_material(world.object(id).material,
                                     [&]<typename M>(const M& m) {
                                         if constexpr (CutOutMaterial<M>)
@@ -576,8 +591,9 @@ template <AnyWorld W, typename F>
                                         else
                                             return f();
                                     });
-    else
+    } else {
         return f();
+    }
 }
 
 /// As hit_of(), for an object of a scene: what lies in a hole is no hit.
