@@ -233,9 +233,12 @@ TEST_CASE("cut-out: a camera sees through it, and colours stay where they are") 
 }
 
 TEST_CASE("cut-out: a leaf that lies on the floor") {
-    // Contact: in the holes the floor is met, elsewhere either, at the same distance.
+    // Contact: in the holes the floor is met, which is darker than the leaf, so that the
+    // leaf would be met in its place; elsewhere either, at the same distance.
+    const Textured<Lambertian, UvChecker> dark{{.albedo = Rgb{0.1f}},
+                                               grid(2).texture.mask};
     const World world(
-        make_scene(placed(square(0), grid(4)), placed(square(0), Lambertian{}),
+        make_scene(placed(square(0), grid(4)), placed(square(0), dark),
                    placed(Sphere{.center{20, 9, 0}, .radius = 1}, Lambertian{})));
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column) {

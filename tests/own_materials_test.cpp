@@ -125,7 +125,7 @@ void write_gltf(const ScratchFolder& folder, const json& material,
         for (const int x : {u, v, 0}) add_float(bytes, float(x));
     for (const auto& [u, v] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
         for (const int x : {u, 1 - v}) add_float(bytes, float(x)); // v goes down
-    for (const std::uint64_t corner : {0, 1, 2, 0, 2, 3}) add_number(bytes, corner, 2);
+    for (const unsigned corner : {0u, 1u, 2u, 0u, 2u, 3u}) add_number(bytes, corner, 2);
     save_file(folder.file("a.bin"), bytes);
     save_file(folder.file("four.bmp"), bmp(2, four));
     save_file(folder.file("lean.bmp"), bmp(1, {{204, 128, 230, 255}}));
