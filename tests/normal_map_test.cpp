@@ -87,7 +87,7 @@ TEST_CASE("normal map: red goes along u and green along v, however they lie") {
     const Vec3 right{n.x, n.z, -n.y}; // u along x, v along -z
     check_near(seen(floor_quad, tilted(n)).frame.normal, right);
     check_near(
-        seen(Triangle{{-4, 0, 4}, {4, 0, 4}, {-4, 0, -4}}, tilted(n)).frame.normal,
+        seen(Triangle{{-4, 0, 4}, {9, 0, 4}, {-4, 0, -9}}, tilted(n)).frame.normal,
         right);
     // Of any length but 0; the picture is not trusted to be of unit length.
     check_near(seen(floor_quad, tilted(0.5f * n)).frame.normal, right);
