@@ -233,8 +233,8 @@ TEST_CASE("cut-out: a camera sees through it, and colours stay where they are") 
 }
 
 TEST_CASE("cut-out: a leaf that lies on the floor") {
-    // Contact: in the holes the floor is met, which is darker than the leaf, so that the
-    // leaf would be met in its place; elsewhere either, at the same distance.
+    // Contact: in the holes the floor is met, which is darker than the leaf, so that
+    // the leaf would be met in its place; elsewhere either, at the same distance.
     const Textured<Lambertian, UvChecker> dark{{.albedo = Rgb{0.1f}},
                                                grid(2).texture.mask};
     const World world(

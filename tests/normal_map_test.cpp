@@ -215,6 +215,11 @@ TEST_CASE("normal map: what faces away is not black, and smooth normals are the 
         CHECK(std::isfinite(vertex.frame.normal.x));
         CHECK(vertex.wo.z > 0);
     }
+    // Seen so flat that the eye is in front of the normal below the plane.
+    const World below(make_scene(placed(floor_quad, tilted({0.9f, 0, -0.3f}))));
+    const Ray grazing{.origin{9, 1, 0}, .direction = glm::normalize(Vec3{-9, -1, 0})};
+    check_near(vertex_at(below, grazing, *closest_hit(below, grazing)).frame.normal,
+               {0, 1, 0});
     // Seen from where the mapped normal faces away: as for all shading normals.
     const World world(make_scene(placed(floor_quad, tilted({0.8f, 0, 0.6f}))));
     const Ray flat_ray{.origin{-9, 3, 0}, .direction = glm::normalize(Vec3{9, -3, 0})};

@@ -135,12 +135,15 @@ void write_gltf(const ScratchFolder& folder, const json& material,
         "bufferViews": [{"buffer": 0, "byteLength": 48},
                         {"buffer": 0, "byteOffset": 48, "byteLength": 32},
                         {"buffer": 0, "byteOffset": 80, "byteLength": 12}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
-                      {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC2"},
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4,
+                       "type": "VEC3"},
+                      {"bufferView": 1, "componentType": 5126, "count": 4,
+                       "type": "VEC2"},
                       {"bufferView": 2, "componentType": 5123, "count": 6,
                        "type": "SCALAR"}],
         "images": [{"uri": "four.bmp"}, {"uri": "lean.bmp"}],
-        "samplers": [{"magFilter": 9728}, {"magFilter": 9728, "wrapS": 33071, "wrapT": 33071}],
+        "samplers": [{"magFilter": 9728}, {"magFilter": 9728, "wrapS": 33071,
+                                           "wrapT": 33071}],
         "textures": [{"source": 0, "sampler": 0}, {"source": 1, "sampler": 0},
                      {"source": 0, "sampler": 1}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1},
@@ -300,8 +303,8 @@ TEST_CASE("own materials: a glTF file's picture, its holes and its normals") {
     // Beyond its border: the border's pixels. From u = 0.25 on it is the right half.
     texture["index"] = 2;
     CHECK(seen(moved) == Colors{green, green, white, white});
-    // By a quarter counter-clockwise, of coordinates whose v goes down, around the upper
-    // left corner: (u, v) goes to (v, -u), which repeats.
+    // By a quarter counter-clockwise, of coordinates whose v goes down, around the
+    // upper left corner: (u, v) goes to (v, -u), which repeats.
     json turned = pictured();
     turned["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]
           ["KHR_texture_transform"]["rotation"] = std::numbers::pi / 2;

@@ -85,7 +85,7 @@ double apart(const std::vector<double>& a, const std::vector<double>& b) {
     return std::sqrt(sum / double(a.size()));
 }
 
-/// A grey floor with the shadow of a ball, brightness about 1.
+/// A grey floor with the soft shadow of a ball.
 std::vector<double> lit_floor(int rays, std::uint64_t seed) {
     Scene<Shapes<Quad, Sphere>, Materials<Lambertian>> scene;
     const auto grey = scene.add(Lambertian{.albedo = Rgb{0.5f}});
