@@ -36,7 +36,12 @@ std::string surface_text(const MeshMaterial& is) {
     if (is.is_mirror() && is.roughness > 0)
         text += ", roughness " + to_text(is.roughness);
     if (is.emission != glm::dvec3(0)) text += ", emits " + to_text(Vec3(is.emission));
-    if (!is.picture.empty()) text += ", picture " + shown_path(is.picture);
+    const auto named = [&](const char* what, const MeshImage& image) {
+        if (!image.name.empty()) text += what + shown_path(image.name);
+    };
+    named(", picture ", is.picture);
+    named(", holes by ", is.mask);
+    named(", normals by ", is.normals);
     return text;
 }
 
@@ -111,7 +116,8 @@ Camera camera_of(const LoadedMesh& loaded, const std::string& name) {
 /// A picture of all meshes in their own colours; under a sky if nothing glows.
 Image picture_of(const LoadedMesh& loaded, const Camera& camera) {
     Scene<Shapes<Mesh>,
-          Materials<Lambertian, Mirror, Glossy, Glass, MeshPicture, MeshMetalPicture>,
+          Materials<Lambertian, Mirror, Glossy, Glass, MeshPicture, MeshMetalPicture,
+                    MeshDetailed, MeshMetalDetailed>,
           Lights<PointLight, SpotLight, SunLight, EnvironmentLight>>
         scene;
     add_meshes(scene, loaded);

@@ -393,7 +393,7 @@ TEST_CASE("load_gltf: pictures of colour, of metal and roughness, and colours") 
     CHECK(loaded.pictures.begin()->first == "x.gltf, images[0]");
     const Image& image = loaded.pictures.begin()->second;
     CHECK(pixel(image, 0, 0) == Rgb{1, 0, 0});
-    CHECK(loaded.parts[0].material.picture == "x.gltf, images[0]");
+    CHECK(loaded.parts[0].material.picture.name == "x.gltf, images[0]");
     CHECK(loaded.parts[0].mesh.data().uv.at(2) == Vec2{0.2f, 0});
     CHECK(loaded.report.notes.at(0).find("materials[0] (two) has what is not "
                                          "used: metallicRoughnessTexture within a") ==
@@ -468,7 +468,7 @@ TEST_CASE("load_gltf: a file that cannot be right is refused with a sentence") {
         {"", R"({"extensionsRequired": ["KHR_draco_mesh_compression"]})",
          "extensionsRequired[0] is \"KHR_draco_mesh_compression\"; it must be "
          "KHR_lights_punctual, KHR_materials_emissive_strength, KHR_materials_ior, "
-         "KHR_materials_transmission or KHR_mesh_quantization."},
+         "KHR_materials_transmission, KHR_mesh_quantization or KHR_texture_transform."},
         {"", R"({"scene": 3})", "scene is 3; it must be a whole number within [0, 0]."},
         {"", R"({"meshes": null})",
          "nodes[0].mesh names one of meshes, but there are none."},
@@ -574,7 +574,7 @@ TEST_CASE("load_gltf: what is not used is said") {
     file.all["skins"] = {json::object()};
     file.all["nodes"][0]["skin"] = 0;
     file.primitive()["targets"] = {json::object()};
-    file.all["materials"] = R"([{"name": "odd", "normalTexture": {"index": 0},
+    file.all["materials"] = R"([{"name": "odd", "occlusionTexture": {"index": 0},
         "emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0},
         "alphaMode": "MASK", "extensions": {"KHR_materials_sheen": {}}}])"_json;
     file.primitive()["material"] = 0;
@@ -582,7 +582,7 @@ TEST_CASE("load_gltf: what is not used is said") {
     CHECK(loaded.parts.at(0).material.emission == glm::dvec3(0));
     std::string notes;
     for (const std::string& note : loaded.report.notes) notes += note + "\n";
-    CHECK(notes == "materials[0] (odd) has what is not used: normalTexture, "
+    CHECK(notes == "materials[0] (odd) has what is not used: occlusionTexture, "
                    "emissiveTexture, alphaMode MASK and KHR_materials_sheen.\n"
                    "2 animations are not used.\n"
                    "1 nodes have skins, which are not used: their meshes stand "

@@ -455,8 +455,7 @@ TEST_CASE("load_json: for a wrong word the nearest one is proposed") {
          "lambertian, oren-nayar, mirror, dielectric, mixture, oren-nayar-full, "
          "oren-nayar-printed, fujii, fon, eon, metal, rough-metal, full-rough-metal, "
          "glossy, full-glossy, rough-glass, dispersive-glass, measured-glass, "
-         "thin-glass, soap-film, checker or "
-         "picture."},
+         "thin-glass, soap-film, checker, picture or mapped."},
         {"\"type\": \"sphere\"", "\"type\": \"shpere\"",
          "objects[2].type is \"shpere\"; did you mean \"sphere\"? It must be sphere, "
          "triangles, mesh, instances, quad, box, disc or cylinder."},
@@ -969,11 +968,11 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
     refused({
         {"\"radius\": 0.75", "\"radios\": 0.75",
          "objects[2].radios is not known; did you mean radius? The fields here are "
-         "type, name, material, emission, lamp_group, transform, displacement, center "
+         "type, name, emission, lamp_group, transform, displacement, material, center "
          "and radius."},
         {"\"radius\": 0.75", "\"vertices\": []",
-         "objects[2].vertices is not known; the fields here are type, name, material, "
-         "emission, lamp_group, transform, displacement, center and radius."},
+         "objects[2].vertices is not known; the fields here are type, name, "
+         "emission, lamp_group, transform, displacement, material, center and radius."},
         {",\n   \"radius\": 0.75", "", "objects[2].radius is missing."},
         {"\"camera\": {", "\"camera\": {\"fov\": 3, ",
          "camera.fov is not known; did you mean vfov_deg? The fields here are "
@@ -992,7 +991,7 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
          "mirror, dielectric, mixture, oren-nayar-full, oren-nayar-printed, fujii, "
          "fon, eon, metal, rough-metal, full-rough-metal, glossy, full-glossy, "
          "rough-glass, dispersive-glass, measured-glass, thin-glass, soap-film, "
-         "checker or picture."},
+         "checker, picture or mapped."},
         {"\"ior\": 1.5", "\"ior\": 1.5, \"tint\": [1, 1, 1]",
          "materials.glass.tint is not known; the fields here are type, ior, "
          "absorption and priority."},

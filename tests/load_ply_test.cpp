@@ -100,7 +100,7 @@ TEST_CASE("load_ply: the colours of vertices are interpolated between them") {
     const Mesh& mesh = loaded.parts.at(0).mesh;
     const MeshMaterial& material = loaded.parts[0].material;
     CHECK(material.diffuse == glm::dvec3(1));
-    const UvPicture picture{.image = loaded.pictures.at(material.picture)};
+    const UvPicture picture{.image = loaded.pictures.at(material.picture.name)};
     check(picture);
     // What the colours are at the corners, found by their places.
     const auto color_of = [](const Vec3& p) {
@@ -144,7 +144,7 @@ TEST_CASE("load_ply: colours that vary widely stay within [0, 1]") {
         read(head("property uchar red\nproperty uchar green\nproperty uchar blue\n") +
              "0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n3 0 1 2\n");
     const UvPicture picture{
-        .image = loaded.pictures.at(loaded.parts.at(0).material.picture)};
+        .image = loaded.pictures.at(loaded.parts.at(0).material.picture.name)};
     CHECK_NOTHROW(check(picture)); // which refuses colours that are not
     CHECK(picture.image.width == 2);
     CHECK(picture.image.height == 2);

@@ -256,6 +256,79 @@ TEST_CASE("texture: a UvMap looks up by the shape's own coordinates, and repeats
     CHECK(uv_of(Lambertian{}) == Vec2{0});
 }
 
+TEST_CASE("texture: a picture ends at its border, and each pixel has an edge") {
+    UvPicture texture{.image = four(), .wrap = PictureWrap::clamp};
+    const auto at = [&](float u, float v) {
+        return color_at(texture, Vec3{0}, Vec2{u, v});
+    };
+    // Clamped: beyond the middles of the outer pixels their colours go on.
+    const Rgb red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1}, white{1};
+    for (const float far : {0.0f, -1e-3f, -1.0f, -1e6f, -3e38f}) {
+        CHECK(at(far, 0.75f) == red);
+        CHECK(at(0.75f, far) == white);
+        CHECK(at(1 - far, 0.25f) == white);
+        CHECK(at(0.25f, 1 - far) == red);
+        CHECK(at(far, far) == blue);
+    }
+    CHECK(at(0.5f, 0.5f) == Rgb{0.5f});
+    CHECK(is_finite(at(NAN, NAN)));
+    // The nearest pixel; on an edge between two, the right and the upper one.
+    texture.filter = PictureFilter::nearest;
+    for (const float u : {0.0f, 0.2f, 0.4999f}) {
+        CHECK(at(u, 0) == blue);
+        CHECK(at(u, 0.4999f) == blue);
+        CHECK(at(u, 0.5f) == red);
+        CHECK(at(u, 1) == red);
+        CHECK(at(u + 0.5f, 0.2f) == white);
+    }
+    CHECK(at(7, -7) == white);
+    texture.wrap = PictureWrap::repeat;
+    CHECK(at(0, 0) == blue);
+    CHECK(at(1, 1) == blue);
+    CHECK(at(-0.25f, 0.75f) == green);
+    // At a million repetitions a float has steps of 1/16.
+    CHECK(at(1e6f + 0.25f, -1e6f + 0.75f) == red);
+    CHECK(at(-1e6f + 0.75f, 1e6f + 0.25f) == white);
+    texture.filter = PictureFilter::bilinear;
+    CHECK(at(1e6f + 0.25f, -1e6f + 0.75f) == red);
+    CHECK(at(1e6f + 0.5f, 0.25f) == Rgb{0.5f, 0.5f, 1});
+    // The four weights, at 1/8 and 3/8 of the way from the middle of one pixel to the
+    // next.
+    const Rgb mixed = at(0.3125f, 0.5625f);
+    const float x = 0.125f, y = 0.375f;
+    CHECK(mixed ==
+          (1 - y) * ((1 - x) * red + x * green) + y * ((1 - x) * blue + x * white));
+}
+
+TEST_CASE("texture: a UvMap scales, then turns, then displaces") {
+    const UvMapT<double> map{.scale{2, -3}, .turn{0.6, 0.8}, .offset{0.25, -1}};
+    const auto at = [&](double u, double v) {
+        return map_coordinates(map, Vec3T<double>{9}, Vec2T<double>{u, v});
+    };
+    const auto near = [](const Vec2T<double>& a, const Vec2T<double>& b) {
+        return glm::distance(a, b) < 1e-14;
+    };
+    CHECK(near(at(0, 0), {0.25, -1}));
+    CHECK(near(at(1, 0), {0.25 + 1.2, -1 + 1.6}));
+    CHECK(near(at(0, 1), {0.25 + 2.4, -1 - 1.8}));
+    // A direction in the picture, back on the shape: the scale only mirrors it.
+    for (const double angle : {0.0, 0.3, 2.0}) {
+        const Vec2T<double> along{std::cos(angle), std::sin(angle)};
+        const auto shape = direction_on_shape(map, along);
+        CHECK(glm::length(shape) == doctest::Approx(1));
+        const auto there = at(shape.x / 2, shape.y / 3) - at(0, 0);
+        CHECK(near(there, along));
+    }
+    const auto why = [](const UvMap& odd) {
+        return refusal(Textured<Lambertian, UvPicture>{{}, {four(), odd}});
+    };
+    CHECK(why({.turn{1, 1}}) ==
+          "the squared length of uv_map.turn is 2; it must be 1: it is the cosine and "
+          "the sine of an angle.");
+    CHECK(why({.offset{0, NAN}}).find("uv_map.offset is") == 0);
+    CHECK(why({.turn{0.6f, -0.8f}}).empty());
+}
+
 TEST_CASE("texture: what its colour is of each material, and what the base says") {
     const Rgb half{0.5f, 0.25f, 1};
     CHECK(detail::colored(Lambertian{.albedo = Rgb{0.5f}}, half).albedo ==

@@ -54,7 +54,7 @@ ljus_break_it(NAME load-obj-seam HEADER io/detail/mesh_builder.hpp TEST load_obj
 
 # Kd without its picture.
 ljus_break_it(NAME load-obj-picture HEADER io/mesh_file.hpp TEST load_obj
-    FROM "if (pictured) return scene.add(painted(matt));"
+    FROM "if (picture) return scene.add(painted(matt));"
     TO   "if (false) return scene.add(painted(matt));"
     CASES "load_obj: a wall shows*")
 

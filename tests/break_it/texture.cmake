@@ -1,13 +1,13 @@
 # An image upside down.
 ljus_break_it(NAME texture-upside-down HEADER image/texture.hpp TEST texture
-    FROM "(T(1) - repeat(at.y)) * T(image.height)"
-    TO   "repeat(at.y) * T(image.height)"
+    FROM "(T(1) - inside(at.y)) * T(image.height)"
+    TO   "inside(at.y) * T(image.height)"
     CASES "texture: an image*")
 
 # Pixels by their corners in place of their middles.
 ljus_break_it(NAME texture-half-pixel HEADER image/texture.hpp TEST texture
-    FROM "const T x = repeat(at.x) * T(image.width) - T(0.5);"
-    TO   "const T x = repeat(at.x) * T(image.width);"
+    FROM "const T x = wide - T(0.5), y"
+    TO   "const T x = wide, y"
     CASES "texture: an image*")
 
 # Rounded towards zero: the fields around the origin are twice as wide.
@@ -44,8 +44,8 @@ ljus_break_it(NAME texture-ball HEADER geometry/sphere.hpp TEST texture
 
 # The repetitions forgotten.
 ljus_break_it(NAME texture-scale HEADER image/texture.hpp TEST texture
-    FROM "return map.scale * uv;"
-    TO   "return uv;"
+    FROM "scaled = map.scale * uv;"
+    TO   "scaled = uv;"
     CASES "texture: a UvMap*")
 
 # A chunk's sum is not asked.
@@ -80,8 +80,8 @@ ljus_break_it(NAME textured-transport HEADER materials/textured.hpp TEST texture
 
 # A picture is as high as wide.
 ljus_break_it(NAME picture-height HEADER image/texture.hpp TEST texture
-    FROM "(T(1) - repeat(at.y)) * T(image.height)"
-    TO   "(T(1) - repeat(at.y)) * T(image.width)"
+    FROM "(T(1) - inside(at.y)) * T(image.height)"
+    TO   "(T(1) - inside(at.y)) * T(image.width)"
     CASES "texture: rows and columns*")
 
 # Nobody looks for the marker behind the coded pixels.
@@ -161,3 +161,21 @@ ljus_break_it(NAME jpeg-padding HEADER io/detail/picture_damage.hpp TEST texture
     FROM "if (kind == padding) {"
     TO   "if (kind == padding) return;\n        if (kind == padding) {"
     CASES "texture: files that other readers*")
+
+# Beyond its border a picture repeats, although it ends there.
+ljus_break_it(NAME texture-clamp HEADER image/texture.hpp TEST texture
+    FROM "return repeats ? (i + size) % size : std::clamp(i, 0, size - 1);"
+    TO   "return (i + size) % size;"
+    CASES "texture: a picture ends*")
+
+# The nearest pixel is a row too low.
+ljus_break_it(NAME texture-nearest HEADER image/texture.hpp TEST texture
+    FROM "std::ceil(high) - T(1)"
+    TO   "std::floor(high)"
+    CASES "texture: a picture ends*")
+
+# Turned the other way round.
+ljus_break_it(NAME texture-turn HEADER image/texture.hpp TEST texture
+    FROM "map.turn.x * scaled.x - map.turn.y * scaled.y,"
+    TO   "map.turn.x * scaled.x + map.turn.y * scaled.y,"
+    CASES "texture: a UvMap scales*")

@@ -24,6 +24,6 @@ ljus_break_it(NAME thin-glass-pass_through HEADER materials/glass.hpp TEST thin_
 
 # The texture of a pane asked at no place.
 ljus_break_it(NAME thin-glass-textured HEADER materials/textured.hpp TEST thin_glass
-    FROM "return pass_through(here, position, wo);"
+    FROM "return pass_through(at_point(textured, position, Vec2T<T>{T(0)}), position, wo);"
     TO   "return pass_through(textured.base, position, wo);"
     CASES "thin glass: a lamp*")

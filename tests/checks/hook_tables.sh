@@ -15,6 +15,7 @@ of_a_material_of_radiosity=diffuse_albedo
 of_a_renderer=radiance
 of_a_kernel=kernel_weight
 of_a_camera=camera_ray
+of_a_texture=color_at
 of_a_stream="next_1d next_2d next_3d start_bounce"
 # Functions that the concepts require of every light, of near ones and of far ones.
 of_a_light="emission_point pdf_emission power sample_arrival sample_emission
@@ -100,7 +101,8 @@ holds() {
     [ -n "$shapes" ] && [ -n "$materials" ] && [ -n "$lights" ] || { echo "there is no table"; return 1; }
     # shellcheck disable=SC2086,SC2116 # one word each
     known=" $(echo $by_concept $shapes $materials $lights $of_a_material_of_radiosity \
-        $of_a_renderer $of_a_kernel $of_a_camera $of_a_stream $of_a_light $of_a_medium) "
+        $of_a_renderer $of_a_kernel $of_a_camera $of_a_stream $of_a_light $of_a_medium \
+        $of_a_texture) "
     while read -r name header; do
         case $known in *" $name "*) continue ;; esac
         echo "$header: $name() is asked for, and is no row of a table of hooks."

@@ -265,6 +265,15 @@ template <std::floating_point T>
     return texture_coordinates(instance.mesh(), hit, point);
 }
 
+/// The texture tangents of the mesh, mapped.
+template <std::floating_point T>
+[[nodiscard]] std::array<Vec3T<T>, 2>
+texture_tangents(const InstanceT<T>& instance, const ShapeHitT<T>& hit) noexcept {
+    const auto [along_u, along_v] = texture_tangents(instance.mesh(), hit);
+    return {transform_vector(instance.place(), along_u),
+            transform_vector(instance.place(), along_v)};
+}
+
 /// The prefix sums of the triangles' areas in the scene, for sample_area(); a lamp
 /// keeps them. If the map stretches all directions alike, those of the mesh serve, and
 /// nothing is returned.

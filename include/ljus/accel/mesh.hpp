@@ -177,6 +177,31 @@ template <std::floating_point T>
            hit.v * uv[corner[2]];
 }
 
+/// The directions in which a triangle's texture coordinates grow: its edges, if the
+/// mesh has none.
+/// \return The derivatives of the point by u and by v; 0 on a triangle whose texture
+///         coordinates span no area.
+// [texture_tangents]
+template <std::floating_point T>
+[[nodiscard]] std::array<Vec3T<T>, 2>
+texture_tangents(const MeshT<T>& mesh, const ShapeHitT<T>& hit) noexcept {
+    const TriangleT<T> triangle = mesh.triangle(hit.part);
+    const auto edges = texture_tangents(triangle, hit);
+    const auto& uv = mesh.data().uv;
+    if (uv.empty()) return edges;
+    using Wide = WideT<T>;
+    const auto& corner = mesh.data().triangles[hit.part];
+    const Vec2T<Wide> first(uv[corner[0]]);
+    const Vec2T<Wide> a = Vec2T<Wide>(uv[corner[1]]) - first;
+    const Vec2T<Wide> b = Vec2T<Wide>(uv[corner[2]]) - first;
+    const Wide area = a.x * b.y - a.y * b.x;
+    if (!(std::abs(area) > Wide(0))) return {Vec3T<T>{T(0)}, Vec3T<T>{T(0)}};
+    const Vec3T<Wide> e1(edges[0]), e2(edges[1]);
+    return {Vec3T<T>((b.y * e1 - a.y * e2) / area),
+            Vec3T<T>((a.x * e2 - b.x * e1) / area)};
+}
+// [texture_tangents]
+
 namespace detail {
 
 /// A triangle that was chosen in proportion to its area.

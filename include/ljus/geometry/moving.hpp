@@ -130,6 +130,13 @@ template <typename S, std::floating_point T>
     return texture_coordinates(moving.shape, hit, point);
 }
 
+/// The texture tangents of the shape; a displacement does not turn them.
+template <HasTangents S, std::floating_point T>
+[[nodiscard]] std::array<Vec3T<T>, 2>
+texture_tangents(const Moving<S>& moving, const ShapeHitT<T>& hit) noexcept {
+    return texture_tangents(moving.shape, hit);
+}
+
 /// The shading normal of the shape; a displacement does not turn it.
 template <typename S, std::floating_point T>
 requires requires(const S& shape, const ShapeHitT<T>& hit, const Vec3T<T>& normal) {

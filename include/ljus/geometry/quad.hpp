@@ -171,6 +171,13 @@ template <std::floating_point T>
             {box.high, -z, -x},      {box.low, y, x},    {box.high, -x, -y}};
 }
 
+/// The edges of a quad: its texture coordinates grow along them.
+template <std::floating_point T>
+[[nodiscard]] constexpr std::array<Vec3T<T>, 2>
+texture_tangents(const QuadT<T>& quad, const ShapeHitT<T>& /*hit*/) noexcept {
+    return {quad.edge_u, quad.edge_v};
+}
+
 /// A quad displaced by a vector, in scene units.
 template <std::floating_point T>
 [[nodiscard]] constexpr QuadT<T> translated(QuadT<T> shape,

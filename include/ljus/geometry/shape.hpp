@@ -77,6 +77,14 @@ concept Samplable = Shape<S> && HasArea<S> &&
     { sample_area(shape, u) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;
 };
 
+/// A shape that tells in which directions its texture coordinates grow, for normal
+/// maps: `texture_tangents(shape, hit)` returns the derivatives of the point by u and
+/// by v, of any length; 0 where there are none.
+template <typename S>
+concept HasTangents = requires(const S& shape, const ShapeHitT<ScalarOf<S>>& hit) {
+    { texture_tangents(shape, hit) } -> std::same_as<std::array<Vec3T<ScalarOf<S>>, 2>>;
+};
+
 /// A plane shape: it has a single normal, `normal(shape)`. It fills little of its
 /// bounding sphere, and no ray hits it twice, so photons are aimed at points of its
 /// area.
@@ -215,6 +223,8 @@ template <Shape S>
              requires(O s) { corners_of(s); }},
         Hook{"texture_coordinates", "images by (u, v)", "those of the hit",
              requires(O s, H hit, P point) { texture_coordinates(s, hit, point); }},
+        Hook{"texture_tangents", "normal maps", "refused with one",
+             requires(O s, H hit) { texture_tangents(s, hit); }},
         Hook{"translated", "Moving", "does not compile",
              requires(O s, V by) { translated(s, by); }},
         Hook{"area_sums", "a lamp's areas, summed once", "by sample_area()",

@@ -178,6 +178,13 @@ template <std::floating_point T>
             glm::max(glm::max(triangle.v1, triangle.v2), triangle.v3)};
 }
 
+/// The edges of a triangle: its texture coordinates grow along them.
+template <std::floating_point T>
+[[nodiscard]] constexpr std::array<Vec3T<T>, 2>
+texture_tangents(const TriangleT<T>& triangle, const ShapeHitT<T>& /*hit*/) noexcept {
+    return {triangle.v2 - triangle.v1, triangle.v3 - triangle.v1};
+}
+
 /// A triangle displaced by a vector, in scene units.
 template <std::floating_point T>
 [[nodiscard]] constexpr TriangleT<T> translated(const TriangleT<T>& shape,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "ljus/image/image.hpp"
@@ -22,7 +23,7 @@ namespace ljus {
 /// point in scene units, and `uv` are its coordinates on its own shape, see
 /// texture_coordinates(). A texture receives uv only if it declares
 /// `static constexpr bool uses_uv = true`, otherwise (0, 0). Both textures here repeat
-/// with period 1 in u and in v.
+/// with period 1 in u and in v, unless a picture is told to end at its border.
 /// \{
 
 /// Coordinates on a plane, projected orthogonally onto all surfaces: `origin` is
@@ -42,11 +43,14 @@ struct GlobeMapT {
 };
 using GlobeMap = GlobeMapT<float>; ///< GlobeMapT in float.
 
-/// The coordinates of the shape itself; a mesh has them from its file.
+/// The coordinates of the shape itself; a mesh has them from its file. They are scaled,
+/// then turned, then displaced.
 template <std::floating_point T>
 struct UvMapT {
     static constexpr bool uses_uv = true; ///< See texture_coordinates().
     Vec2T<T> scale{T(1)};                 ///< Repetitions per unit of u and v.
+    Vec2T<T> turn{T(1), T(0)}; ///< Unit: where the direction (1, 0) is turned to.
+    Vec2T<T> offset{T(0)};     ///< In repetitions.
 };
 using UvMap = UvMapT<float>; ///< UvMapT in float.
 
@@ -75,7 +79,23 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> map_coordinates(const UvMapT<T>& map, const Vec3T<T>& /*place*/,
                                        const Vec2T<T>& uv) noexcept {
-    return map.scale * uv;
+    const Vec2T<T> scaled = map.scale * uv;
+    return Vec2T<T>{map.turn.x * scaled.x - map.turn.y * scaled.y,
+                    map.turn.y * scaled.x + map.turn.x * scaled.y} +
+           map.offset;
+}
+
+/// A direction in a picture as one on the shape: turned back, and mirrored where the
+/// scale is negative.
+/// \param along  Along u and v of the picture.
+/// \return Along u and v of the shape, of the same length.
+template <std::floating_point T>
+[[nodiscard]] Vec2T<T> direction_on_shape(const UvMapT<T>& map,
+                                          const Vec2T<T>& along) noexcept {
+    return {std::copysign(T(1), map.scale.x) *
+                (map.turn.x * along.x + map.turn.y * along.y),
+            std::copysign(T(1), map.scale.y) *
+                (map.turn.x * along.y - map.turn.y * along.x)};
 }
 
 /// Requires finite edges that are not zero.
@@ -96,12 +116,17 @@ void check(const GlobeMapT<T>& map) {
     require_finite("globe_map.center", map.center);
 }
 
-/// Requires a finite scale that is not zero.
-/// \throws std::invalid_argument naming the scale.
+/// Requires a finite scale that is not zero, a direction and a finite offset.
+/// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const UvMapT<T>& map) {
     for (const T scale : {map.scale.x, map.scale.y})
         require(std::isnormal(scale), "uv_map.scale", scale, "finite and not 0");
+    const T length = glm::dot(map.turn, map.turn);
+    require(std::abs(length - T(1)) < T(1e-3), "the squared length of uv_map.turn",
+            length, "1: it is the cosine and the sine of an angle");
+    for (const T offset : {map.offset.x, map.offset.y})
+        require(std::isfinite(offset), "uv_map.offset", offset, "finite");
 }
 
 /// A chessboard of `columns` by `rows` squares per repetition.
@@ -144,37 +169,58 @@ void check(const CheckerT<T, Map>& checker) {
     fields("checker.rows", checker.rows);
 }
 
+/// What a picture shows beyond its border.
+enum class PictureWrap : std::uint8_t {
+    repeat, ///< Itself again.
+    clamp   ///< The pixels of its border.
+};
+
+/// The colour between the centres of pixels.
+enum class PictureFilter : std::uint8_t {
+    bilinear, ///< Interpolated between four pixels.
+    nearest   ///< That of the pixel.
+};
+
 /// An image with its lower left corner at (0, 0) and its upper right corner at (1, 1).
 template <std::floating_point T, typename Map = PlaneMapT<T>>
 struct PictureTextureT {
     static constexpr bool uses_uv = UsesUv<Map>; ///< As the map declares it.
     ImageT<T> image{}; ///< Linear colours in [0, 1], see load_image().
     Map map{};         ///< Maps a point to (u, v).
+    PictureWrap wrap = PictureWrap::repeat;         ///< Beyond its border.
+    PictureFilter filter = PictureFilter::bilinear; ///< Between its pixels.
 };
 using PictureTexture = PictureTextureT<float>; ///< On a plane, in float.
 /// A picture in the coordinates of the shape, in float.
 using UvPicture = PictureTextureT<float, UvMapT<float>>;
 
-/// The colour of a picture at a point, interpolated bilinearly between pixel centres.
+/// The colour of a picture at a point.
 template <std::floating_point T, typename Map>
 [[nodiscard]] RgbT<T> color_at(const PictureTextureT<T, Map>& texture,
                                const Vec3T<T>& place,
                                const Vec2T<T>& uv = Vec2T<T>{T(0)}) noexcept {
     const ImageT<T>& image = texture.image;
     const Vec2T<T> at = map_coordinates(texture.map, place, uv);
-    // Below 1 even after rounding; 0 for NaN.
-    const auto repeat = [](T x) {
+    const bool repeats = texture.wrap == PictureWrap::repeat;
+    const auto inside = [&](T x) {
+        if (!repeats) return x > T(0) ? std::min(x, T(1)) : T(0);
+        // Below 1 even after rounding; 0 for NaN.
         const T rest = x - std::floor(x);
         return rest < T(1) ? rest : T(0);
     };
-    const T x = repeat(at.x) * T(image.width) - T(0.5);
-    const T y = (T(1) - repeat(at.y)) * T(image.height) - T(0.5);
-    const T left = std::floor(x), top = std::floor(y);
-    const auto color = [&](T column, T row) {
-        const int i = (static_cast<int>(column) + image.width) % image.width;
-        const int j = (static_cast<int>(row) + image.height) % image.height;
-        return pixel(image, i, j);
+    const auto number = [&](T of, int size) {
+        const int i = static_cast<int>(of);
+        return repeats ? (i + size) % size : std::clamp(i, 0, size - 1);
     };
+    const auto color = [&](T column, T row) {
+        return pixel(image, number(column, image.width), number(row, image.height));
+    };
+    const T wide = inside(at.x) * T(image.width);
+    const T high = (T(1) - inside(at.y)) * T(image.height);
+    if (texture.filter == PictureFilter::nearest)
+        return color(std::floor(wide), std::ceil(high) - T(1));
+    const T x = wide - T(0.5), y = high - T(0.5);
+    const T left = std::floor(x), top = std::floor(y);
     const T dx = x - left, dy = y - top;
     return (T(1) - dy) * ((T(1) - dx) * color(left, top) + dx * color(left + 1, top)) +
            dy * ((T(1) - dx) * color(left, top + 1) + dx * color(left + 1, top + 1));

@@ -21,7 +21,9 @@ namespace ljus {
 /// each triangle, in steps of 1/8, so that the faces of one material become several
 /// meshes. All else is matt in its colour, or glass by KHR_materials_transmission.
 /// What glows has its emissiveFactor for radiance, W/(m^2 sr), times the strength of
-/// KHR_materials_emissive_strength; with a picture of it, it does not glow. Lights of
+/// KHR_materials_emissive_strength; with a picture of it, it does not glow. All
+/// pictures of a material lie as that of its base colour does, by its sampler and its
+/// KHR_texture_transform; with alphaMode MASK its alpha cuts holes. Lights of
 /// KHR_lights_punctual have candela for W/sr and lux for W/m^2; with `scale` distances
 /// and intensities grow alike, so that the light on surfaces stays the same.
 /// \param bytes     The bytes.
@@ -29,7 +31,7 @@ namespace ljus {
 ///                  for beside it.
 /// \param settings  Scale and normals.
 /// \return The content, and in the report what is wrong or not used: skins, animations,
-///         morph targets, pictures of normals, transparency, other extensions.
+///         morph targets, alphaMode BLEND, the scale of normals, other extensions.
 /// \throws std::runtime_error  with one sentence, for a file that breaks the format, or
 ///         requires an extension that is not known: "a.gltf: accessors[2] has 36
 ///         elements of 12 bytes, which do not fit into the 288 bytes of its view.";
@@ -45,7 +47,7 @@ template <std::floating_point T = float>
         file, settings, "; its scene must have nodes with meshes of triangles.",
         [&](LoadedMeshT<T>& loaded) { return reader.take_faces(loaded); },
         [&](MeshMaterial& material, LoadedMeshT<T>& loaded, long long& pixels) {
-            detail::load_picture(
+            detail::load_pictures(
                 material, loaded, pixels,
                 [&](const std::string& name) { return reader.picture(name); });
         });

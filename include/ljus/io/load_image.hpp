@@ -104,6 +104,14 @@ namespace ljus {
 /// dangerous to the readers of rare formats.
 /// \{
 
+/// What of a picture is wanted.
+enum class PictureContent : std::uint8_t {
+    colors,  ///< Linear colours, without alpha.
+    numbers, ///< The bytes over 255, for normals and other data.
+    alpha,   ///< Alpha in all three channels; 1 in a picture that has none.
+    mask     ///< The same, but red as a number in a picture that has no alpha.
+};
+
 namespace detail {
 
 /// The largest file that load_image() accepts, in bytes.
@@ -113,18 +121,20 @@ inline constexpr std::size_t max_image_file = std::size_t(1) << 27;
 inline constexpr int max_image_side = 1 << 24;
 
 #ifdef LJUS_HAS_STB_IMAGE
-// A decoded picture: three bytes per pixel.
+// A decoded picture: three bytes per pixel, or four.
 struct DecodedBytes {
     int width = 0, height = 0;
+    bool has_alpha = false;
     double gamma = 0;    // light to this power is what the bytes are; 0: sRGB
     int orientation = 1; // by EXIF
     std::unique_ptr<stbi_uc, void (*)(void*)> pixels{nullptr, stbi_image_free};
 };
 
-// Decodes the bytes of a picture; errors go to refuse(why). See decode_image() for
-// `others`.
+// Decodes the bytes of a picture; errors go to refuse(why). `wanted` is the number of
+// bytes per pixel. See decode_image() for `others`.
 template <typename Refuse>
-DecodedBytes decode_bytes(const Bytes& bytes, long long others, Refuse refuse) {
+DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted,
+                          Refuse refuse) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                                 bytes.size());
     const bool png = text.starts_with("\x89PNG\r\n\x1a\n");
@@ -176,7 +186,8 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, Refuse refuse) {
     if (std::size_t(width) * std::size_t(height) / most > bytes.size())
         refuse("is damaged: it ends in the middle of its pixels");
     picture.pixels.reset(
-        stbi_load_from_memory(data, size, &width, &height, &channels, 3));
+        stbi_load_from_memory(data, size, &width, &height, &channels, wanted));
+    picture.has_alpha = channels % 2 == 0;
     if (picture.pixels) return picture;
     const char* const why = stbi_failure_reason(); // it may repeat bytes of the file
     refuse(join({"is damaged: ", shown(why != nullptr ? why : "error", 48)}));
@@ -191,7 +202,8 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, Refuse refuse) {
 /// \param path    Its name for messages.
 /// \param others  The number of pixels in pictures that are kept beside it: a file of
 ///                four kilobytes can have thirty million, so all together are limited.
-/// \return Linear colours in [0, 1]; alpha is ignored. A PNG file with a gAMA chunk and
+/// \param content What of it is wanted.
+/// \return Colours or numbers in [0, 1]. Colours of a PNG file with a gAMA chunk and
 ///         neither an sRGB chunk nor a profile is decoded by its gamma; a picture is
 ///         turned upright by its EXIF orientation. Pixels behind the end of a palette
 ///         are black.
@@ -199,19 +211,32 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, Refuse refuse) {
 ///         large; std::bad_alloc if there is not enough memory.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path,
-                                     long long others = 0) {
+                                     long long others = 0,
+                                     PictureContent content = PictureContent::colors) {
     const auto refuse = [&](std::string_view why) {
         throw std::runtime_error(detail::join({shown_path(path), " ", why, "."}));
     };
 #ifdef LJUS_HAS_STB_IMAGE
     const detail::StbMemory memory; // which outlives the picture
-    const detail::DecodedBytes picture = detail::decode_bytes(bytes, others, refuse);
+    const bool colors = content == PictureContent::colors;
+    const bool opacity =
+        content == PictureContent::alpha || content == PictureContent::mask;
+    const int bytes_each = opacity ? 4 : 3;
+    const detail::DecodedBytes picture =
+        detail::decode_bytes(bytes, others, bytes_each, refuse);
     std::array<T, 256> linear{};
-    for (std::size_t i = 0; i < 256; ++i)
-        linear[i] = static_cast<T>(
-            picture.gamma > 0
-                ? std::pow(static_cast<double>(i) / 255.0, 1 / picture.gamma)
-                : srgb_decode(static_cast<double>(i) / 255.0));
+    for (std::size_t i = 0; i < 256; ++i) {
+        const double byte = static_cast<double>(i) / 255.0;
+        linear[i] =
+            static_cast<T>(!colors             ? byte
+                           : picture.gamma > 0 ? std::pow(byte, 1 / picture.gamma)
+                                               : srgb_decode(byte));
+    }
+    // Which bytes become red, green and blue.
+    const bool red = content == PictureContent::mask && !picture.has_alpha;
+    const std::array<int, 3> from_byte = red       ? std::array{0, 0, 0}
+                                         : opacity ? std::array{3, 3, 3}
+                                                   : std::array{0, 1, 2};
     // 2 to 4: mirrored or turned by half; 5 to 8: those with rows for columns.
     const int turn = picture.orientation;
     const bool rows_for_columns = turn >= 5 && turn <= 8;
@@ -226,14 +251,17 @@ template <std::floating_point T = float>
             if (from_below) row = picture.height - 1 - row;
             const stbi_uc* const from =
                 picture.pixels.get() +
-                3 * (std::size_t(row) * std::size_t(picture.width) +
+                std::size_t(bytes_each) *
+                    (std::size_t(row) * std::size_t(picture.width) +
                      std::size_t(column));
-            pixel(image, x, y) = {linear[from[0]], linear[from[1]], linear[from[2]]};
+            for (int k = 0; k < 3; ++k)
+                pixel(image, x, y)[k] = linear[from[from_byte[std::size_t(k)]]];
         }
     return image;
 #else
     (void)bytes;
     (void)others;
+    (void)content;
     refuse("cannot be read: this program was compiled without stb_image.h");
     return {};
 #endif
@@ -241,8 +269,10 @@ template <std::floating_point T = float>
 
 /// Loads a picture, for a texture; as decode_image().
 template <std::floating_point T = float>
-[[nodiscard]] ImageT<T> load_image(const std::string& path, long long others = 0) {
-    return decode_image<T>(load_file(path, detail::max_image_file), path, others);
+[[nodiscard]] ImageT<T> load_image(const std::string& path, long long others = 0,
+                                   PictureContent content = PictureContent::colors) {
+    return decode_image<T>(load_file(path, detail::max_image_file), path, others,
+                           content);
 }
 
 /// \}

@@ -36,7 +36,7 @@ template <std::floating_point T = float>
 }
 
 /// Reads the meshes of a scene file: load_json("scene.json", MeshFiles{}). They are
-/// made of what the scene file says; the colours of the mesh file are not used.
+/// made of what the scene file says, or of the materials of the mesh file.
 template <std::floating_point T>
 struct MeshFilesT {
     std::string* report = nullptr; ///< Takes what is wrong, a line a trouble.
@@ -50,17 +50,39 @@ struct MeshFilesT {
     [[nodiscard]] std::vector<MeshT<T>> operator()(const std::string& path,
                                                    double scale,
                                                    const std::string& normals) const {
+        std::vector<MeshT<T>> meshes;
+        for (auto& part : read(path, scale, normals, false).parts)
+            meshes.push_back(std::move(part.mesh));
+        return meshes;
+    }
+
+    /// Reads one file with its materials.
+    /// \param path     As for operator().
+    /// \param scale    As for operator().
+    /// \param normals  As for operator().
+    /// \return Its content; the report says if it has lights, which are not used.
+    /// \throws std::runtime_error  as load_mesh().
+    [[nodiscard]] LoadedMeshT<T> with_materials(const std::string& path, double scale,
+                                                const std::string& normals) const {
+        return read(path, scale, normals, true);
+    }
+
+private:
+    [[nodiscard]] LoadedMeshT<T> read(const std::string& path, double scale,
+                                      const std::string& normals, bool pictures) const {
         const MeshNormals which = normals == "smooth" ? MeshNormals::smooth
                                   : normals == "flat" ? MeshNormals::flat
                                                       : MeshNormals::file;
-        auto loaded =
-            load_mesh<T>(path, {.scale = scale, .normals = which, .pictures = false});
-        std::vector<MeshT<T>> meshes;
-        for (auto& part : loaded.parts) meshes.push_back(std::move(part.mesh));
+        LoadedMeshT<T> loaded = load_mesh<T>(
+            path, {.scale = scale, .normals = which, .pictures = pictures});
+        if (pictures &&
+            !(loaded.points.empty() && loaded.spots.empty() && loaded.suns.empty()))
+            loaded.report.notes.push_back(
+                "its lights are not used; write them into the scene file.");
         const std::string text = to_text(loaded.report);
         if (report != nullptr && !text.empty())
             *report += shown_path(path) + ":\n" + text;
-        return meshes;
+        return loaded;
     }
 };
 using MeshFiles = MeshFilesT<float>; ///< MeshFilesT in float.

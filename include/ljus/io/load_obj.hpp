@@ -38,7 +38,7 @@ LoadedMeshT<T> read_obj_pieces(const std::string& file,
             return reader.take_faces(loaded.report);
         },
         [](MeshMaterial& material, LoadedMeshT<T>& loaded, long long& pixels) {
-            load_picture(material, loaded, pixels, picture_file);
+            load_pictures(material, loaded, pixels, picture_file);
         });
 }
 

@@ -14,11 +14,13 @@
 #include "ljus/lights/point_light.hpp"
 #include "ljus/lights/spot_light.hpp"
 #include "ljus/lights/sun_light.hpp"
+#include "ljus/materials/cut_out.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/glossy.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/nested.hpp"
+#include "ljus/materials/normal_map.hpp"
 #include "ljus/materials/textured.hpp"
 #include "ljus/scene/camera.hpp"
 #include "ljus/scene/scene.hpp"
@@ -44,22 +46,33 @@ struct MeshFileSettings {
                           ///< the colours of vertices.
 };
 
+/// A picture of a material.
+struct MeshImage {
+    std::string name{}; ///< Its name in the pictures of the file; empty: none.
+    std::string at{};   ///< Where it is named: "room.mtl, line 12".
+};
+
 /// A material as a mesh file describes it.
 struct MeshMaterial {
-    std::string name{};       ///< Empty for faces without a material.
-    glm::dvec3 diffuse{0.5};  ///< Kd, in [0, 1]; 1 if there is a picture and no Kd
-                              ///< above 0. In glTF the base colour.
-    glm::dvec3 specular{0};   ///< Ks, in [0, 1]; in glTF the base colour of a metal.
-    glm::dvec3 emission{0};   ///< Ke, W/(m^2 sr), at least 0.
-    double roughness = 0;     ///< Of a mirror, 0 or in [0.01, 1]; see GlossyT.
-    double index = 1.5;       ///< Ni, within [0.001, 1000].
-    double dissolve = 1;      ///< d, or 1 - Tr: 0 is clear. Tr 1 under a picture is
-                              ///< taken for opaque.
-    int illumination = 2;     ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass
-                              ///< unless Ni is 1, which some programs write for all.
-    std::string picture{};    ///< Its name in the pictures of the file, or empty; its
-                              ///< colours are multiplied by `diffuse`.
-    std::string picture_at{}; ///< Where it is named: "room.mtl, line 12".
+    std::string name{};        ///< Empty for faces without a material.
+    glm::dvec3 diffuse{0.5};   ///< Kd, in [0, 1]; 1 if there is a picture and no Kd
+                               ///< above 0. In glTF the base colour.
+    glm::dvec3 specular{0};    ///< Ks, in [0, 1]; in glTF the base colour of a metal.
+    glm::dvec3 emission{0};    ///< Ke, W/(m^2 sr), at least 0.
+    double roughness = 0;      ///< Of a mirror, 0 or in [0.01, 1]; see GlossyT.
+    double index = 1.5;        ///< Ni, within [0.001, 1000].
+    double dissolve = 1;       ///< d, or 1 - Tr: 0 is clear. Tr 1 under a picture is
+                               ///< taken for opaque.
+    int illumination = 2;      ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass
+                               ///< unless Ni is 1, which some programs write for all.
+    MeshImage picture{};       ///< Its colours are multiplied by `diffuse`.
+    MeshImage mask{};          ///< Alpha; see Holes.
+    MeshImage normals{};       ///< See NormalMapT.
+    bool mask_is_alpha = true; ///< False: red where the picture has no alpha.
+    double cutoff = 0.5;       ///< The least alpha that is solid; at least 0.
+    UvMapT<double> map{};      ///< How all of its pictures lie on it,
+    PictureWrap wrap{};        ///< what they show beyond their borders,
+    PictureFilter filter{};    ///< and between their pixels.
 
     /// Whether it is glass: by illum, or because d says that it is mostly clear.
     [[nodiscard]] bool is_glass() const noexcept {
@@ -92,7 +105,8 @@ template <std::floating_point T>
 struct LoadedMeshT {
     std::vector<MeshPartT<T>> parts{}; ///< One per material, in order of first use.
     MeshReport report{};               ///< The problems of the file.
-    /// The pictures of the materials that could be read, by name.
+    /// The pictures of the materials that could be read, by name: colours, alpha and
+    /// normals.
     std::map<std::string, ImageT<T>> pictures{};
     std::vector<MeshCameraT<T>> cameras{}; ///< Of glTF files, in the order of nodes.
     std::vector<PointLightT<T>> points{};  ///< Of glTF files.
@@ -111,48 +125,109 @@ template <std::floating_point T, typename Map = UvMapT<T>>
 using MeshMetalPictureT = Textured<GlossyT<T>, PictureTextureT<T, Map>>;
 using MeshMetalPicture = MeshMetalPictureT<float>; ///< MeshMetalPictureT in float.
 
+/// Any of these surfaces with holes and a normal map; see add_meshes().
+template <Material Base, std::floating_point T = typename Base::Scalar>
+using MeshDetailedT =
+    CutOut<Textured<Textured<Base, PictureTextureT<T, UvMapT<T>>>, NormalMapT<T>>,
+           PictureTextureT<T, UvMapT<T>>>;
+using MeshDetailed = MeshDetailedT<Lambertian>;  ///< A matt one, in float.
+using MeshMetalDetailed = MeshDetailedT<Glossy>; ///< A metal, in float.
+
+namespace detail {
+
+// A picture of a material; nullptr if there is none, or it could not be read.
+template <std::floating_point T>
+const ImageT<T>* find_picture(const LoadedMeshT<T>& loaded, const MeshImage& image) {
+    const auto found = loaded.pictures.find(image.name);
+    return found == loaded.pictures.end() ? nullptr : &found->second;
+}
+
+// A picture as it lies on a material.
+template <typename Map, std::floating_point T>
+PictureTextureT<T, Map> laid_picture(const MeshMaterial& is, const ImageT<T>& image) {
+    return {.image = image,
+            .map{UvMapT<T>{.scale = Vec2T<T>(is.map.scale),
+                           .turn = Vec2T<T>(is.map.turn),
+                           .offset = Vec2T<T>(is.map.offset)}},
+            .wrap = is.wrap,
+            .filter = is.filter};
+}
+
+// A surface with all pictures of a material; what is missing is one pixel that changes
+// nothing.
+template <Material Base, std::floating_point T>
+MeshDetailedT<Base> detailed(const Base& base, const MeshMaterial& is,
+                             const LoadedMeshT<T>& loaded) {
+    const auto picture = [&](const MeshImage& image, const RgbT<T>& otherwise) {
+        const ImageT<T>* const found = find_picture(loaded, image);
+        return laid_picture<UvMapT<T>>(is,
+                                       found ? *found : make_image(1, 1, otherwise));
+    };
+    return {{{base, picture(is.picture, RgbT<T>{1})},
+             {picture(is.normals, RgbT<T>{T(0.5), T(0.5), T(1)})}},
+            {picture(is.mask, RgbT<T>{1}), is.cutoff}};
+}
+
+} // namespace detail
+
+/// Adds a material of a mesh file to a scene, as add_meshes() does.
+/// \tparam Map    As for add_meshes().
+/// \param scene   A scene that lists Lambert's surface.
+/// \param is      The material.
+/// \param loaded  Has its pictures.
+/// \return Its number.
+template <typename Map = void, typename Scene, std::floating_point T>
+MaterialId add_material(Scene& scene, const MeshMaterial& is,
+                        const LoadedMeshT<T>& loaded) {
+    using At = std::conditional_t<std::is_void_v<Map>, UvMapT<T>, Map>;
+    const ImageT<T>* const picture = detail::find_picture(loaded, is.picture);
+    const bool rough = is.is_mirror() && is.roughness > 0;
+    const auto painted = [&](const auto& base) {
+        return Textured<std::decay_t<decltype(base)>, PictureTextureT<T, At>>{
+            base, detail::laid_picture<At>(is, *picture)};
+    };
+    // A lamp has no holes.
+    const bool details = is.emission == glm::dvec3(0) &&
+                         (detail::find_picture(loaded, is.mask) != nullptr ||
+                          detail::find_picture(loaded, is.normals) != nullptr);
+    const GlassT<T> glass{.index = static_cast<T>(is.index)};
+    const MirrorT<T> mirror{.reflectance = RgbT<T>(is.specular)};
+    const GlossyT<T> metal{RgbT<T>(is.specular), static_cast<T>(is.roughness)};
+    const LambertianT<T> matt{.albedo = RgbT<T>(is.diffuse)};
+    if constexpr (Scene::template lists<GlassT<T>>)
+        if (is.is_glass()) return scene.add(glass);
+    if constexpr (Scene::template lists<Nested<GlassT<T>>>)
+        if (is.is_glass()) return scene.add(Nested<GlassT<T>>{glass});
+    if constexpr (Scene::template lists<MirrorT<T>>)
+        if (is.is_mirror() && !rough) return scene.add(mirror);
+    if constexpr (Scene::template lists<MeshDetailedT<GlossyT<T>>>)
+        if (rough && details) return scene.add(detail::detailed(metal, is, loaded));
+    if constexpr (Scene::template lists<MeshMetalPictureT<T, At>>)
+        if (rough && picture) return scene.add(painted(metal));
+    if constexpr (Scene::template lists<GlossyT<T>>)
+        if (rough && !picture) return scene.add(metal);
+    if constexpr (Scene::template lists<MeshDetailedT<LambertianT<T>>>)
+        if (details) return scene.add(detail::detailed(matt, is, loaded));
+    if constexpr (Scene::template lists<MeshPictureT<T, At>>)
+        if (picture) return scene.add(painted(matt));
+    return scene.add(matt);
+}
+
 /// Adds all meshes of a file to a scene, each made of what the file says: glass,
 /// mirrors and rough metals where the scene lists Glass, Mirror and Glossy, and else
 /// Lambert's surface with the material's colour; with its picture, if there is one and
-/// the scene lists MeshPicture or, for metals, MeshMetalPicture. What glows, glows by
-/// the file's emission. Lights of the file are added where the scene lists their types.
+/// the scene lists MeshPicture or, for metals, MeshMetalPicture; with its holes and its
+/// normal map if the scene lists MeshDetailed or MeshMetalDetailed. What glows, glows
+/// by the file's emission, and has neither. Lights of the file are added where the
+/// scene lists their types.
 /// \tparam Map    The map of the pictures that the scene lists; void: UvMapT.
 /// \param scene   A scene with meshes and Lambert's surface.
 /// \param loaded  The result of load_obj(), load_ply(), load_stl() or load_gltf().
 template <typename Map = void, typename Scene, std::floating_point T>
 void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded) {
-    using Uv = UvMapT<T>;
-    using At = std::conditional_t<std::is_void_v<Map>, Uv, Map>;
-    for (const MeshPartT<T>& part : loaded.parts) {
-        const MeshMaterial& is = part.material;
-        const auto picture = loaded.pictures.find(is.picture);
-        const bool pictured = picture != loaded.pictures.end();
-        const auto painted = [&](const auto& base) {
-            return Textured<std::decay_t<decltype(base)>, PictureTextureT<T, At>>{
-                base, {.image = picture->second, .map{Uv{}}}};
-        };
-        const bool rough = is.is_mirror() && is.roughness > 0;
-        const GlassT<T> glass{.index = static_cast<T>(is.index)};
-        const MirrorT<T> mirror{.reflectance = RgbT<T>(is.specular)};
-        const GlossyT<T> metal{RgbT<T>(is.specular), static_cast<T>(is.roughness)};
-        const LambertianT<T> matt{.albedo = RgbT<T>(is.diffuse)};
-        const MaterialId id = [&] {
-            if constexpr (Scene::template lists<GlassT<T>>)
-                if (is.is_glass()) return scene.add(glass);
-            if constexpr (Scene::template lists<Nested<GlassT<T>>>)
-                if (is.is_glass()) return scene.add(Nested<GlassT<T>>{glass});
-            if constexpr (Scene::template lists<MirrorT<T>>)
-                if (is.is_mirror() && !rough) return scene.add(mirror);
-            if constexpr (Scene::template lists<MeshMetalPictureT<T, At>>)
-                if (rough && pictured) return scene.add(painted(metal));
-            if constexpr (Scene::template lists<GlossyT<T>>)
-                if (rough && !pictured) return scene.add(metal);
-            if constexpr (Scene::template lists<MeshPictureT<T, At>>)
-                if (pictured) return scene.add(painted(matt));
-            return scene.add(matt);
-        }();
-        scene.add(part.mesh, id, RgbT<T>(is.emission));
-    }
+    for (const MeshPartT<T>& part : loaded.parts)
+        scene.add(part.mesh, add_material<Map>(scene, part.material, loaded),
+                  RgbT<T>(part.material.emission));
     const auto add_lights = [&](const auto& lights) {
         using Light = typename std::decay_t<decltype(lights)>::value_type;
         if constexpr (Scene::template lists<Light>)

@@ -252,6 +252,21 @@ material_at(const M& m, const Vec3T<typename M::Scalar>& position,
         return (m);
 }
 
+/// A material with holes: `is_open(m, position, uv)` says where. Rays go through a hole
+/// as if nothing were there.
+template <typename M>
+concept CutOutMaterial = requires(const M& m, const Vec3T<typename M::Scalar>& position,
+                                  const Vec2T<typename M::Scalar>& uv) {
+    { is_open(m, position, uv) } -> std::same_as<bool>;
+};
+
+/// A material that turns the shading normal: `normal_at(m, uv)` returns a normal whose
+/// x is along u of the shape and whose z is along the shape's own shading normal.
+template <typename M>
+concept NormalMapped = requires(const M& m, const Vec2T<typename M::Scalar>& uv) {
+    { normal_at(m, uv) } -> std::same_as<Vec3T<typename M::Scalar>>;
+};
+
 /// True if two directions leave the same side of the surface; false on the surface.
 template <std::floating_point T>
 [[nodiscard]] constexpr bool same_side(const Vec3T<T>& a, const Vec3T<T>& b) noexcept {
@@ -297,6 +312,10 @@ template <Material M>
              requires(O m, V position, Uv uv) { at_point(m, position, uv); }},
         Hook{"uses_uv", "at_point() with uv", "uv is 0",
              requires { M::uses_uv; }},
+        Hook{"is_open", "holes that rays go through", "solid",
+             requires(O m, V position, Uv uv) { is_open(m, position, uv); }},
+        Hook{"normal_at", "a normal by a picture", "the shape's",
+             requires(O m, Uv uv) { normal_at(m, uv); }},
         Hook{"split", "a path that splits", "one branch at random",
              requires(O m, V wo, Transport way) { split(m, wo, way); }},
         Hook{"pass_through", "light that goes straight on", "opaque",

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/textured.hpp
-/// \brief Any material with a colour, multiplied by a texture.
+/// \brief Any material with something that varies over its surface.
 
 #include "ljus/image/texture.hpp"
 #include "ljus/materials/material.hpp"
@@ -9,18 +9,21 @@
 namespace ljus {
 
 /// \defgroup textured Textured materials
-/// \brief A material whose colour varies over the surface.
+/// \brief A material that varies over the surface: in colour, by holes or by normals.
 ///
 /// Renderers call material_at(), which calls at_point(). A plain material has no
 /// at_point() and is used as it is; a textured one returns its base in the colour of
-/// the point. So a scene without textures compiles nothing of this.
+/// the point. So a scene without textures compiles nothing of this. A base may be
+/// textured itself.
 /// \{
 
-/// A material whose colour is multiplied by that of a texture.
+/// A material whose colour is multiplied by that of a texture; or with Holes or a
+/// NormalMap in place of the texture, which leave its colour.
 template <Material Base, typename Texture>
 struct Textured {
-    using Scalar = typename Base::Scalar;            ///< The precision of its numbers.
-    static constexpr bool uses_uv = UsesUv<Texture>; ///< As the texture declares it.
+    using Scalar = typename Base::Scalar; ///< The precision of its numbers.
+    /// As the texture or the base declares it.
+    static constexpr bool uses_uv = UsesUv<Texture> || UsesUv<Base>;
     Base base{};       ///< White, if the texture's colour is to be kept.
     Texture texture{}; ///< Colours within [0, 1].
 };
@@ -44,14 +47,18 @@ colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
 
 } // namespace detail
 
-/// The material at a point: the base in the texture's colour.
+/// The material at a point: the base there, in the texture's colour if it has one.
 /// \cost color_at() of the texture.
 // [at_point]
 template <typename Base, typename Texture, std::floating_point T>
-[[nodiscard]] Base at_point(const Textured<Base, Texture>& textured,
-                            const Vec3T<T>& position, const Vec2T<T>& uv) noexcept {
-    const RgbT<T> color = color_at(textured.texture, position, uv);
-    return detail::colored(textured.base, color);
+[[nodiscard]] decltype(auto) at_point(const Textured<Base, Texture>& textured,
+                                      const Vec3T<T>& position,
+                                      const Vec2T<T>& uv) noexcept {
+    if constexpr (requires { color_at(textured.texture, position, uv); })
+        return detail::colored(material_at(textured.base, position, uv),
+                               color_at(textured.texture, position, uv));
+    else
+        return material_at(textured.base, position, uv);
 }
 // [at_point]
 
@@ -62,10 +69,10 @@ template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] auto pass_through(const Textured<Base, Texture>& textured,
                                 const Vec3T<T>& position, const Vec3T<T>& wo) noexcept
     -> decltype(pass_through(textured.base, position, wo)) {
-    static_assert(!UsesUv<Texture>, "The texture of a pane must not use uv: "
-                                    "give it a PlaneMap or a GlobeMap.");
-    const Base here = at_point(textured, position, Vec2T<T>{T(0)});
-    return pass_through(here, position, wo);
+    static_assert(!Textured<Base, Texture>::uses_uv,
+                  "The texture of a pane must not use uv: "
+                  "give it a PlaneMap or a GlobeMap.");
+    return pass_through(at_point(textured, position, Vec2T<T>{T(0)}), position, wo);
 }
 
 /// \name Functions of the base

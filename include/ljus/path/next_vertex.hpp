@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -85,6 +86,41 @@ inline void set_frame(VertexT<T>& vertex, const RayT<T>& ray, Vec3T<T> normal) {
 }
 // [set_frame]
 
+/// Whether a type of scene lists a material with a normal map.
+template <AnyWorld W>
+inline constexpr bool lists_normal_maps = W::any_material([]<typename M>() {
+    return NormalMapped<M>;
+});
+
+/// The normal of a normal map in the scene.
+/// \param local      See NormalMapped.
+/// \param normal     The shape's shading normal.
+/// \param geometric  The geometric normal, on the same side.
+/// \param tangents   texture_tangents().
+/// \return Unit vector within 90 degrees of `geometric`: `normal` if the map is flat
+///         there or the shape has no tangents; `geometric` if the mapped one would face
+///         away.
+// [mapped_normal]
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> mapped_normal(const Vec3T<T>& local, const Vec3T<T>& normal,
+                                     const Vec3T<T>& geometric,
+                                     const std::array<Vec3T<T>, 2>& tangents) noexcept {
+    using Wide = Vec3T<WideT<T>>;
+    const Wide up(normal), along(tangents[0]);
+    const Wide u = along - glm::dot(along, up) * up; // v is at right angles to it
+    constexpr T flat = T(4) * std::numeric_limits<T>::epsilon(); // as interpolated
+    if (glm::max(std::abs(local.x), std::abs(local.y)) <= flat || u == Wide(0))
+        return normal;
+    const Wide x = glm::normalize(u), y = glm::cross(up, x);
+    const bool mirrored = glm::dot(y, Wide(tangents[1])) < 0;
+    const Wide sum = WideT<T>(local.x) * x +
+                     WideT<T>(mirrored ? -local.y : local.y) * y +
+                     WideT<T>(local.z) * up;
+    const Vec3T<T> mapped(glm::normalize(sum));
+    return glm::dot(mapped, geometric) > T(0) ? mapped : geometric;
+}
+// [mapped_normal]
+
 /// The index of refraction of a body at a wavelength; 1 if its material does not know
 /// it.
 template <AnyWorld W>
@@ -147,6 +183,28 @@ void disperse(const W& world, PathStateT<T>& path, VertexT<T>& vertex,
 }
 // [disperse]
 
+/// Sets the frame of a vertex by the normal map of its material, if it has one.
+/// \param vertex  Its point, its uv and its object are set.
+/// \return Whether it has one.
+template <AnyWorld W, std::floating_point T, HasTangents G>
+[[nodiscard]] bool map_normal(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
+                              const G& shape, const ShapeHitT<T>& hit) {
+    return world.visit_material(vertex.object.material, [&]<typename M>(const M& m) {
+        if constexpr (NormalMapped<M>) {
+            Vec3T<T>& geometric = vertex.point.normal;
+            if (is_plane<G> && vertex.object.inside_out)
+                geometric = -geometric; // which set_frame() turns
+            Vec3T<T> normal = geometric;
+            if constexpr (requires { shading_normal(shape, hit, geometric); })
+                normal = shading_normal(shape, hit, geometric);
+            set_frame(vertex, ray,
+                      mapped_normal(normal_at(m, vertex.uv), normal, geometric,
+                                    texture_tangents(shape, hit)));
+        }
+        return NormalMapped<M>;
+    });
+}
+
 /// Sets a vertex to the result of vertex_at(), in place: next_vertex() would otherwise
 /// copy 160 bytes per ray.
 /// \param vertex  A new vertex; all members except its medium are set.
@@ -170,6 +228,10 @@ inline void fill_vertex(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
         }
         if (detail::uses_uv(world, vertex.object.material))
             vertex.uv = texture_coordinates(shape, hit.at, vertex.point);
+        if constexpr (lists_normal_maps<W> && HasTangents<G>)
+            if (world.has_material([]<typename M>() { return NormalMapped<M>; }) &&
+                map_normal(vertex, world, ray, shape, hit.at))
+                return;
         if constexpr (requires { shading_normal(shape, hit.at, geometric); })
             set_frame(vertex, ray, shading_normal(shape, hit.at, geometric));
         else if constexpr (!one_frame)
@@ -310,9 +372,7 @@ template <AnyWorld W, std::floating_point T>
 /// type.
 template <AnyWorld W>
 [[nodiscard]] bool has_thin_surfaces(const W& world) noexcept {
-    return any_array(world.materials(), []<typename M>(const std::vector<M>& array) {
-        return ThinSurface<M> && !array.empty();
-    });
+    return world.has_material([]<typename M>() { return ThinSurface<M>; });
 }
 
 /// Whether a scene has a shape that moves; false if it only lists such a type.

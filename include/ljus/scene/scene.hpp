@@ -298,7 +298,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     /// \param object  An object with a material of this scene.
     /// \return W/(m^2 sr).
     /// \throws std::invalid_argument  if the material is unknown, the radiance is out
-    ///         of range, or a thin surface emits.
+    ///         of range, or a thin surface or one with holes emits.
     [[nodiscard]] RgbT<Scalar> emission_of(const ObjectT<Scalar>& object) const {
         const MaterialId id = object.material;
         require_radiance("emission", object.emission);
@@ -313,6 +313,9 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
             };
             require(!thin || is_black(all), "the radiance of a thin surface", all,
                     "black: light goes straight on through it");
+            constexpr bool cut_out = CutOutMaterial<std::remove_cvref_t<decltype(m)>>;
+            require(!cut_out || is_black(all), "the radiance of a cut-out", all,
+                    "black: a lamp shines from all of its area, holes too");
             return all;
         };
         return detail::visit_element(materials, id.type, id.index, of_material);

@@ -4,6 +4,7 @@
 /// \brief The closed scene that renderers and photon passes take.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "ljus/accel/bvh8.hpp"
+#include "ljus/image/texture.hpp"
 #include "ljus/math/frame.hpp"
 #include "ljus/ref.hpp"
 #include "ljus/scene/body_list.hpp"
@@ -200,6 +202,9 @@ public:
         close_lights(scene);
         materials_ = std::move(scene.materials);
         if constexpr (lists_priorities) rank_bodies();
+        has_holes_ = has_material([]<typename M>() { return CutOutMaterial<M>; });
+        if constexpr (any_material([]<typename M>() { return NormalMapped<M>; }))
+            check_normal_maps();
         if constexpr (any_material([]<typename M>() { return Transparent<M>; }))
             find_media();
         contacts_ = find_contacts(*this);
@@ -321,6 +326,17 @@ public:
     [[nodiscard]] static constexpr bool any_material(F f) noexcept {
         return S::any_material(f);
     }
+    /// As any_material(), for the types of which the scene has a material.
+    template <typename F>
+    [[nodiscard]] bool has_material([[maybe_unused]] F f) const noexcept {
+        return std::apply(
+            [&]<typename... M>(const std::vector<M>&... list) {
+                return ((f.template operator()<M>() && !list.empty()) || ...);
+            },
+            materials_);
+    }
+    /// Whether a material of the scene has holes.
+    [[nodiscard]] bool has_holes() const noexcept { return has_holes_; }
     /// As Scene::any_light().
     template <typename F>
     [[nodiscard]] static constexpr bool any_light(F f) noexcept {
@@ -413,7 +429,7 @@ private:
             }
             ++id.type;
         };
-        std::apply([&](const auto&... lists) { (add(lists), ...); }, materials_);
+        detail::each_array(materials_, add);
         if (bodies.size() > 255) {
             require(!ranks_.prioritized, "the number of transparent materials",
                     static_cast<long long>(bodies.size()),
@@ -435,6 +451,24 @@ private:
                             rank_of(object.material) == 0,
                         "the radiance of a transparent body", object.emission,
                         "black in a scene with priorities: another body may hide it");
+    }
+
+    [[gnu::cold]] void check_normal_maps() const {
+        std::size_t type = 0;
+        const auto check_list = [&]<typename G>(const std::vector<G>&) {
+            if constexpr (!HasTangents<G>)
+                for (const ObjectT<Scalar>& object : objects_[type])
+                    visit_material(object.material, []<typename M>(const M&) {
+                        if constexpr (NormalMapped<M>)
+                            throw std::invalid_argument(detail::join(
+                                {"a shape of the type ", detail::type_name<G>(),
+                                 " has a normal map, but no texture_tangents() in "
+                                 "which its normals would be; meshes, quads and "
+                                 "triangles have them."}));
+                    });
+            ++type;
+        };
+        detail::each_array(shapes_, check_list);
     }
 
     [[gnu::cold]] void find_media() {
@@ -535,6 +569,7 @@ private:
     bool nested_media_ = false;
     BodyRanks ranks_{};
     bool has_contacts_ = false;
+    bool has_holes_ = false;
     BoxT<Scalar> contact_box_{};
     Tree tree_{};
     std::vector<ObjectId> ids_{};
@@ -569,6 +604,82 @@ struct Closed {
     using Type = W; ///< The world.
     static_assert(is_world<W>, "Close the scene: World world(std::move(scene)).");
 };
+
+} // namespace detail
+
+namespace detail {
+
+/// Whether a type of scene lists a material with holes.
+template <AnyWorld W>
+inline constexpr bool lists_cut_outs = W::any_material([]<typename M>() {
+    return CutOutMaterial<M>;
+});
+
+/// A ray that meets more holes than this in one object counts as one that misses it.
+inline constexpr int max_holes = 1000;
+
+/// The first hit of a ray on a shape of this material that is not in a hole.
+/// \tparam Compute  As for intersect().
+/// \cost An intersection more for each hole, and its place in the mask.
+// [solid_hit]
+template <typename Compute, std::floating_point T, typename G, CutOutMaterial M>
+[[nodiscard]] std::optional<ShapeHitT<T>> solid_hit(RayT<T> ray, const G& shape,
+                                                    const M& material) {
+    for (int holes = 0; holes < max_holes; ++holes) {
+        const auto hit = hit_of<Compute>(ray, shape);
+        if (!hit) break;
+        const SurfacePointT<T> point = surface_point(shape, ray, *hit);
+        Vec2T<T> uv{T(0)};
+        if constexpr (UsesUv<M>) uv = texture_coordinates(shape, *hit, point);
+        if (!is_open(material, point.position, uv)) return hit;
+        ray.t_min = std::nextafter(hit->t, std::numeric_limits<T>::infinity());
+    }
+    return std::nullopt;
+}
+// [solid_hit]
+
+/// Calls f() for an object without holes, or f(material) with its material. A scene
+/// that lists no material with holes compiles f() only; one that has none pays a
+/// comparison.
+template <AnyWorld W, typename F>
+[[nodiscard]] decltype(auto) with_holes(const W& world, ObjectId id, F&& f) {
+    if constexpr (lists_cut_outs<W>) {
+        if (!world.has_holes()) return f();
+        return world.visit_material(world.object(id).material,
+                                    [&]<typename M>(const M& m) {
+                                        if constexpr (CutOutMaterial<M>)
+                                            return f(m);
+                                        else
+                                            return f();
+                                    });
+    } else {
+        return f();
+    }
+}
+
+/// As hit_of(), for an object of a scene: what lies in a hole is no hit.
+template <typename Compute, AnyWorld W, std::floating_point T, typename G>
+[[nodiscard]] std::optional<ShapeHitT<T>> hit_on(const W& world, ObjectId id,
+                                                 const RayT<T>& ray, const G& shape) {
+    return with_holes(world, id, [&](const auto&... cut) {
+        if constexpr (sizeof...(cut) > 0)
+            return solid_hit<Compute>(ray, shape, cut...);
+        else
+            return hit_of<Compute>(ray, shape);
+    });
+}
+
+/// As is_met(), for an object of a scene.
+template <typename Compute, AnyWorld W, std::floating_point T, typename G>
+[[nodiscard]] bool meets_object(const W& world, ObjectId id, const RayT<T>& ray,
+                                const G& shape) {
+    return with_holes(world, id, [&](const auto&... cut) {
+        if constexpr (sizeof...(cut) > 0)
+            return solid_hit<Compute>(ray, shape, cut...).has_value();
+        else
+            return is_met<Compute>(ray, shape);
+    });
+}
 
 } // namespace detail
 
@@ -647,7 +758,7 @@ template <typename S, typename Compute, std::floating_point T, typename F>
             f(here, hit, arrives(*point));
         }
         const auto found = world.visit_shape(other.object, [&](const auto& shape) {
-            return hit_of<Compute>(near, shape);
+            return hit_on<Compute>(world, other.object, near, shape);
         });
         if (!found) continue;
         const SceneHitT<T> at{*found, other.object};
@@ -716,7 +827,8 @@ closest_hit_plain(const World<S, Compute>& world, const RayT<T>& asked) {
     std::uint32_t type = 0;
     const auto ask_all = [&](const auto& shapes) {
         for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-            const auto found = detail::hit_of<Compute>(ray, shapes[i]);
+            const auto found =
+                detail::hit_on<Compute>(world, {type, i}, ray, shapes[i]);
             if (!found || (closest && !(found->t < ray.t_max))) continue;
             ray.t_max = found->t;
             closest = SceneHitT<T>{*found, {type, i}};
@@ -735,9 +847,12 @@ closest_hit_plain(const World<S, Compute>& world, const RayT<T>& asked) {
 /// \return True at the first hit found, whichever it is.
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] bool occluded_plain(const World<S, Compute>& world, const RayT<T>& ray) {
+    std::uint32_t type = 0;
     const auto any = [&](const auto& shapes) {
-        for (const auto& shape : shapes)
-            if (detail::is_met<Compute>(ray, shape)) return true;
+        for (std::uint32_t i = 0; i < shapes.size(); ++i)
+            if (detail::meets_object<Compute>(world, {type, i}, ray, shapes[i]))
+                return true;
+        ++type;
         return false;
     };
     return detail::any_array(world.shapes(), any);
@@ -756,7 +871,7 @@ closest_hit(const World<S, Compute>& world, const RayT<T>& ray) {
     const auto nearest =
         nearest_hit(world.tree(), ray, [&](std::uint32_t slot, const RayT<T>& rest) {
             return world.visit_shape(world.ids()[slot], [&](const auto& shape) {
-                return detail::hit_of<Compute>(rest, shape);
+                return detail::hit_on<Compute>(world, world.ids()[slot], rest, shape);
             });
         });
     if (!nearest.found) return std::nullopt;
@@ -774,7 +889,7 @@ template <typename S, typename Compute, std::floating_point T>
     if (world.ids().empty()) return occluded_plain(world, ray);
     return world.tree().any(ray, [&](std::uint32_t slot) {
         return world.visit_shape(world.ids()[slot], [&](const auto& shape) {
-            return detail::is_met<Compute>(ray, shape);
+            return detail::meets_object<Compute>(world, world.ids()[slot], ray, shape);
         });
     });
 }

@@ -97,8 +97,9 @@ private:
         if (!text(version).starts_with("2."))
             refuse_value(version, "2.0, the version of glTF that is known");
         static constexpr std::string_view known[]{
-            "KHR_lights_punctual", "KHR_materials_emissive_strength",
-            "KHR_materials_ior", "KHR_materials_transmission", "KHR_mesh_quantization"};
+            "KHR_lights_punctual",   "KHR_materials_emissive_strength",
+            "KHR_materials_ior",     "KHR_materials_transmission",
+            "KHR_mesh_quantization", "KHR_texture_transform"};
         const auto required = find(file_.root(), "extensionsRequired");
         for (std::size_t i = 0; required && i < list_size(*required); ++i)
             require_one_of(entry(*required, i), known);
@@ -366,16 +367,86 @@ private:
         pictures_.try_emplace(name, number);
         return name;
     }
-    // Whether a texture repeats, as all of ours do.
-    bool repeats(const JsonField& texture) {
-        const auto number =
-            find(file_.named(member(texture, "index"), "textures"), "sampler");
-        if (!number) return true;
-        const JsonField sampler = file_.named(*number, "samplers");
-        for (const char* name : {"wrapS", "wrapT"})
-            if (const auto wrap = find(sampler, name); wrap && wrap->value != 10497)
-                return false;
-        return true;
+    // How a texture lies: by its sampler, and by KHR_texture_transform, whose v goes
+    // down. Returns false if a part of it is not used.
+    bool read_lookup(const JsonField& texture, MeshMaterial& to) {
+        bool whole = true;
+        const JsonField is = file_.named(member(texture, "index"), "textures");
+        if (const auto number = find(is, "sampler")) {
+            const JsonField sampler = file_.named(*number, "samplers");
+            const auto is_kind = [&](const char* name, int kind) {
+                const auto found = find(sampler, name);
+                return found && found->value == kind;
+            };
+            constexpr int nearest = 9728, clamp = 33071, repeat = 10497;
+            if (is_kind("magFilter", nearest)) to.filter = PictureFilter::nearest;
+            int clamped = 0, repeated = 0;
+            for (const char* name : {"wrapS", "wrapT"}) {
+                clamped += is_kind(name, clamp) ? 1 : 0;
+                repeated += is_kind(name, repeat) || !find(sampler, name) ? 1 : 0;
+            }
+            if (clamped == 2) to.wrap = PictureWrap::clamp;
+            whole = clamped == 2 || repeated == 2;
+        }
+        const auto extensions = find(texture, "extensions");
+        if (!extensions) return whole;
+        const auto transform = find(*extensions, "KHR_texture_transform");
+        if (!transform) return false;
+        const auto pair = [&](const char* name, double otherwise) {
+            const auto found = find(*transform, name);
+            if (!found) return glm::dvec2(otherwise);
+            const std::vector<double> v = list_of(*found, 2);
+            return glm::dvec2(v[0], v[1]);
+        };
+        const glm::dvec2 scale = pair("scale", 1), offset = pair("offset", 0);
+        const double angle = number_of(*transform, "rotation", 0, -1e6, 1e6);
+        if (!(std::isnormal(scale.x) && std::isnormal(scale.y))) return false;
+        const glm::dvec2 turn(std::cos(angle), std::sin(angle));
+        to.map = {
+            .scale = scale,
+            .turn = turn,
+            .offset{offset.x + turn.y * scale.y, 1 - turn.x * scale.y - offset.y}};
+        return whole && !find(*transform, "texCoord");
+    }
+    // The normal map and the holes of a material, after its base colour.
+    void read_details(const JsonField& field, double alpha, MeshMaterial& material,
+                      std::vector<std::string>& unused) {
+        const auto texture = find(field, "normalTexture");
+        const auto pbr = find(field, "pbrMetallicRoughness");
+        const auto colors = pbr ? find(*pbr, "baseColorTexture") : std::nullopt;
+        if (texture) {
+            MeshMaterial lookup;
+            const bool whole = read_lookup(*texture, lookup);
+            if (!colors) {
+                material.map = lookup.map;
+                material.wrap = lookup.wrap;
+                material.filter = lookup.filter;
+            }
+            const auto set = [](const std::optional<JsonField>& of) {
+                const auto found = of ? find(*of, "texCoord") : std::nullopt;
+                return found ? whole_number(*found, 0, 31) : 0;
+            };
+            if (set(colors) != set(texture) || !whole ||
+                lookup.map.scale != material.map.scale ||
+                lookup.map.turn != material.map.turn ||
+                lookup.map.offset != material.map.offset ||
+                lookup.wrap != material.wrap)
+                unused.push_back("a normalTexture that lies otherwise");
+            else
+                material.normals = {picture_of(*texture), "a normalTexture"};
+            if (number_of(*texture, "scale", 1, -1e6, 1e6) != 1)
+                unused.push_back("scale of normalTexture");
+        }
+        const auto mode = find(field, "alphaMode");
+        if (mode && text(*mode) == "MASK" && colors && alpha > 0) {
+            material.mask = {material.picture.name, "a baseColorTexture"};
+            material.cutoff = number_of(field, "alphaCutoff", 0.5, 0, 1e6) / alpha;
+        } else if (mode && text(*mode) != "OPAQUE") {
+            unused.push_back("alphaMode " + shown(text(*mode)));
+        }
+        if (material.emission != glm::dvec3(0) &&
+            !(material.mask.name.empty() && material.normals.name.empty()))
+            unused.push_back("holes and normals of what glows");
     }
     // The picture of metal (blue) and roughness (green); nullptr if it is none. All of
     // them are limited together.
@@ -447,18 +518,18 @@ private:
         material.diffuse = glm::dvec3(1);
         material.name = shown(name_of(field));
         std::vector<std::string> unused;
+        double alpha = 1;
         if (const auto pbr = find(field, "pbrMetallicRoughness")) {
             if (const auto color = find(*pbr, "baseColorFactor")) {
                 const std::vector<double> c = list_of(*color, 4);
                 material.diffuse = glm::clamp(glm::dvec3{c[0], c[1], c[2]},
                                               glm::dvec3(0), glm::dvec3(1));
+                alpha = c[3];
             }
             if (const auto texture = find(*pbr, "baseColorTexture")) {
-                material.picture = picture_of(*texture);
-                material.picture_at = "a baseColorTexture";
-                if (find(*texture, "extensions"))
-                    unused.push_back("extensions of baseColorTexture");
-                if (!repeats(*texture)) unused.push_back("a wrap that does not repeat");
+                material.picture = {picture_of(*texture), "a baseColorTexture"};
+                if (!read_lookup(*texture, material))
+                    unused.push_back("a part of how baseColorTexture lies");
             }
             const double metal = number_of(*pbr, "metallicFactor", 1, 0, 1);
             if (metal > 0 && metal < 1)
@@ -468,12 +539,10 @@ private:
         }
         material.emission =
             glm::clamp(vector_of(field, "emissiveFactor", glm::dvec3(0)), 0.0, 1e12);
-        for (const char* name :
-             {"normalTexture", "occlusionTexture", "emissiveTexture"})
+        for (const char* name : {"occlusionTexture", "emissiveTexture"})
             if (find(field, name)) unused.push_back(name);
         if (find(field, "emissiveTexture")) material.emission = glm::dvec3(0);
-        if (const auto mode = find(field, "alphaMode"); mode && text(*mode) != "OPAQUE")
-            unused.push_back("alphaMode " + shown(text(*mode)));
+        read_details(field, alpha, material, unused);
         if (const auto all = find(field, "extensions"))
             read_extensions(*all, material, unused);
         if (!unused.empty() && noted_.insert(&field.value).second)

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ljus/io/detail/json_textures.hpp"
+#include "ljus/io/mesh_file.hpp"
 #include "ljus/materials/compensated_glossy.hpp"
 #include "ljus/materials/dispersive_glass.hpp"
 #include "ljus/materials/eon.hpp"
@@ -118,6 +119,29 @@ SoapFilmT<T> read_film(const MaterialFields<T>& fields) {
     film.color = FilmColor::table;
     film.table = bake_film_table(film.index);
     return film;
+}
+
+// A matt surface of pictures, as that of a mesh file.
+template <std::floating_point T>
+MeshDetailedT<LambertianT<T>> read_mapped(const JsonMembersOf& in,
+                                          FilePicturesT<T>& pictures) {
+    using Picture = PictureTextureT<T, UvMapT<T>>;
+    const UvMapT<T> map = read_uv_map<T>(in);
+    const auto on_map = [&](const JsonField& file, PictureContent content) {
+        return picture_on<T>(map, in, file, [&](const std::string& path) {
+            return content == PictureContent::colors ? pictures.take(path)
+                                                     : pictures.take(path, content);
+        });
+    };
+    const auto even = [&](const RgbT<T>& color) {
+        return Picture{.image = make_image(1, 1, color)};
+    };
+    const bool cut = in.has("cutoff"), dented = in.has("normals");
+    return {{{{.albedo = RgbT<T>{T(1)}}, on_map(in["file"], PictureContent::colors)},
+             {dented ? on_map(in["normals"], PictureContent::numbers)
+                     : even({T(0.5), T(0.5), T(1)})}},
+            {cut ? on_map(in["file"], PictureContent::alpha) : even(RgbT<T>{T(1)}),
+             cut ? in.number("cutoff") : 0.5}};
 }
 
 // The members of the materials.
@@ -290,15 +314,28 @@ constexpr auto material_rows() {
              optional("up", direction_value, "away from the ground")},
             [](In in) { return read_film(in); }),
         row("checker", "", "matt, with two by two fields",
-            {even_row, odd_row, map[0], map[1], map[2], map[3], map[4], map[5],
-             fields_row("columns", "fields along u, an even number"),
+            {even_row, odd_row, map[0], map[1], map[2], map[3], map[4], map[5], map[6],
+             map[7], fields_row("columns", "fields along u, an even number"),
              fields_row("rows", "fields along v, an even number")},
             [](In in) { return white<T>(read_checker<T>(in.in)); }),
         row("picture", "", "matt, with the colours of a picture",
             {needed("file", text_value, "PNG, JPEG or BMP, beside the scene file",
                     "\"tile.png\""),
-             map[0], map[1], map[2], map[3], map[4], map[5]},
-            [](In in) { return white<T>(read_picture(in.in, in.shared.pictures)); })};
+             map[0], map[1], map[2], map[3], map[4], map[5], map[6], map[7], wrap_row,
+             filter_row},
+            [](In in) { return white<T>(read_picture(in.in, in.shared.pictures)); }),
+        row("mapped", "", "matt, with pictures in the shape's own coordinates",
+            {needed("file", text_value, "its colours: PNG, JPEG or BMP",
+                    "\"tile.png\""),
+             optional(
+                 "normals", text_value,
+                 "a picture of normals: red along u, green along v, blue outwards; "
+                 "for meshes, quads and triangles"),
+             optional("cutoff", fraction_value,
+                      "where the alpha of the colours is below it, there is a hole",
+                      "0.5"),
+             map[5], map[6], map[7], wrap_row, filter_row},
+            [](In in) { return read_mapped(in.in, in.shared.pictures); })};
 }
 
 // The types of the rows, each once: several names may have one type.
@@ -311,9 +348,10 @@ constexpr auto materials_of(const std::tuple<Row...>&) {
             TypeList<decltype(std::declval<Row>().read(std::declval<In>()))>{});
 }
 
-/// The materials that a scene file may name.
+/// The materials that a scene file may name, and the metals of mesh files.
 template <std::floating_point T>
-using FileMaterialsT = decltype(listed(materials_of<T>(material_rows<T>())));
+using FileMaterialsT = decltype(listed(materials_of<T>(material_rows<T>()) +
+                                       TypeList<MeshDetailedT<GlossyT<T>>>{}));
 
 template <typename Scene, std::floating_point T = typename Scene::Scalar>
 MaterialId read_material(const JsonField& field, SharedByMaterialsT<T>& shared,

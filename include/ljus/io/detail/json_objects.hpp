@@ -62,7 +62,6 @@ inline constexpr std::string_view ends_words[]{"open", "closed"};
 inline constexpr JsonMember object_shared[]{
     needed("type", {.kind = JsonKind::word, .words = object_words}, "which shape", {}),
     optional("name", remark_value, "for people"),
-    needed("material", text_value, "a name of materials", "\"grey\""),
     preset("emission", light_value, 0,
            "radiance on the side of the normal, W/(m^2 sr): it is a lamp"),
     lamp_group_row,
@@ -84,12 +83,19 @@ inline constexpr JsonMember rotate_members[]{
     needed("degrees", {JsonKind::number, -1e6, 1e6, "within [-1e6, 1e6] degrees"},
            "counter-clockwise as seen against the axis", "30")};
 
+inline constexpr JsonMember material_row =
+    needed("material", text_value, "a name of materials", "\"grey\"");
+inline constexpr JsonMember own_material_row = optional(
+    "material", text_value,
+    "a name of materials; without it, or with \"file\", those of the mesh file",
+    "\"grey\"");
 inline constexpr JsonMember center_row =
     needed("center", point_value, "its centre", "[0, 1, 0]");
 inline constexpr JsonMember radius_row =
     needed("radius", length_value, "its radius", "0.5");
-inline constexpr JsonMember sphere_members[]{center_row, radius_row};
+inline constexpr JsonMember sphere_members[]{material_row, center_row, radius_row};
 inline constexpr JsonMember triangles_members[]{
+    material_row,
     needed("vertices", {.kind = JsonKind::list, .of = "points"}, "a list of points",
            "[[0, 0, 0], [1, 0, 0], [0, 1, 0]]"),
     needed("indices", {.kind = JsonKind::list, .of = "triples"},
@@ -103,25 +109,26 @@ inline constexpr JsonMember factor_row =
 inline constexpr JsonMember normals_row =
     preset("normals", {.kind = JsonKind::word, .words = normals_words}, 0,
            "those of the file, computed ones, or none");
-inline constexpr JsonMember mesh_members[]{file_row, factor_row, normals_row};
+inline constexpr JsonMember mesh_members[]{own_material_row, file_row, factor_row,
+                                           normals_row};
 inline constexpr JsonMember instances_members[]{
-    file_row, factor_row, normals_row,
+    own_material_row, file_row, factor_row, normals_row,
     needed("places", {.kind = JsonKind::list, .of = "places"},
            "a list of maps, each the twelve numbers of a 3 x 4 matrix, row by row",
            "[[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]]")};
 inline constexpr JsonMember quad_members[]{
-    needed("corner", point_value, "one of its corners", "[0, 0, 0]"),
+    material_row, needed("corner", point_value, "one of its corners", "[0, 0, 0]"),
     needed("edge_u", direction_value, "from there to the next corner", "[1, 0, 0]"),
     needed("edge_v", direction_value, "to the other one; the normal is edge_u x edge_v",
            "[0, 1, 0]")};
 inline constexpr JsonMember box_members[]{
-    needed("low", point_value, "least x, y and z", "[0, 0, 0]"),
+    material_row, needed("low", point_value, "least x, y and z", "[0, 0, 0]"),
     needed("high", point_value, "greatest x, y and z", "[1, 2, 1]")};
 inline constexpr JsonMember disc_members[]{
-    center_row, needed("normal", direction_value, "towards its front", "[0, -1, 0]"),
-    radius_row};
+    material_row, center_row,
+    needed("normal", direction_value, "towards its front", "[0, -1, 0]"), radius_row};
 inline constexpr JsonMember cylinder_members[]{
-    needed("base", point_value, "where its axis begins", "[0, 0, 0]"),
+    material_row, needed("base", point_value, "where its axis begins", "[0, 0, 0]"),
     needed("axis", direction_value, "from there to its other end", "[0, 2, 0]"),
     radius_row,
     preset("ends", {.kind = JsonKind::word, .words = ends_words}, 0,
@@ -190,38 +197,53 @@ inline constexpr std::size_t max_mesh_readings = 16, max_copied_triangles = 1 <<
 /// one is a sum over its triangles.
 inline constexpr std::size_t max_placed_triangles = 1 << 30;
 
-// The mesh files of a scene so far. What is named again is copied: from the scene, or
-// from here if it was placed there. What instances place is kept once.
-template <std::floating_point T>
-struct FileMeshesT {
-    struct Reading {
-        double scale;
-        std::string normals;
-        std::size_t first, last; // of the meshes in the scene
-        std::vector<MeshT<T>> unplaced{};
-    };
-    struct Kept {
-        double scale;
-        std::string normals;
-        std::vector<Ref<MeshT<T>>> meshes;
-    };
-    std::map<std::string, std::vector<Reading>> by_path{};
-    std::map<std::string, std::vector<Kept>> kept{}; // by path as well
-    std::size_t copied = 0, placed = 0;              // triangles
-};
-
-// How an object names a mesh file.
+// How an object names a mesh file, and whether it is made of the file's materials.
 struct MeshName {
     JsonField file;
     std::string path;
     double scale;
     std::string normals;
+    bool own_materials;
+
+    [[nodiscard]] bool same_reading(const MeshName& other) const {
+        return scale == other.scale && normals == other.normals &&
+               own_materials == other.own_materials;
+    }
 };
 
-inline MeshName mesh_name(const JsonMembersOf& in) {
+inline MeshName mesh_name(const JsonMembersOf& in, bool own_materials) {
     const JsonField file = in["file"];
-    return {file, path_beside(file), in.number("scale"), in.word("normals")};
+    return {file, path_beside(file), in.number("scale"), in.word("normals"),
+            own_materials};
 }
+
+// What an object is made of.
+template <std::floating_point T>
+struct FileSurfaceT {
+    MaterialId material{};
+    RgbT<T> emission{T(0)};
+};
+
+// The mesh files of a scene so far. What is named again is copied: from the scene, or
+// from here if it was placed there. What instances place is kept once.
+template <std::floating_point T>
+struct FileMeshesT {
+    struct Reading {
+        MeshName named;
+        std::vector<FileSurfaceT<T>> surfaces; // if they are the file's own
+        std::size_t first, last;               // of the meshes in the scene
+        std::vector<MeshT<T>> unplaced{};
+    };
+    struct Kept {
+        MeshName named;
+        std::vector<FileSurfaceT<T>> surfaces;
+        std::vector<Ref<MeshT<T>>> meshes{};
+    };
+    std::map<std::string, std::vector<Reading>> by_path{};
+    std::map<std::string, std::vector<Kept>> kept{}; // by path as well
+    std::size_t copied = 0, placed = 0;              // triangles
+    std::size_t pixels = 0;                          // of the files' own pictures
+};
 
 // Requires that a file may be read once more.
 inline void require_readings(const JsonField& file, std::size_t readings) {
@@ -238,24 +260,65 @@ template <std::floating_point T>
     return MeshT<T>(std::move(data));
 }
 
-// Adds the meshes of a file as `add` does it.
+// The meshes of a file, and what each is made of if the file's own materials count.
+template <std::floating_point T>
+struct FilePartsT {
+    std::vector<MeshT<T>> meshes{};
+    std::vector<FileSurfaceT<T>> surfaces{};
+};
+
+template <std::floating_point T, typename LoadMeshes>
+FilePartsT<T> load_parts(const MeshName& named, FileSceneT<T>& scene,
+                         FileMeshesT<T>& known, LoadMeshes& load_meshes) {
+    if (!named.own_materials)
+        return {load_meshes(named.path, named.scale, named.normals)};
+    const auto load = [&](auto& by) -> LoadedMeshT<T> {
+        if constexpr (requires { by.with_materials(named.path, 1.0, named.normals); })
+            return by.with_materials(named.path, named.scale, named.normals);
+        else
+            refuse(named.file, "is without a material; those of a mesh file are read "
+                               "by MeshFiles, from ljus/io/load_mesh.hpp");
+    };
+    LoadedMeshT<T> loaded = load(load_meshes);
+    for (const auto& [name, image] : loaded.pictures)
+        known.pixels += image.pixels.size();
+    if (known.pixels > std::size_t(max_image_pixels))
+        refuse(named.file,
+               join({"has pictures which, with those of the mesh files before "
+                     "it, have more than ",
+                     std::to_string(max_image_pixels), " pixels"}));
+    FilePartsT<T> parts;
+    for (MeshPartT<T>& part : loaded.parts) {
+        const MaterialId id = made_of(named.file, [&] {
+            return add_material<FileMapT<T>>(scene, part.material, loaded);
+        });
+        parts.surfaces.push_back({id, RgbT<T>(part.material.emission)});
+        parts.meshes.push_back(std::move(part.mesh));
+    }
+    return parts;
+}
+
+// Adds the meshes of a file: add(mesh, surface), where the surface is null unless it is
+// the file's own.
 // \param is_placed  Whether `add` places them.
 template <std::floating_point T, typename LoadMeshes, typename Add>
-void read_meshes(const JsonMembersOf& in, const FileSceneT<T>& scene,
-                 FileMeshesT<T>& known, LoadMeshes& load_meshes, bool is_placed,
-                 Add add) {
-    const MeshName named = mesh_name(in);
+void read_meshes(const MeshName& named, FileSceneT<T>& scene, FileMeshesT<T>& known,
+                 LoadMeshes& load_meshes, bool is_placed, Add add) {
     const auto& all = std::get<std::vector<MeshT<T>>>(scene.shapes);
     auto& readings = known.by_path[one_path(named.path)];
+    const auto surface = [](const auto& surfaces, std::size_t i) {
+        return surfaces.empty() ? nullptr : &surfaces[i];
+    };
     for (const auto& reading : readings) {
-        if (reading.scale != named.scale || reading.normals != named.normals) continue;
+        if (!reading.named.same_reading(named)) continue;
+        std::size_t part = 0;
         const auto copy = [&](const MeshT<T>& mesh) {
             known.copied += mesh.size();
             if (known.copied > max_copied_triangles)
                 refuse(named.file,
                        "is named once more; meshes that are named again have at "
                        "most 4194304 triangles together");
-            add(MeshT<T>(mesh));
+            add(MeshT<T>(mesh), surface(reading.surfaces, part++));
         };
         for (std::size_t i = reading.first; i < reading.last; ++i) copy(all[i]);
         for (const MeshT<T>& mesh : reading.unplaced) copy(mesh);
@@ -263,32 +326,31 @@ void read_meshes(const JsonMembersOf& in, const FileSceneT<T>& scene,
     }
     require_readings(named.file, readings.size());
     const std::size_t first = all.size();
-    std::vector<MeshT<T>> loaded = load_meshes(named.path, named.scale, named.normals);
-    if (is_placed) {
-        for (const MeshT<T>& mesh : loaded) add(MeshT<T>(mesh));
+    FilePartsT<T> parts = load_parts(named, scene, known, load_meshes);
+    for (std::size_t i = 0; i < parts.meshes.size(); ++i)
+        add(is_placed ? MeshT<T>(parts.meshes[i]) : std::move(parts.meshes[i]),
+            surface(parts.surfaces, i));
+    if (is_placed)
         readings.push_back(
-            {named.scale, named.normals, first, first, std::move(loaded)});
-    } else {
-        for (MeshT<T>& mesh : loaded) add(std::move(mesh));
-        readings.push_back({named.scale, named.normals, first, all.size()});
-    }
+            {named, std::move(parts.surfaces), first, first, std::move(parts.meshes)});
+    else
+        readings.push_back({named, std::move(parts.surfaces), first, all.size()});
 }
 
 // The meshes of a file, which the scene keeps for instances.
 template <std::floating_point T, typename LoadMeshes>
-std::vector<Ref<MeshT<T>>> read_kept_meshes(const MeshName& named, FileSceneT<T>& scene,
-                                            FileMeshesT<T>& known,
-                                            LoadMeshes& load_meshes) {
+const typename FileMeshesT<T>::Kept&
+read_kept_meshes(const MeshName& named, FileSceneT<T>& scene, FileMeshesT<T>& known,
+                 LoadMeshes& load_meshes) {
     auto& readings = known.kept[one_path(named.path)];
     for (const auto& reading : readings)
-        if (reading.scale == named.scale && reading.normals == named.normals)
-            return reading.meshes;
+        if (reading.named.same_reading(named)) return reading;
     require_readings(named.file, readings.size());
-    std::vector<Ref<MeshT<T>>> meshes;
-    for (MeshT<T>& mesh : load_meshes(named.path, named.scale, named.normals))
-        meshes.push_back(scene.add(std::move(mesh)));
-    readings.push_back({named.scale, named.normals, meshes});
-    return meshes;
+    FilePartsT<T> parts = load_parts(named, scene, known, load_meshes);
+    readings.push_back({named, std::move(parts.surfaces)});
+    for (MeshT<T>& mesh : parts.meshes)
+        readings.back().meshes.push_back(scene.add(std::move(mesh)));
+    return readings.back();
 }
 
 // A map: the twelve numbers of a matrix of three rows.
@@ -304,26 +366,28 @@ AffineT<T> read_place(const JsonField& field) {
     return map;
 }
 
-// Places the meshes of a file once for each map.
-template <std::floating_point T, typename LoadMeshes>
-void read_instances(const JsonMembersOf& in, MaterialId material,
-                    const RgbT<T>& radiance, FileSceneT<T>& scene,
-                    FileMeshesT<T>& known, LoadMeshes& load_meshes) {
+// Places the meshes of a file once for each map: add(instance, surface), as for
+// read_meshes().
+template <std::floating_point T, typename LoadMeshes, typename Add>
+void read_instances(const JsonMembersOf& in, const MeshName& named,
+                    FileSceneT<T>& scene, FileMeshesT<T>& known,
+                    LoadMeshes& load_meshes, Add add) {
     for (const char* name : {"transform", "displacement"})
         if (in.has(name))
             refuse(in[name], "belongs to other shapes; instances have places");
     const JsonField places = in["places"];
     const std::size_t count = list_size(places);
-    for (const Ref<MeshT<T>>& mesh :
-         read_kept_meshes(mesh_name(in), scene, known, load_meshes)) {
+    const auto& kept = read_kept_meshes(named, scene, known, load_meshes);
+    for (std::size_t part = 0; part < kept.meshes.size(); ++part) {
+        const Ref<MeshT<T>>& mesh = kept.meshes[part];
         known.placed += std::min(count, max_placed_triangles) * mesh.get().size();
         if (known.placed > max_placed_triangles)
             refuse(places, "has too many entries; instances have at most 1073741824 "
                            "triangles together");
         for (std::size_t i = 0; i < count; ++i)
             made_of(entry(places, i), [&] {
-                scene.add(InstanceT<T>(mesh, read_place<T>(entry(places, i))), material,
-                          radiance);
+                add(InstanceT<T>(mesh, read_place<T>(entry(places, i))),
+                    kept.surfaces.empty() ? nullptr : &kept.surfaces[part]);
             });
     }
 }
@@ -403,20 +467,32 @@ void read_object(const JsonField& field,
     const JsonTable* const table = table_of(object_tables, text(type));
     if (table == nullptr) require_one_of(type, object_words);
     const JsonMembersOf in(field, table->members, object_shared);
-    const MaterialId material = material_of(field, materials);
-    const RgbT<T> radiance{groups.factor(in) * in.vector("emission")};
+    const bool of_file = table->name == "mesh" || table->name == "instances";
+    const bool own =
+        of_file && (!in.has("material") ||
+                    (text(in["material"]) == "file" && !materials.contains("file")));
+    const MaterialId material = own ? MaterialId{} : material_of(field, materials);
+    const double factor = groups.factor(in);
+    const RgbT<T> radiance{factor * in.vector("emission")};
     std::optional<PlacementT<T>> placement;
     if (in.has("transform")) placement = read_transform<T>(in["transform"]);
 
-    const auto add = [&](auto shape) {
+    const auto add_to_scene = [&](auto shape, const FileSurfaceT<T>* surface) {
+        if (surface == nullptr)
+            scene.add(std::move(shape), material, radiance);
+        else
+            scene.add(std::move(shape), surface->material,
+                      radiance + static_cast<T>(factor) * surface->emission);
+    };
+    const auto add = [&](auto shape, const FileSurfaceT<T>* surface = nullptr) {
         made_of(field, [&] {
             if (placement) shape = placed(shape, *placement);
             if (!in.has("displacement"))
-                scene.add(std::move(shape), material, radiance);
+                add_to_scene(std::move(shape), surface);
             else if constexpr (may_move<T, decltype(shape)>)
-                scene.add(
+                add_to_scene(
                     Moving<decltype(shape)>{shape, Vec3T<T>{in.vector("displacement")}},
-                    material, radiance);
+                    surface);
             else
                 refuse(in["displacement"],
                        "belongs to spheres, quads, boxes and triangles; in a scene "
@@ -424,9 +500,11 @@ void read_object(const JsonField& field,
         });
     };
     if (table->name == "mesh")
-        read_meshes(in, scene, meshes, load_meshes, placement.has_value(), add);
+        read_meshes(mesh_name(in, own), scene, meshes, load_meshes,
+                    placement.has_value(), add);
     else if (table->name == "instances")
-        read_instances(in, material, radiance, scene, meshes, load_meshes);
+        read_instances(in, mesh_name(in, own), scene, meshes, load_meshes,
+                       add_to_scene);
     else
         read_shapes<T>(in, table->name, add);
 }

@@ -3,7 +3,9 @@
 /// \file ljus/io/detail/json_textures.hpp
 /// \brief The vectors and colours of a scene file, and its textures.
 
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <variant>
 
 #include <nlohmann/json.hpp>
@@ -33,6 +35,9 @@ void check(const FileMapT<T>& any) {
 
 inline constexpr std::string_view map_words[]{"plane", "globe", "uv"};
 
+inline constexpr JsonValue repetitions_value{JsonKind::pair, -1e6, 1e6,
+                                             "within [-1e6, 1e6]"};
+
 // The members of a texture besides its own: those of its map.
 inline constexpr JsonMember map_members[]{
     preset("map", {.kind = JsonKind::word, .words = map_words}, 0,
@@ -42,16 +47,25 @@ inline constexpr JsonMember map_members[]{
     optional("edge_u", direction_value, "of a plane: from u = 0 to u = 1", "[1, 0, 0]"),
     optional("edge_v", direction_value, "of a plane: from v = 0 to v = 1", "[0, 0, 1]"),
     optional("center", point_value, "of a globe"),
-    preset("scale", {JsonKind::pair, -1e6, 1e6, "within [-1e6, 1e6]"}, 1,
-           "of uv: how often the texture repeats along u and along v")};
+    preset("scale", repetitions_value, 1,
+           "of uv: how often the texture repeats along u and along v"),
+    preset("rotate_deg", angle_value, 0, "of uv: how far u and v are turned then"),
+    preset("offset", repetitions_value, 0, "of uv: added then, in repetitions")};
+inline constexpr std::string_view wrap_words[]{"repeat", "clamp"};
+inline constexpr JsonMember wrap_row =
+    preset("wrap", {.kind = JsonKind::word, .words = wrap_words}, 0,
+           "beyond the border: the picture again, or the pixels of its border");
+inline constexpr std::string_view filter_words[]{"bilinear", "nearest"};
+inline constexpr JsonMember filter_row =
+    preset("filter", {.kind = JsonKind::word, .words = filter_words}, 0,
+           "between the middles of pixels: interpolated, or the nearest one");
 
 // Refuses the fields of other kinds of maps.
 inline void require_fields_of_map(const JsonMembersOf& in, const std::string& kind) {
-    constexpr const char* owners[][2]{{"origin", "plane"},
-                                      {"edge_u", "plane"},
-                                      {"edge_v", "plane"},
-                                      {"center", "globe"},
-                                      {"scale", "uv"}};
+    constexpr const char* owners[][2]{{"origin", "plane"}, {"edge_u", "plane"},
+                                      {"edge_v", "plane"}, {"center", "globe"},
+                                      {"scale", "uv"},     {"rotate_deg", "uv"},
+                                      {"offset", "uv"}};
     for (const auto& [name, owner] : owners)
         if (in.has(name) && kind != owner)
             refuse(in[name], std::string("belongs to the map \"")
@@ -76,6 +90,20 @@ PlaneMapT<T> read_plane_map(const JsonMembersOf& in) {
 }
 
 template <std::floating_point T>
+UvMapT<T> read_uv_map(const JsonMembersOf& in) {
+    const auto pair = [&](const char* name, Vec2T<T> value) {
+        if (in.has(name))
+            for (int i = 0; i < 2; ++i)
+                value[i] = in[name].value[std::size_t(i)].template get<T>();
+        return value;
+    };
+    const double angle = in.number("rotate_deg") * std::numbers::pi / 180;
+    return {.scale = pair("scale", Vec2T<T>{T(1)}),
+            .turn{T(std::cos(angle)), T(std::sin(angle))},
+            .offset = pair("offset", Vec2T<T>{T(0)})};
+}
+
+template <std::floating_point T>
 FileMapT<T> read_map(const JsonMembersOf& in) {
     const std::string kind = in.word("map");
     require_fields_of_map(in, kind);
@@ -84,11 +112,7 @@ FileMapT<T> read_map(const JsonMembersOf& in) {
         return {GlobeMapT<T>{.center{in.vector("center")}}};
     }
     if (kind == "plane") return {read_plane_map<T>(in)};
-    UvMapT<T> map;
-    if (in.has("scale"))
-        for (int i = 0; i < 2; ++i)
-            map.scale[i] = in["scale"].value[std::size_t(i)].template get<T>();
-    return {map};
+    return {read_uv_map<T>(in)};
 }
 
 template <std::floating_point T>
@@ -120,6 +144,12 @@ struct FilePicturesT {
     }
     Picture& at(const std::string& path) { return by_path[one_path(path)]; }
 
+    // Another content of a picture than its colours, which is not kept.
+    ImageT<T> take(const std::string& path, PictureContent content) {
+        ImageT<T> image = load_image<T>(path, pixels, content);
+        pixels += static_cast<long long>(image.pixels.size());
+        return image;
+    }
     ImageT<T> take(const std::string& path) {
         Picture& known = at(path);
         ImageT<T>& image = known.image;
@@ -138,17 +168,27 @@ struct FilePicturesT {
     }
 };
 
-template <std::floating_point T>
-PictureTextureT<T, FileMapT<T>> read_picture(const JsonMembersOf& in,
-                                             FilePicturesT<T>& pictures) {
-    PictureTextureT<T, FileMapT<T>> texture{.map = read_map<T>(in)};
-    const JsonField file = in["file"];
+// A picture on a map. take(path) reads it.
+template <std::floating_point T, typename Map, typename Take>
+PictureTextureT<T, Map> picture_on(const Map& map, const JsonMembersOf& in,
+                                   const JsonField& file, Take take) {
     try {
-        texture.image = pictures.take(path_beside(file));
+        return {.image = take(path_beside(file)),
+                .map = map,
+                .wrap = in.word("wrap") == "clamp" ? PictureWrap::clamp
+                                                   : PictureWrap::repeat,
+                .filter = in.word("filter") == "nearest" ? PictureFilter::nearest
+                                                         : PictureFilter::bilinear};
     } catch (const std::runtime_error& error) {
         refuse_for(file, error);
     }
-    return texture;
+}
+
+template <std::floating_point T>
+PictureTextureT<T, FileMapT<T>> read_picture(const JsonMembersOf& in,
+                                             FilePicturesT<T>& pictures) {
+    return picture_on<T>(read_map<T>(in), in, in["file"],
+                         [&](const std::string& path) { return pictures.take(path); });
 }
 
 } // namespace ljus::detail

@@ -161,7 +161,7 @@ public:
             if (settings_.normals == MeshNormals::smooth) part.smooth();
             if (!part.has_uv) part.data.uv.clear();
             const MeshMaterial& is = part.material;
-            if (!settings_.pictures || !is.picture.empty() || is.is_glass() ||
+            if (!settings_.pictures || !is.picture.name.empty() || is.is_glass() ||
                 is.is_mirror() ||
                 std::count(part.colors.begin(), part.colors.end(), RgbT<T>(no_color)) >
                     0)
@@ -306,9 +306,9 @@ void paint(MeshFacesT<T>& part, LoadedMeshT<T>& loaded, long long& pixels) {
             {"the picture of the colours of vertices ", why, "; they are not used."}));
         return;
     }
-    part.material.picture =
+    part.material.picture.name =
         "colours of vertices, part " + std::to_string(loaded.parts.size() + 1);
-    ImageT<T>& image = loaded.pictures[part.material.picture];
+    ImageT<T>& image = loaded.pictures[part.material.picture.name];
     image = paint_vertices(part.data, part.colors);
     pixels += static_cast<long long>(image.pixels.size());
 }

@@ -8,31 +8,48 @@
 
 namespace ljus::detail {
 
-// Loads the picture of a material, unless it has none or it is loaded already;
-// bytes_of(name) are those of its file. The pixels of all materials so far are limited,
-// because add_meshes() copies each picture.
+// Loads a picture of a material, unless it has none or it is loaded already;
+// bytes_of(name) are those of its file. It is kept under its name and `kind`, because
+// the same file may have colours and alpha. The pixels of all materials so far are
+// limited, because add_meshes() copies each picture.
 template <std::floating_point T, typename BytesOf>
-void load_picture(MeshMaterial& material, LoadedMeshT<T>& loaded, long long& pixels,
-                  const BytesOf& bytes_of) {
-    const std::string name = material.picture;
-    if (name.empty()) return;
+void load_picture(MeshImage& picture, PictureContent content, std::string_view kind,
+                  LoadedMeshT<T>& loaded, long long& pixels, const BytesOf& bytes_of) {
+    if (picture.name.empty()) return;
+    const std::string name = picture.name;
+    picture.name += kind;
     try {
-        auto known = loaded.pictures.find(name);
+        auto known = loaded.pictures.find(picture.name);
         if (known == loaded.pictures.end())
             known = loaded.pictures
-                        .emplace(name, decode_image<T>(bytes_of(name), name, pixels))
+                        .emplace(picture.name,
+                                 decode_image<T>(bytes_of(name), name, pixels, content))
                         .first;
         const ImageT<T>& image = known->second;
         const std::string why = too_large_beside(pixels, image.width, image.height);
         if (!why.empty()) {
-            material.picture.clear();
+            picture.name.clear();
             throw std::runtime_error(join({shown_path(name), " ", why, "."}));
         }
         pixels += static_cast<long long>(image.pixels.size());
     } catch (const std::runtime_error& wrong) {
-        loaded.report.notes.push_back(
-            (material.picture_at + ": ").append(wrong.what()));
+        loaded.report.notes.push_back((picture.at + ": ").append(wrong.what()));
     }
+}
+
+// Loads all pictures of a material.
+template <std::floating_point T, typename BytesOf>
+void load_pictures(MeshMaterial& material, LoadedMeshT<T>& loaded, long long& pixels,
+                   const BytesOf& bytes_of) {
+    const auto load = [&](MeshImage& picture, PictureContent content,
+                          std::string_view kind) {
+        load_picture(picture, content, kind, loaded, pixels, bytes_of);
+    };
+    load(material.picture, PictureContent::colors, "");
+    load(material.mask,
+         material.mask_is_alpha ? PictureContent::alpha : PictureContent::mask,
+         " (alpha)");
+    load(material.normals, PictureContent::numbers, " (normals)");
 }
 
 } // namespace ljus::detail

@@ -4,6 +4,7 @@
 /// \brief The materials of a mesh file, from its material files (MTL).
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -75,45 +76,72 @@ struct MaterialReader {
                               to_text(least) + " to " + to_text(most) +
                               ". It is not used.");
     }
-    // The name of a picture, behind options that say how it lies.
-    void picture(Words words) {
-        std::string options;
+    // Takes an option of the picture of colours: where it lies, and if it repeats.
+    // Returns whether it is known.
+    bool take(std::string_view option, const std::array<double, 2>& numbers,
+              std::string_view word) {
+        glm::dvec2 value(numbers[0], numbers[1]);
+        const bool scale = option == "-s";
+        if (std::isnan(value.y)) value.y = scale ? 1 : 0;
+        if (scale && std::isnormal(value.x) && std::isnormal(value.y))
+            material->map.scale = value;
+        else if (option == "-o" && std::isfinite(value.x) && std::isfinite(value.y))
+            material->map.offset = value;
+        else if (option == "-clamp" && (word == "on" || word == "off"))
+            material->wrap = word == "on" ? PictureWrap::clamp : PictureWrap::repeat;
+        else
+            return false;
+        return true;
+    }
+    // The name of a picture, behind options that say how it lies. Those of map_Kd are
+    // used, and count for all pictures of the material.
+    void picture(std::string_view keyword, Words words, MeshImage& to) {
+        std::string unused;
         for (Words after = words;; words = after) {
             const std::string_view option = after.next();
             if (option.size() < 2 || option[0] != '-') break;
-            options.append(options.empty() ? "" : " ").append(option);
             const bool three = option == "-o" || option == "-s" || option == "-t";
-            for (int count = option == "-mm" ? 2 : three ? 3 : 1; count > 0; --count) {
+            std::array<double, 2> numbers{NAN, NAN};
+            std::string_view word;
+            const int most = option == "-mm" ? 2 : three ? 3 : 1;
+            for (int count = 0; count < most; ++count) {
                 Words ahead = after;
-                const std::string_view word = ahead.next();
-                if (three && std::isnan(number_of(word))) break;
+                word = ahead.next();
+                const double value = number_of(word);
+                if (three && std::isnan(value)) break;
+                if (count < 2) numbers[std::size_t(count)] = value;
                 after = ahead;
             }
+            if (&to != &material->picture || !take(option, numbers, word))
+                unused.append(unused.empty() ? "" : " ").append(option);
         }
-        if (!options.empty())
-            note("map_Kd", "has options, " + shown(options) + "; they are not used.");
-        if (const std::string name = words.name(); !name.empty()) {
-            material->picture = file_named(path, name);
-            material->picture_at = where();
-        } else {
-            note("map_Kd", "names no file.");
-        }
+        if (!unused.empty())
+            note(keyword, "has options, " + shown(unused) + "; they are not used.");
+        if (const std::string name = words.name(); !name.empty())
+            to = {file_named(path, name), where()};
+        else
+            note(keyword, "names no file.");
     }
     void finish() {
         MeshMaterial& is = *material;
         const bool black = has_diffuse && is.diffuse == glm::dvec3(0);
-        if (!is.picture.empty() && (black || !has_diffuse)) {
+        const bool pictured = !is.picture.name.empty();
+        if (pictured && (black || !has_diffuse)) {
             is.diffuse = glm::dvec3(1);
             if (black)
-                note_at(is.picture_at,
+                note_at(is.picture.at,
                         "map_Kd is multiplied by Kd, which is 0; 1 is used.");
         }
         // Programs to which 1 is opaque write it beside a picture.
-        if (!is.picture.empty() && !has_dissolve && is.dissolve == 0) {
+        if (pictured && !has_dissolve && is.dissolve == 0) {
             is.dissolve = 1;
-            note_at(is.picture_at, "map_Kd is on a surface that Tr 1 makes wholly "
+            note_at(is.picture.at, "map_Kd is on a surface that Tr 1 makes wholly "
                                    "clear; Tr is not used.");
         }
+        for (const MeshImage& detail : {is.mask, is.normals})
+            if (!detail.name.empty() && is.emission != glm::dvec3(0))
+                note_at(detail.at, "a picture of holes or normals is on what glows; it "
+                                   "is not used.");
         if (is.is_mirror() && is.specular == glm::dvec3(0))
             note_at(mirror_at, "illum makes a mirror whose colour, Ks, is 0: it is "
                                "black.");
@@ -152,9 +180,17 @@ struct MaterialReader {
                 material->illumination = static_cast<int>(model);
                 mirror_at = where();
             } else if (is("map_Kd")) {
-                picture(words);
-            } else if (is("map_d") || is("map_Ke")) {
+                picture(keyword, words, material->picture);
+            } else if (is("map_d")) {
+                material->mask_is_alpha = false;
+                picture(keyword, words, material->mask);
+            } else if (is("norm")) {
+                picture(keyword, words, material->normals);
+            } else if (is("map_Ke")) {
                 note(keyword, "is not used.");
+            } else if (is("map_bump") || is("bump")) {
+                note(keyword, "is a map of heights, which is not used; norm names one "
+                              "of normals.");
             }
         });
         finish();

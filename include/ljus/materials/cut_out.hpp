@@ -1,0 +1,71 @@
+#pragma once
+
+/// \file ljus/materials/cut_out.hpp
+/// \brief Materials with holes, cut out by a texture.
+
+#include "ljus/materials/textured.hpp"
+
+namespace ljus {
+
+/// \defgroup cut_out Cut-outs
+/// \brief A leaf is a square with holes. Chapter: \ref ch_textures.
+///
+/// The holes belong to the search for the nearest hit, as in \cite pharr2023: a hit in
+/// a hole counts for no ray and for no photon. A scene that lists no such material
+/// compiles nothing of this.
+/// \{
+
+/// The holes of a material, in place of a texture of Textured.
+template <typename Texture>
+struct Holes {
+    static constexpr bool uses_uv = UsesUv<Texture>; ///< As the texture declares it.
+    Texture mask{}; ///< Its red channel is the alpha: 1 is solid, see load_image().
+    double cutoff = 0.5; ///< A point is open where the alpha is below it; at least 0.
+};
+
+/// A material with holes. Its base must be opaque and may be textured.
+template <Material Base, typename Texture>
+using CutOut = Textured<Base, Holes<Texture>>;
+
+namespace detail {
+
+/// Whether a texture is a Holes.
+template <typename Texture>
+inline constexpr bool is_holes = false;
+/// \copydoc is_holes
+template <typename Texture>
+inline constexpr bool is_holes<Holes<Texture>> = true;
+
+} // namespace detail
+
+/// Whether a point lies in a hole of the material, or of its base.
+/// \cost color_at() of the mask.
+// [is_open]
+template <typename Base, typename Texture, std::floating_point T>
+requires(detail::is_holes<Texture> || CutOutMaterial<Base>)
+    [[nodiscard]] bool is_open(const Textured<Base, Texture>& cut,
+                               const Vec3T<T>& position, const Vec2T<T>& uv) noexcept {
+    static_assert(
+        !Refractive<std::remove_cvref_t<decltype(material_at(cut.base, position, uv))>>,
+        "The body of a transparent material cannot be cut out: a path would "
+        "get into it without crossing its surface.");
+    if constexpr (CutOutMaterial<Base>)
+        if (is_open(cut.base, position, uv)) return true;
+    if constexpr (detail::is_holes<Texture>)
+        return double(color_at(cut.texture.mask, position, uv).x) < cut.texture.cutoff;
+    return false;
+}
+// [is_open]
+
+/// Checks the mask and the cutoff.
+/// \throws std::invalid_argument  naming the member.
+template <typename Texture>
+void check(const Holes<Texture>& holes) {
+    check(holes.mask);
+    require(holes.cutoff >= 0 && std::isfinite(holes.cutoff), "holes.cutoff",
+            holes.cutoff, "finite and at least 0");
+}
+
+/// \}
+
+} // namespace ljus

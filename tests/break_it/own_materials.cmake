@@ -1,0 +1,39 @@
+# Alpha is not multiplied by that of the factor.
+ljus_break_it(NAME own_materials-alpha HEADER io/detail/gltf_reader.hpp
+    TEST own_materials
+    FROM "\"alphaCutoff\", 0.5, 0, 1e6) / alpha;"
+    TO   "\"alphaCutoff\", 0.5, 0, 1e6);"
+    CASES "own materials: a glTF*")
+
+# A picture that is turned the other way round.
+ljus_break_it(NAME own_materials-turn HEADER io/detail/gltf_reader.hpp
+    TEST own_materials
+    FROM "turn(std::cos(angle), std::sin(angle));"
+    TO   "turn(std::cos(angle), -std::sin(angle));"
+    CASES "own materials: a glTF*")
+
+# Normals that are decoded like colours.
+ljus_break_it(NAME own_materials-numbers HEADER io/load_image.hpp TEST own_materials
+    FROM "!colors             ? byte"
+    TO   "colors && byte > 2  ? byte"
+    CASES "own materials: pictures of MTL*")
+
+# A picture without alpha is a mask by its red, which nobody reads.
+ljus_break_it(NAME own_materials-red HEADER io/load_image.hpp TEST own_materials
+    FROM "content == PictureContent::mask && !picture.has_alpha;"
+    TO   "false;"
+    CASES "own materials: pictures of MTL*")
+
+# The factor of a group of lamps does not reach what glows in a file.
+ljus_break_it(NAME own_materials-group HEADER io/detail/json_objects.hpp
+    TEST own_materials
+    FROM "radiance + static_cast<T>(factor) * surface->emission);"
+    TO   "radiance + surface->emission);"
+    CASES "own materials: three*")
+
+# The first surface of a file for all of its parts.
+ljus_break_it(NAME own_materials-parts HEADER io/detail/json_objects.hpp
+    TEST own_materials
+    FROM "surfaces.empty() ? nullptr : &surfaces[i];"
+    TO   "surfaces.empty() ? nullptr : &surfaces[0 * i];"
+    CASES "own materials: three*")
