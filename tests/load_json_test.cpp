@@ -896,7 +896,8 @@ TEST_CASE("load_json: points, spots and suns") {
 
     refused(lit("1"), "lights[0] is 1; it must be an object.");
     refused(lit(R"({"type": "moon"})"),
-            "lights[0].type is \"moon\"; it must be point, spot, sun or environment.");
+            "lights[0].type is \"moon\"; it must be point, spot, sun, environment or "
+            "goniometric.");
     refused(lit(R"({"type": "sun", "direction": [0, 0, 0], "irradiance": [1, 1, 1]})"),
             "lights[0].direction is [0,0,0]; it must be a vector that is not 0.");
     refused(lit(R"({"type": "point", "position": [0, 0, 0], "intensity": [1, -1, 1]})"),
