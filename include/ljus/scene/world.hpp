@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ljus/accel/bvh8.hpp"
+#include "ljus/lights/picture_light.hpp"
 #include "ljus/math/frame.hpp"
 #include "ljus/ref.hpp"
 #include "ljus/scene/contacts.hpp"
@@ -260,6 +261,16 @@ public:
     [[nodiscard]] const FrameT<Scalar>& frame(ObjectId id) const noexcept {
         return frames_[id.type][id.index];
     }
+    /// Whether the scene lists a material whose lamp shows a picture.
+    static constexpr bool lists_pictures =
+        S::any_material([]<typename M>() { return ShowsPicture<M>; });
+    /// The textured lamp that an object is; null if it is none.
+    [[nodiscard]] const PictureLightT<Scalar>*
+    picture_of(const ObjectT<Scalar>& object) const noexcept {
+        if (object.light == no_light) return nullptr;
+        const Lamp& lamp = lamps_[lights_[object.light].index];
+        return lamp.picture == no_light ? nullptr : &pictures_[lamp.picture];
+    }
     /// Whether a path can meet a light: whether it has a surface or fills the sky.
     /// \param light  Its number.
     [[nodiscard]] bool can_be_met(std::uint32_t light) const {
@@ -279,8 +290,8 @@ public:
     decltype(auto) visit_material(MaterialId id, F&& f) const {
         return detail::visit_element(materials_, id.type, id.index, f);
     }
-    /// Calls f(light) with a light, in its own type: an AreaLightT for an emissive
-    /// object, otherwise its form within a World.
+    /// Calls f(light) with a light, in its own type: an AreaLightT or a PictureLightT for
+    /// an emissive object, otherwise its form within a World.
     template <typename F>
     decltype(auto) visit_light(std::uint32_t number, F&& f) const {
         const LightId& id = lights_[number];
@@ -288,6 +299,8 @@ public:
             if (id.type > 0)
                 return detail::visit_element(kept_, id.type - 1, id.index, f);
         const Lamp& lamp = lamps_[id.index];
+        if constexpr (lists_pictures)
+            if (lamp.picture != no_light) return f(pictures_[lamp.picture]);
         return visit_shape(lamp.object, [&]<typename G>(const G& shape) {
             return f(AreaLightT<G>{shape, lamp.known});
         });
@@ -318,6 +331,7 @@ private:
     struct Lamp {
         ObjectId object;
         LampT<Scalar> known;
+        std::uint32_t picture = no_light; // in pictures_
     };
 
     static void check_all(const auto& list) {
@@ -450,9 +464,33 @@ private:
             if constexpr (HasArea<G>)
                 lamps_.push_back(
                     {id, detail::make_lamp(shape, object.emission, object.inside_out)});
+            if constexpr (lists_pictures) add_picture(scene, shape, object);
         });
         object.light = static_cast<std::uint32_t>(lights_.size());
         add_light({0, static_cast<std::uint32_t>(lamps_.size() - 1)});
+    }
+
+    // Gives the last lamp its picture, if its material shows one.
+    template <typename G>
+    [[gnu::cold]] void add_picture(const S& scene, const G& shape,
+                                   const ObjectT<Scalar>& object) {
+        const auto add = [&]<typename M>(const M& material) {
+            if constexpr (ShowsPicture<M>) {
+                const auto& picture = emission_picture(material);
+                if constexpr (requires { detail::picture_frame(shape); }) {
+                    lamps_.back().picture =
+                        static_cast<std::uint32_t>(pictures_.size());
+                    pictures_.push_back(make_picture_light(
+                        shape, picture, object.emission, object.inside_out));
+                } else {
+                    throw std::invalid_argument(
+                        "A lamp that shows a picture must be a quad or a disc at rest; "
+                        "give another shape a radiance without a picture.");
+                }
+            }
+        };
+        detail::visit_element(scene.materials, object.material.type,
+                              object.material.index, add);
     }
 
     [[gnu::cold]] void add_light(LightId id) {
@@ -479,6 +517,7 @@ private:
     std::vector<ObjectId> ids_{};
     Kept kept_{};
     std::vector<Lamp> lamps_{};
+    std::vector<PictureLightT<Scalar>> pictures_{};
     std::vector<LightId> lights_{};
     std::vector<RgbT<Scalar>> powers_{};
     LightChoice choice_{};
