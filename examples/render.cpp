@@ -133,6 +133,9 @@ RenderedT<typename S::Scalar> map_photons(const FileRoom<S>& room, Request& r) {
     examples::ProgressBar caustics("caustics photons", r.quiet);
     examples::ProgressBar general("general photons", r.quiet);
     PhotonMappingSettings settings = r.photon;
+    if (settings.share_lights)
+        settings = share_by_sight(room.world, room.camera, settings, r.picture.width,
+                                  r.picture.height);
     settings.caustics.progress = caustics;
     settings.general.progress = general;
     PhotonMapper mapper(room.world, settings, examples::recipe_abilities);

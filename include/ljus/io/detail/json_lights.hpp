@@ -7,8 +7,8 @@
 
 #include "ljus/io/detail/json_textures.hpp"
 #include "ljus/io/hdr.hpp"
-#include "ljus/io/pfm.hpp"
 #include "ljus/io/load_ies.hpp"
+#include "ljus/io/pfm.hpp"
 #include "ljus/lights/environment.hpp"
 #include "ljus/lights/goniometric_light.hpp"
 #include "ljus/lights/point_light.hpp"
@@ -27,7 +27,7 @@ namespace ljus {
 namespace detail {
 
 inline constexpr std::string_view light_words[]{"point", "spot", "sun", "environment",
-                                                 "goniometric"};
+                                                "goniometric"};
 inline constexpr JsonMember light_shared[]{
     needed("type", {.kind = JsonKind::word, .words = light_words}, "which light", {}),
     lamp_group_row};
@@ -55,7 +55,8 @@ inline constexpr JsonMember goniometric_members[]{
              "of type C: horizontal angle 0, of the types B and A: vertical angle 90; "
              "by default (0, 0, -1)",
              "[1, 0, 0]"),
-    needed("file", text_value, "an IES file, beside the scene file", "\"lamp.ies\""),
+    needed("file", text_value, "an IES file, beside the scene file",
+           "\"wall_washer.ies\""),
     preset("watts_per_lumen", light_value, 1.0 / 683, "W/sr for each candela",
            "[0.01, 0.01, 0.01]")};
 inline constexpr std::string_view sky_words[]{"radiance", "gradient", "file"};

@@ -17,6 +17,7 @@
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
+#include "ljus/materials/picture_lamp.hpp"
 #include "ljus/materials/rough_glass.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/materials/textured.hpp"
@@ -134,6 +135,8 @@ inline constexpr JsonMember ior_row =
     needed("ior", ior_value, "index of refraction", "1.5", "index");
 inline constexpr JsonMember absorption_row = preset(
     "absorption", {JsonKind::vector, 0, 1e12, "within [0, 1e12]"}, 0, "per scene unit");
+inline constexpr JsonMember picture_row = needed(
+    "file", text_value, "PNG, JPEG or BMP, beside the scene file", "\"tile.png\"");
 inline constexpr JsonMember even_row =
     needed("even", color_value, "albedo of the even fields", "[0.9, 0.9, 0.9]");
 inline constexpr JsonMember odd_row =
@@ -254,10 +257,17 @@ constexpr auto material_rows() {
              fields_row("rows", "fields along v, an even number")},
             [](In in) { return white<T>(read_checker<T>(in.in)); }),
         row("picture", "", "matt, with the colours of a picture",
-            {needed("file", text_value, "PNG, JPEG or BMP, beside the scene file",
-                    "\"tile.png\""),
-             map[0], map[1], map[2], map[3], map[4], map[5]},
-            [](In in) { return white<T>(read_picture(in.in, in.shared.pictures)); })};
+            {picture_row, map[0], map[1], map[2], map[3], map[4], map[5]},
+            [](In in) { return white<T>(read_picture(in.in, in.shared.pictures)); }),
+        row("picture-lamp", "",
+            "of a quad or a disc, whose emission it multiplies: ljus::PictureLamp",
+            {picture_row,
+             preset("albedo", color_value, 0, "of the light that falls on it")},
+            [](In in) {
+                return PictureLampT<T>{.picture =
+                                           take_picture(in.in, in.shared.pictures),
+                                       .albedo = in.color("albedo")};
+            })};
 }
 
 // The types of the rows, each once: several names may have one type.

@@ -139,16 +139,19 @@ struct FilePicturesT {
 };
 
 template <std::floating_point T>
-PictureTextureT<T, FileMapT<T>> read_picture(const JsonMembersOf& in,
-                                             FilePicturesT<T>& pictures) {
-    PictureTextureT<T, FileMapT<T>> texture{.map = read_map<T>(in)};
+ImageT<T> take_picture(const JsonMembersOf& in, FilePicturesT<T>& pictures) {
     const JsonField file = in["file"];
     try {
-        texture.image = pictures.take(path_beside(file));
+        return pictures.take(path_beside(file));
     } catch (const std::runtime_error& error) {
         refuse_for(file, error);
     }
-    return texture;
+}
+
+template <std::floating_point T>
+PictureTextureT<T, FileMapT<T>> read_picture(const JsonMembersOf& in,
+                                             FilePicturesT<T>& pictures) {
+    return {.image = take_picture(in, pictures), .map = read_map<T>(in)};
 }
 
 } // namespace ljus::detail
