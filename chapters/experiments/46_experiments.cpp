@@ -51,9 +51,9 @@ double relative_variance(int size, const Estimate& estimate) {
 /// drawn by brightness, from a metre and from a decimetre before its middle.
 void tabulate_contrast(const std::string& folder, int size) {
     examples::Table table{.name = "lamps-contrast",
-                          .columns = {"sun over sky", "uniform, 1 m",
-                                      "by brightness, 1 m", "uniform, 0.1 m",
-                                      "by brightness, 0.1 m"}};
+                          .columns = {"sun over sky", "uniform at 1 m",
+                                      "by brightness at 1 m", "uniform at 0.1 m",
+                                      "by brightness at 0.1 m"}};
     for (const double sun : {1.0, 10.0, 100.0, 1000.0, 10'000.0}) {
         const auto light = window_with_sun(sun);
         std::vector<std::string> row{examples::text(sun, "%.0f")};

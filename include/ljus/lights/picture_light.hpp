@@ -19,8 +19,8 @@ namespace ljus {
 /// \addtogroup picture_lamp
 /// \{
 
-/// A textured lamp as a World stores it: an object of a material that ShowsPicture, with
-/// a radiance. Its points are sampled by the brightness of their pixels.
+/// A textured lamp as a World stores it: an object with a radiance, of a material that
+/// ShowsPicture. Its points are sampled by the brightness of their pixels.
 template <std::floating_point T>
 struct PictureLightT {
     using Scalar = T;            ///< The precision.
@@ -212,7 +212,8 @@ template <std::floating_point T>
                                  T(1) / pdf_of_point(light, radiance_at(light, uv)));
 }
 
-/// Samples the origin of a photon by brightness; its normal points to the emitting side.
+/// Samples the origin of a photon by brightness; its normal points to the side that
+/// shines.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> emission_point(const PictureLightT<T>& light,
                                               const Vec2T<T>& u, T /*time*/) {

@@ -221,11 +221,11 @@ struct AllAlike {
 } // namespace detail
 
 /// Traces a few photons from every light, the same number from each, to measure what
-/// each contributes to a map. A light that no mirror or glass sees, however strong, then
-/// gets few photons of the caustics map: its share is what share_out() would give by the
-/// scatter \f$ a_k^2 \propto \sum_i (w_i \varphi_i)^2 \f$ of the photons that were
-/// stored, but with a floor of a tenth in proportion to power. The variance is therefore
-/// at most ten times that of the choice by power, whatever the pilot misses.
+/// each contributes to a map. A light that no mirror or glass sees, however strong,
+/// then gets few photons of the caustics map: its share is what share_out() would give
+/// by the scatter \f$ a_k^2 \propto \sum_i (w_i \varphi_i)^2 \f$ of the photons that
+/// were stored, but with a floor of a tenth in proportion to power. The variance is
+/// therefore at most ten times that of the choice by power, whatever the pilot misses.
 /// \param world   The closed scene.
 /// \param pass    The picture's pass; the pilot sends a twentieth of its photons, at
 ///                least 200 and at most 20 000 per light.

@@ -290,8 +290,8 @@ public:
     decltype(auto) visit_material(MaterialId id, F&& f) const {
         return detail::visit_element(materials_, id.type, id.index, f);
     }
-    /// Calls f(light) with a light, in its own type: an AreaLightT or a PictureLightT for
-    /// an emissive object, otherwise its form within a World.
+    /// Calls f(light) with a light, in its own type: an AreaLightT or a PictureLightT
+    /// for an emissive object, otherwise its form within a World.
     template <typename F>
     decltype(auto) visit_light(std::uint32_t number, F&& f) const {
         const LightId& id = lights_[number];
