@@ -38,7 +38,6 @@ double lobe(double degrees, double middle, double width) {
     return std::exp(-std::pow((degrees - middle) / width, 2));
 }
 
-// [tables]
 /// Three lamps that might be: a narrow beam in a faint ring; two wings to the sides;
 /// four petals.
 const IntensityTable beam = table_of([](double polar, double) {
@@ -52,9 +51,7 @@ const IntensityTable petals = table_of([](double polar, double azimuth) {
     const double turn = std::cos(4 * azimuth * double(pi) / 180);
     return 900 * lobe(polar, 25, 14) * (0.55 + 0.45 * turn);
 });
-// [tables]
 
-// [window]
 /// A window of six panes: an evening sky above a hill, with the sun in one pane.
 Image evening(int width, int height) {
     Image picture = make_image(width, height);
@@ -71,7 +68,6 @@ Image evening(int width, int height) {
         }
     return picture;
 }
-// [window]
 
 } // namespace
 

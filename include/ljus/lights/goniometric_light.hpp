@@ -169,7 +169,6 @@ struct CellCorners {
 /// The intensity in a direction.
 /// \param wo  Unit direction away from the light.
 /// \return cd.
-// [intensity_towards]
 template <std::floating_point T>
 [[nodiscard]] double intensity_towards(const GoniometricInSceneT<T>& light,
                                        const Vec3T<T>& wo) noexcept {
@@ -188,7 +187,6 @@ template <std::floating_point T>
     return std::lerp(std::lerp(low[0], low[1], azimuth->part),
                      std::lerp(high[0], high[1], azimuth->part), polar->part);
 }
-// [intensity_towards]
 
 /// The frame of a table's angles in the world.
 template <std::floating_point T>

@@ -184,7 +184,6 @@ template <std::floating_point T>
 /// Samples a point of the lamp for a shadow ray.
 /// \return The sample; nothing if `from` lies behind the lamp, or the point beside a
 ///         disc, in a pixel on its edge.
-// [sample_light]
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const PictureLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>& u,
@@ -199,7 +198,6 @@ sample_light(const PictureLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>
     return LightSampleT<T>{
         .point = point, .wi = wi, .weight = radiance / pdf, .pdf = pdf};
 }
-// [sample_light]
 
 /// The density with which sample_light() chooses a point of the lamp; per steradian.
 /// \param from   The lit point.

@@ -77,7 +77,6 @@ template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
 ///         two lamps. A pass that sends fewer than 800 photons for each lamp is left as
 ///         it is.
 /// \cost A twentieth of the photons, and 1024 paths of the camera.
-// [share by sight]
 template <AnyWorld W, CameraLike C>
 [[nodiscard, gnu::cold]] PhotonMappingSettings
 share_by_sight(const W& world, const C& camera, PhotonMappingSettings settings,
@@ -107,7 +106,6 @@ share_by_sight(const W& world, const C& camera, PhotonMappingSettings settings,
     }
     return settings;
 }
-// [share by sight]
 
 /// \}
 

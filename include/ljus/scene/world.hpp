@@ -267,9 +267,8 @@ public:
     /// The textured lamp that an object is; null if it is none.
     [[nodiscard]] const PictureLightT<Scalar>*
     picture_of(const ObjectT<Scalar>& object) const noexcept {
-        if (object.light == no_light) return nullptr;
-        const Lamp& lamp = lamps_[lights_[object.light].index];
-        return lamp.picture == no_light ? nullptr : &pictures_[lamp.picture];
+        return object.light == no_light ? nullptr
+                                        : picture_of(lights_[object.light].index);
     }
     /// Whether a path can meet a light: whether it has a surface or fills the sky.
     /// \param light  Its number.
@@ -298,9 +297,9 @@ public:
         if constexpr (std::tuple_size_v < Kept >> 0)
             if (id.type > 0)
                 return detail::visit_element(kept_, id.type - 1, id.index, f);
-        const Lamp& lamp = lamps_[id.index];
         if constexpr (lists_pictures)
-            if (lamp.picture != no_light) return f(pictures_[lamp.picture]);
+            if (const auto* const lamp = picture_of(id.index)) return f(*lamp);
+        const Lamp& lamp = lamps_[id.index];
         return visit_shape(lamp.object, [&]<typename G>(const G& shape) {
             return f(AreaLightT<G>{shape, lamp.known});
         });
@@ -331,7 +330,6 @@ private:
     struct Lamp {
         ObjectId object;
         LampT<Scalar> known;
-        std::uint32_t picture = no_light; // in pictures_
     };
 
     static void check_all(const auto& list) {
@@ -470,16 +468,22 @@ private:
         add_light({0, static_cast<std::uint32_t>(lamps_.size() - 1)});
     }
 
+    // The textured lamp that a lamp is, or null.
+    [[nodiscard]] const PictureLightT<Scalar>*
+    picture_of(std::uint32_t lamp) const noexcept {
+        return shown_[lamp] == no_light ? nullptr : &pictures_[shown_[lamp]];
+    }
+
     // Gives the last lamp its picture, if its material shows one.
     template <typename G>
     [[gnu::cold]] void add_picture(const S& scene, const G& shape,
                                    const ObjectT<Scalar>& object) {
+        shown_.push_back(no_light);
         const auto add = [&]<typename M>(const M& material) {
             if constexpr (ShowsPicture<M>) {
                 const auto& picture = emission_picture(material);
                 if constexpr (requires { detail::picture_frame(shape); }) {
-                    lamps_.back().picture =
-                        static_cast<std::uint32_t>(pictures_.size());
+                    shown_.back() = static_cast<std::uint32_t>(pictures_.size());
                     pictures_.push_back(make_picture_light(
                         shape, picture, object.emission, object.inside_out));
                 } else {
@@ -517,11 +521,12 @@ private:
     std::vector<ObjectId> ids_{};
     Kept kept_{};
     std::vector<Lamp> lamps_{};
-    std::vector<PictureLightT<Scalar>> pictures_{};
     std::vector<LightId> lights_{};
     std::vector<RgbT<Scalar>> powers_{};
     LightChoice choice_{};
     Contacts contacts_{};
+    std::vector<PictureLightT<Scalar>> pictures_{};
+    std::vector<std::uint32_t> shown_{}; // in pictures_, for each lamp; or no_light
 };
 
 namespace detail {
