@@ -36,6 +36,7 @@
 #include "ljus/io/load_json.hpp"
 #include "ljus/io/load_mesh.hpp"
 #include "ljus/io/scene_schema.hpp"
+#include "ljus/render/lamp_shares.hpp"
 #include "ljus/render/adaptive.hpp"
 
 namespace {
