@@ -36,8 +36,8 @@
 #include "ljus/io/load_json.hpp"
 #include "ljus/io/load_mesh.hpp"
 #include "ljus/io/scene_schema.hpp"
-#include "ljus/render/lamp_shares.hpp"
 #include "ljus/render/adaptive.hpp"
+#include "ljus/render/lamp_shares.hpp"
 
 namespace {
 

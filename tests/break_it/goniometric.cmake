@@ -42,6 +42,6 @@ ljus_break_it(NAME ies-mirror HEADER io/load_ies.hpp TEST goniometric
 
 # The ballast factor is forgotten.
 ljus_break_it(NAME ies-ballast HEADER io/load_ies.hpp TEST goniometric
-    FROM "factor *= in.number(\"the ballast factor\", 1e-9, 1e9);"
-    TO   "(void)in.number(\"the ballast factor\", 1e-9, 1e9);"
+    FROM [[factor *= in.number("the ballast factor", 1e-9, 1e9);]]
+    TO   [[(void)in.number("the ballast factor", 1e-9, 1e9);]]
     CASES "goniometric: versions*")

@@ -202,8 +202,8 @@ pilot_caustics(const W& world, const PhotonPassSettings& pass, T radius,
 
 /// Whether a pass has photons enough for a pilot of its lights: at least four times 200
 /// for each.
-[[nodiscard]] constexpr bool affords_pilot(long long photons,
-                                           std::size_t lights) noexcept {
+[[nodiscard]] inline bool affords_pilot(long long photons,
+                                        std::size_t lights) noexcept {
     return 800 * static_cast<long long>(lights) <= photons;
 }
 
