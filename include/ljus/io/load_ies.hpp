@@ -123,7 +123,6 @@ struct IesGrid {
 /// Completes the horizontal angles by the symmetry that their range says.
 /// \param around  Whether they are those of type C.
 /// \return What their range must be; nothing if it is right.
-// [complete]
 [[nodiscard]] inline const char* complete(IesGrid& grid, bool around) {
     const double first = grid.horizontal.front(), last = grid.horizontal.back();
     if (!around) {
@@ -138,6 +137,7 @@ struct IesGrid {
         }
         return first == -90 && last == 90 ? nullptr : "from 0 or -90 to 90";
     }
+    // [complete]
     if (first == 0 && last == 0) { // the same all around
         grid.append(360, grid, 0);
     } else if (first == 0 && last == 90) { // in four quarters
@@ -150,9 +150,9 @@ struct IesGrid {
     } else if (!(first == 0 && last == 360)) {
         return "from 0 to 0, 90, 180 or 360, or from 90 to 270";
     }
+    // [complete]
     return nullptr;
 }
-// [complete]
 
 /// The table of a complete grid. The polar angles of the types B and A are those from
 /// the pole, and grow as the angles of the file fall.

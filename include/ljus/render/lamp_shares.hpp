@@ -26,7 +26,6 @@ namespace ljus {
 /// \param height  Its height.
 /// \param seed    Of the random streams.
 /// \cost 1024 paths.
-// [seen places]
 template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
 [[nodiscard]] PhotonMapT<T> seen_places(const W& world, const C& camera, int width,
                                         int height, std::uint64_t seed) {
@@ -41,6 +40,7 @@ template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
                         camera_ray(camera, {at.x * T(width), at.y * T(height)}, width,
                                    height, stream),
                         stream);
+        // [seen places]
         int matt = 0; // surfaces that are not only specular
         while (path.depth < 16) {
             const auto vertex = next_vertex(world, path, stream);
@@ -59,10 +59,10 @@ template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
             });
             if (!goes_on) break;
         }
+        // [seen places]
     }
     return make_photon_map(places, 1);
 }
-// [seen places]
 
 /// Settings in which lamps share the photons by what the picture sees of them, measured
 /// by pilot_lights(). A photon counts as much as the light that it brings to the
