@@ -39,6 +39,7 @@
 #include "ljus/io/load_mesh.hpp"
 #include "ljus/io/scene_schema.hpp"
 #include "ljus/render/adaptive.hpp"
+#include "ljus/render/lamp_shares.hpp"
 
 namespace {
 
@@ -125,6 +126,9 @@ RenderedLayersT<typename S::Scalar> map_photons(const FileRoom<S>& room, Request
     examples::ProgressBar caustics("caustics photons", r.quiet);
     examples::ProgressBar general("general photons", r.quiet);
     PhotonMappingSettings settings = r.photon;
+    if (settings.share_lights)
+        settings = share_by_sight(room.world, room.camera, settings, r.picture.width,
+                                  r.picture.height);
     settings.caustics.progress = caustics;
     settings.general.progress = general;
     PhotonMapper mapper(room.world, settings, examples::recipe_abilities);

@@ -455,7 +455,7 @@ TEST_CASE("load_json: for a wrong word the nearest one is proposed") {
          "lambertian, oren-nayar, mirror, dielectric, mixture, oren-nayar-full, "
          "oren-nayar-printed, fujii, fon, eon, metal, rough-metal, full-rough-metal, "
          "glossy, full-glossy, rough-glass, dispersive-glass, measured-glass, "
-         "thin-glass, soap-film, checker, picture or mapped."},
+         "thin-glass, soap-film, checker, picture, mapped or picture-lamp."},
         {"\"type\": \"sphere\"", "\"type\": \"shpere\"",
          "objects[2].type is \"shpere\"; did you mean \"sphere\"? It must be sphere, "
          "triangles, mesh, instances, quad, box, disc or cylinder."},
@@ -802,6 +802,62 @@ static std::string lit(const std::string& lights) {
     return changed(end, end + ", \"lights\": [" + lights + "]");
 }
 
+TEST_CASE("load_json: a goniometric light and a textured lamp are those of C++") {
+    const LoadedScene loaded = read_json_scene(
+        lit(R"({"type": "goniometric", "position": [0, 2, 1], "direction": [1, -1, 0],
+                "reference": [1, 0, 0], "file": "wall_washer.ies",
+                "watts_per_lumen": [1, 2, 3]},
+               {"type": "goniometric", "position": [0, 2, 1], "direction": [0, -1, 0],
+                "file": "wall_washer.ies"})"),
+        LJUS_TEST_INPUTS "/a.json");
+    const auto& lamps = std::get<std::vector<GoniometricLight>>(loaded.scene.lights);
+    REQUIRE(lamps.size() == 2);
+    CHECK(lamps[0].table.candela ==
+          load_ies(LJUS_TEST_INPUTS "/wall_washer.ies").table.candela);
+    CHECK(lamps[0].position == Vec3{0, 2, 1});
+    CHECK(lamps[0].direction == Vec3{1, -1, 0});
+    CHECK(lamps[0].reference == Vec3{1, 0, 0});
+    CHECK(lamps[0].watts_per_lumen == Rgb{1, 2, 3});
+    CHECK(lamps[1].reference == GoniometricLight{}.reference);
+    CHECK(lamps[1].watts_per_lumen == GoniometricLight{}.watts_per_lumen);
+    const auto one = [](const std::string& rest) {
+        return lit(R"({"type": "goniometric", "position": [0, 0, 0], )" + rest + "}");
+    };
+    CHECK(refusal(one(R"("direction": [0, -1, 0], "file": "none.ies")"))
+              .starts_with(
+                  "a.json: lights[0].file cannot be used: cannot read 'none.ies'"));
+    const std::string washer = R"("file": "wall_washer.ies")";
+    const auto why = [&](const std::string& source) -> std::string {
+        try {
+            (void)read_json_scene(source, LJUS_TEST_INPUTS "/a.json");
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    CHECK(why(one(R"("direction": [0, 0, 2], )" + washer))
+              .ends_with("lights[0] cannot be used: goniometric light.reference is "
+                         "(0, 0, -1); it must be a vector that is not along the "
+                         "direction."));
+    std::string many;
+    for (int i = 0; i < 1025; ++i)
+        many += std::string(i > 0 ? ", " : "") +
+                R"({"type": "goniometric", "position": [0, 0, 0],
+                    "direction": [0, -1, 0], )" +
+                washer + "}";
+    CHECK(why(lit(many)).ends_with("lights[1024] is one goniometric light too many; a "
+                                   "scene file has at most 1024."));
+
+    const LoadedScene shown =
+        read_json_scene(changed(R"("type": "lambertian")",
+                                R"("type": "picture-lamp", "file": "tile.png")"),
+                        LJUS_TEST_INPUTS "/a.json");
+    const auto& pictures = std::get<std::vector<PictureLamp>>(shown.scene.materials);
+    REQUIRE(pictures.size() == 1);
+    CHECK(pictures[0].picture.pixels ==
+          load_image(LJUS_TEST_INPUTS "/tile.png").pixels);
+}
+
 TEST_CASE("load_json: an environment is a constant, a gradient or a picture") {
     const auto environment = [](const std::string& fields) {
         const LoadedScene loaded =
@@ -914,7 +970,7 @@ TEST_CASE("load_json: points, spots and suns") {
                {"type": "spot", "position": [0, 2, 1], "direction": [0, -2, 0],
                 "intensity": [1, 1, 1], "inner_deg": 10, "outer_deg": 60},
                {"type": "sun", "direction": [1, -1, 0], "irradiance": [4, 4, 3]})"));
-    const auto& [points, spots, suns, skies] = loaded.scene.lights;
+    const auto& [points, spots, suns, skies, measured] = loaded.scene.lights;
     REQUIRE(points.size() == 1);
     CHECK(points[0].position == Vec3{0, 2, 1});
     CHECK(points[0].intensity == Rgb{1, 2, 3});
@@ -924,6 +980,7 @@ TEST_CASE("load_json: points, spots and suns") {
     REQUIRE(suns.size() == 1);
     CHECK(suns[0].irradiance == Rgb{4, 4, 3});
     CHECK(skies.empty());
+    CHECK(measured.empty());
     // In the scene they come after the lamp, in the order of the file.
     const World world(std::move(loaded.scene));
     REQUIRE(world.light_count() == 4);
@@ -943,7 +1000,8 @@ TEST_CASE("load_json: points, spots and suns") {
 
     refused(lit("1"), "lights[0] is 1; it must be an object.");
     refused(lit(R"({"type": "moon"})"),
-            "lights[0].type is \"moon\"; it must be point, spot, sun or environment.");
+            "lights[0].type is \"moon\"; it must be point, spot, sun, environment or "
+            "goniometric.");
     refused(lit(R"({"type": "sun", "direction": [0, 0, 0], "irradiance": [1, 1, 1]})"),
             "lights[0].direction is [0,0,0]; it must be a vector that is not 0.");
     refused(lit(R"({"type": "point", "position": [0, 0, 0], "intensity": [1, -1, 1]})"),
@@ -991,7 +1049,7 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
          "mirror, dielectric, mixture, oren-nayar-full, oren-nayar-printed, fujii, "
          "fon, eon, metal, rough-metal, full-rough-metal, glossy, full-glossy, "
          "rough-glass, dispersive-glass, measured-glass, thin-glass, soap-film, "
-         "checker, picture or mapped."},
+         "checker, picture, mapped or picture-lamp."},
         {"\"ior\": 1.5", "\"ior\": 1.5, \"tint\": [1, 1, 1]",
          "materials.glass.tint is not known; the fields here are type, ior, "
          "absorption and priority."},

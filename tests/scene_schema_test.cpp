@@ -140,7 +140,7 @@ TEST_CASE("scene schema: the examples of all objects are read") {
                   true);
             ++examples;
         }
-    CHECK(examples == 7 + 23 + 8 + 4 + 2);
+    CHECK(examples == 7 + 24 + 8 + 5 + 2);
 }
 
 TEST_CASE("scene schema: what is needed must be there, and nothing unknown may be") {

@@ -307,8 +307,8 @@ TEST_CASE("survey: a hook that is misspelt shows") {
     CHECK(lines[1].starts_with("shape QuadT<float> has bounds, area, "));
     CHECK(lines[2].ends_with(
         " has emission; without absorption (clear), refractive_index (opaque in "
-        "contact), priority (0), at_point (the same anywhere), uses_uv (uv is 0), "
-        "split (one "
+        "contact), priority (0), emission_picture (even light), at_point (the same "
+        "anywhere), uses_uv (uv is 0), split (one "
         "branch at random), "
         "pass_through (opaque), at_wavelength (one index for all light), only_specular "
         "(write both)"));

@@ -59,7 +59,7 @@ ljus_break_it(NAME environment-gradient HEADER lights/environment.hpp TEST envir
     CASES "environment: a gradient*")
 
 # A black picture gives 0/0.
-ljus_break_it(NAME environment-black HEADER lights/environment.hpp TEST environment
+ljus_break_it(NAME environment-black HEADER image/image.hpp TEST environment
     FROM "black = black && is_black(c);"
     TO   "black = false;"
     CASES "environment: what is no sky*")

@@ -20,8 +20,8 @@ ljus_break_it(NAME scene-aim-outside HEADER photons/scene_aim.hpp TEST scene_aim
 
 # The light emits alike in all directions of the cone.
 ljus_break_it(NAME scene-aim-density HEADER photons/scene_aim.hpp TEST scene_aim
-    FROM "power(light) * (emitted / drawn)"
-    TO   "power(light) * (T(0.25) * std::numbers::inv_pi_v<T> / drawn)"
+    FROM "flux_leaving(light, point) * (emitted / drawn)"
+    TO   "flux_leaving(light, point) * (T(0.25) * std::numbers::inv_pi_v<T> / drawn)"
     CASES "scene aim: far lamps*,scene aim: spots*")
 
 # A far lamp belongs to the scene, whose sphere is then as large as its distance.

@@ -26,8 +26,8 @@ ljus_break_it(NAME tracing-target HEADER photons/photon_path.hpp TEST tracing
 
 # Aimed photons carry as much as blind ones.
 ljus_break_it(NAME tracing-aim HEADER photons/aiming.hpp TEST tracing
-    FROM "power(light) * (emitted / (pdf * u.probability))"
-    TO   "power(light) / u.probability"
+    FROM "flux_leaving(light, point) * (emitted / (pdf * u.probability))"
+    TO   "flux_leaving(light, point) / u.probability"
     CASES "tracing: a caustic has*")
 
 # From each light as many photons as from the next, all with its own flux.

@@ -8,8 +8,10 @@
 #include <cstddef>
 #include <cstdio>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
+#include "ljus/math/require.hpp"
 #include "ljus/math/vector.hpp"
 
 namespace ljus {
@@ -109,6 +111,29 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] const RgbT<T>& pixel(const ImageT<T>& image, int x, int y) noexcept {
     return image.pixels[detail::pixel_index(image, x, y)];
+}
+
+/// Requires a picture of radiances, at least one of which is not black.
+/// \param what   What it is, for the message.
+/// \throws std::invalid_argument  as check(); with the pixel, if one is negative or not
+///         finite; if all are black.
+template <std::floating_point T>
+void require_radiance(std::string_view what, const ImageT<T>& image) {
+    check(image);
+    bool black = true;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const RgbT<T>& c = pixel(image, x, y);
+            if (!(is_finite(c) && c.x >= T(0) && c.y >= T(0) && c.z >= T(0)))
+                detail::refuse(
+                    detail::join({what, ", column ", to_text(static_cast<long long>(x)),
+                                  ", row ", to_text(static_cast<long long>(y))}),
+                    c, "finite and at least 0 in every channel");
+            black = black && is_black(c);
+        }
+    if (black)
+        throw std::invalid_argument(detail::join(
+            {what, " is black in every pixel; leave such a light out of the scene."}));
 }
 
 /// \}

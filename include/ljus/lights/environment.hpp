@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <vector>
 
 #include "ljus/image/image.hpp"
@@ -61,13 +60,6 @@ struct EnvironmentInSceneT {
 };
 
 namespace detail {
-
-/// The brightness by which a colour is sampled: the sum of its channels, as for the
-/// choice of a light by power.
-template <std::floating_point T>
-[[nodiscard]] constexpr T brightness(const RgbT<T>& c) noexcept {
-    return c.x + c.y + c.z;
-}
 
 /// 1 - cos of an angle that is a fraction of pi, without cancellation.
 template <std::floating_point T>
@@ -129,23 +121,7 @@ void check(const EnvironmentLightT<T>& light) {
     require_positive("environment light.strength", light.strength);
     require(std::isfinite(light.rotation_degrees), "environment light.rotation_degrees",
             light.rotation_degrees, "finite");
-    check(light.picture);
-    bool black = true;
-    for (int y = 0; y < light.picture.height; ++y)
-        for (int x = 0; x < light.picture.width; ++x) {
-            const RgbT<T>& c = pixel(light.picture, x, y);
-            if (!(is_finite(c) && std::min({c.x, c.y, c.z}) >= T(0)))
-                detail::refuse(
-                    detail::join({"environment light.picture, column ",
-                                  to_text(static_cast<long long>(x)), ", row ",
-                                  to_text(static_cast<long long>(y))}),
-                    c, "finite and at least 0 in every channel");
-            black = black && is_black(c);
-        }
-    if (black)
-        throw std::invalid_argument(
-            "environment light.picture is black in every pixel; "
-            "leave such a light out of the scene.");
+    require_radiance("environment light.picture", light.picture);
 }
 
 /// Prepares a checked environment for its scene.

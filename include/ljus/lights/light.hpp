@@ -77,6 +77,13 @@ void require_flux(const RgbT<T>& flux) {
             "finite and above 0");
 }
 
+/// The brightness by which a colour is sampled: the sum of its channels, as for the
+/// choice of a light by power.
+template <std::floating_point T>
+[[nodiscard]] constexpr T brightness(const RgbT<T>& c) noexcept {
+    return c.x + c.y + c.z;
+}
+
 /// Normalises a direction of any length.
 /// \param what  Its name.
 /// \throws std::invalid_argument  if it is 0 or not finite.
@@ -187,6 +194,8 @@ template <Light L>
              requires(L l, V wo) { escaped_radiance(l, wo); }},
         Hook{"pdf_escaped", "a sky that rays see", "black",
              requires(L l, V wo) { pdf_escaped(l, wo); }},
+        Hook{"flux_from", "photons of unequal flux", "power(light)",
+             requires(L l, SurfacePointT<T> point) { flux_from(l, point); }},
         Hook{"form_factor", "its light in closed form", "by shadow rays alone",
              requires(L l, V from, T time) { form_factor(l, from, from, time); }},
         Hook{"center_sample", "its centre", "u = v = 1/2",
@@ -205,6 +214,17 @@ template <typename L, typename Point>
         return emission_cone(light, point);
     else
         return {};
+}
+
+/// The flux of all photons of a light together, if each leaves as one from this point
+/// does: the light's flux, or that of flux_from().
+template <typename L, typename Point>
+[[nodiscard]] RgbT<typename L::Scalar> flux_leaving(const L& light,
+                                                    const Point& point) {
+    if constexpr (requires { flux_from(light, point); })
+        return flux_from(light, point);
+    else
+        return power(light);
 }
 
 /// The position of a point of a light, on a surface or not.

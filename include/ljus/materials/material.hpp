@@ -235,6 +235,13 @@ requires std::floating_point<typename M::Scalar>
     return RgbT<typename M::Scalar>{0};
 }
 
+/// A material whose lamp shows a picture: `emission_picture(m)` returns the factors of
+/// the radiance, over the (u, v) of a quad or a disc.
+template <typename M>
+concept ShowsPicture = requires(const M& m) {
+    emission_picture(m).pixels;
+};
+
 /// A material at a point: the material itself, or `at_point(m, position, uv)` of one
 /// that varies. A material that uses uv declares `static constexpr bool uses_uv =
 /// true`; for all others uv is not computed.
@@ -308,6 +315,8 @@ template <Material M>
              requires(O m) { priority(m); }},
         Hook{"emission", "its own light", "black",
              requires(O m) { emission(m); }},
+        Hook{"emission_picture", "a lamp that shows a picture", "even light",
+             requires(O m) { emission_picture(m); }},
         Hook{"at_point", "varies over the surface", "the same anywhere",
              requires(O m, V position, Uv uv) { at_point(m, position, uv); }},
         Hook{"uses_uv", "at_point() with uv", "uv is 0",

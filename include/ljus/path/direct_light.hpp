@@ -72,6 +72,9 @@ struct MisT {
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] T pdf_of_lamp_point(const W& world, const Vec3T<T>& from,
                                   const VertexT<T>& lamp) {
+    if constexpr (W::lists_pictures)
+        if (const auto* const picture = world.picture_of(lamp.object))
+            return pdf_towards(*picture, from, lamp.point, lamp.uv);
     return world.visit_shape(lamp.id, [&](const auto& shape) {
         return pdf_towards(at_time(shape, lamp.time), from, lamp.point);
     });

@@ -237,6 +237,9 @@ inline void fill_vertex(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
         else if constexpr (!one_frame)
             set_frame(vertex, ray, geometric);
     });
+    if constexpr (W::lists_pictures)
+        if (const auto* const lamp = world.picture_of(vertex.object))
+            vertex.object.emission = radiance_at(*lamp, vertex.uv);
     vertex.wo = to_local(vertex.frame, -ray.direction);
 }
 

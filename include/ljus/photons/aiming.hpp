@@ -221,7 +221,8 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
     const T emitted = pdf_emission(light, point, direction);
     if (!(emitted > T(0))) return std::nullopt;
     return LeavingAimedT<T>{
-        {leave(point, direction), power(light) * (emitted / (pdf * u.probability))},
+        {leave(point, direction),
+         flux_leaving(light, point) * (emitted / (pdf * u.probability))},
         aimed->target};
 }
 

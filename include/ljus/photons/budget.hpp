@@ -200,32 +200,56 @@ pilot_caustics(const W& world, const PhotonPassSettings& pass, T radius,
     return pilots;
 }
 
+/// Whether a pass has photons enough for a pilot of its lights: at least four times 200
+/// for each.
+[[nodiscard]] inline bool affords_pilot(long long photons,
+                                        std::size_t lights) noexcept {
+    return 800 * static_cast<long long>(lights) <= photons;
+}
+
+namespace detail {
+
+/// All photons count alike.
+struct AllAlike {
+    /// The weight of a photon.
+    template <std::floating_point T>
+    [[nodiscard]] constexpr double operator()(const PhotonT<T>&) const noexcept {
+        return 1;
+    }
+};
+
+} // namespace detail
+
 /// Traces a few photons from every light, the same number from each, to measure what
-/// each contributes to the caustics. A light that no mirror or glass sees, however
-/// strong, then gets few photons: its share is what share_out() would give by the
-/// scatter \f$ a_k^2 \propto \sum_i \varphi_i^2 \f$ of the photons that were stored,
-/// but with a floor of a tenth in proportion to power. The variance is therefore at
-/// most ten times that of the choice by power, whatever the pilot misses.
-/// \param world  The closed scene.
-/// \param pass   The picture's pass; the pilot sends a twentieth of its photons, at
-///               least 200 and at most 20 000 per light.
+/// each contributes to a map. A light that no mirror or glass sees, however strong,
+/// then gets few photons of the caustics map: its share is what share_out() would give
+/// by the scatter \f$ a_k^2 \propto \sum_i (w_i \varphi_i)^2 \f$ of the photons that
+/// were stored, but with a floor of a tenth in proportion to power. The variance is
+/// therefore at most ten times that of the choice by power, whatever the pilot misses.
+/// \param world   The closed scene.
+/// \param pass    The picture's pass; the pilot sends a twentieth of its photons, at
+///                least 200 and at most 20 000 per light.
+/// \param map     For which map.
+/// \param weight  Called with each photon; returns \f$ w_i \f$, at least 0.
 /// \return One fraction per light with the sum 1, as PhotonPassSettings::light_shares;
 ///         none for a single light, or if no photon was stored.
 // [pilot_lights]
-template <AnyWorld W>
-[[nodiscard]] std::vector<double> pilot_lights(const W& world,
-                                               PhotonPassSettings pass) {
+template <AnyWorld W, typename Weight = detail::AllAlike>
+[[nodiscard]] std::vector<double> pilot_lights(const W& world, PhotonPassSettings pass,
+                                               MapType map = MapType::caustics,
+                                               const Weight& weight = {}) {
     const auto lights = static_cast<long long>(world.light_count());
     if (lights < 2) return {};
     pass.photons = std::clamp(pass.photons / 20, 200 * lights, 20000 * lights);
     pass.give_up = pass.photons;
     pass.equal_lights = true;
+    pass.shadow_photons = false;
     pass.shares = pass.light_shares = {};
     pass.iteration = ~pass.iteration - (1u << 31); // beyond the pilots of objects
     pass.progress = no_progress;
     std::vector<double> scatter(static_cast<std::size_t>(lights));
-    for (const auto& photon : trace_photons(world, MapType::caustics, pass).photons) {
-        const double flux = luminance(RgbT<double>(photon.flux));
+    for (const auto& photon : trace_photons(world, map, pass).photons) {
+        const double flux = weight(photon) * luminance(RgbT<double>(photon.flux));
         scatter[photon.light] += flux * flux;
     }
     double sum = 0;

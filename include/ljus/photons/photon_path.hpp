@@ -63,7 +63,7 @@ template <Light L, std::floating_point T>
     } else {
         const auto point = emission_point(light, u_point, time);
         return {detail::leave(point, sample_emission(light, point, u_direction)),
-                power(light)};
+                detail::flux_leaving(light, point)};
     }
 }
 // [emit_photon]

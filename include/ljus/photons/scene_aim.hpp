@@ -91,7 +91,7 @@ template <NearLight L, std::floating_point T>
     if (!(emitted > T(0))) return {leave(point, direction), RgbT<T>{T(0)}};
     const T in_cone = inside ? part * pdf_uniform_cone(cone.one_minus_cos) : T(0);
     const T drawn = in_cone + (T(1) - part) * emitted;
-    return {leave(point, direction), power(light) * (emitted / drawn)};
+    return {leave(point, direction), flux_leaving(light, point) * (emitted / drawn)};
 }
 // [emit_into]
 

@@ -32,8 +32,8 @@ caustic_light_shares(const W& world, const PhotonMappingSettings& settings) {
         !settings.caustics.light_shares.empty() || !settings.caustics.shares.empty();
     const bool measures =
         budget != CausticBudget::as_seen && budget != CausticBudget::equal;
-    const auto lights = static_cast<long long>(world.light_count());
-    const bool affordable = 4 * 200 * lights <= settings.caustics.photons;
+    const std::size_t lights = world.light_count();
+    const bool affordable = affords_pilot(settings.caustics.photons, lights);
     if (given || !(measures || (settings.share_lights && affordable)))
         return settings.caustics.light_shares;
     return pilot_lights(world, settings.caustics);

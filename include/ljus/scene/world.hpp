@@ -13,6 +13,7 @@
 
 #include "ljus/accel/bvh8.hpp"
 #include "ljus/image/texture.hpp"
+#include "ljus/lights/picture_light.hpp"
 #include "ljus/math/frame.hpp"
 #include "ljus/ref.hpp"
 #include "ljus/scene/body_list.hpp"
@@ -284,6 +285,15 @@ public:
     [[nodiscard]] const FrameT<Scalar>& frame(ObjectId id) const noexcept {
         return frames_[id.type][id.index];
     }
+    /// Whether the scene lists a material whose lamp shows a picture.
+    static constexpr bool lists_pictures =
+        S::any_material([]<typename M>() { return ShowsPicture<M>; });
+    /// The textured lamp that an object is; null if it is none.
+    [[nodiscard]] const PictureLightT<Scalar>*
+    picture_of(const ObjectT<Scalar>& object) const noexcept {
+        return object.light == no_light ? nullptr
+                                        : picture_of(lights_[object.light].index);
+    }
     /// Whether a path can meet a light: whether it has a surface or fills the sky.
     /// \param light  Its number.
     [[nodiscard]] bool can_be_met(std::uint32_t light) const {
@@ -303,13 +313,15 @@ public:
     decltype(auto) visit_material(MaterialId id, F&& f) const {
         return detail::visit_element(materials_, id.type, id.index, f);
     }
-    /// Calls f(light) with a light, in its own type: an AreaLightT for an emissive
-    /// object, otherwise its form within a World.
+    /// Calls f(light) with a light, in its own type: an AreaLightT or a PictureLightT
+    /// for an emissive object, otherwise its form within a World.
     template <typename F>
     decltype(auto) visit_light(std::uint32_t number, F&& f) const {
         const AddedId& id = lights_[number];
         if constexpr (std::tuple_size_v < Kept >> 0)
             if (id.is_light) return detail::visit_element(kept_, id.type, id.index, f);
+        if constexpr (lists_pictures)
+            if (const auto* const lamp = picture_of(id.index)) return f(*lamp);
         const Lamp& lamp = lamps_[id.index];
         return visit_shape(lamp.object, [&]<typename G>(const G& shape) {
             return f(AreaLightT<G>{shape, lamp.known});
@@ -329,11 +341,10 @@ public:
     /// As any_material(), for the types of which the scene has a material.
     template <typename F>
     [[nodiscard]] bool has_material([[maybe_unused]] F f) const noexcept {
-        return std::apply(
-            [&]<typename... M>(const std::vector<M>&... list) {
-                return ((f.template operator()<M>() && !list.empty()) || ...);
-            },
-            materials_);
+        return detail::any_array(materials_,
+                                 [&]<typename M>(const std::vector<M>& list) {
+                                     return f.template operator()<M>() && !list.empty();
+                                 });
     }
     /// Whether a material of the scene has holes.
     [[nodiscard]] bool has_holes() const noexcept { return has_holes_; }
@@ -544,9 +555,39 @@ private:
             if constexpr (HasArea<G>)
                 lamps_.push_back(
                     {id, detail::make_lamp(shape, object.emission, object.inside_out)});
+            if constexpr (lists_pictures) add_picture(scene, shape, object);
         });
         object.light = static_cast<std::uint32_t>(lights_.size());
         add_light({0, static_cast<std::uint32_t>(lamps_.size() - 1), false});
+    }
+
+    // The textured lamp that a lamp is, or null.
+    [[nodiscard]] const PictureLightT<Scalar>*
+    picture_of(std::uint32_t lamp) const noexcept {
+        return shown_[lamp] == no_light ? nullptr : &pictures_[shown_[lamp]];
+    }
+
+    // Gives the last lamp its picture, if its material shows one.
+    template <typename G>
+    [[gnu::cold]] void add_picture(const S& scene, const G& shape,
+                                   const ObjectT<Scalar>& object) {
+        shown_.push_back(no_light);
+        const auto add = [&]<typename M>(const M& material) {
+            if constexpr (ShowsPicture<M>) {
+                const auto& picture = emission_picture(material);
+                if constexpr (requires { detail::picture_frame(shape); }) {
+                    shown_.back() = static_cast<std::uint32_t>(pictures_.size());
+                    pictures_.push_back(make_picture_light(
+                        shape, picture, object.emission, object.inside_out));
+                } else {
+                    throw std::invalid_argument(
+                        "A lamp that shows a picture must be a quad or a disc at rest; "
+                        "give another shape a radiance without a picture.");
+                }
+            }
+        };
+        detail::visit_element(scene.materials, object.material.type,
+                              object.material.index, add);
     }
 
     [[gnu::cold]] void add_light(const AddedId& id) {
@@ -579,6 +620,8 @@ private:
     std::vector<RgbT<Scalar>> powers_{};
     LightChoice choice_{};
     Contacts contacts_{};
+    std::vector<PictureLightT<Scalar>> pictures_{};
+    std::vector<std::uint32_t> shown_{}; // in pictures_, for each lamp; or no_light
 };
 
 namespace detail {

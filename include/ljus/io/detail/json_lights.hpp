@@ -7,8 +7,10 @@
 
 #include "ljus/io/detail/json_textures.hpp"
 #include "ljus/io/hdr.hpp"
+#include "ljus/io/load_ies.hpp"
 #include "ljus/io/pfm.hpp"
 #include "ljus/lights/environment.hpp"
+#include "ljus/lights/goniometric_light.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/lights/spot_light.hpp"
 #include "ljus/lights/sun_light.hpp"
@@ -24,7 +26,8 @@ namespace ljus {
 
 namespace detail {
 
-inline constexpr std::string_view light_words[]{"point", "spot", "sun", "environment"};
+inline constexpr std::string_view light_words[]{"point", "spot", "sun", "environment",
+                                                "goniometric"};
 inline constexpr JsonMember light_shared[]{
     needed("type", {.kind = JsonKind::word, .words = light_words}, "which light", {}),
     lamp_group_row};
@@ -46,6 +49,16 @@ inline constexpr JsonMember spot_members[]{
 inline constexpr JsonMember sun_members[]{
     shines_row,
     needed("irradiance", light_value, "W/m^2 on a surface across", "[3, 3, 3]")};
+inline constexpr JsonMember goniometric_members[]{
+    position_row, shines_row,
+    optional("reference", direction_value,
+             "of type C: horizontal angle 0, of the types B and A: vertical angle 90; "
+             "by default (0, 0, -1)",
+             "[1, 0, 0]"),
+    needed("file", text_value, "an IES file, beside the scene file",
+           "\"wall_washer.ies\""),
+    preset("watts_per_lumen", light_value, 1.0 / 683, "W/sr for each candela",
+           "[0.01, 0.01, 0.01]")};
 inline constexpr std::string_view sky_words[]{"radiance", "gradient", "file"};
 inline constexpr JsonMember environment_members[]{
     optional("radiance", light_value, "the same all around, W/(m^2 sr)", "[1, 1, 1]"),
@@ -61,6 +74,9 @@ inline constexpr JsonMember gradient_members[]{
     needed("zenith", light_value, "W/(m^2 sr)", "[0.2, 0.4, 1]"),
     needed("ground", light_value, "W/(m^2 sr)", "[0.1, 0.1, 0.1]")};
 
+/// The largest number of goniometric lights in a scene file, and of their intensities.
+inline constexpr std::size_t max_file_lamps = 1024, max_intensities = 1 << 22;
+
 inline constexpr JsonTable light_tables[]{
     {"point", {}, "a point", point_members},
     {"spot", {}, "a point that shines into a cone", spot_members},
@@ -69,7 +85,11 @@ inline constexpr JsonTable light_tables[]{
      {},
      "light from all around, by one of radiance, gradient and file; one in a file",
      environment_members,
-     sky_words}};
+     sky_words},
+    {"goniometric",
+     {},
+     "a point whose intensity a maker has measured: ljus::load_ies()",
+     goniometric_members}};
 
 // A picture of the sky: exactly one of three fields says how it is made.
 // \param files  What reads meshes; WithExr reads EXR pictures as well.
@@ -100,6 +120,28 @@ ImageT<T> read_sky(const JsonMembersOf& in, const Files& files) {
         refuse_for(file, error);
     }
     refuse_value(file, "a picture with the ending .hdr, .pfm or .exr");
+}
+
+// The intensities of a lamp beside those of the other lamps of a file.
+template <std::floating_point T>
+IntensityTable read_intensities(const JsonMembersOf& in,
+                                const std::vector<GoniometricLightT<T>>& others) {
+    const JsonField file = in["file"];
+    if (others.size() == max_file_lamps)
+        refuse(in.field(), "is one goniometric light too many; a scene file has at "
+                           "most 1024");
+    IntensityTable table;
+    try {
+        table = load_ies(path_beside(file)).table;
+    } catch (const std::runtime_error& error) {
+        refuse_for(file, error);
+    }
+    std::size_t all = table.candela.size();
+    for (const auto& other : others) all += other.table.candela.size();
+    if (all > max_intensities)
+        refuse(file, "has too many intensities; those of all lamps of a scene file "
+                     "must be at most 4194304");
+    return table;
 }
 
 template <typename Scene, typename Files,
@@ -133,6 +175,15 @@ void read_light(const JsonField& field, const LampGroups& groups, Scene& scene,
             .strength = factor * static_cast<T>(in.number("strength")),
             .rotation_degrees = static_cast<T>(in.number("rotation_deg"))};
         if (factor > T(0)) add(sky);
+    } else if (name == "goniometric") {
+        GoniometricLightT<T> lamp{
+            .table = read_intensities(
+                in, std::get<std::vector<GoniometricLightT<T>>>(scene.lights)),
+            .position = vector("position"),
+            .direction = vector("direction"),
+            .watts_per_lumen = light_of("watts_per_lumen")};
+        if (in.has("reference")) lamp.reference = vector("reference");
+        add(lamp);
     } else {
         const double inner = in.number("inner_deg"), outer = in.number("outer_deg");
         if (!(inner <= outer)) refuse_value(in["inner_deg"], "within [0, outer_deg]");

@@ -20,6 +20,7 @@
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
 #include "ljus/materials/nested.hpp"
+#include "ljus/materials/picture_lamp.hpp"
 #include "ljus/materials/rough_glass.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/materials/textured.hpp"
@@ -174,6 +175,8 @@ inline constexpr JsonMember absorption_row = preset(
 inline constexpr JsonMember priority_row =
     preset("priority", {JsonKind::whole, 0, 1000, {}}, 0,
            "where bodies overlap, the highest holds");
+inline constexpr JsonMember picture_row = needed(
+    "file", text_value, "PNG, JPEG or BMP, beside the scene file", "\"tile.png\"");
 inline constexpr JsonMember even_row =
     needed("even", color_value, "albedo of the even fields", "[0.9, 0.9, 0.9]");
 inline constexpr JsonMember odd_row =
@@ -319,10 +322,8 @@ constexpr auto material_rows() {
              fields_row("rows", "fields along v, an even number")},
             [](In in) { return white<T>(read_checker<T>(in.in)); }),
         row("picture", "", "matt, with the colours of a picture",
-            {needed("file", text_value, "PNG, JPEG or BMP, beside the scene file",
-                    "\"tile.png\""),
-             map[0], map[1], map[2], map[3], map[4], map[5], map[6], map[7], wrap_row,
-             filter_row},
+            {picture_row, map[0], map[1], map[2], map[3], map[4], map[5], map[6],
+             map[7], wrap_row, filter_row},
             [](In in) { return white<T>(read_picture(in.in, in.shared.pictures)); }),
         row("mapped", "", "matt, with pictures in the shape's own coordinates",
             {needed("file", text_value, "its colours: PNG, JPEG or BMP",
@@ -335,7 +336,16 @@ constexpr auto material_rows() {
                       "where the alpha of the colours is below it, there is a hole",
                       "0.5"),
              map[5], map[6], map[7], wrap_row, filter_row},
-            [](In in) { return read_mapped(in.in, in.shared.pictures); })};
+            [](In in) { return read_mapped(in.in, in.shared.pictures); }),
+        row("picture-lamp", "",
+            "of a quad or a disc, whose emission it multiplies: ljus::PictureLamp",
+            {picture_row,
+             preset("albedo", color_value, 0, "of the light that falls on it")},
+            [](In in) {
+                return PictureLampT<T>{.picture =
+                                           take_picture(in.in, in.shared.pictures),
+                                       .albedo = in.color("albedo")};
+            })};
 }
 
 // The types of the rows, each once: several names may have one type.

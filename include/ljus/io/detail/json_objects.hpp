@@ -18,6 +18,7 @@
 #include "ljus/io/detail/json_materials.hpp"
 #include "ljus/io/detail/json_members.hpp"
 #include "ljus/lights/environment.hpp"
+#include "ljus/lights/goniometric_light.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/lights/spot_light.hpp"
 #include "ljus/lights/sun_light.hpp"
@@ -38,7 +39,8 @@ using FileSceneT = Scene<
     Shapes<QuadT<T>, SphereT<T>, TriangleT<T>, MeshT<T>, InstanceT<T>, DiscT<T>,
            CylinderT<T>, Moving<QuadT<T>>, Moving<SphereT<T>>, Moving<TriangleT<T>>>,
     FileMaterialsT<T>,
-    Lights<PointLightT<T>, SpotLightT<T>, SunLightT<T>, EnvironmentLightT<T>>,
+    Lights<PointLightT<T>, SpotLightT<T>, SunLightT<T>, EnvironmentLightT<T>,
+           GoniometricLightT<T>>,
     Media<Fog<SphereT<T>>, Fog<BoxT<T>>>>;
 
 /// Reads no meshes: the default of load_json().

@@ -168,20 +168,32 @@ struct FilePicturesT {
     }
 };
 
+// The picture of a file. take(path) reads it.
+template <typename Take>
+auto picture_of(const JsonField& file, Take take) {
+    try {
+        return take(path_beside(file));
+    } catch (const std::runtime_error& error) {
+        refuse_for(file, error);
+    }
+}
+
+template <std::floating_point T>
+ImageT<T> take_picture(const JsonMembersOf& in, FilePicturesT<T>& pictures) {
+    return picture_of(in["file"],
+                      [&](const std::string& path) { return pictures.take(path); });
+}
+
 // A picture on a map. take(path) reads it.
 template <std::floating_point T, typename Map, typename Take>
 PictureTextureT<T, Map> picture_on(const Map& map, const JsonMembersOf& in,
                                    const JsonField& file, Take take) {
-    try {
-        return {.image = take(path_beside(file)),
-                .map = map,
-                .wrap = in.word("wrap") == "clamp" ? PictureWrap::clamp
-                                                   : PictureWrap::repeat,
-                .filter = in.word("filter") == "nearest" ? PictureFilter::nearest
-                                                         : PictureFilter::bilinear};
-    } catch (const std::runtime_error& error) {
-        refuse_for(file, error);
-    }
+    return {.image = picture_of(file, take),
+            .map = map,
+            .wrap =
+                in.word("wrap") == "clamp" ? PictureWrap::clamp : PictureWrap::repeat,
+            .filter = in.word("filter") == "nearest" ? PictureFilter::nearest
+                                                     : PictureFilter::bilinear};
 }
 
 template <std::floating_point T>

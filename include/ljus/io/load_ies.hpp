@@ -1,0 +1,261 @@
+#pragma once
+
+/// \file ljus/io/load_ies.hpp
+/// \brief The measured intensities of lamps, from IES files.
+
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ljus/io/detail/obj_text.hpp"
+#include "ljus/lights/goniometric_light.hpp"
+
+namespace ljus {
+
+/// \defgroup load_ies IES files
+/// \brief Files of the North American standard LM-63 \cite lm63, in which makers of
+/// lamps publish measurements. Chapter: \ref ch_lamps.
+///
+/// The versions of 1986, 1991, 1995 and 2002 are read, all types of photometry and all
+/// symmetries, `TILT=NONE` and `TILT=INCLUDE`. A tilt table says how a lamp dims when
+/// its luminaire is tilted; it is read and not used.
+/// \{
+
+/// The content of an IES file.
+struct IesLamp {
+    IntensityTable table{}; ///< All around, in cd, with the multiplier of the file and
+                            ///< its ballast factors.
+    double lumens = 0;      ///< Rated flux of all lamps in the luminaire, lm; -1 if the
+                            ///< file does not say it.
+    double watts = 0;       ///< Electric power of the luminaire, W.
+};
+
+namespace detail {
+
+/// The largest IES file that is read, in bytes.
+inline constexpr std::size_t max_ies_file = std::size_t(1) << 22;
+
+/// The words of an IES file behind its line TILT=, with the numbers of their lines.
+struct IesReader {
+    std::string_view rest;   ///< What is not read yet.
+    const std::string& file; ///< Its name.
+    long long line = 0;      ///< The number of the line that was taken last.
+    Words words{};           ///< Of that line.
+
+    /// Refuses the file for what its current line says.
+    [[noreturn, gnu::cold]] void refuse_line(std::string_view why) const {
+        throw std::runtime_error(
+            join({shown_path(file), ": line ", to_text(line), ": ", why, "."}));
+    }
+    /// Takes the next line.
+    std::string_view take() {
+        ++line;
+        return take_line(rest);
+    }
+    /// The next number.
+    double number(const char* what) {
+        std::string_view word = words.next();
+        while (word.empty() && !rest.empty()) {
+            words.rest = take();
+            word = words.next();
+        }
+        if (word.empty()) refuse_line(join({"the file ends before ", what}));
+        if (word.ends_with(',')) word.remove_suffix(1);
+        const double value = number_of(word);
+        if (!std::isfinite(value))
+            refuse_line(join(
+                {what, " is '", shown(std::string(word)), "'; it must be a number"}));
+        return value;
+    }
+    /// The next number, within a range.
+    double number(const char* what, double low, double high) {
+        const double value = number(what);
+        if (!(value >= low && value <= high))
+            refuse_line(join({what, " is ", to_text(value), "; it must be within [",
+                              to_text(low), ", ", to_text(high), "]"}));
+        return value;
+    }
+    /// The next number, a whole one.
+    std::size_t count(const char* what, double low, double high) {
+        const double value = number(what, low, high);
+        if (value != std::floor(value))
+            refuse_line(
+                join({what, " is ", to_text(value), "; it must be a whole number"}));
+        return static_cast<std::size_t>(value);
+    }
+    /// Angles that grow.
+    std::vector<double> angles(const char* what, std::size_t count, double low,
+                               double high) {
+        std::vector<double> all;
+        while (all.size() < count) {
+            const double angle = number(what, low, high);
+            if (!all.empty() && !(angle - all.back() >= 1e-3))
+                refuse_line(
+                    join({what, " is ", to_text(angle),
+                          "; it must be above the one before, ", to_text(all.back())}));
+            all.push_back(angle);
+        }
+        return all;
+    }
+};
+
+/// Intensities as a file has them: for each horizontal angle, all vertical ones.
+struct IesGrid {
+    std::vector<double> horizontal{}; ///< Degrees.
+    std::vector<double> vertical{};   ///< Degrees.
+    std::vector<double> candela{};    ///< cd.
+
+    /// Appends a column of a grid with the same vertical angles, at another angle.
+    void append(double angle, const IesGrid& from, std::size_t column) {
+        horizontal.push_back(angle);
+        for (std::size_t i = 0; i < vertical.size(); ++i)
+            candela.push_back(from.candela[column * vertical.size() + i]);
+    }
+    /// Appends the mirror image of all columns in the plane of the last one.
+    void mirror() {
+        const double plane = horizontal.back();
+        for (std::size_t column = horizontal.size() - 1; column > 0; --column)
+            append(2 * plane - horizontal[column - 1], *this, column - 1);
+    }
+};
+
+/// Completes the horizontal angles by the symmetry that their range says.
+/// \param around  Whether they are those of type C.
+/// \return What their range must be; nothing if it is right.
+[[nodiscard]] inline const char* complete(IesGrid& grid, bool around) {
+    const double first = grid.horizontal.front(), last = grid.horizontal.back();
+    if (!around) {
+        if (first == 0 && last == 90) { // the left side is as the right one
+            IesGrid left{.vertical = grid.vertical};
+            for (std::size_t column = grid.horizontal.size() - 1; column > 0; --column)
+                left.append(-grid.horizontal[column], grid, column);
+            for (std::size_t column = 0; column < grid.horizontal.size(); ++column)
+                left.append(grid.horizontal[column], grid, column);
+            grid = std::move(left);
+            return nullptr;
+        }
+        return first == -90 && last == 90 ? nullptr : "from 0 or -90 to 90";
+    }
+    // [complete]
+    if (first == 0 && last == 0) { // the same all around
+        grid.append(360, grid, 0);
+    } else if (first == 0 && last == 90) { // in four quarters
+        grid.mirror();
+        grid.mirror();
+    } else if ((first == 0 && last == 180) || (first == 90 && last == 270)) {
+        grid.mirror(); // in two halves
+    } else if (first == 0 && last > 180 && last < 360) {
+        grid.append(360, grid, 0); // files leave out the last angle
+    } else if (!(first == 0 && last == 360)) {
+        return "from 0 to 0, 90, 180 or 360, or from 90 to 270";
+    }
+    // [complete]
+    return nullptr;
+}
+
+/// The table of a complete grid. The polar angles of the types B and A are those from
+/// the pole, and grow as the angles of the file fall.
+[[nodiscard]] inline IntensityTable table_of(Photometry type, const IesGrid& grid) {
+    const std::size_t rows = grid.vertical.size(), columns = grid.horizontal.size();
+    IntensityTable table{.type = type};
+    const auto from_pole = [](const std::vector<double>& angles) {
+        std::vector<double> polar;
+        for (std::size_t i = angles.size(); i > 0; --i)
+            polar.push_back(90 - angles[i - 1]);
+        return polar;
+    };
+    if (type == Photometry::c) {
+        table.polar = grid.vertical;
+        table.azimuth = grid.horizontal;
+        table.candela = grid.candela;
+    } else if (type == Photometry::a) {
+        table.polar = from_pole(grid.vertical);
+        table.azimuth = grid.horizontal;
+        for (std::size_t j = 0; j < columns; ++j)
+            for (std::size_t i = rows; i > 0; --i)
+                table.candela.push_back(grid.candela[j * rows + i - 1]);
+    } else {
+        table.polar = from_pole(grid.horizontal);
+        table.azimuth = grid.vertical;
+        for (std::size_t i = 0; i < rows; ++i)
+            for (std::size_t j = columns; j > 0; --j)
+                table.candela.push_back(grid.candela[(j - 1) * rows + i]);
+    }
+    return table;
+}
+
+} // namespace detail
+
+/// Reads a lamp from the text of an IES file.
+/// \param source  The text.
+/// \param file    What messages call it.
+/// \return The lamp, its table complete.
+/// \throws std::runtime_error  with one sentence: "desk.ies: line 12: a vertical angle
+///         is 20; it must be above the one before, 25."
+/// \cost Linear in the size of the file, which bounds its memory.
+[[nodiscard, gnu::cold]] inline IesLamp read_ies(std::string_view source,
+                                                 const std::string& file) {
+    detail::IesReader in{detail::plain_text(source, file), file};
+    std::string_view tilt;
+    while (!tilt.starts_with("TILT=")) {
+        if (in.rest.empty())
+            detail::fail_to_read(file,
+                                 "no line begins with 'TILT=', which comes before "
+                                 "the numbers of an IES file");
+        tilt = in.take();
+    }
+    tilt = detail::Words{tilt.substr(5)}.next();
+    if (tilt == "INCLUDE") {
+        (void)in.number("the position of the lamp for the tilt", 1, 3);
+        const std::size_t angles = in.count("the number of tilt angles", 1, 1000);
+        for (std::size_t i = 0; i < 2 * angles; ++i) (void)in.number("a tilt");
+    } else if (tilt != "NONE") {
+        in.refuse_line(detail::join({"the tilt is '", shown(std::string(tilt)),
+                                     "'; it must be NONE or INCLUDE"}));
+    }
+
+    const auto lamps = static_cast<double>(in.count("the number of lamps", 1, 1e6));
+    const double lumens = in.number("the flux of a lamp", -1, 1e12);
+    double factor = in.number("the multiplier", 1e-9, 1e9);
+    const std::size_t rows = in.count("the number of vertical angles", 2, 100000);
+    const std::size_t columns = in.count("the number of horizontal angles", 1, 100000);
+    const std::size_t type = in.count("the type of photometry", 1, 3);
+    (void)in.count("the unit of length", 1, 2);
+    for (int side = 0; side < 3; ++side) (void)in.number("a side of the luminaire");
+    factor *= in.number("the ballast factor", 1e-9, 1e9);
+    factor *= in.number("the ballast-lamp factor", 1e-9, 1e9);
+    IesLamp lamp{.lumens = lumens < 0 ? -1 : lamps * lumens,
+                 .watts = in.number("the power", 0, 1e12)};
+
+    const bool around = type == 1; // type C
+    detail::IesGrid grid;
+    grid.vertical =
+        in.angles("a vertical angle", rows, around ? 0 : -90, around ? 180 : 90);
+    grid.horizontal =
+        in.angles("a horizontal angle", columns, around ? 0 : -90, around ? 360 : 90);
+    const double first = grid.horizontal.front(), last = grid.horizontal.back();
+    for (std::size_t i = 0; i < rows * columns; ++i)
+        grid.candela.push_back(factor * in.number("an intensity", 0, 1e9));
+    if (const char* const right = detail::complete(grid, around))
+        detail::fail_to_read(
+            file, detail::join({"its horizontal angles go from ", to_text(first),
+                                " to ", to_text(last), "; they must go ", right}));
+    lamp.table = detail::table_of(around      ? Photometry::c
+                                  : type == 2 ? Photometry::b
+                                              : Photometry::a,
+                                  grid);
+    return lamp;
+}
+
+/// Loads an IES file.
+/// \param path  The file.
+/// \throws std::runtime_error  as read_ies(); or, if the file cannot be read, with its
+///         name and the reason.
+[[nodiscard]] inline IesLamp load_ies(const std::string& path) {
+    return read_ies(detail::load_text(path, detail::max_ies_file), path);
+}
+
+/// \}
+
+} // namespace ljus

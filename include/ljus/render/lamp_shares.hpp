@@ -1,0 +1,112 @@
+#pragma once
+
+/// \file ljus/render/lamp_shares.hpp
+/// \brief How many photons each lamp sends, by what a picture sees of them.
+
+#include <cmath>
+#include <vector>
+
+#include "ljus/photons/budget.hpp"
+#include "ljus/render/photon_mapping.hpp"
+#include "ljus/scene/camera.hpp"
+
+namespace ljus {
+
+/// \defgroup lamp_shares Shares of photons by lamp
+/// \brief Photons of lamps that light what is seen \cite peter1998. Chapter:
+/// \ref ch_lamps.
+/// \{
+
+/// The places at which a picture asks the photon maps, as a map of *importance*: the
+/// surfaces that camera paths meet first, through mirrors and glass, and those that
+/// they meet next. The flux of each is the throughput of its path.
+/// \param world   The closed scene.
+/// \param camera  Any camera.
+/// \param width   Width of the picture, in pixels.
+/// \param height  Its height.
+/// \param seed    Of the random streams.
+/// \cost 1024 paths.
+template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
+[[nodiscard]] PhotonMapT<T> seen_places(const W& world, const C& camera, int width,
+                                        int height, std::uint64_t seed) {
+    constexpr std::uint64_t side = 32;
+    std::vector<PhotonT<T>> places;
+    for (std::uint64_t i = 0; i < side * side; ++i) {
+        auto stream = random_stream(seed, Pass::camera, ~0ull, i);
+        const Vec2T<T> cell = Vec2T<T>{T(i % side), T(i / side)};
+        const Vec2T<T> at = (cell + next_2d<T>(stream)) / T(side);
+        PathStateT<T> path =
+            camera_path(world,
+                        camera_ray(camera, {at.x * T(width), at.y * T(height)}, width,
+                                   height, stream),
+                        stream);
+        // [seen places]
+        int matt = 0; // surfaces that are not only specular
+        while (path.depth < 16) {
+            const auto vertex = next_vertex(world, path, stream);
+            if (!vertex || is_black(path.throughput)) break;
+            const bool goes_on = visit_material_at(world, *vertex, [&](const auto& m) {
+                if (has(lobes(m), Lobes::non_specular)) {
+                    places.push_back(
+                        {.position = detail::at_rest(world, *vertex).point.position,
+                         .direction = path.ray.direction,
+                         .flux = path.throughput,
+                         .normal = small_normal(vertex->point.normal)});
+                    if (++matt == 2) return false;
+                }
+                return continue_path(path, *vertex, m, Transport::radiance, Lobes::all,
+                                     stream);
+            });
+            if (!goes_on) break;
+        }
+        // [seen places]
+    }
+    return make_photon_map(places, 1);
+}
+
+/// Settings in which lamps share the photons by what the picture sees of them, measured
+/// by pilot_lights(). A photon counts as much as the light that it brings to the
+/// seen_places() around it. A lamp in a closed cupboard, or behind the house, keeps a
+/// tenth of its share by power.
+/// \param world     The closed scene.
+/// \param camera    Any camera.
+/// \param settings  Shares that are given are kept.
+/// \param width     Width of the picture, in pixels.
+/// \param height    Its height.
+/// \return The settings, with `light_shares` of both passes; unchanged for fewer than
+///         two lamps. A pass that sends fewer than 800 photons for each lamp is left as
+///         it is.
+/// \cost A twentieth of the photons, and 1024 paths of the camera.
+template <AnyWorld W, CameraLike C>
+[[nodiscard, gnu::cold]] PhotonMappingSettings
+share_by_sight(const W& world, const C& camera, PhotonMappingSettings settings,
+               int width, int height) {
+    using T = typename W::Scalar;
+    if (world.light_count() < 2) return settings;
+    const Passes run = choose_passes(needs(world), settings);
+    const auto places =
+        seen_places(world, camera, width, height, settings.general.seed);
+    const T radius = typical_radius(places, 16);
+    const auto importance = [&](const PhotonT<T>& photon) {
+        return detail::irradiance_around(places, photon, radius);
+    };
+    const auto share = [&](PhotonPassSettings pass, MapType map) {
+        pass.gloss_as_mirrors = run.gloss_as_mirrors;
+        const bool measures = pass.light_shares.empty() && pass.shares.empty() &&
+                              affords_pilot(pass.photons, world.light_count());
+        return measures ? pilot_lights(world, pass, map, importance)
+                        : pass.light_shares;
+    };
+    if (run.caustics_map)
+        settings.caustics.light_shares = share(settings.caustics, MapType::caustics);
+    if (run.general_map) {
+        PhotonPassSettings pass = settings.general;
+        pass.keep = detail::kept_kinds(settings);
+        settings.general.light_shares = share(pass, MapType::general);
+    }
+    return settings;
+}
+
+/// \}
+
+} // namespace ljus
