@@ -141,13 +141,16 @@ RenderedT<typename S::Scalar> map_photons(const FileRoom<S>& room, Request& r) {
     const auto& maps = mapper.maps();
     r.remarks = maps.remarks;
     std::fputs(r.remarks.c_str(), stderr);
-    if (!r.quiet && (passes.caustics_map || passes.general_map)) {
+    if (!r.quiet && (passes.caustics_map || passes.general_map || passes.volume_map)) {
         std::printf("  %-16s %8.2f s\n", "photons", watch.seconds());
         if (passes.caustics_map)
             examples::print_map("caustics map", maps.caustics,
                                 settings.caustics.photons);
         if (passes.general_map)
             examples::print_map("general map", maps.general, settings.general.photons);
+        if (passes.volume_map)
+            std::printf("  %-16s %10s  %zu photons stored\n", "volume map", "",
+                        maps.fog_caustics.photons.size() + maps.fog.photons.size());
     }
     if (passes.cache) fill_cache(mapper, room.camera, r);
     r.photon = mapper.settings(); // with the chosen radii and fractions
@@ -359,7 +362,7 @@ void run_request(examples::CommandLine& line, Request& r,
     check_options(line, r, options.file);
     auto loaded = load_scene<T>(r);
     const FileRoom room{World(std::move(loaded.scene)), loaded.camera};
-    choose_settings(line, r, loaded.width, loaded.height);
+    choose_settings(line, r, loaded.width, loaded.height, room.world.has_fog());
     r.file = path_of(r, options);
     if (!r.quiet || r.plan) print_heading(room.world, loaded.name, r);
     const bool prints = r.plan || r.hooks;

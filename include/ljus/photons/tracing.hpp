@@ -102,7 +102,7 @@ template <AnyWorld W>
 [[nodiscard]] SceneAimT<typename W::Scalar> scene_aim_of(const W& world, MapType map,
                                                          const PhotonPassSettings& pass,
                                                          LightChoice choice) {
-    require_no_fog(world, "photon maps");
+    require_no_film_in_fog(world);
     if (map == MapType::caustics) return {.choice = std::move(choice)};
     return aim_at_scene(world, choice, pass.light_shares.empty() && !pass.equal_lights);
 }
