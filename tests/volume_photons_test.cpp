@@ -24,12 +24,10 @@
 #include "ljus/media/fog.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/photons/volume_photons.hpp"
-#include "ljus/render/gathering.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/progressive.hpp"
 #include "ljus/render/render.hpp"
-#include "ljus/render/skipping.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "support/integrate.hpp"
 #include "support/mean.hpp"
@@ -392,9 +390,7 @@ TEST_CASE("volume_photons: maps are made if something lights the fog") {
 TEST_CASE("volume_photons: what is not carried is refused, with a remedy") {
     const auto world = foggy_box();
     const auto why = [&](const PhotonMappingSettings& settings) {
-        return refusal([&] {
-            (void)PhotonMapper(world, settings, abilities<Gathering, Skipping>);
-        });
+        return refusal([&] { (void)PhotonMapper(world, settings); });
     };
     CHECK(why({.indirect = IndirectLight::cache}) ==
           "the scene has fog, and irradiance that is gathered or cached leaves its "

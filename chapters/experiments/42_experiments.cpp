@@ -99,8 +99,8 @@ std::vector<Spread> spreads(const World<Yard>& world, long long paths, int runs,
 /// Plot: bias and noise over the radius.
 void plot_radius(const Options& options, const World<Yard>& world) {
     examples::Plot plot{.name = "volume_photons-radius",
-                        .columns = {"radius, in half widths of the beam", "bias",
-                                    "noise, 2000 photons", "noise, 20000 photons"},
+                        .columns = {"radius in half widths of the beam", "bias",
+                                    "noise of 2000 photons", "noise of 20000 photons"},
                         .y_label = "relative error",
                         .log_x = true,
                         .log_y = true};

@@ -5,13 +5,17 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "ljus/accel/bvh.hpp"
 #include "ljus/accel/bvh8.hpp"
 #include "ljus/accel/kd_tree8.hpp"
+#include "ljus/math/require.hpp"
 #include "ljus/parallel.hpp"
 #include "ljus/path/fog_path.hpp"
 #include "ljus/photons/kernel.hpp"

@@ -262,17 +262,13 @@ public:
     /// \param world     Must outlive the mapper.
     /// \param settings  Photons, depths, radii, source of indirect light. A radius of 0
     ///                  is chosen from the photons.
-    /// \throws std::invalid_argument  if a setting is out of range, or asks for an
-    ///         ability that is not listed.
+    /// \throws std::invalid_argument  if a setting is out of range, asks for an ability
+    ///         that is not listed, or for what fog does not allow.
     [[gnu::cold]] explicit PhotonMapper(WorldRef<W> world,
                                         const PhotonMappingSettings& settings = {},
                                         Abilities<X...> = {})
-        : world_(world), settings_(checked(settings)),
+        : world_(world), settings_(checked(world.get(), settings)),
           passes_(choose_passes(needs(world.get()), settings)) {
-        if constexpr (W::lists_fog)
-            if (const auto why = detail::refused_in_fog(world.get(), settings);
-                !why.empty())
-                throw std::invalid_argument(why + ".");
         settings_.caustics.gloss_as_mirrors = settings_.general.gloss_as_mirrors =
             passes_.gloss_as_mirrors;
         if constexpr (has<Budgeting>)
@@ -387,8 +383,11 @@ private:
     }
 
     [[gnu::cold]] static const PhotonMappingSettings&
-    checked(const PhotonMappingSettings& settings) {
+    checked([[maybe_unused]] const W& world, const PhotonMappingSettings& settings) {
         check(settings);
+        if constexpr (W::lists_fog)
+            if (const auto why = detail::refused_in_fog(world, settings); !why.empty())
+                throw std::invalid_argument(why + ".");
         const auto require_ability = [](bool listed, bool asked, const char* what,
                                         const char* ability) {
             if (asked && !listed)
