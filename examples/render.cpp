@@ -19,6 +19,7 @@
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
+#include <stdexcept>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
@@ -189,6 +190,10 @@ RenderedT<typename S::Scalar> render_passes(const FileRoom<S>& room, Request& r)
 /// Renders a picture within a time or with an error, by settings that it chooses.
 template <typename S>
 RenderedT<typename S::Scalar> render_promised(const FileRoom<S>& room, Request& r) {
+    if (room.world.has_fog())
+        throw std::invalid_argument(
+            "--seconds and --error choose among settings that cache irradiance, which "
+            "fog does not allow: give a --preset and --rays");
     const examples::StopWatch watch;
     const auto say = [&r](const auto& kept) {
         if (!r.quiet) std::printf("  %s\n", kept.why.c_str());
