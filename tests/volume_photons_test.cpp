@@ -288,6 +288,26 @@ TEST_CASE("volume_photons: in a glowing room, fog that absorbs nothing is not se
     }
 }
 
+TEST_CASE("volume_photons: fog dims both halves of direct light") {
+    // A ball within a lamp, in fog that absorbs: shadow rays and rays that the material
+    // samples share the light.
+    Place scene;
+    scene.add(Sphere{.radius = 2}, scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{1},
+              true);
+    scene.add(Sphere{.radius = 0.5f}, scene.add(Lambertian{.albedo = Rgb{0.5f}}));
+    scene.add(Fog<Sphere>{.region{.radius = 3}, .absorption = Rgb{0.5f}});
+    const World world(std::move(scene));
+    const auto seen = [&](DirectLight direct) {
+        const PhotonMapper mapper(world,
+                                  {.direct = direct, .indirect = IndirectLight::none});
+        return mean_radiance(mapper, 4000, 3, [](RandomStream&) {
+            return Ray{.origin{-1, 0.1f, 0}, .direction{1, 0, 0}};
+        });
+    };
+    CHECK(std::abs(ljus_test::apart(seen(DirectLight::mis),
+                                    seen(DirectLight::sampled))) < 5);
+}
+
 TEST_CASE(
     "volume_photons: photon maps and paths give the same picture of a foggy room") {
     // 4 blocks, 6 runs of each method with seeds of their own. A block may be off by 5

@@ -89,7 +89,7 @@ ljus_break_it(NAME volume-photons-found HEADER path/all_lights.hpp
     TEST volume_photons
     FROM "path.throughput *= through;"
     TO   ""
-    CASES "volume_photons: photon maps and paths*")
+    CASES "volume_photons: fog dims both halves*")
 
 # Passes do not shrink the balls.
 ljus_break_it(NAME volume-photons-shrink HEADER render/progressive.hpp
