@@ -20,6 +20,7 @@
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
+#include <stdexcept>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
@@ -137,13 +138,16 @@ RenderedLayersT<typename S::Scalar> map_photons(const FileRoom<S>& room, Request
     const auto& maps = mapper.maps();
     r.remarks = maps.remarks;
     std::fputs(r.remarks.c_str(), stderr);
-    if (!r.quiet && (passes.caustics_map || passes.general_map)) {
+    if (!r.quiet && (passes.caustics_map || passes.general_map || passes.volume_map)) {
         std::printf("  %-16s %8.2f s\n", "photons", watch.seconds());
         if (passes.caustics_map)
             examples::print_map("caustics map", maps.caustics,
                                 settings.caustics.photons);
         if (passes.general_map)
             examples::print_map("general map", maps.general, settings.general.photons);
+        if (passes.volume_map)
+            std::printf("  %-16s %10s  %zu photons stored\n", "volume map", "",
+                        maps.fog_caustics.photons.size() + maps.fog.photons.size());
     }
     if (passes.cache) fill_cache(mapper, room.camera, r);
     r.photon = mapper.settings(); // with the chosen radii and fractions
@@ -182,6 +186,10 @@ RenderedT<typename S::Scalar> render_passes(const FileRoom<S>& room, Request& r)
 /// Renders a picture within a time or with an error, by settings that it chooses.
 template <typename S>
 RenderedT<typename S::Scalar> render_promised(const FileRoom<S>& room, Request& r) {
+    if (room.world.has_fog())
+        throw std::invalid_argument(
+            "--seconds and --error choose among settings that cache irradiance, which "
+            "fog does not allow: give a --preset and --rays");
     const examples::StopWatch watch;
     const auto say = [&r](const auto& kept) {
         if (!r.quiet) std::printf("  %s\n", kept.why.c_str());
@@ -359,7 +367,7 @@ void run_request(examples::CommandLine& line, Request& r,
     check_options(line, r, options.file);
     auto loaded = load_scene<T>(r);
     const FileRoom room{World(std::move(loaded.scene)), loaded.camera};
-    choose_settings(line, r, loaded.width, loaded.height);
+    choose_settings(line, r, loaded.width, loaded.height, room.world.has_fog());
     r.file = path_of(r, options);
     if (!r.quiet || r.plan) print_heading(room.world, loaded.name, r);
     const bool prints = r.plan || r.hooks;

@@ -14,18 +14,16 @@
 #include <utility>
 #include <vector>
 
-#include "ljus/inspect/survey.hpp"
 #include "ljus/lights/environment.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/media/fog.hpp"
-#include "ljus/photons/tracing.hpp"
 #include "ljus/radiosity/patches.hpp"
 #include "ljus/render/first_hit.hpp"
+#include "ljus/render/passes.hpp"
 #include "ljus/render/path_tracing.hpp"
-#include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
 #include "ljus/render/whitted.hpp"
 #include "ljus/scenes/cornell_box.hpp"
@@ -501,22 +499,12 @@ TEST_CASE("fog: what does not carry it says so") {
         "it by path tracing, or remove the fog.";
     CHECK(refusal([&] { (void)render(WhittedTracer(world), camera, small); }) ==
           sentence);
-    CHECK(refusal([&] {
-              (void)render(PhotonMapper(world, {.indirect = IndirectLight::none}),
-                           camera, small);
-          }) == sentence);
-    CHECK(refusal([&] {
-              (void)trace_photons(world, MapType::general, {.photons = 10});
-          }).find("by photon maps;") != std::string::npos);
     CHECK(refusal([&] { (void)make_patches(world); }).find("by radiosity;") !=
           std::string::npos);
     CHECK(refusal([&] {
               (void)render(FirstHitRenderer(world, FirstHit::depth), camera, small);
               (void)render(PathTracer(world), camera, small);
           }) == "");
-    const Plan plan = survey(world, {});
-    REQUIRE(plan.remarks.size() == 1);
-    CHECK(plan.remarks[0].starts_with("the scene has fog"));
     CHECK(path_remarks(world).empty());
 
     Scene<Shapes<Sphere>, Materials<Lambertian, SoapFilm>, Lights<>, Media<Fog<Sphere>>>

@@ -709,6 +709,7 @@ TEST_CASE("survey: every reason, in the order in which they are printed") {
                                  "indirect rays",
                                  "caustics map",
                                  "general map",
+                                 "volume map",
                                  "shadow photons",
                                  "skipped rays",
                                  "skipped bounces",

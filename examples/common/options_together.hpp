@@ -82,7 +82,8 @@ options_idle(const CommandLine& line, const RenderRequest& r, const ljus::Passes
     const bool photons = r.renderer == RendererName::photon;
     const bool paths = r.renderer == RendererName::path;
     const bool maps = photons && !dots;
-    const bool general = run.general_map || run.skipped_rays || run.skipped_bounces;
+    const bool general =
+        run.general_map || run.volume_map || run.skipped_rays || run.skipped_bounces;
     const auto photon_group = [](std::size_t i) { return photon_groups.at(i); };
     return {
         {"on what --hooks prints",
@@ -139,6 +140,12 @@ options_idle(const CommandLine& line, const RenderRequest& r, const ljus::Passes
         {"because no estimate asks for it: see --plan",
          maps && (!run.general_map || run.irradiance),
          {"--general-radius", "--general-nearest", "--general-kernel"}},
+        {"because no volume map is made: see --plan",
+         maps && !run.volume_map,
+         {"--fog-radius", "--fog-nearest"}},
+        {"because --fog-radius is the radius",
+         maps && run.volume_map && r.photon.fog_estimate.radius > 0,
+         {"--fog-nearest"}},
         {"because no photon map is made: see --plan",
          maps && !run.caustics_map && !general,
          {"--photon-numbers", "--photon-bounces", "--photon-memory"}},

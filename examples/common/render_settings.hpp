@@ -176,6 +176,11 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     };
     add_estimate("caustic", photon.caustics_estimate);
     add_estimate("general", photon.general_estimate);
+    line.add("--fog-radius", photon.fog_estimate.radius,
+             "Radius of each photon in fog; 0: from the photons around it", 1e-15, 1e6,
+             true);
+    line.add("--fog-nearest", photon.fog_estimate.nearest,
+             "Photons around it, which set its radius", 1, 511);
 
     line.group(photon_groups[3]);
     line.add("--irradiance-every", photon.irradiance.every,
@@ -241,9 +246,10 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
 /// \param r       What the user asks for.
 /// \param width   Of the scene's picture, in pixels.
 /// \param height  Of the scene's picture, in pixels.
+/// \param fog     Whether the scene has fog, in which no irradiance is cached.
 /// \throws std::invalid_argument  for a picture that is too large.
-inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
-                            int height) {
+inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int height,
+                            bool fog = false) {
     Options options = line.fill({width, height, ljus::RenderSettings{}.samples});
     ljus::require_image_size(options.width, options.height);
     if (r.preset) {
@@ -253,6 +259,8 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width,
         r.photon = preset_settings(*r.preset, options.width, options.height);
         // Keep the default shadow rays, not the preset's.
         r.photon.irradiance = {.least = r.photon.irradiance.least};
+        if (fog && r.photon.indirect == ljus::IndirectLight::cache)
+            r.photon.indirect = ljus::IndirectLight::photons;
         line.give_again();
     }
     if (r.passes.passes > 0) { // each pass has one ray per pixel

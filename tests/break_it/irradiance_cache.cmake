@@ -43,7 +43,7 @@ ljus_break_it(NAME all-lights-share HEADER path/all_lights.hpp TEST all_lights
 
 # A lamp that a ray meets counts wholly, though a shadow ray has been there.
 ljus_break_it(NAME all-lights-weight HEADER path/all_lights.hpp TEST all_lights
-    FROM "balance_heuristic(next->sample.pdf, T(rays) * pdf) * path.throughput"
+    FROM "balance_heuristic(reaching, T(rays) * pdf) * path.throughput"
     TO   "path.throughput"
     CASES "all lights: multiple importance*")
 

@@ -249,6 +249,9 @@ refused "there is no option or argument '--quality'" "$scene" --quality draft
 refused "--seconds" "$scene" --seconds 0
 refused "--error" "$scene" --error nan
 refused "--error cannot be combined with --seconds, which chooses the settings" "$scene" --seconds 1 --error 0.1
+fog=$(dirname -- "$scene")/fog.json
+refused "irradiance that is gathered or cached" "$fog" --width 8 --height 8 --indirect cache
+refused "settings that cache irradiance" "$fog" --width 8 --height 8 --seconds 1
 for option in "--preset fast" "--rays 4" --plan "--explain 1,1" "--renderer path"; do
     # shellcheck disable=SC2086
     refused "cannot be combined with --seconds, which chooses the settings" "$scene" --seconds 1 \

@@ -23,14 +23,14 @@ struct PhotonCount {
 
 /// The photons of a map, by kind.
 struct PhotonCensus {
-    std::array<PhotonCount, 4> kinds; ///< Indexed by PhotonKind.
+    std::array<PhotonCount, 5> kinds; ///< Indexed by PhotonKind.
 
     /// The photons of one kind.
     [[nodiscard]] const PhotonCount& operator[](PhotonKind kind) const noexcept {
         return kinds[static_cast<std::size_t>(kind)];
     }
 
-    /// All photons that carry light, without shadow photons.
+    /// All photons on surfaces that carry light, without shadow photons.
     [[nodiscard]] PhotonCount light() const noexcept {
         PhotonCount sum;
         for (const PhotonKind kind :
@@ -44,8 +44,8 @@ struct PhotonCensus {
 
 /// The name of a kind for tables, one word.
 [[nodiscard]] constexpr const char* name_of(PhotonKind kind) noexcept {
-    constexpr std::array<const char*, 4> names{"direct", "caustic", "indirect",
-                                               "shadow"};
+    constexpr std::array<const char*, 5> names{"direct", "caustic", "indirect",
+                                               "shadow", "fog"};
     return names[static_cast<std::size_t>(kind)];
 }
 

@@ -30,6 +30,7 @@ struct Plan {
     PlanItem indirect_rays;   ///< Rays between diffuse surfaces.
     PlanItem caustics_map;    ///< Photons through mirrors and glass.
     PlanItem general_map;     ///< Direct, indirect and shadow photons.
+    PlanItem volume_map;      ///< Photons where fog scatters them.
     PlanItem shadow_photons;  ///< Stored in the general map.
     PlanItem skipped_rays;    ///< Shadow rays that photons replace.
     PlanItem skipped_bounces; ///< Indirect rays with no indirect photon near.
@@ -41,21 +42,13 @@ struct Plan {
     std::vector<std::string> remarks;
 
     /// All items, in the order of printing.
-    [[nodiscard]] std::array<const PlanItem*, 11> items() const& {
-        return {&shadow_rays,
-                &indirect_rays,
-                &caustics_map,
-                &general_map,
-                &shadow_photons,
-                &skipped_rays,
-                &skipped_bounces,
-                &irradiance,
-                &cache,
-                &thin_film,
-                &tree};
+    [[nodiscard]] std::array<const PlanItem*, 12> items() const& {
+        return {&shadow_rays, &indirect_rays,  &caustics_map, &general_map,
+                &volume_map,  &shadow_photons, &skipped_rays, &skipped_bounces,
+                &irradiance,  &cache,          &thin_film,    &tree};
     }
     /// Deleted for temporaries, whose items would be gone before they are read.
-    std::array<const PlanItem*, 11> items() const&& = delete;
+    std::array<const PlanItem*, 12> items() const&& = delete;
 };
 
 /// One pass of a plan as text: its name, on or off, and the reason.
@@ -129,6 +122,11 @@ inline void plan_photons(Plan& plan, const Passes& run, const SceneNeeds& found,
     plan.general_map = {"general map", run.general_map,
                         run.general_map ? "it provides indirect light"
                                         : "no ray uses it"};
+    plan.volume_map = {"volume map", run.volume_map,
+                       found.fog == 0 ? "no fog scatters light"
+                       : run.volume_map
+                           ? std::to_string(found.fog) + " medium(s) scatter light"
+                           : "nothing lights the fog but shadow rays"};
     plan.shadow_photons = {"shadow photons", run.shadow_photons,
                            run.skipped_rays ? "they show which shadow rays are needless"
                            : run.shadow_photons ? "the general map keeps them"
@@ -194,10 +192,9 @@ template <AnyWorld W>
 [[nodiscard]] Plan survey(const W& world, const PhotonMappingSettings& settings) {
     Plan plan = detail::make_plan(needs(world), settings);
     plan.remarks = scene_remarks(world, settings);
-    if (world.has_fog())
-        plan.remarks.push_back("the scene has fog, through which photon maps carry no "
-                               "light, and which they refuse: render it by path "
-                               "tracing");
+    if constexpr (W::lists_fog)
+        if (std::string why = detail::refused_in_fog(world, settings); !why.empty())
+            plan.remarks.push_back(std::move(why));
     return plan;
 }
 

@@ -68,7 +68,7 @@ struct JsonGroup {
         one("gradient", "Gradient", "A member of an environment.", gradient_members),
         {"fog",
          "Fog",
-         "What scatters light in a region: ljus::Fog. Photons and presets refuse it.",
+         "What scatters light in a region: ljus::Fog. No irradiance is gathered in it.",
          fog_shared,
          {std::begin(fog_tables), std::end(fog_tables)}}};
 }

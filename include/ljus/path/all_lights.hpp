@@ -106,8 +106,15 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
     auto numbers = context.stream; // next_vertex() moves the copy
     ++context.counts.shadow_rays;
     const auto lamp = next_vertex(world, path, numbers);
+    T reaching = next->sample.pdf;
+    if constexpr (W::lists_fog) {
+        path.ray.t_max = lamp ? lamp->distance : path.ray.t_max;
+        const RgbT<T> through = fog_transmittance(world, path.ray);
+        path.throughput *= through;
+        reaching *= passing(through);
+    }
     const auto share = [&](T pdf) {
-        return balance_heuristic(next->sample.pdf, T(rays) * pdf) * path.throughput;
+        return balance_heuristic(reaching, T(rays) * pdf) * path.throughput;
     };
     if (lamp) {
         if (!lamp->emits()) return RgbT<T>{T(0)};

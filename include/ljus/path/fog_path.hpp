@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 
 #include "ljus/media/equi_angular.hpp"
 #include "ljus/path/direct_light.hpp"
@@ -34,6 +35,17 @@ struct FogVertexT {
     RgbT<T> transmittance{T(1)}; ///< Of the segment up to here.
     T time = T(0);               ///< Time of the path, in [0, 1].
 };
+
+/// Refuses a scene with both fog and thin surfaces.
+/// \throws std::invalid_argument  with a remedy.
+template <AnyWorld W>
+void require_no_film_in_fog([[maybe_unused]] const W& world) {
+    if constexpr (W::lists_fog && detail::lists_thin_surfaces<W>)
+        if (world.has_fog() && detail::has_thin_surfaces(world))
+            throw std::invalid_argument(
+                "the scene has both fog and thin surfaces, which paths in fog do not "
+                "pass; remove the fog, or all soap films and thin glass.");
+}
 
 /// How light that one scattering brings to a ray is found. All have the same mean.
 enum class FogLight : std::uint8_t {
@@ -71,6 +83,9 @@ void each_fog_on(const W& world, const RayT<T>& ray, F&& f) {
 }
 
 namespace detail {
+
+/// What became of a path on its way to the next surface.
+enum class InFog : std::uint8_t { crossed, scattered, ended };
 
 /// The probabilities of choosing a channel: the path's throughput.
 template <std::floating_point T>

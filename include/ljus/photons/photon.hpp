@@ -20,11 +20,12 @@ namespace ljus {
 enum class PhotonKind : std::uint8_t {
     direct,   ///< L D: straight from its light.
     caustic,  ///< L S+ D: by mirrors and glass only.
-    indirect, ///< L ... D ... D: by a diffuse surface before.
-    shadow    ///< Carries no flux; marks a surface that is in shadow.
+    indirect, ///< L ... D ... D: by a diffuse surface or by fog before.
+    shadow,   ///< Carries no flux; marks a surface that is in shadow.
+    fog       ///< Scattered in fog; in a volume map, see \ref volume_photons.
 };
 
-/// A set of kinds, one bit each: 1 direct, 2 caustic, 4 indirect, 8 shadow.
+/// A set of kinds, one bit each: 1 direct, 2 caustic, 4 indirect, 8 shadow, 16 fog.
 struct PhotonKinds {
     std::uint8_t bits = 0; ///< The kinds in the set.
 
@@ -33,7 +34,7 @@ struct PhotonKinds {
         return (bits >> static_cast<int>(kind) & 1) != 0;
     }
 };
-inline constexpr PhotonKinds all_kinds{15};  ///< Every photon.
+inline constexpr PhotonKinds all_kinds{15};  ///< Every photon at a surface.
 inline constexpr PhotonKinds light_kinds{7}; ///< All but shadow photons.
 
 /// The set of a single kind.
@@ -73,17 +74,18 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// A photon at a surface.
+/// A photon at a surface, or where fog scatters it.
 /// \report{Section 2.3}
 /// \erratum{The report gives a photon a radiance; it carries flux, in W.}
 template <std::floating_point T>
 struct PhotonT {
     Vec3T<T> position{T(0)};  ///< In scene units.
     Vec3T<T> direction{T(0)}; ///< Unit direction of travel.
-    RgbT<T> flux{T(0)};       ///< W that arrive; for a shadow photon, W occluded.
-    std::uint16_t light = 0;  ///< Index of its light.
+    RgbT<T> flux{T(0)};       ///< W that arrive; for a shadow photon, W occluded; in
+                              ///< fog, W that are scattered.
+    std::uint16_t light = 0;  ///< Index of its light; in fog, of the medium.
     PhotonKind kind = PhotonKind::direct; ///< Its path so far.
-    detail::SmallNormal normal{0};        ///< Normal of the surface.
+    detail::SmallNormal normal{0};        ///< Normal of the surface; in fog, 0.
 };
 using Photon = PhotonT<float>; ///< PhotonT in float: 44 bytes.
 

@@ -10,6 +10,7 @@
 
 #include "ljus/math/low_discrepancy.hpp"
 #include "ljus/path/continue_path.hpp"
+#include "ljus/path/fog_path.hpp"
 #include "ljus/path/next_vertex.hpp"
 #include "ljus/photons/photon_pass.hpp"
 
@@ -265,6 +266,54 @@ template <std::floating_point T, Material M, StreamLike Stream>
     return true;
 }
 
+/// Takes a photon through the fog before its next surface.
+///
+/// Fog scatters photons of the general map, by fly(), and roulette absorbs some.
+/// Photons of the caustics map are dimmed; each also makes a flight that only stores a
+/// photon. Of what is scattered, the caustics map has L S+ D and the general map
+/// L ... D ... D; shadow rays have L D.
+/// \param path     The path after next_vertex(); receives its flux, and its new ray if
+///                 fog scatters it.
+/// \param before   Its flux before next_vertex(); receives that at the surface.
+/// \param surface  Distance of the next surface.
+/// \param stream   Two numbers are drawn and one for each medium; two more to scatter.
+// [photon in fog]
+template <AnyWorld W, std::floating_point T, StreamLike Stream>
+[[nodiscard]] InFog cross_fog(const W& world, MapType map, PathStateT<T>& path,
+                              RgbT<double>& before, T surface, PhotonKinds keep,
+                              Stream& stream, PhotonBlockT<T>& block) {
+    if (!meets_fog(world, path.ray)) return InFog::crossed;
+    FogSegmentT<T> segment{path.ray, RgbT<T>(before)};
+    segment.ray.t_max = surface;
+    PathStateT<T> flight = path;
+    flight.throughput = RgbT<T>{T(1)}; // becomes the weight
+    const auto vertex = fly(world, segment, flight, stream);
+    const bool caustics = map == MapType::caustics;
+    const PhotonKind owned = caustics ? PhotonKind::caustic : PhotonKind::indirect;
+    if (vertex && keep.has(PhotonKind::fog) && kind_of(path) == owned)
+        block.photons.push_back({vertex->point.position, vertex->travel,
+                                 segment.throughput * flight.throughput,
+                                 static_cast<std::uint16_t>(vertex->medium),
+                                 PhotonKind::fog});
+    if (vertex && !caustics) {
+        const auto survivor = play_roulette(segment.throughput, flight.throughput,
+                                            next_1d<T>(stream), block.audit);
+        if (!survivor) return InFog::ended;
+        path.throughput = *survivor;
+        visit_fog(world, vertex->medium, [&](const auto& medium) {
+            scatter_in_fog(path, *vertex, medium, stream);
+        });
+        return InFog::scattered;
+    }
+    path.throughput *= caustics ? transmittance(optical_depth(world, segment.ray), T(1))
+                                : flight.throughput;
+    const RgbT<double> after(path.throughput);
+    block.audit.absorbed += before - after;
+    before = after;
+    return InFog::crossed;
+}
+// [photon in fog]
+
 /// A photon as a pass emits it.
 template <std::floating_point T>
 struct SentPhotonT {
@@ -295,16 +344,23 @@ void trace_photon(const W& world, MapType map, const SentPhotonT<T>& sent,
         RgbT<double> before{path.throughput};
         [[maybe_unused]] const T wavelength = path.wavelength;
         const auto vertex = next_vertex(world, path, stream);
-        if (!vertex) {
-            audit.escaped += before;
-            return;
-        }
         if constexpr (lists_dispersive<W>)
             if (path.wavelength != wavelength) { // which carries on the flux of all
                 const RgbT<double> all = before;
                 before *= RgbT<double>(wavelength_color(path.wavelength));
                 audit.roulette += all - before;
             }
+        if constexpr (W::lists_fog) {
+            const T surface = vertex ? vertex->distance : path.ray.t_max;
+            const InFog fog =
+                cross_fog(world, map, path, before, surface, pass.keep, stream, block);
+            if (fog == InFog::scattered) continue;
+            if (fog == InFog::ended) return;
+        }
+        if (!vertex) {
+            audit.escaped += before;
+            return;
+        }
         const bool first = path.depth == 1;
         if (first && sent.target && vertex->id != *sent.target) {
             audit.cut += before;

@@ -102,7 +102,7 @@ template <AnyWorld W>
 [[nodiscard]] SceneAimT<typename W::Scalar> scene_aim_of(const W& world, MapType map,
                                                          const PhotonPassSettings& pass,
                                                          LightChoice choice) {
-    require_no_fog(world, "photon maps");
+    require_no_film_in_fog(world);
     if (map == MapType::caustics) return {.choice = std::move(choice)};
     return aim_at_scene(world, choice, pass.light_shares.empty() && !pass.equal_lights);
 }
@@ -179,7 +179,8 @@ template <std::floating_point T>
 /// \param pass   The settings.
 /// \return The photons in the order of emission, the same for any number of threads.
 /// \throws std::invalid_argument  if the scene has no light or more than 65536, a
-///         setting is out of range, or the memory would not suffice.
+///         setting is out of range, the memory would not suffice, or there are thin
+///         surfaces in fog.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] TracedPhotonsT<typename W::Scalar>
 trace_photons(const W& world, MapType map, const PhotonPassSettings& pass) {

@@ -27,6 +27,7 @@ struct SceneNeeds {
     std::size_t specular = 0; ///< Objects with a specular lobe.
     std::size_t narrow = 0;   ///< Objects that are nearly_specular().
     std::size_t lights = 0;   ///< Emissive objects and point lights.
+    std::size_t fog = 0;      ///< Media that scatter light.
     bool films = false;       ///< Whether a material is a thin surface.
 };
 
@@ -47,6 +48,11 @@ template <AnyWorld W>
             const auto narrow = [](const auto& m) { return nearly_specular(m); };
             found.narrow += world.visit_material(object.material, narrow) ? 1 : 0;
         }
+    const auto count_fog = [&](const auto& list) {
+        for (const auto& medium : list)
+            found.fog += is_black(scattering(medium)) ? 0 : 1;
+    };
+    std::apply([&](const auto&... lists) { (count_fog(lists), ...); }, world.media());
     return found;
 }
 
@@ -56,6 +62,7 @@ struct Passes {
     bool indirect_rays = false;    ///< As in Plan.
     bool caustics_map = false;     ///< As in Plan.
     bool general_map = false;      ///< As in Plan.
+    bool volume_map = false;       ///< As in Plan.
     bool shadow_photons = false;   ///< As in Plan.
     bool skipped_rays = false;     ///< As in Plan.
     bool skipped_bounces = false;  ///< As in Plan.
@@ -63,6 +70,16 @@ struct Passes {
     bool cache = false;            ///< As in Plan.
     bool gloss_as_mirrors = false; ///< PhotonPassSettings::gloss_as_mirrors.
 };
+
+namespace detail {
+
+/// Whether photons of a general pass light the fog: indirect light is asked for.
+[[nodiscard]] inline bool
+scatters_in_fog(const PhotonMappingSettings& settings) noexcept {
+    return settings.indirect != IndirectLight::none && settings.general.photons > 0;
+}
+
+} // namespace detail
 
 /// Decides which passes a PhotonMapper runs; survey() gives the reasons.
 /// \report{Section 3.2.2}
@@ -72,7 +89,7 @@ struct Passes {
 // [survey]
 [[nodiscard, gnu::cold]] inline Passes
 choose_passes(const SceneNeeds& found, const PhotonMappingSettings& settings) {
-    const bool lit = found.diffuse > 0 && found.lights > 0;
+    const bool lit = found.diffuse + found.fog > 0 && found.lights > 0;
     const bool gather_asked = settings.indirect == IndirectLight::map ||
                               settings.indirect == IndirectLight::gather;
     const bool rays_asked = settings.indirect == IndirectLight::rays || gather_asked;
@@ -85,13 +102,16 @@ choose_passes(const SceneNeeds& found, const PhotonMappingSettings& settings) {
     const bool looked_up = cache || settings.indirect == IndirectLight::gather;
     const bool caustic = lit && settings.caustics.photons > 0;
     const bool gloss = caustic && general && looked_up && found.narrow > 0;
+    const bool caustics = gloss || (caustic && found.specular > 0);
     const bool skip = lit && settings.skip.rule != SkipRule::none &&
                       double(settings.general.photons) >=
                           double(found.lights) * photons_needed(settings.skip);
     return {.shadow_rays = lit,
             .indirect_rays = rays,
-            .caustics_map = gloss || (caustic && found.specular > 0),
+            .caustics_map = caustics,
             .general_map = general,
+            .volume_map =
+                lit && found.fog > 0 && (caustics || detail::scatters_in_fog(settings)),
             .shadow_photons = skip || (general && settings.general.shadow_photons),
             .skipped_rays = skip,
             .skipped_bounces =
@@ -367,6 +387,23 @@ template <AnyWorld W>
                                     "counts as one between its body and air: give "
                                     "them priorities; around ");
         }
+}
+
+/// Why the photon maps of a scene with fog do not carry its light.
+/// \return A sentence without a full stop; empty if they do, or without fog.
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] std::string
+refused_in_fog(const W& world, const PhotonMappingSettings& settings) {
+    if (!world.has_fog()) return {};
+    if (settings.indirect == IndirectLight::gather ||
+        settings.indirect == IndirectLight::cache)
+        return "the scene has fog, and irradiance that is gathered or cached leaves "
+               "its light out; let indirect light come by rays, map or photons, or "
+               "remove the fog";
+    if (settings.skip.rule != SkipRule::none || settings.skip.indirect_rays)
+        return "the scene has fog, whose dimming is not in photons that make rays "
+               "needless; skip no rays, or remove the fog";
+    return {};
 }
 
 /// The share of all directions in which the middle of a scene sees a sky: about half in

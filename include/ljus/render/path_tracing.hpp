@@ -53,11 +53,7 @@ public:
     explicit PathTracer(WorldRef<W> world, const PathTracingSettings& settings = {})
         : world_(world), settings_(settings) {
         check(settings);
-        if constexpr (W::lists_fog && detail::lists_thin_surfaces<W>)
-            if (world_.get().has_fog() && detail::has_thin_surfaces(world_.get()))
-                throw std::invalid_argument(
-                    "the scene has both fog and thin surfaces, which paths in fog do "
-                    "not pass; remove the fog, or all soap films and thin glass.");
+        require_no_film_in_fog(world_.get());
     }
     /// What is rendered.
     [[nodiscard]] const W& world() const noexcept { return world_.get(); }
@@ -152,9 +148,6 @@ template <AnyWorld W, std::floating_point T, typename Context>
     ++context.counts.bounce_rays;
     return true;
 }
-
-/// What became of a path on its way to the next surface.
-enum class InFog : std::uint8_t { crossed, scattered, ended };
 
 /// Adds the light that fog scatters towards a path before its next surface, and
 /// perhaps scatters the path.

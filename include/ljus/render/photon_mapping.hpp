@@ -31,6 +31,10 @@ namespace ljus {
 /// | E ... D S+ L    | the caustics map, at every diffuse surface                  |
 /// | E ... D ... D.. | indirect rays, or the general map where the first one ends  |
 ///
+/// Scattering in fog is a D as well, but no camera path is scattered there. At each of
+/// its rays shadow rays own D L in the fog, and the volume map (\ref volume_photons)
+/// owns all other light that the fog scatters towards the ray, D S+ L and D ... D L.
+///
 /// A glossy surface is a D. Where irradiance is looked up, by IndirectLight::gather and
 /// cache, nearly_specular() gloss between a light and a surface with a diffuse lobe is
 /// an S, and no path ends on any other gloss. No photon map is asked for the light that
@@ -62,6 +66,8 @@ struct PhotonMapsT {
     PhotonMapT<T> lone;    ///< Those of the caustics map that are lone_photons(); empty
                            ///< unless PhotonMappingSettings::lone_radius is above 1.
     PhotonMapT<T> general; ///< L D, L ... D ... D, and shadows; empty unless asked for.
+    VolumeMapT<T> fog_caustics; ///< L S+ D where D is fog; empty without fog.
+    VolumeMapT<T> fog;          ///< L ... D ... D where the last D is fog; the same.
     FluxAudit caustics_audit{}; ///< Where the flux of the caustics pass went.
     FluxAudit general_audit{};  ///< Where the flux of the general pass went.
     bool starved = false;       ///< Whether the general map has fewer indirect photons
@@ -164,12 +170,20 @@ template <AnyWorld W, typename Judge>
 [[nodiscard, gnu::cold]] PhotonMapsT<typename W::Scalar>
 trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& run,
            const Judge& judge) {
+    constexpr PhotonKinds fog = one_kind(PhotonKind::fog);
     PhotonMapsT<typename W::Scalar> maps;
     for (const std::string& remark : scene_remarks(world, settings))
         maps.remarks.append(remark).append("\n");
     const auto trace = [&](MapType type, const PhotonPassSettings& pass,
-                           FluxAudit& audit) {
+                           FluxAudit& audit, [[maybe_unused]] auto& in_fog) {
         auto traced = trace_photons(world, type, pass);
+        if constexpr (W::lists_fog) {
+            in_fog =
+                make_volume_map(traced.photons, settings.fog_estimate, pass.threads);
+            std::erase_if(traced.photons, [](const auto& photon) {
+                return photon.kind == PhotonKind::fog;
+            });
+        }
         audit = traced.audit;
         maps.complete = maps.complete && traced.complete;
         const bool by_power = world.light_count() > 1 && pass.light_shares.empty();
@@ -178,23 +192,27 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
         if (!traced.remark.empty()) maps.remarks.append(traced.remark).append("\n");
         return std::move(traced.photons);
     };
-    if (run.caustics_map)
+    if (run.caustics_map) {
+        PhotonPassSettings caustics = settings.caustics;
+        if (run.volume_map) caustics.keep.bits |= fog.bits;
         maps.caustics = make_photon_map(
-            trace(MapType::caustics, settings.caustics, maps.caustics_audit));
-
+            trace(MapType::caustics, caustics, maps.caustics_audit, maps.fog_caustics));
+    }
     const bool verdicts = run.skipped_rays || run.skipped_bounces;
-    if (!run.general_map && !verdicts) return maps;
+    const bool scatters = run.volume_map && scatters_in_fog(settings);
+    if (!run.general_map && !verdicts && !scatters) return maps;
     PhotonPassSettings general = settings.general;
     general.shadow_photons = run.shadow_photons;
     PhotonKinds kept = kept_kinds(settings);
     const bool choose =
         run.irradiance && kept.bits == one_kind(PhotonKind::indirect).bits;
     if (!verdicts) general.keep = choose ? light_kinds : kept;
-    if (!run.general_map && !run.skipped_bounces) { // only direct light is judged
-        general.max_bounces = 1;
+    if (!run.general_map && verdicts && !run.skipped_bounces) {
+        general.max_bounces = 1; // only direct light is judged
         general.equal_lights = true;
     }
-    auto photons = trace(MapType::general, general, maps.general_audit);
+    if (scatters) general.keep.bits = (run.general_map ? kept.bits : 0) | fog.bits;
+    auto photons = trace(MapType::general, general, maps.general_audit, maps.fog);
     if (verdicts) judge(photons);
     const long long indirect = count_of(photons, PhotonKind::indirect);
     maps.starved = run.irradiance && indirect < settings.irradiance.least;
@@ -237,6 +255,7 @@ public:
     using Stream = typename detail::StreamAmong<X...>::Type;
     /// Caustics are estimated for many samples of a picture together.
     using Batch = detail::CausticsBatch<Scalar>;
+    static constexpr bool carries_fog = true; ///< Its maps hold the light in fog.
     /// Whether an ability is listed.
     template <typename A>
     static constexpr bool has = ((std::is_same_v<A, X> && detail::Included<X>) || ...);
@@ -245,12 +264,12 @@ public:
     /// \param world     Must outlive the mapper.
     /// \param settings  Photons, depths, radii, source of indirect light. A radius of 0
     ///                  is chosen from the photons.
-    /// \throws std::invalid_argument  if a setting is out of range, or asks for an
-    ///         ability that is not listed.
+    /// \throws std::invalid_argument  if a setting is out of range, asks for an ability
+    ///         that is not listed, or for what fog does not allow.
     [[gnu::cold]] explicit PhotonMapper(WorldRef<W> world,
                                         const PhotonMappingSettings& settings = {},
                                         Abilities<X...> = {})
-        : world_(world), settings_(checked(settings)),
+        : world_(world), settings_(checked(world.get(), settings)),
           passes_(choose_passes(needs(world.get()), settings)) {
         settings_.caustics.gloss_as_mirrors = settings_.general.gloss_as_mirrors =
             passes_.gloss_as_mirrors;
@@ -366,8 +385,11 @@ private:
     }
 
     [[gnu::cold]] static const PhotonMappingSettings&
-    checked(const PhotonMappingSettings& settings) {
+    checked([[maybe_unused]] const W& world, const PhotonMappingSettings& settings) {
         check(settings);
+        if constexpr (W::lists_fog)
+            if (const auto why = detail::refused_in_fog(world, settings); !why.empty())
+                throw std::invalid_argument(why + ".");
         const auto require_ability = [](bool listed, bool asked, const char* what,
                                         const char* ability) {
             if (asked && !listed)
@@ -488,6 +510,49 @@ void light_at(const PhotonMapper<W, X...>& mapper, const VertexT<T>& vertex,
 
 namespace detail {
 
+/// Adds the light that fog scatters towards a ray of a camera path, and dims the path.
+///
+/// The path itself is not scattered. A flight that may end in the fog only chooses a
+/// point for a shadow ray, beside equi-angular sampling.
+/// \param mapper   The world and the maps.
+/// \param path     The path after next_vertex().
+/// \param before   Its throughput before next_vertex().
+/// \param surface  Distance of the next surface.
+/// \param context  The random stream of the path; counts rays and photons.
+/// \param add      The sum of the path.
+// [light in fog]
+template <AnyWorld W, typename... X, std::floating_point T, typename Context,
+          typename Sum>
+void cross_fog(const PhotonMapper<W, X...>& mapper, PathStateT<T>& path,
+               const RgbT<T>& before, T surface, Context& context, const Sum& add) {
+    const W& world = mapper.world();
+    if (!meets_fog(world, path.ray)) return;
+    FogSegmentT<T> segment{path.ray, before};
+    segment.ray.t_max = surface;
+    if (world.light_count() > 0) {
+        constexpr MisHeuristic alone = MisHeuristic::shadow_rays;
+        constexpr FogLight how = FogLight::both;
+        add.add("equi-angular", "DL", aimed_light(world, segment, alone, how, context));
+        PathStateT<T> flight{.throughput = before};
+        if (const auto vertex = fly(world, segment, flight, context.stream))
+            add.add("shadow ray", "DL",
+                    light_in_flight(world, segment, *vertex, flight.throughput, alone,
+                                    how, context));
+    }
+    const auto ask = [&](const VolumeMapT<T>& map) {
+        ++context.counts.map_queries;
+        return before * estimate_beam(world, map, segment.ray,
+                                      mapper.settings().fog_estimate.kernel,
+                                      context.counts.map_photons);
+    };
+    const PhotonMapsT<T>& maps = mapper.maps();
+    if (!maps.fog_caustics.empty())
+        add.add("volume map", "DS+L", ask(maps.fog_caustics));
+    if (!maps.fog.empty()) add.add("volume map", "D..DL", ask(maps.fog));
+    path.throughput *= transmittance(optical_depth(world, segment.ray), T(1));
+}
+// [light in fog]
+
 /// The largest number of branches that split off from one camera path at glass.
 inline constexpr std::size_t max_splits = 8;
 
@@ -526,7 +591,12 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
         const RadianceSum add{sum, path.throughput, context.log};
         bool gloss_mirrors = false; // whether narrow gloss is a mirror to this path
         while (path.depth < settings.max_depth) {
+            [[maybe_unused]] const RgbT<T> before = path.throughput;
             const auto vertex = next_vertex(mapper.world(), path, context.stream);
+            if constexpr (W::lists_fog)
+                detail::cross_fog(mapper, path, before,
+                                  vertex ? vertex->distance : path.ray.t_max, context,
+                                  add);
             if (!vertex) {
                 if (!path.met_diffuse)
                     add("sky", "L", sky_radiance(mapper.world(), path.ray.direction));

@@ -11,6 +11,7 @@
 #include "ljus/photons/irradiance_settings.hpp"
 #include "ljus/photons/photon_pass.hpp"
 #include "ljus/photons/shadow_verdict.hpp"
+#include "ljus/photons/volume_photons.hpp"
 
 namespace ljus {
 
@@ -75,6 +76,7 @@ struct PhotonMappingSettings {
     float lone_radius = 1;
     /// How the general map is queried; radius 0: chosen to hold 64 photons typically.
     DensityEstimateSettings general_estimate{.radius = 0.3f};
+    BeamEstimateSettings fog_estimate{};  ///< How photons in fog are spread.
     IrradiancePointSettings irradiance{}; ///< Points that gather rays look up.
     GatherSettings gather{};              ///< How the irradiance cache is made.
     SkipSettings skip{}; ///< Rays that photons make unnecessary; none by default.
@@ -116,6 +118,7 @@ struct PhotonMappingSettings {
     require(settings.lone_radius >= 1 && settings.lone_radius <= 1000, "lone_radius",
             double(settings.lone_radius), "within [1, 1000]");
     check(settings.skip);
+    check(settings.fog_estimate);
 }
 
 namespace detail {

@@ -235,11 +235,18 @@ template <AnyWorld W, typename... X>
 [[nodiscard]] PhotonMappingSettings
 settings_for_passes(const W& world, const PhotonMappingSettings& settings,
                     Abilities<X...> listed = {}) {
-    return PhotonMapper(world, settings, listed).settings();
+    const PhotonMapper mapper(world, settings, listed);
+    PhotonMappingSettings chosen = mapper.settings();
+    if constexpr (W::lists_fog)
+        if (chosen.fog_estimate.radius == 0 && mapper.passes().volume_map)
+            chosen.fog_estimate.radius = float(
+                typical_radius(mapper.maps().fog.empty() ? mapper.maps().fog_caustics
+                                                         : mapper.maps().fog));
+    return chosen;
 }
 
 /// One pass of the photon mapper, with its own photons and camera rays; the radii of
-/// the caustics map and of the general map are multiplied by `scale`.
+/// all maps are multiplied by `scale`.
 ///
 /// With IndirectLight::rays there is no general map, and only the caustics are biased.
 /// With k nearest photons the bias does not decrease until the shrinking radius is
@@ -265,11 +272,14 @@ photon_mapping_pass(const W& world, const C& camera, PhotonMappingSettings setti
                     Abilities<X...> listed = {}) {
     require_positive("caustics_estimate.radius", settings.caustics_estimate.radius);
     require_positive("general_estimate.radius", settings.general_estimate.radius);
+    if (world.has_fog())
+        require_positive("fog_estimate.radius", settings.fog_estimate.radius);
     const auto number = static_cast<std::uint64_t>(pass);
     settings.caustics.iteration = settings.general.iteration = number;
     picture.seed = mix_bits(mix_bits(picture.seed) + number);
     settings.caustics_estimate.radius *= static_cast<float>(scale);
     settings.general_estimate.radius *= static_cast<float>(scale);
+    settings.fog_estimate.radius *= static_cast<float>(scale);
     PhotonMapper mapper(world, settings, listed);
     if (!mapper.maps().complete) return {.complete = false};
     mapper.fill_cache(camera, picture);

@@ -1,0 +1,230 @@
+#pragma once
+
+/// \file ljus/photons/volume_photons.hpp
+/// \brief Photons where fog scatters them, and the light that they bring to a ray.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "ljus/accel/bvh.hpp"
+#include "ljus/accel/bvh8.hpp"
+#include "ljus/accel/kd_tree8.hpp"
+#include "ljus/math/require.hpp"
+#include "ljus/parallel.hpp"
+#include "ljus/path/fog_path.hpp"
+#include "ljus/photons/kernel.hpp"
+#include "ljus/photons/photon.hpp"
+
+namespace ljus {
+
+/// \defgroup volume_photons Photons in fog
+/// \brief Beyond the report: the volume photon map \cite jensen1998 and the beam
+/// radiance estimate \cite jarosz2008. Chapter: \ref ch_volume_photons.
+///
+/// A photon pass stores a photon where fog scatters one. The light that fog scatters
+/// towards a ray is then a sum over the photons beside the ray,
+///
+/// \f[ L = \sum_i \frac{w(d_i^2 / r_i^2)}{\pi r_i^2}\,\varrho(\theta_i)\,T(t_i)\,
+///     \Delta\Phi_i , \f]
+///
+/// where the ray passes photon i at the distance \f$ d_i < r_i \f$ after a way of
+/// \f$ t_i \f$. There is no integral along the ray, and no step.
+/// \{
+
+/// A photon in fog.
+template <std::floating_point T>
+struct VolumePhotonT {
+    Vec3T<T> position{T(0)};  ///< Where fog scatters it, in scene units.
+    Vec3T<T> direction{T(0)}; ///< Unit direction of travel before that.
+    RgbT<T> flux{T(0)};       ///< W that are scattered.
+    T radius = T(1);          ///< Of the ball over which it is spread; above 0.
+    std::uint32_t medium = 0; ///< Number of the medium; see visit_fog().
+};
+using VolumePhoton = VolumePhotonT<float>; ///< VolumePhotonT in float: 44 bytes.
+
+/// How far photons in fog are spread.
+struct BeamEstimateSettings {
+    float radius = 0; ///< Of each ball, in scene units; 0: the distance from the photon
+                      ///< to the nearest-th other one.
+    std::size_t nearest = 10;             ///< Which photon sets the radius, 1 to 511.
+    Kernel kernel = Kernel::epanechnikov; ///< Over the disc across the ray.
+};
+
+/// Refuses invalid settings.
+/// \throws std::invalid_argument  with name and value.
+inline void check(const BeamEstimateSettings& settings) {
+    require(settings.radius >= 0 && std::isfinite(settings.radius),
+            "fog_estimate.radius", double(settings.radius),
+            "at least 0 (0: chosen for each photon)");
+    require(settings.nearest >= 1 && settings.nearest <= 511, "fog_estimate.nearest",
+            static_cast<long long>(settings.nearest), "within [1, 511]");
+}
+
+/// Photons in fog, each with its ball, in a tree of the balls' boxes.
+template <std::floating_point T>
+struct VolumeMapT {
+    /// The tree, as that of a World.
+    using Tree = std::conditional_t<std::is_same_v<T, float>, Bvh8, BvhT<T>>;
+    Tree tree{};                             ///< The boxes of the balls.
+    std::vector<VolumePhotonT<T>> photons{}; ///< In the order of the tree.
+
+    /// Whether the map has no photons.
+    [[nodiscard]] bool empty() const noexcept { return photons.empty(); }
+};
+using VolumeMap = VolumeMapT<float>; ///< VolumeMapT in float.
+
+namespace detail {
+
+/// Sets the radius of each photon to the distance of the nearest-th other one. Photons
+/// that lie in one place get a thousandth of the extent of all.
+// [radii]
+template <std::floating_point T>
+[[gnu::cold]] void set_radii(std::vector<VolumePhotonT<T>>& photons,
+                             std::size_t nearest, int threads) {
+    std::vector<Vec3T<T>> positions;
+    BoxT<T> all;
+    for (const VolumePhotonT<T>& photon : photons) {
+        positions.push_back(photon.position);
+        all = box_union(all, photon.position);
+    }
+    const KdTree8T<T> tree(positions, threads);
+    const T size = max_component(all.high - all.low);
+    const T least = size > T(0) ? T(1e-3) * size : T(1);
+    const auto set_radius = [&](std::size_t i) {
+        std::array<Neighbor, 512> room;
+        const std::span<Neighbor> found(room.data(), nearest + 1); // with the photon
+        const std::size_t near = tree.template nearest<512>(
+            photons[i].position, std::numeric_limits<T>::infinity(), found);
+        const T radius = near > 1 ? T(std::sqrt(found[0].distance2)) : T(0);
+        photons[i].radius = radius > T(0) ? radius : least;
+    };
+    parallel_each(photons.size(), 1024, set_radius, {.threads = threads});
+}
+// [radii]
+
+} // namespace detail
+
+/// Builds a map of the photons that fog scatters.
+///
+/// A radius that is not given is chosen for each photon. It is small where photons of
+/// this pass are dense, as in a shaft of light. A photon keeps its whole flux, whatever
+/// its radius.
+/// \param photons   Of trace_photons(); those of other kinds are left out.
+/// \param settings  The radius.
+/// \param threads   As in ParallelSettings.
+/// \return The map, the same for any number of threads.
+/// \throws std::invalid_argument  if a setting is out of range, or a position is not
+///         finite.
+/// \cost Without a radius a search for each photon.
+template <std::floating_point T>
+[[nodiscard, gnu::cold]] VolumeMapT<T>
+make_volume_map(const std::vector<PhotonT<T>>& photons,
+                const BeamEstimateSettings& settings = {}, int threads = 0) {
+    check(settings);
+    std::vector<VolumePhotonT<T>> found;
+    for (const PhotonT<T>& photon : photons)
+        if (photon.kind == PhotonKind::fog)
+            found.push_back({photon.position, photon.direction, photon.flux,
+                             T(settings.radius), photon.light});
+    if (settings.radius == 0) detail::set_radii(found, settings.nearest, threads);
+    std::vector<BoxT<T>> boxes;
+    for (const auto& [position, direction, flux, radius, medium] : found)
+        boxes.push_back({position - radius, position + radius});
+    VolumeMapT<T> map;
+    map.tree = typename VolumeMapT<T>::Tree(boxes, {.threads = threads});
+    for (const std::uint32_t id : map.tree.primitive_ids())
+        map.photons.push_back(found[id]);
+    return map;
+}
+
+/// The geometric mean of the radii of a map's photons.
+/// \return In scene units; 1 if there are no photons.
+template <std::floating_point T>
+[[nodiscard, gnu::cold]] T typical_radius(const VolumeMapT<T>& map) {
+    double logarithms = 0;
+    for (const VolumePhotonT<T>& photon : map.photons)
+        logarithms += std::log(double(photon.radius)) / double(map.photons.size());
+    return static_cast<T>(std::exp(logarithms));
+}
+
+/// The light that one photon brings to a ray.
+/// \param world   The closed scene.
+/// \param photon  The photon.
+/// \param ray     Of unit length, outside all bodies; its t_max is the next surface.
+/// \param kernel  The kernel.
+/// \return W/(m^2 sr) at the ray's origin; 0 if the ray does not cross the disc around
+///         the photon.
+// [beam]
+template <AnyWorld W, std::floating_point T, KernelLike<T> K>
+[[nodiscard]] RgbT<T> light_of_photon(const W& world, const VolumePhotonT<T>& photon,
+                                      const RayT<T>& ray, const K& kernel) {
+    const Vec3T<T> to = photon.position - ray.origin;
+    const T t = glm::dot(to, ray.direction);
+    const Vec3T<T> off = to - t * ray.direction;
+    const T radius2 = photon.radius * photon.radius;
+    const T distance2 = glm::dot(off, off);
+    if (!(t > ray.t_min && t < ray.t_max && distance2 < radius2)) return RgbT<T>{T(0)};
+    RayT<T> before = ray;
+    before.t_max = t;
+    T turned = T(0);
+    visit_fog(world, photon.medium, [&](const auto& medium) {
+        turned = phase(medium, -glm::dot(ray.direction, photon.direction));
+    });
+    return turned * kernel_weight(kernel, distance2 / radius2) /
+           (std::numbers::pi_v<T> * radius2) * photon.flux *
+           transmittance(optical_depth(world, before), T(1));
+}
+// [beam]
+
+/// The plain counterpart of estimate_beam(): a loop over all photons.
+/// \param world   The closed scene.
+/// \param map     The photons.
+/// \param ray     As for light_of_photon().
+/// \param kernel  The kernel.
+/// \return Radiance, W/(m^2 sr).
+// [plain beam]
+template <AnyWorld W, std::floating_point T, KernelLike<T> K>
+[[nodiscard]] RgbT<T> estimate_beam_plain(const W& world, const VolumeMapT<T>& map,
+                                          const RayT<T>& ray, const K& kernel) {
+    RgbT<double> sum{0}; // float would lose the last terms
+    for (const VolumePhotonT<T>& photon : map.photons)
+        sum += RgbT<double>(light_of_photon(world, photon, ray, kernel));
+    return RgbT<T>(sum);
+}
+// [plain beam]
+
+/// The radiance that fog scatters towards a ray, by the photons of a map.
+///
+/// At the border of the fog, and at a surface, a part of the balls lies outside, and
+/// the estimate is too dark there. What stands between a photon and the ray is not
+/// seen.
+/// \param world   The closed scene.
+/// \param map     The photons.
+/// \param ray     As for light_of_photon().
+/// \param kernel  The kernel.
+/// \param visited Counts the photons whose boxes the ray meets.
+/// \return Radiance, W/(m^2 sr).
+/// \cost One step for each ball that the ray meets.
+// [tree beam]
+template <AnyWorld W, std::floating_point T, KernelLike<T> K>
+[[nodiscard]] RgbT<T> estimate_beam(const W& world, const VolumeMapT<T>& map,
+                                    const RayT<T>& ray, const K& kernel,
+                                    std::uint64_t& visited) {
+    RgbT<double> sum{0};
+    map.tree.closest(ray, [&](std::uint32_t slot, const RayT<T>&) {
+        ++visited;
+        sum += RgbT<double>(light_of_photon(world, map.photons[slot], ray, kernel));
+    });
+    return RgbT<T>(sum);
+}
+// [tree beam]
+
+/// \}
+
+} // namespace ljus
