@@ -302,14 +302,15 @@ TEST_CASE("survey: a hook that is misspelt shows") {
         "center_sample (u = v = 1/2), normal (at its sphere), point_at (at each "
         "point), form_factor_from (by facet_of()), facet_of (by rays), patch_grid "
         "(left out of it), corners_of (darker at them), texture_coordinates (those "
-        "of the hit), translated (does not compile), area_sums (by sample_area()), "
+        "of the hit), texture_tangents (refused with one), translated (does not "
+        "compile), area_sums (by sample_area()), "
         "prototype (it has all its data)"));
     CHECK(lines[1].starts_with("shape QuadT<float> has bounds, area, "));
     CHECK(lines[2].ends_with(
         " has emission; without absorption (clear), refractive_index (opaque in "
         "contact), priority (0), emission_picture (even light), at_point (the same "
-        "anywhere), uses_uv (uv is 0), split (one "
-        "branch at random), "
+        "anywhere), uses_uv (uv is 0), is_open (solid), normal_at (the shape's), split "
+        "(one branch at random), "
         "pass_through (opaque), at_wavelength (one index for all light), only_specular "
         "(write both)"));
     CHECK(lines[2].starts_with("material "));
