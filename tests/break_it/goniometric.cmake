@@ -2,7 +2,7 @@
 ljus_break_it(NAME goniometric-sine HEADER lights/goniometric_light.hpp TEST goniometric
     FROM "detail::line_times_sine(first, (last - first) / length, made.polar[i],"
     TO   "detail::line_times_sine(first, (last - first) / length, 0 * made.polar[i],"
-    CASES "goniometric: the flux*" "goniometric: the density*")
+    CASES "goniometric: the flux*,goniometric: the density*")
 
 # Directions are uniform within a cell.
 ljus_break_it(NAME goniometric-in-cell HEADER lights/goniometric_light.hpp TEST goniometric
@@ -32,7 +32,7 @@ ljus_break_it(NAME goniometric-turn HEADER lights/goniometric_light.hpp TEST gon
 ljus_break_it(NAME goniometric-candela HEADER lights/goniometric_light.hpp TEST goniometric
     FROM "return static_cast<T>(detail::lumens_of(light)) * light.watts_per_lumen;"
     TO   "return RgbT<T>{static_cast<T>(detail::lumens_of(light))};"
-    CASES "goniometric: the density*" "goniometric: photons*")
+    CASES "goniometric: the density*,goniometric: photons*")
 
 # The second half of the azimuths is a copy of the first, not its mirror image.
 ljus_break_it(NAME ies-mirror HEADER io/load_ies.hpp TEST goniometric

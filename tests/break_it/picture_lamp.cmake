@@ -2,13 +2,13 @@
 ljus_break_it(NAME picture_lamp-pdf HEADER lights/picture_light.hpp TEST picture_lamp
     FROM "return static_cast<T>(double(detail::brightness(radiance)) /"
     TO   "return static_cast<T>(double(detail::brightness(radiance) > 0 ? 5.0 : 5.0) /"
-    CASES "picture lamp: the density*" "picture lamp: shadow rays*")
+    CASES "picture lamp: the density*,picture lamp: shadow rays*")
 
 # All photons carry the same colour.
 ljus_break_it(NAME picture_lamp-flux HEADER lights/picture_light.hpp TEST picture_lamp
     FROM "return std::numbers::pi_v<T> / pdf_of_point(light, radiance) * radiance;"
     TO   "return power(light);"
-    CASES "picture lamp: points*" "picture lamp: photons*")
+    CASES "picture lamp: points*,picture lamp: photons*")
 
 # The picture is upside down for who looks at it.
 ljus_break_it(NAME picture_lamp-upside HEADER lights/picture_light.hpp TEST picture_lamp

@@ -85,9 +85,9 @@ template <typename Base, typename Texture>
     return lobes(m.base);
 }
 
-/// The base's absorption coefficient inside.
+/// The base's absorption coefficient inside, if it has one: a matt base is no body.
 /// \return Per scene unit.
-template <typename Base, typename Texture>
+template <MayAbsorb Base, typename Texture>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
 absorption(const Textured<Base, Texture>& m) noexcept {
     return absorption(m.base);
