@@ -52,7 +52,6 @@ auto leaf(const Rgb& color) {
 }
 // [leaf]
 
-// [tiles]
 /// Tiles with grey joints, and normals that round their rims and make them wavy.
 auto tiles(float count) {
     const UvMap map{.scale{count, count}};
@@ -69,7 +68,6 @@ auto tiles(float count) {
     return Textured<Textured<Lambertian, UvPicture>, NormalMap>{
         {{.albedo = Rgb{1}}, drawn(128, map, color)}, {drawn(128, map, normal)}};
 }
-// [tiles]
 
 /// A square of this size around a point, turned at random, but rather upwards.
 Quad turned_square(const Vec3& center, float size, RandomStream& stream) {

@@ -28,7 +28,6 @@ UvPicture fields() {
     return picture;
 }
 
-// [pyramid]
 /// The picture in sizes of 64, 32, ... 1 pixels, each the means of four of the one
 /// before.
 std::vector<UvPicture> pyramid_of(const UvPicture& picture) {
@@ -55,7 +54,6 @@ Rgb looked_up(const std::vector<UvPicture>& levels, const Vec2& uv, float width)
     return glm::mix(color_at(levels[below], Vec3{0}, uv),
                     color_at(levels[below + 1], Vec3{0}, uv), level - float(below));
 }
-// [pyramid]
 
 /// A floor to the horizon, seen from a height of 1: each pixel the mean of `rays`
 /// lookups, color_of(uv, width of a pixel on the floor).

@@ -181,7 +181,6 @@ template <std::floating_point T>
 /// mesh has none.
 /// \return The derivatives of the point by u and by v; 0 on a triangle whose texture
 ///         coordinates span no area.
-// [texture_tangents]
 template <std::floating_point T>
 [[nodiscard]] std::array<Vec3T<T>, 2>
 texture_tangents(const MeshT<T>& mesh, const ShapeHitT<T>& hit) noexcept {
@@ -200,7 +199,6 @@ texture_tangents(const MeshT<T>& mesh, const ShapeHitT<T>& hit) noexcept {
     return {Vec3T<T>((b.y * e1 - a.y * e2) / area),
             Vec3T<T>((a.x * e2 - b.x * e1) / area)};
 }
-// [texture_tangents]
 
 namespace detail {
 

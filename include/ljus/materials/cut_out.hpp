@@ -40,7 +40,6 @@ inline constexpr bool is_holes<Holes<Texture>> = true;
 
 /// Whether a point lies in a hole of the material, or of its base.
 /// \cost color_at() of the mask.
-// [is_open]
 template <typename Base, typename Texture, std::floating_point T>
 requires(detail::is_holes<Texture> || CutOutMaterial<Base>)
     [[nodiscard]] bool is_open(const Textured<Base, Texture>& cut,
@@ -55,7 +54,6 @@ requires(detail::is_holes<Texture> || CutOutMaterial<Base>)
         return double(color_at(cut.texture.mask, position, uv).x) < cut.texture.cutoff;
     return false;
 }
-// [is_open]
 
 /// Checks the mask and the cutoff.
 /// \throws std::invalid_argument  naming the member.

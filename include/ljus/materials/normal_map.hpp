@@ -30,7 +30,6 @@ using NormalMap = NormalMapT<float>; ///< NormalMapT in float.
 /// \return x along u, y along v, z outwards; of any length. Exactly (0, 0, 1) for the
 ///         colour (0.5, 0.5, 1).
 /// \cost color_at() of the picture.
-// [normal_at]
 template <typename Base, std::floating_point T>
 [[nodiscard]] Vec3T<T> normal_at(const Textured<Base, NormalMapT<T>>& mapped,
                                  const Vec2T<T>& uv) noexcept {
@@ -38,7 +37,6 @@ template <typename Base, std::floating_point T>
     const Vec3T<T> n = T(2) * color_at(picture, Vec3T<T>{T(0)}, uv) - T(1);
     return {direction_on_shape(picture.map, Vec2T<T>{n.x, n.y}), n.z};
 }
-// [normal_at]
 
 /// The same for a textured material over one with a normal map.
 template <typename Base, typename Texture, std::floating_point T>
