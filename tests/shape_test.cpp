@@ -298,12 +298,25 @@ TEST_CASE("shape: what there is without more said") {
 namespace reader {
 
 /// The rows of the table of hooks, in their order.
-constexpr std::array<std::string_view, 18> rows{
-    "bounds",      "meets",          "shading_normal",      "area",
-    "sample_area", "sample_towards", "pdf_towards",         "center_sample",
-    "normal",      "point_at",       "form_factor_from",    "facet_of",
-    "patch_grid",  "corners_of",     "texture_coordinates", "translated",
-    "area_sums",   "prototype"};
+constexpr std::array<std::string_view, 19> rows{"bounds",
+                                                "meets",
+                                                "shading_normal",
+                                                "area",
+                                                "sample_area",
+                                                "sample_towards",
+                                                "pdf_towards",
+                                                "center_sample",
+                                                "normal",
+                                                "point_at",
+                                                "form_factor_from",
+                                                "facet_of",
+                                                "patch_grid",
+                                                "corners_of",
+                                                "texture_coordinates",
+                                                "texture_tangents",
+                                                "translated",
+                                                "area_sums",
+                                                "prototype"};
 /// The number of a row.
 constexpr std::size_t row(std::string_view name) {
     std::size_t i = 0;
@@ -414,6 +427,11 @@ requires(R == row("texture_coordinates")) Vec2
     return Vec2{0};
 }
 template <std::size_t R>
+requires(R == row("texture_tangents")) std::array<Vec3, 2> texture_tangents(
+    const One<R>&, const ShapeHitT<float>&) {
+    return {};
+}
+template <std::size_t R>
 requires(R == row("translated")) One<R> translated(const One<R>& s, const Vec3&) {
     return s;
 }
@@ -458,9 +476,9 @@ TEST_CASE("shape: which hooks a shape has, by name") {
     for (const auto& flat :
          {names(detail::shape_hooks<Triangle>()), names(detail::shape_hooks<Quad>())})
         CHECK(flat == "bounds area sample_area normal point_at facet_of corners_of "
-                      "translated ");
+                      "texture_tangents translated ");
     CHECK(names(detail::shape_hooks<Moving<Quad>>()) ==
-          "bounds area sample_area texture_coordinates ");
+          "bounds area sample_area texture_coordinates texture_tangents ");
     // A shape without an area has no points to choose; the one there is is of no use.
     const SurfacePoint none = sample_area(reader::Poor{}, Vec2{0.5f});
     CHECK(none.position == Vec3{0});
