@@ -175,7 +175,7 @@ cat choice.pfm.json >>all.json
 for name in $(sed -n 's/^  --\([a-z-]*\).*/\1/p' help.txt); do
     case $name in
         version | out | threads | quiet | slice | seconds | error) continue ;;
-        schema | region) continue ;;
+        schema | region | layers) continue ;;
         checkpoint | preview | plan | hooks | explain | show-photons) continue ;;
     esac
     grep -q "\"$name\": " all.json || wrong "--$name is not in the file beside the picture"
