@@ -24,8 +24,8 @@ ljus_break_it(NAME cut_out-behind HEADER scene/world.hpp TEST cut_out
 
 # A leaf on the floor covers the floor in its holes.
 ljus_break_it(NAME cut_out-contact HEADER scene/world.hpp TEST cut_out
-    FROM "return detail::hit_on<Compute>(world, other.object, near, shape);"
-    TO   "return detail::hit_of<Compute>(near, shape);"
+    FROM "return hit_on<Compute>(world, other.object, near, shape);"
+    TO   "return hit_of<Compute>(near, shape);"
     CASES "cut-out: a leaf that lies*")
 
 # Open where the mask is solid.

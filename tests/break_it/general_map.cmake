@@ -56,8 +56,10 @@ ljus_break_it(NAME general-map-number HEADER photons/tracing.hpp TEST general_ma
 
 # The cosine a second time, as the report's program has it at each bounce.
 ljus_break_it(NAME general-map-cosine HEADER photons/photon_path.hpp TEST general_map
-    FROM [[path.throughput = *survivor;]]
-    TO   [[path.throughput = *survivor * std::abs(glm::dot(path.ray.direction, vertex.point.normal));]]
+    FROM [[path.throughput = *survivor;
+    return true;]]
+    TO   [[path.throughput = *survivor * std::abs(glm::dot(path.ray.direction, vertex.point.normal));
+    return true;]]
     CASES "general map: direct and indirect*")
 
 # A disc of the wrong area.

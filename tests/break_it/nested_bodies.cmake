@@ -7,8 +7,8 @@ ljus_break_it(NAME nested_bodies-hidden HEADER scene/nested_bodies.hpp
 
 # Each body stands in air.
 ljus_break_it(NAME nested_bodies-outside HEADER path/next_vertex.hpp TEST nested_bodies
-    FROM "outside == 0 ? T(1) : index_of("
-    TO   "true ? T(1) : index_of("
+    FROM "vertex.outside = outside == 0 ? T(1)"
+    TO   "vertex.outside = true ? T(1)"
     CASES "nested bodies: water on glass*")
 
 # The index on the outside is always that behind the surface.

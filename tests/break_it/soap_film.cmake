@@ -13,9 +13,9 @@ ljus_break_it(NAME soap_film-gravity HEADER materials/soap_film.hpp TEST soap_fi
 # The film hides the lamp.
 ljus_break_it(NAME thin_surfaces-shadow HEADER path/next_vertex.hpp TEST soap_film
     FROM "if (!passed) break;
-        through"
+            through"
     TO   "if (!passed || passed) break;
-        through"
+            through"
     CASES "thin sheets: a lamp*")
 
 # The film is not there.
