@@ -666,7 +666,7 @@ namespace detail {
 template <AnyWorld W, std::floating_point T>
 inline void find_medium(const W& world, PathStateT<T>& path) {
     if constexpr (lists_media<W>) {
-        if (!path.medium_known && !world.has_priorities() &&
+        if (!path.medium_known && !(W::lists_priorities && world.has_priorities()) &&
             (path.depth == 0 || world.has_nested_media()))
             path.medium = medium_at(world, path.ray);
         path.medium_known = true;
