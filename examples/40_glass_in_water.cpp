@@ -22,7 +22,8 @@ void add_rod(Table& table, const Cylinder& side, MaterialId material) {
 }
 
 /// Adds the glass and what is in it. Each is a whole body that overlaps the others.
-/// \param rank  1 for their order; 0: none of them has a priority.
+/// \param table  The scene.
+/// \param rank   1 for their order; 0: none of them has a priority.
 // [glass of water]
 void add_glass(Table& table, int rank) {
     const Rgb green{0.5f, 0.15f, 0.4f}, blue{0.3f, 0.1f, 0.04f};

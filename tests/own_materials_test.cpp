@@ -253,7 +253,7 @@ TEST_CASE("own materials: pictures of MTL files") {
           "a.mtl, line 2: map_d has options, -s; they are not used.\n");
     const World world =
         world_of(folder, scene_text(R"({"type": "mesh", "file": "a.obj"})"));
-    CHECK(color_seen(world, 0.25f, 0.5f) == Rgb{0.5f});
+    REQUIRE(color_seen(world, 0.25f, 0.5f) == Rgb{0.5f});
     CHECK(color_seen(world, 0.75f, 0.5f) == Rgb{-1});
     const Vec3 leaning = glm::normalize(Vec3{0.6f, 1 / 255.0f, 205 / 255.0f});
     CHECK(glm::distance(normal_seen(world, 0.25f, 0.5f), leaning) < 1e-6f);

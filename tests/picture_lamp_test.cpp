@@ -330,6 +330,17 @@ TEST_CASE("picture lamp: photons bring to a floor what paths find") {
     check_all(a_disc<float>);
 }
 
+// Whether photons have the colours of different pixels.
+template <typename W>
+bool colors_differ(const W& world, MapType map) {
+    const auto photons =
+        trace_photons(world, map, {.photons = 500, .threads = 1}).photons;
+    return std::any_of(photons.begin(), photons.end(), [&](const Photon& photon) {
+        const Rgb &a = photons[0].flux, &b = photon.flux;
+        return std::abs(a.x * b.z - a.z * b.x) > 0.01f * a.x * b.z;
+    });
+}
+
 TEST_CASE("picture lamp: aimed photons, through glass and from afar") {
     // What glass throws on the floor, by photons aimed at it, and by paths to the lamp.
     const PictureLamp shown{.picture = drawn_picture<float>(5, 4)};
@@ -343,6 +354,7 @@ TEST_CASE("picture lamp: aimed photons, through glass and from afar") {
     const Mean paths = flux_by_paths(glass, {}, 60000);
     CHECK(std::abs(apart(photons, paths)) < 5);
     CHECK(photons.error() < 0.01 * photons.mean);
+    CHECK(colors_differ(glass, MapType::caustics));
     // A lamp so far away that its photons are aimed at the scene.
     const World far(make_scene(
         placed(Quad{{-1, 0, -1}, {0, 0, 2}, {2, 0, 0}}, matt),
@@ -352,6 +364,7 @@ TEST_CASE("picture lamp: aimed photons, through glass and from afar") {
     const Mean from_below = flux_by_paths(far, {}, 20000);
     CHECK(std::abs(apart(from_afar, from_below)) < 5);
     CHECK(from_afar.error() < 0.01 * from_afar.mean);
+    CHECK(colors_differ(far, MapType::general));
 }
 
 TEST_CASE("picture lamp: what is no lamp is refused") {

@@ -87,6 +87,7 @@ template <std::floating_point T>
 
 /// A direction in a picture as one on the shape: turned back, and mirrored where the
 /// scale is negative.
+/// \param map    How the picture lies on the shape.
 /// \param along  Along u and v of the picture.
 /// \return Along u and v of the shape, of the same length.
 template <std::floating_point T>

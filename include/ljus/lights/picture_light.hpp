@@ -112,7 +112,8 @@ requires requires(const S& shape) {
 }
 
 /// The radiance at a point of the picture, W/(m^2 sr): that of a pixel.
-/// \param uv  In [0, 1]^2; (0, 0) is the lower left corner.
+/// \param light  The lamp.
+/// \param uv     In [0, 1]^2; (0, 0) is the lower left corner.
 template <std::floating_point T>
 [[nodiscard]] const RgbT<T>& radiance_at(const PictureLightT<T>& light,
                                          const Vec2T<T>& uv) noexcept {
@@ -125,6 +126,7 @@ template <std::floating_point T>
 
 /// The density of a point of the lamp, per squared scene unit: the brightness of its
 /// pixel over the integral of all brightness.
+/// \param light     The lamp.
 /// \param radiance  At the point.
 // [pdf of point]
 template <std::floating_point T>
@@ -200,6 +202,7 @@ sample_light(const PictureLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>
 }
 
 /// The density with which sample_light() chooses a point of the lamp; per steradian.
+/// \param light  The lamp.
 /// \param from   The lit point.
 /// \param point  The point of the lamp.
 /// \param uv     Its coordinates.

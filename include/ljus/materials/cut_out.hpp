@@ -10,7 +10,7 @@ namespace ljus {
 /// \defgroup cut_out Cut-outs
 /// \brief A leaf is a square with holes. Chapter: \ref ch_textures.
 ///
-/// The holes belong to the search for the nearest hit, as in \cite pharr2023: a hit in
+/// As in \cite pharr2023, the holes belong to the search for the nearest hit: a hit in
 /// a hole counts for no ray and for no photon. A scene that lists no such material
 /// compiles nothing of this.
 /// \{

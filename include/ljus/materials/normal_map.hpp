@@ -26,7 +26,8 @@ struct NormalMapT {
 using NormalMap = NormalMapT<float>; ///< NormalMapT in float.
 
 /// The normal of a material in the directions of its shape's coordinates.
-/// \param uv  From texture_coordinates().
+/// \param mapped  The material.
+/// \param uv      From texture_coordinates().
 /// \return x along u, y along v, z outwards; of any length. Exactly (0, 0, 1) for the
 ///         colour (0.5, 0.5, 1).
 /// \cost color_at() of the picture.
