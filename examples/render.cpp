@@ -353,7 +353,8 @@ void print_plan(const W& world, const Request& r) {
     if (r.plan && r.renderer == RendererName::photon) {
         const Plan plan = survey(world, r.photon);
         for (const PlanItem* item : plan.items())
-            std::fputs(to_text(*item).c_str(), stdout);
+            if (item != &plan.volume_map || world.has_fog())
+                std::fputs(to_text(*item).c_str(), stdout);
         tell(plan.remarks);
     }
     if (r.hooks)
