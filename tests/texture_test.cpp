@@ -636,6 +636,16 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
         damaged.resize(i);
         REQUIRE(refusal_of(damaged).find("a is damaged: it ends ") == 0);
     }
+    // Bytes behind the last chunk are none of the picture, and are not read as chunks.
+    Bytes longer = whole;
+    longer.insert(longer.end(), 12, 0x70);
+    CHECK(refusal_of(longer).empty());
+    longer.resize(33); // the header; no pixels
+    longer.insert(longer.end(), whole.end() - 12, whole.end());
+    longer.insert(longer.end(),
+                  {0x7f, 0xff, 0xff, 0xff, 't', 'e', 'X', 't', 0, 0, 0, 0});
+    longer.insert(longer.end(), 12, 0);
+    CHECK(refusal_of(longer).find("a is damaged") == 0);
     // A critical chunk whose name is not of letters.
     Bytes chunk{0, 0, 0, 0, 'A', 0x1b, 0xff, '\n'};
     const std::uint32_t sum = detail::png_sum(chunk, 4, 8);

@@ -50,8 +50,14 @@ ljus_break_it(NAME texture-scale HEADER image/texture.hpp TEST texture
 
 # A chunk's sum is not asked.
 ljus_break_it(NAME png-sum HEADER io/detail/picture_damage.hpp TEST texture
-    FROM "if (png_number(file, at + 8 + size) != png_sum(file, at + 4, at + 8 + size))"
-    TO   "if (size > 1u << 30)"
+    FROM "png_number(file, at + size) == png_sum(file, at - 4, at + size)"
+    TO   "size < 1u << 30"
+    CASES "texture: of pictures only*")
+
+# Bytes behind the last chunk are taken for chunks.
+ljus_break_it(NAME png-end HEADER io/detail/picture_damage.hpp TEST texture
+    FROM "if (name == 0x49454e44u) return; // IEND"
+    TO   ""
     CASES "texture: of pictures only*")
 
 # Formats whose readers cannot be trusted are handed on.

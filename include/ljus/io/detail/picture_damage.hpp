@@ -37,18 +37,34 @@ inline std::uint32_t png_sum(const Bytes& file, std::size_t first, std::size_t l
     return ~sum;
 }
 
+// Calls use(name, at, size) for the chunks of a PNG file up to IEND, with the index of
+// each one's data, until it returns true. Ends at the first chunk that is cut off. Behind
+// IEND, a file may have bytes that are no chunks.
+template <typename Use>
+void find_png_chunk(const Bytes& file, Use use) {
+    for (std::size_t at = 8; at <= file.size() && file.size() - at >= 12;) {
+        const std::size_t size = png_number(file, at);
+        const std::uint32_t name = png_number(file, at + 4);
+        if (size > file.size() - at - 12 || use(name, at + 8, size)) return;
+        if (name == 0x49454e44u) return; // IEND
+        at += 12 + size;
+    }
+}
+
 // The damage of a PNG file, or null. stb_image does not test that the chunks follow one
 // another up to IEND, and that their checksums are right.
 inline const char* png_trouble(const Bytes& file) {
-    for (std::size_t at = 8; file.size() - at >= 12;) {
-        const std::size_t size = png_number(file, at);
-        if (size > file.size() - at - 12) return "it ends in the middle of a chunk";
-        if (png_number(file, at + 8 + size) != png_sum(file, at + 4, at + 8 + size))
-            return "the checksum of a chunk is wrong";
-        if (png_number(file, at + 4) == 0x49454e44u) return nullptr; // IEND
-        at += 12 + size;
-    }
-    return "it ends before its last chunk";
+    const char* trouble = "it ends before its last chunk, or in the middle of one";
+    find_png_chunk(file, [&](std::uint32_t name, std::size_t at, std::size_t size) {
+        const bool right =
+            png_number(file, at + size) == png_sum(file, at - 4, at + size);
+        if (!right)
+            trouble = "the checksum of a chunk is wrong";
+        else if (name == 0x49454e44u)
+            trouble = nullptr; // IEND
+        return !right;
+    });
+    return trouble;
 }
 
 // A byte of a file; 0 behind its end, as in stb_image.
@@ -57,39 +73,36 @@ inline std::size_t byte_at(const Bytes& file, std::size_t at) {
 }
 
 // The exponent 1/gamma of a PNG file with a gAMA chunk; 0 if it has none, or an sRGB or
-// iCCP chunk as well. png_trouble() must have found nothing.
+// iCCP chunk as well.
 inline double png_gamma(const Bytes& file) {
     double gamma = 0;
-    for (std::size_t at = 8; file.size() - at >= 12;
-         at += 12 + std::size_t(png_number(file, at))) {
-        const std::uint32_t name = png_number(file, at + 4);
-        if (name == 0x73524742u || name == 0x69434350u) return 0; // sRGB, iCCP
-        if (name == 0x49444154u) break;                           // IDAT
-        if (name == 0x67414d41u && png_number(file, at) == 4)     // gAMA
-            gamma = png_number(file, at + 8) / 1e5;
-    }
+    find_png_chunk(file, [&](std::uint32_t name, std::size_t at, std::size_t size) {
+        const bool named = name == 0x73524742u || name == 0x69434350u; // sRGB, iCCP
+        if (named)
+            gamma = 0;
+        else if (name == 0x67414d41u && size == 4) // gAMA
+            gamma = png_number(file, at) / 1e5;
+        return named || name == 0x49444154u; // IDAT
+    });
     // About that of sRGB: files without an sRGB chunk name it in this way.
     return std::abs(gamma - 0.45455) < 0.005 ? 0 : gamma;
 }
 
 // A PNG file whose palette is filled up with black to 256 colours; empty if it has no
 // palette, or a full one. stb_image takes colours behind the end of a palette from
-// memory that nobody has set. png_trouble() must have found nothing.
+// memory that nobody has set.
 inline Bytes with_whole_palette(const Bytes& file) {
     constexpr std::size_t full = 3 * 256;
     Bytes whole;
-    for (std::size_t at = 8; file.size() - at >= 12;
-         at += 12 + std::size_t(png_number(file, at))) {
-        const std::size_t size = png_number(file, at);
-        if (png_number(file, at + 4) != 0x504c5445u || size >= full || size % 3 != 0)
-            continue; // not PLTE, or full
+    find_png_chunk(file, [&](std::uint32_t name, std::size_t at, std::size_t size) {
+        if (name != 0x504c5445u || size >= full || size % 3 != 0) return false; // PLTE
         whole = file;
-        whole.insert(whole.begin() + static_cast<std::ptrdiff_t>(at + 8 + size),
+        whole.insert(whole.begin() + static_cast<std::ptrdiff_t>(at + size),
                      full - size, 0);
-        whole[at + 2] = full / 256;
-        whole[at + 3] = full % 256;
-        break;
-    }
+        whole[at - 6] = full / 256; // the last two bytes of its size
+        whole[at - 5] = full % 256;
+        return true;
+    });
     return whole;
 }
 
@@ -111,15 +124,15 @@ inline int tiff_orientation(const Bytes& file, std::size_t tiff) {
 }
 
 // The orientation in the eXIf chunk of a PNG file, which comes before its pixels; 1
-// without one. png_trouble() must have found nothing.
+// without one.
 inline int png_orientation(const Bytes& file) {
-    for (std::size_t at = 8; file.size() - at >= 12;
-         at += 12 + std::size_t(png_number(file, at))) {
-        const std::uint32_t name = png_number(file, at + 4);
-        if (name == 0x65584966u) return tiff_orientation(file, at + 8); // eXIf
-        if (name == 0x49444154u) break;                                 // IDAT
-    }
-    return 1;
+    int orientation = 1;
+    find_png_chunk(file, [&](std::uint32_t name, std::size_t at, std::size_t) {
+        const bool found = name == 0x65584966u; // eXIf
+        if (found) orientation = tiff_orientation(file, at);
+        return found || name == 0x49444154u; // IDAT
+    });
+    return orientation;
 }
 
 // True if stb_image can read the tables of a JPEG segment whose length is at `at`: it
