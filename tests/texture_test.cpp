@@ -638,7 +638,7 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
     }
     // Bytes behind the last chunk are none of the picture, and are not read as chunks.
     Bytes longer = whole;
-    longer.insert(longer.end(), 12, 0x70);
+    longer.insert(longer.end(), {0, 0, 0, 0, 't', 'e', 'X', 't', 1, 2, 3, 4});
     CHECK(refusal_of(longer).empty());
     longer.resize(33); // the header; no pixels
     longer.insert(longer.end(), whole.end() - 12, whole.end());
