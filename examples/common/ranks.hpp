@@ -3,8 +3,11 @@
 /// \file ranks.hpp
 /// \brief Processes that make one picture together by MPI, and agree on which.
 
+#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include <mpi.h>
 
@@ -43,6 +46,35 @@ inline void agree(Rank& rank, const std::string& picture) {
     if (const std::string why = difference(picture, first); !why.empty())
         throw std::runtime_error("rank " + std::to_string(rank.number) +
                                  " is to make another picture than rank 0: " + why);
+}
+
+/// Sends each rank a list, and receives one from each.
+/// \param lists     One for each rank, of values that can be copied byte by byte.
+/// \param received  Receives how many values came from each rank, if it is not null.
+/// \return What has come, in the order of the ranks that sent it.
+template <typename T>
+std::vector<T> all_to_all(const std::vector<std::vector<T>>& lists,
+                          std::vector<int>* received = nullptr) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<int> out(lists.size()), in(lists.size());
+    std::vector<int> out_at(lists.size() + 1, 0), in_at(lists.size() + 1, 0);
+    std::vector<T> sent;
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+        out[i] = static_cast<int>(lists[i].size());
+        sent.insert(sent.end(), lists[i].begin(), lists[i].end());
+    }
+    MPI_Alltoall(out.data(), 1, MPI_INT, in.data(), 1, MPI_INT, MPI_COMM_WORLD);
+    std::partial_sum(out.begin(), out.end(), out_at.begin() + 1);
+    std::partial_sum(in.begin(), in.end(), in_at.begin() + 1);
+    std::vector<T> all(static_cast<std::size_t>(in_at.back()));
+    MPI_Datatype value = MPI_DATATYPE_NULL; // MPI counts in int: values, not bytes
+    MPI_Type_contiguous(static_cast<int>(sizeof(T)), MPI_BYTE, &value);
+    MPI_Type_commit(&value);
+    MPI_Alltoallv(sent.data(), out.data(), out_at.data(), value, all.data(), in.data(),
+                  in_at.data(), value, MPI_COMM_WORLD);
+    MPI_Type_free(&value);
+    if (received) *received = in;
+    return all;
 }
 
 /// The main() of a program of several ranks: run_main() with a body that is given the

@@ -1,13 +1,17 @@
 #!/usr/bin/env bash
 # Checks the program examples/34_many_machines.cpp: 1 to 4 ranks make the same bytes as one
 # process, and a killed rank leaves no picture. Exit code 77 if mpirun cannot start a rank.
-# Usage: many_machines.sh MPIRUN PROGRAM SCRATCH RENDER SCENE.json
+# A map in regions, chapters/experiments/34_distributed_map.cpp, gives any number of ranks
+# the same picture, to rounding.
+# Usage: many_machines.sh MPIRUN PROGRAM SCRATCH RENDER SCENE.json REGIONS COMPARE
 set -euo pipefail
 mpirun=$1
 program=$2
 scratch=$3
 render=$4
 scene=$5
+regions=$6
+compare=$7
 rm -rf "$scratch"
 mkdir -p "$scratch"
 cd "$scratch"
@@ -40,6 +44,16 @@ cmp few/$picture few1/$picture || wrong "more ranks than rows make another pictu
 # The program `render`, without ranks, makes the same picture.
 "$render" "$scene" "${few[@]}" --quiet --out render.pfm
 cmp render.pfm alone/$picture || wrong "ranks make another picture than render"
+
+# A map in regions. The radius is a tenth of the room, so that most photons have copies.
+for n in 1 2 5; do
+    ranks $n "$regions" "$scene" --width 40 --height 30 --rays 2 --photons 5000 --radius 0.3 \
+        --threads 1 --quiet --out regions$n || wrong "$n regions: exit code $?"
+    "$compare" regions$n/distributed-map.pfm regions1/distributed-map.pfm >out.txt ||
+        wrong "$n regions: $(cat out.txt)"
+    awk '/relMSE/ && $2 < 1e-12 { good = 1 } END { exit !good }' out.txt ||
+        wrong "$n regions make another picture: $(cat out.txt)"
+done
 
 # Wrong usage: one sentence per rank, no picture, and no rank that waits for ever.
 code=0
