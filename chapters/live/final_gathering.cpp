@@ -80,7 +80,7 @@ Read read(const fl::Ray& ray) {
     return {end, &nearest_point({end, up})};
 }
 
-/// The part of a hemisphere's measure to which ray i of n goes, with a random place in it.
+/// The number that sends ray i of n into its part of all directions.
 double stratum(int i, int n, ljus::RandomStream& stream) {
     return (i + next_1d<double>(stream)) / n;
 }

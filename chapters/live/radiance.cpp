@@ -1,5 +1,4 @@
-// Live: a lamp and a patch that moves away from it: photons on the patch, and the lamp as
-// the patch sees it.
+// Live: a patch moves away from a lamp: its photons, and the lamp as it sees it.
 #include <cmath>
 #include <numbers>
 #include <vector>
