@@ -232,6 +232,31 @@ void draw_pixel(const std::string& folder) {
     save_drawing(folder, d);
 }
 
+/// A lamp, and three patches with what their middles see of it.
+void draw_smaller(const std::string& folder) {
+    Drawing d{.name = "radiance-smaller",
+              .description =
+                  "A lamp seen from three distances: it covers less of the view, "
+                  "and has the same radiance",
+              .low{-0.4, -0.6},
+              .high{3.75, 1.3},
+              .scale = 170};
+    constexpr double lamp = 0.2, half_view = 0.36;
+    draw_dot(d, {0, 0}, lamp * d.scale, colors::orange);
+    for (const double r : {0.8, 1.6, 3.2}) {
+        draw_line(d, {{r, -0.25}, {r, 0.25}}, {.width = 4});
+        draw_label(d, {r, -0.45}, "r = " + examples::text(r, "%g"));
+        const Point view{r, 0.85};
+        draw_line(d, {{r - half_view, view.y - half_view},
+                      {r + half_view, view.y - half_view},
+                      {r + half_view, view.y + half_view},
+                      {r - half_view, view.y + half_view},
+                      {r - half_view, view.y - half_view}});
+        draw_dot(d, view, lamp / r / 0.6 * half_view * d.scale, colors::orange);
+    }
+    save_drawing(folder, d);
+}
+
 } // namespace
 
 /// Makes the chapter's drawings.
@@ -243,6 +268,7 @@ int main(int argc, char** argv) {
         draw_inverse_square(folder);
         draw_cosine(folder);
         draw_beam(folder);
+        draw_smaller(folder);
         draw_pixel(folder);
     });
 }

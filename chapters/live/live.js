@@ -15,7 +15,8 @@
 //          \image html still.png "Caption"
 //
 //          \endlive
-//      Text within <span class="ljus-live-only"> is shown while the figure runs.
+//      Text of class ljus-live-only is shown while the figure runs, and ljus-live-still
+//      while it does not. Of captions with data-upto="NUMBER" figure.tell() chooses one.
 //   4. ./scripts/book --dev (or: cmake --build build/dev --target live, and the page).
 //   5. chapters/live/check HTML BIN NAME tries it, in node and in Chromium.
 //
@@ -101,6 +102,8 @@ var ljusLive = (function () {
     //   figure.button(label, onClick)
     //       onChange and format may be left out. They return { input, value, enabled }:
     //       read and set; setting calls no onChange.
+    //   figure.play(slider, seconds)   a button that moves a slider to its end
+    //   figure.tell(value)             shows the first caption whose data-upto is not below
     //   figure.readout(label)          an <output>: set its .value
     //   figure.text(text)              a paragraph below the controls; set .textContent
     //   figure.onDrag(canvas, f)       f({ x, y, dx, dy, first, last, moved, key }):
@@ -112,10 +115,14 @@ var ljusLive = (function () {
     //                                  it returns false it is called again only after a
     //                                  control, a drag, the theme or figure.redraw()
     //   figure.redraw()                asks for a frame
+    //   figure.along(path, length)     the part of a path of [x, y] up to a length
     //   figure.onSight(f)              f(true) and f(false): in sight or not
     //   figure.colors                  of the theme: foreground, background, muted,
     //                                  line, primary, red, green, blue
     //   figure.onDispose(f)            called when the figure ends
+    //
+    // Every figure has a button that resets it, and an address with its controls' values,
+    // PAGE.html#NAME=1,0.5, which changes as they do.
 
     function makeFigure(box, name, wasm, code) {
         const stage = element("div", "ljus-live-stage");
@@ -126,7 +133,7 @@ var ljusLive = (function () {
 
         const figure = { name, wasm, memory: wasm.memory, code, box, stage, frames: 0,
                          inSight: false };
-        const sightListeners = [], endings = [];
+        const sightListeners = [], endings = [], players = [], settings = [];
         let work = () => false, again = true, waiting = false, ended = false;
 
         function end(error) {
@@ -155,7 +162,9 @@ var ljusLive = (function () {
                 if (!figure.inSight || ended) return;
                 again = false;
                 ++figure.frames;
+                for (const move of players) if (move(time)) again = true;
                 if (guarded(work, time) !== false) again = true;
+                if (figure.frames === 1) figure.readAddress(); // sliders have their ends now
                 schedule();
             });
         }
@@ -277,19 +286,36 @@ var ljusLive = (function () {
         };
 
         // --- Controls
-        function control(kind, label, input, value, set, shown) {
+        function control(kind, label, input, onChange, value, set, shown) {
             const row = element("label", "ljus-live-" + kind);
             row.append(element("span", "", label), input);
             if (shown) row.append(shown);
             input.setAttribute("aria-label", label);
             controls.append(row);
-            return { input, get value() { return value(); }, set value(to) { set(to); },
-                     get enabled() { return !input.disabled; },
-                     set enabled(on) { input.disabled = !on; } };
+            const made = { input, get value() { return value(); }, set value(to) { set(to); },
+                           get enabled() { return !input.disabled; },
+                           set enabled(on) { input.disabled = !on; },
+                           choose: to => { set(to); changed(onChange, value()); } };
+            settings.push(made);
+            return made;
         }
         const changed = (onChange, value) => {
             if (onChange) guarded(onChange, value);
             figure.redraw();
+        };
+
+        // --- The address
+        const write = hash => history.replaceState(null, "",
+            location.href.replace(/#.*/, "") + hash);
+        const writeSettings = () => write(
+            "#" + name + "=" + settings.map(one => Number(one.value)).join(","));
+        controls.addEventListener("change", writeSettings);
+        figure.readAddress = () => addressed(name).forEach((value, i) => {
+            if (settings[i] && Number.isFinite(value)) settings[i].choose(value);
+        });
+        figure.reset = () => {
+            write("");
+            restart(figure);
         };
         figure.slider = (label, min, max, step, value, onChange, format) => {
             const input = element("input"), output = element("output");
@@ -305,7 +331,7 @@ var ljusLive = (function () {
                 show();
                 changed(onChange, Number(input.value));
             });
-            return control("slider", label, input, () => Number(input.value),
+            return control("slider", label, input, onChange, () => Number(input.value),
                            to => { input.value = to; show(); }, output);
         };
         figure.toggle = (label, value, onChange) => {
@@ -313,7 +339,7 @@ var ljusLive = (function () {
             input.type = "checkbox";
             input.checked = value;
             input.addEventListener("change", () => changed(onChange, input.checked));
-            return control("toggle", label, input, () => input.checked,
+            return control("toggle", label, input, onChange, () => input.checked,
                            to => { input.checked = to; });
         };
         figure.choice = (label, names, value, onChange) => {
@@ -322,7 +348,7 @@ var ljusLive = (function () {
             input.selectedIndex = value;
             input.addEventListener("change",
                                    () => changed(onChange, input.selectedIndex));
-            return control("choice", label, input, () => input.selectedIndex,
+            return control("choice", label, input, onChange, () => input.selectedIndex,
                            to => { input.selectedIndex = to; });
         };
         figure.button = (label, onClick) => {
@@ -332,6 +358,45 @@ var ljusLive = (function () {
             controls.append(input);
             return { input, get enabled() { return !input.disabled; },
                      set enabled(on) { input.disabled = !on; } };
+        };
+        figure.play = (slider, seconds) => {
+            const { input } = slider, min = Number(input.min), max = Number(input.max);
+            let at = null, last = null; // where it is; null: it stands still
+            const begin = from => {
+                at = from;
+                last = null;
+                button.input.textContent = at === null ? "play" : "pause";
+            };
+            const button = figure.button("play", () => begin(
+                at !== null ? null : slider.value < max ? slider.value : min));
+            input.addEventListener("input", () => begin(null));
+            players.push(time => {
+                if (at === null) return false;
+                const passed = Math.min(time - (last || time), 100) / 1000;
+                last = time;
+                at = Math.min(max, at + (max - min) * passed / seconds);
+                slider.choose(at);
+                if (at === max) {
+                    begin(null);
+                    writeSettings();
+                }
+                return true;
+            });
+        };
+        figure.tell = value => {
+            const all = Array.from(box.querySelectorAll("[data-upto]"));
+            const told = all.find(one => value <= Number(one.dataset.upto));
+            for (const one of all) one.hidden = one !== told;
+        };
+        figure.along = (path, length) => {
+            const part = path.slice(0, 1);
+            for (let i = 1; i < path.length && length > 0; ++i) {
+                const [x, y] = path[i - 1], dx = path[i][0] - x, dy = path[i][1] - y;
+                const step = Math.min(1, length / Math.hypot(dx, dy));
+                part.push([x + step * dx, y + step * dy]);
+                length -= Math.hypot(dx, dy);
+            }
+            return part;
         };
         figure.readout = label => {
             const row = element("div", "ljus-live-readout"), output = element("output");
@@ -363,6 +428,7 @@ var ljusLive = (function () {
             figures.push(figure);
             box.insertBefore(figure.stage, box.firstChild);
             makers[name](figure);
+            figure.resetButton = figure.button("reset", figure.reset).input;
             box.classList.add("ljus-running");
             const sight = new IntersectionObserver(entries => {
                 figure.seen = entries[entries.length - 1].isIntersecting;
@@ -372,8 +438,34 @@ var ljusLive = (function () {
             figure.onDispose(() => sight.disconnect());
         } catch (error) {
             if (figure) figure.dispose();
+            box.classList.remove("ljus-running");
             console.warn("the figure " + name + " stays still:", error);
         }
+    }
+
+    // Begins a figure anew; the page keeps its place meanwhile.
+    function restart({ box, dispose }) {
+        box.style.minHeight = box.offsetHeight + "px";
+        dispose();
+        box.classList.add("ljus-running");
+        start(box).then(() => {
+            box.style.minHeight = "";
+            const now = figures.find(figure => figure.box === box);
+            if (now) now.resetButton.focus({ preventScroll: true });
+        });
+    }
+
+    // The values that the address gives to the controls of a figure.
+    function addressed(name) {
+        const [, figure, values] = /^#(\w+)=([-\d.,]+)$/.exec(location.hash) || [];
+        return figure === name ? values.split(",").map(Number) : [];
+    }
+    function goToAddress() {
+        const box = Array.from(document.querySelectorAll(".ljus-live"))
+            .find(one => addressed(one.dataset.live).length > 0);
+        if (box) box.scrollIntoView({ block: "center" });
+        const running = figures.find(figure => figure.box === box);
+        if (running) restart(running);
     }
 
     document.addEventListener("DOMContentLoaded", () => {
@@ -387,6 +479,8 @@ var ljusLive = (function () {
             }
         }, { rootMargin: "600px" });
         boxes.forEach(box => near.observe(box));
+        goToAddress();
+        window.addEventListener("hashchange", goToAddress);
         new MutationObserver(themeChanged).observe(document.documentElement,
             { attributes: true, attributeFilter: ["class"] });
         matchMedia("(prefers-color-scheme: dark)")
