@@ -588,6 +588,21 @@ TEST_CASE("load_gltf: what is not used is said") {
                    "1 nodes have skins, which are not used: their meshes stand "
                    "as they were modelled.\n"
                    "1 primitives have morph targets, which are not used.\n");
+
+    File dented = triangle();
+    dented.all["images"] = {{{"uri", "none.png"}}};
+    dented.all["textures"] = {{{"source", 0}}};
+    dented.all["materials"] = {{{"normalTexture", {{"index", 0}}}}};
+    dented.primitive()["material"] = 0;
+    const auto says_tangents = [&] {
+        const auto all = read(dented).report.notes;
+        return std::count(all.begin(), all.end(),
+                          "1 primitives have TANGENT, which is not used: a normal map "
+                          "lies along the texture coordinates of each triangle.");
+    };
+    CHECK(says_tangents() == 0);
+    dented.primitive()["attributes"]["TANGENT"] = 0;
+    CHECK(says_tangents() == 1);
 }
 
 TEST_CASE("load_gltf: no file that is cut off, or has another byte, crashes it") {

@@ -7,7 +7,9 @@
 
 #include "ljus/geometry/moving.hpp"
 #include "ljus/lights/point_light.hpp"
+#include "ljus/materials/picture_lamp.hpp"
 #include "ljus/radiosity/form_factor_matrix.hpp"
+#include "ljus/radiosity/radiosity.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/form_factor_facing.hpp"
@@ -133,8 +135,30 @@ TEST_CASE("patches: what there is, and what is left out") {
     odd.add(Triangle{{0, 0, 2}, {0, 1, 2}, {1, 0, 2}}, white);
     const Patches two = make_patches(World(odd), {.size = 10});
     CHECK(two.patches.size() == 2); // one without an area has no patch
-    CHECK(two.left_out ==
-          std::vector<std::string>{"1 light is not a surface and is left out"});
+    CHECK(two.left_out == std::vector<std::string>{
+                              "1 light is no surface with patches and lights nothing"});
+}
+
+TEST_CASE("patches: a textured lamp is said to light nothing, and is drawn as it is") {
+    Scene<Shapes<Quad>, Materials<Lambertian, PictureLamp>> scene;
+    scene.add(Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, scene.add(Lambertian{}));
+    Image picture = make_image(2, 1, Rgb{1});
+    pixel(picture, 1, 0) = Rgb{3};
+    scene.add(Quad{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}},
+              scene.add(PictureLamp{.picture = picture}), Rgb{1});
+    const World world(std::move(scene));
+    const auto made = make_radiosity(world, {.patches{.size = 1}});
+    CHECK(made->patches.left_out ==
+          std::vector<std::string>{
+              "1 object is not Lambertian and reflects no light",
+              "1 light is no surface with patches and lights nothing"});
+    const LightMapView view(world, made->map);
+    RandomStream stream{};
+    Counts counts;
+    auto context = context_of(stream, counts);
+    for (const float y : {0.25f, 0.75f}) // u goes along y
+        CHECK(radiance(view, Ray{.origin{0.5f, y, 0.5f}, .direction{0, 0, 1}}, context)
+                  .x == (y < 0.5f ? 1 : 3));
 }
 
 TEST_CASE("patches: too many are refused before they take any memory") {

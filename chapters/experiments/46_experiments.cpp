@@ -79,7 +79,8 @@ void tabulate_contrast(const std::string& folder, int size) {
 
 using RoomScene = ljus::Scene<ljus::Shapes<Quad>, ljus::Materials<ljus::Lambertian>>;
 
-/// A room with a lamp, other lamps in the room, and lamps in closed boxes behind it.
+/// A room with a lamp, other lamps behind the camera, and lamps in closed boxes behind
+/// the room; all have the same power.
 ljus::World<RoomScene> room_with_lamps(int others, int sealed) {
     RoomScene scene;
     const auto wall = scene.add(ljus::Lambertian{.albedo{0.7f, 0.6f, 0.5f}});
@@ -90,7 +91,7 @@ ljus::World<RoomScene> room_with_lamps(int others, int sealed) {
         scene.add(side, wall, {}, true);
     add_lamp({-0.2f, 1.99f, -0.2f}, 0.4f, 10);
     for (int i = 0; i < others; ++i)
-        add_lamp({-0.9f + 0.3f * float(i), 1.5f, -0.9f}, 0.1f, 10);
+        add_lamp({-0.9f + 0.3f * float(i), 1.9f, 0.5f}, 0.2f, 40);
     for (int i = 0; i < sealed; ++i) {
         const Vec3 low{-2 + 0.4f * float(i % 10), 0.4f * float(i / 10), -3};
         for (const Quad& side : sides_of(ljus::Box{low, low + Vec3{0.3f}}))

@@ -67,3 +67,10 @@ ljus_break_it(NAME nested_bodies-remark HEADER render/passes.hpp TEST nested_bod
     FROM "priority_of(around.ranks[n]) == priority_of(around.ranks[n - 1])"
     TO   "true"
     CASES "nested bodies: what cannot be*")
+
+# Photons are scaled by the index, as radiance is.
+ljus_break_it(NAME nested_bodies-photons HEADER photons/photon_path.hpp
+    TEST nested_bodies
+    FROM "continue_path(path, vertex, material, Transport::flux, which, stream)"
+    TO   "continue_path(path, vertex, material, Transport::radiance, which, stream)"
+    CASES "nested bodies: photons bring*")

@@ -165,3 +165,9 @@ ljus_break_it(NAME light-map-beyond HEADER radiosity/light_map.hpp TEST light_ma
     FROM "grid.object.index < grid_of_[grid.object.type].size()"
     TO   "grid.object.index <= grid_of_[grid.object.type].size()"
     CASES "light_map: a map of another scene*")
+
+# A textured lamp is drawn in one colour.
+ljus_break_it(NAME light-map-picture HEADER radiosity/light_map.hpp TEST patches
+    FROM "if (!side.back) sum = vertex_at(world, ray, *hit).object.emission;"
+    TO   ""
+    CASES "patches: a textured lamp*")

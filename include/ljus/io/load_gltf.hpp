@@ -31,7 +31,8 @@ namespace ljus {
 ///                  for beside it.
 /// \param settings  Scale and normals.
 /// \return The content, and in the report what is wrong or not used: skins, animations,
-///         morph targets, alphaMode BLEND, the scale of normals, other extensions.
+///         morph targets, tangents, alphaMode BLEND, the scale of normals, other
+///         extensions.
 /// \throws std::runtime_error  with one sentence, for a file that breaks the format, or
 ///         requires an extension that is not known: "a.gltf: accessors[2] has 36
 ///         elements of 12 bytes, which do not fit into the 288 bytes of its view.";

@@ -9,6 +9,7 @@
 #include "ljus/math/field_hash.hpp"
 #include "ljus/math/random.hpp"
 #include "ljus/path/direct_light.hpp"
+#include "ljus/path/next_vertex.hpp"
 #include "ljus/path/path_log.hpp"
 #include "ljus/radiosity/patches.hpp"
 
@@ -203,6 +204,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
     const auto& object = world.object(hit->object);
     const detail::HitSideT<T> side = detail::side_of(world, ray, *hit);
     RgbT<T> sum = side.back ? RgbT<T>(0) : object.emission;
+    if constexpr (W::lists_pictures) // at this place of a textured lamp
+        if (!side.back) sum = vertex_at(world, ray, *hit).object.emission;
     context.log.term("emission", "L", sum);
     const std::uint32_t number =
         view.grid_of()[hit->object.type][hit->object.index][side.back];

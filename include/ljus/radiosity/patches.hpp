@@ -199,15 +199,16 @@ template <AnyWorld W>
             all.convex && (Flat<G> ? !(open[0] && open[1]) : object.inside_out);
         std::array<std::uint32_t, 2> sides{no_grid, no_grid};
         world.visit_material(object.material, [&](const auto& m) {
-            if constexpr (!Matt<std::remove_cvref_t<decltype(m)>>)
+            if constexpr (!Matt<std::remove_cvref_t<decltype(m)>>) {
                 ++shiny;
-            else if constexpr (detail::Cuttable<G>)
+            } else if constexpr (detail::Cuttable<G>) {
                 sides = detail::cut_sides(all, shape, id, object, diffuse_albedo(m),
                                           open, settings);
-            else
+                lamps += !is_black(object.emission);
+            } else {
                 ++unknown;
+            }
         });
-        lamps += !is_black(object.emission);
         all.grid_of[id.type].push_back(sides);
     };
     detail::each_shape(world, cut);
@@ -216,8 +217,8 @@ template <AnyWorld W>
     detail::say(all, unknown, " object is of a shape that is not divided into patches",
                 " objects are of a shape that is not divided into patches");
     detail::say(all, static_cast<long long>(world.light_count()) - lamps,
-                " light is not a surface and is left out",
-                " lights are not surfaces and are left out");
+                " light is no surface with patches and lights nothing",
+                " lights are no surfaces with patches and light nothing");
     require(!all.patches.empty(), "the number of patches", 0LL,
             "at least 1: add a Lambertian quad, triangle or ball that sees another");
     return all;

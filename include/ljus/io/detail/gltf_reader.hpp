@@ -232,6 +232,9 @@ private:
         mesh_.place = triangles_ + 1;
         const std::size_t vertices = add_vertices(attributes, place);
         const Surface surface = surface_of(field, attributes, vertices);
+        if (find(attributes, "TANGENT") && surface.material &&
+            find(*surface.material, "normalTexture"))
+            ++tangents_;
         const bool uv = mesh_.counts()[1] > base[1];
         const bool normals = mesh_.counts()[2] > base[2];
 
@@ -640,6 +643,8 @@ private:
         tell(skins_, "nodes have skins, which are not used: their meshes stand as they "
                      "were modelled");
         tell(morphs_, "primitives have morph targets, which are not used");
+        tell(tangents_, "primitives have TANGENT, which is not used: a normal map lies "
+                        "along the texture coordinates of each triangle");
     }
 
     const GltfFile& file_;
@@ -653,7 +658,7 @@ private:
     std::map<std::string, std::size_t> pictures_{};     // numbers of images by name
     std::map<std::string, ImageT<T>> metal_pictures_{}; // by name
     long long metal_pixels_ = 0;
-    long long triangles_ = 0, skins_ = 0, morphs_ = 0;
+    long long triangles_ = 0, skins_ = 0, morphs_ = 0, tangents_ = 0;
     bool gloss_noted_ = false;
 };
 
