@@ -21,6 +21,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
@@ -420,10 +422,18 @@ void body(examples::CommandLine& line) {
     const examples::Options options =
         line.parse({.report = {.width = 0, .height = 0, .samples = 64}});
     request.quiet = options.quiet;
-    if (request.in_double)
-        run_request<double>(line, request, options);
-    else
-        run_request<float>(line, request, options);
+    try {
+        if (request.in_double)
+            run_request<double>(line, request, options);
+        else
+            run_request<float>(line, request, options);
+    } catch (const std::invalid_argument& error) { // its words are the library's
+        std::string what = error.what();
+        constexpr std::string_view word = "max_memory";
+        if (const std::size_t at = what.find(word); at != what.npos)
+            what.replace(at, word.size(), "--photon-memory");
+        throw std::invalid_argument(what);
+    }
 }
 
 } // namespace
