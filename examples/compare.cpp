@@ -17,9 +17,9 @@
 
 #include "common/command_line.hpp"
 #include "common/error_map.hpp"
-#include "common/exr_files.hpp"
 #include "common/plot.hpp"
 #include "common/program_files.hpp"
+#include "common/save_picture.hpp"
 #include "ljus/image/hdr_flip.hpp"
 #include "ljus/inspect/block_statistics.hpp"
 #include "ljus/io/hdr.hpp"
@@ -49,17 +49,9 @@ struct Request {
     bool json = false;
 };
 
-/// The end of a file's name in small letters, as ".pfm".
-std::string type_of(const std::string& path) {
-    std::string type = std::filesystem::path(path).extension().string();
-    for (char& c : type)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return type;
-}
-
 /// A picture that can be compared.
 Image load(const std::string& path) {
-    const std::string type = type_of(path);
+    const std::string type = examples::type_of(path);
     const Image image = type == ".pfm"   ? load_pfm(path)
                         : type == ".hdr" ? load_hdr(path)
                         : type == ".exr" ? examples::load_exr(path)
@@ -291,6 +283,8 @@ void body(examples::CommandLine& line) {
     const std::string map_path =
         options.path(options.file.empty() ? "error-map.png" : options.file);
     if (line.given("--out") && request.map == "none") request.map = "flip";
+    if (line.given("--range") && request.map == "none")
+        throw std::invalid_argument("--range needs --map: it is that of its colours");
     std::vector<std::string> pictures = request.pieces;
     pictures.insert(pictures.end(), {request.image, request.reference});
     examples::require_outputs({{"--out", request.map != "none" ? map_path : ""},

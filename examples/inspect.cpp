@@ -13,10 +13,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "common/command_line.hpp"
+#include "common/program_files.hpp"
 #include "common/save_picture.hpp"
 #include "ljus/io/load_mesh.hpp"
 #include "ljus/lights/environment.hpp"
@@ -180,7 +183,17 @@ void body(examples::CommandLine& line) {
         return print_layers(path);
     }
 
+    if (!camera.empty() && picture.empty())
+        throw std::invalid_argument("--camera needs --picture");
+    constexpr std::string_view types[]{".png", ".hdr", ".pfm", ".exr"};
+    if (!picture.empty() && std::find(std::begin(types), std::end(types),
+                                      examples::type_of(picture)) == std::end(types))
+        throw std::invalid_argument("--picture is " + picture +
+                                    "; its name must end in .png, .hdr, .pfm or .exr");
+    const FilesRead read;
     const LoadedMesh loaded = load_mesh(path, settings);
+    if (!picture.empty())
+        examples::require_outputs({{"--picture", picture}}, examples::paths_of(read));
     std::printf("%s\n", shown_path(path).c_str());
     print_content(loaded);
     if (!picture.empty())

@@ -21,6 +21,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
@@ -98,6 +101,18 @@ RenderedLayersT<T> run(const Renderer& renderer, const LensCameraT<T>& camera,
     return result;
 }
 
+/// A sentence of the library with the names of options in place of its own.
+std::string in_options(std::string sentence) {
+    constexpr std::pair<std::string_view, std::string_view> names[]{
+        {"max_memory", "--photon-memory"},
+        {"caustics_estimate.radius", "--caustic-radius"},
+        {"general_estimate.radius", "--general-radius"}};
+    for (const auto& [name, option] : names)
+        if (const std::size_t at = sentence.find(name); at != sentence.npos)
+            sentence.replace(at, name.size(), option);
+    return sentence;
+}
+
 /// Prints remarks on the terminal, a line each.
 void tell(const std::vector<std::string>& remarks) {
     for (const std::string& remark : remarks)
@@ -136,7 +151,7 @@ RenderedLayersT<typename S::Scalar> map_photons(const FileRoom<S>& room, Request
     examples::stop_if_asked();
     const Passes& passes = mapper.passes();
     const auto& maps = mapper.maps();
-    r.remarks = maps.remarks;
+    r.remarks = in_options(maps.remarks);
     std::fputs(r.remarks.c_str(), stderr);
     if (!r.quiet && (passes.caustics_map || passes.general_map || passes.volume_map)) {
         std::printf("  %-16s %8.2f s\n", "photons", watch.seconds());
@@ -420,10 +435,14 @@ void body(examples::CommandLine& line) {
     const examples::Options options =
         line.parse({.report = {.width = 0, .height = 0, .samples = 64}});
     request.quiet = options.quiet;
-    if (request.in_double)
-        run_request<double>(line, request, options);
-    else
-        run_request<float>(line, request, options);
+    try {
+        if (request.in_double)
+            run_request<double>(line, request, options);
+        else
+            run_request<float>(line, request, options);
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(in_options(error.what()));
+    }
 }
 
 } // namespace

@@ -16,6 +16,9 @@
 #include <vector>
 
 #include "ljus/accel/mesh.hpp"
+#include "ljus/geometry/cylinder.hpp"
+#include "ljus/geometry/disc.hpp"
+#include "ljus/geometry/moving.hpp"
 #include "ljus/geometry/quad.hpp"
 #include "ljus/geometry/triangle.hpp"
 #include "ljus/inspect/survey.hpp"
@@ -347,6 +350,76 @@ TEST_CASE("contacts: a lamp in the plane of the ceiling shines as one below it")
         REQUIRE(beside);
         CHECK(is_black(world.object(beside->object).emission));
     }
+}
+
+TEST_CASE(
+    "contacts: a disc in the plane of other surfaces, and the end of a cylinder") {
+    using Round = Scene<Shapes<Quad, Disc, Cylinder>, Materials<Lambertian, Glass>>;
+    const auto material_at = [](bool turned, const auto& one, const auto& other,
+                                const Vec3& from) {
+        Round scene;
+        const std::array known{scene.add(Lambertian{Rgb{0.5f}}),
+                               scene.add(Lambertian{Rgb{0.2f}})};
+        const auto glass = scene.add(Glass{1.5f});
+        if (turned) other(scene, known, glass);
+        one(scene, known, glass);
+        if (!turned) other(scene, known, glass);
+        const World world(std::move(scene));
+        const auto hit = closest_hit(world, Ray{.origin = from, .direction{0, 0, -1}});
+        REQUIRE(hit);
+        return world.object(hit->object).material;
+    };
+    const auto floor = [](auto& scene, const auto& known, auto) {
+        scene.add(face(0.0f, true, 3.0f), known[0]);
+    };
+    // A rug, slanted towards no axis, and a lamp that looks down on a ceiling's outside.
+    const auto rug = [](auto& scene, const auto& known, auto) {
+        scene.add(Disc{.center{0.3f, 0, 0}, .radius = 0.5f}, known[1]);
+    };
+    const auto lamp = [](auto& scene, const auto& known, auto) {
+        scene.add(Disc{.center{0.3f, 0, 0}, .normal{0, 0, 2}, .radius = 4}, known[1],
+                  Rgb{1});
+    };
+    // A glass: a tube with an end in the plane of the floor.
+    const auto tube = [](auto& scene, const auto&, auto glass) {
+        scene.add(Cylinder{.axis{0, 0, 1}, .radius = 1}, glass);
+        scene.add(Disc{.normal{0, 0, -1}, .radius = 1}, glass);
+        scene.add(Disc{.center{0, 0, 1}, .radius = 1}, glass);
+    };
+    for (const bool turned : {false, true}) {
+        const MaterialId grey{0, 0}, dark{0, 1};
+        CHECK(material_at(turned, floor, rug, {0.79f, 0, 1}) == dark);
+        CHECK(material_at(turned, floor, rug, {0.81f, 0, 1}) == grey);
+        CHECK(material_at(turned, floor, lamp, {2, 2, 1}) == dark);
+        CHECK(material_at(turned, floor, tube, {0.5f, 0, 0.5f}) == grey);
+        CHECK(material_at(turned, floor, tube, {0.5f, 0, 1.5f}) == MaterialId{1, 0});
+    }
+}
+
+TEST_CASE("contacts: what slides over a surface is met where it is at that time") {
+    using Sliding = Scene<Shapes<Quad, Moving<Quad>>, Materials<Lambertian>>;
+    for (const float up : {0.0f, 0.5f}) // a rug, and what is lifted off the floor
+        for (const bool turned : {false, true}) {
+            Sliding scene;
+            const auto grey = scene.add(Lambertian{Rgb{0.5f}});
+            const auto dark = scene.add(Lambertian{Rgb{0.2f}});
+            const Moving<Quad> rug{.shape = face(0.0f, true, 1.0f),
+                                   .displacement{2, 1, up}};
+            if (turned) scene.add(rug, dark);
+            scene.add(face(0.0f, true, 9.0f), grey);
+            if (!turned) scene.add(rug, dark);
+            const World world(std::move(scene));
+            CHECK(world.contacts().pairs.size() == (up == 0 ? 1 : 0));
+            for (const float time : {0.25f, 0.5f, 1.0f})
+                for (const float x : {-0.99f, 0.99f, 1.01f}) {
+                    const auto hit =
+                        closest_hit(world, Ray{.origin{2 * time + x, time, 2},
+                                               .direction{0, 0, -1},
+                                               .time = time});
+                    REQUIRE(hit);
+                    CHECK((world.object(hit->object).material == dark) == (x < 1));
+                }
+        }
 }
 
 TEST_CASE("contacts: no order of a list changes what a path finds") {

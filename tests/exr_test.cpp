@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -252,6 +253,47 @@ TEST_CASE("exr: what is wrong with a file is said in a sentence") {
     CHECK(with_corner({0x00ffffff, 0x00ffffff}).find("16777216 x 16777216 pixels") !=
           std::string::npos);
     CHECK(with_corner({0xffffffff, 7}).starts_with(file + " is damaged"));
+}
+
+TEST_CASE("exr: other primaries than those of sRGB are refused by name") {
+    const std::string file = folder.file("primaries.exr");
+    const auto refusal_with = [&](const std::array<float, 8>& primaries) {
+        save_exr(make_image<float>(2, 1, Rgb{0.5f}), file);
+        Bytes bytes = load_file(file, 1 << 20);
+        // The offset of the only chunk, which stands before it, becomes larger.
+        const auto number = [&](std::size_t at) {
+            return bytes[at] | std::size_t(bytes[at + 1]) << 8;
+        };
+        std::size_t at = 8;
+        while (number(at) != at + 8) ++at;
+        Bytes attribute;
+        for (int i = 0; i < 2; ++i) {
+            for (const char c : std::string("chromaticities"))
+                attribute.push_back(static_cast<unsigned char>(c));
+            attribute.push_back(0);
+        }
+        attribute.insert(attribute.end(), {32, 0, 0, 0});
+        for (const float value : primaries)
+            for (int shift = 0; shift < 32; shift += 8)
+                attribute.push_back(static_cast<unsigned char>(
+                    std::bit_cast<std::uint32_t>(value) >> shift));
+        const std::size_t behind = at + 8 + attribute.size();
+        bytes[at] = static_cast<unsigned char>(behind);
+        bytes[at + 1] = static_cast<unsigned char>(behind >> 8);
+        bytes.insert(bytes.begin() + 8, attribute.begin(), attribute.end());
+        save_file(file, bytes);
+        return refusal_of(file);
+    };
+    // Those of sRGB, with its white or another; of ACES; with another blue alone.
+    for (const float white : {0.3127f, 0.3457f})
+        CHECK(refusal_with({0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, white, 0.329f}) ==
+              "accepted");
+    for (const std::array<float, 8>& other :
+         {std::array{0.7347f, 0.2653f, 0.0f, 1.0f, 0.0001f, -0.077f, 0.3217f, 0.3377f},
+          std::array{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.03f, 0.3127f, 0.329f}})
+        CHECK(refusal_with(other) ==
+              file + " has other primaries than those of sRGB, as its chromaticities "
+                     "say; convert it to them.");
 }
 
 TEST_CASE("exr: what reads meshes reads pictures as well") {

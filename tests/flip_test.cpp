@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "ljus/image/flip.hpp"
 #include "ljus/image/hdr_flip.hpp"
@@ -216,4 +217,31 @@ TEST_CASE("flip: HDR: black, infinite and NaN pictures have a number") {
         4, 4, {infinity, std::numeric_limits<double>::quiet_NaN(), 1});
     const double error = hdr_flip(black, odd);
     CHECK((error >= 0 && error <= 1));
+}
+
+TEST_CASE("flip: of a large picture, tile by tile, as of all of it at once") {
+    // A tile has 512 pixels a side; of 80 pixels a degree 11 around one count.
+    constexpr double ppd = 80;
+    for (const auto& [width, height] : {std::pair{1100, 20}, {20, 1100}, {600, 540}}) {
+        CAPTURE(width);
+        const ImageD a = picture(width, height, pattern),
+                     b = picture(width, height, changed);
+        CHECK(flip_map(a, b, ppd).pixels == detail::flip_tile(a, b, ppd).pixels);
+        ImageD worst = make_image<double>(width, height); // of all exposures
+        const detail::Exposures exposures = detail::exposures_of(b);
+        for (int i = 0; i < exposures.count; ++i) {
+            const double part = double(i) / (exposures.count - 1);
+            const auto developed = [&](ImageD of) {
+                const double light = std::exp2(
+                    exposures.first + part * (exposures.last - exposures.first));
+                for (RgbD& c : of.pixels)
+                    for (int k = 0; k < 3; ++k) c[k] = detail::film_curve(light * c[k]);
+                return of;
+            };
+            const ImageD map = detail::flip_tile(developed(a), developed(b), ppd);
+            for (std::size_t k = 0; k < map.pixels.size(); ++k)
+                worst.pixels[k] = glm::max(worst.pixels[k], map.pixels[k]);
+        }
+        CHECK(hdr_flip_map(a, b, ppd).pixels == worst.pixels);
+    }
 }

@@ -469,6 +469,12 @@ TEST_CASE("load_gltf: a file that cannot be right is refused with a sentence") {
          "extensionsRequired[0] is \"KHR_draco_mesh_compression\"; it must be "
          "KHR_lights_punctual, KHR_materials_emissive_strength, KHR_materials_ior, "
          "KHR_materials_transmission, KHR_mesh_quantization or KHR_texture_transform."},
+        {"", R"({"asset": {"minVersion": "2.1"}})",
+         "asset.minVersion is \"2.1\"; it must be 2.0, the version of glTF that is "
+         "known."},
+        {"nodes", R"({"matrix": [1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]})",
+         "nodes[0].matrix is a list of 16 entries; it must be a matrix "
+         "whose last row, every fourth number, is 0, 0, 0, 1."},
         {"", R"({"scene": 3})", "scene is 3; it must be a whole number within [0, 0]."},
         {"", R"({"meshes": null})",
          "nodes[0].mesh names one of meshes, but there are none."},
@@ -578,11 +584,18 @@ TEST_CASE("load_gltf: what is not used is said") {
         "emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0},
         "alphaMode": "MASK", "extensions": {"KHR_materials_sheen": {}}}])"_json;
     file.primitive()["material"] = 0;
+    file.primitive()["indices"] = file.add({0, 1, 2, 0, 1}, "SCALAR", u8);
+    file.all["extensionsUsed"] = {"KHR_materials_sheen", "KHR_texture_transform",
+                                  "EXT_mesh_gpu_instancing"};
     const auto loaded = read(file);
     CHECK(loaded.parts.at(0).material.emission == glm::dvec3(0));
     std::string notes;
     for (const std::string& note : loaded.report.notes) notes += note + "\n";
-    CHECK(notes == "materials[0] (odd) has what is not used: occlusionTexture, "
+    CHECK(notes == "extensionsUsed[2] is EXT_mesh_gpu_instancing, which is not known: "
+                   "what it adds is left out.\n"
+                   "meshes[0].primitives[0] has 5 corners of triangles; the last 2 are "
+                   "left out.\n"
+                   "materials[0] (odd) has what is not used: occlusionTexture, "
                    "emissiveTexture, alphaMode MASK and KHR_materials_sheen.\n"
                    "2 animations are not used.\n"
                    "1 nodes have skins, which are not used: their meshes stand "

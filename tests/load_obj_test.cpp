@@ -901,6 +901,42 @@ TEST_CASE("load_obj: the rarer words of a file") {
     CHECK(no_glass.object({0, 1}).material.type == 0);
 }
 
+TEST_CASE("load_obj: lines that are not used are counted, by their first words") {
+    const ScratchFolder folder;
+    ScratchFolder::write(folder.file("a.mtl"),
+                         "newmtl gold\nKa 0 0 0\nKd 1 0.8 0.3\nNs 900\nPm 1\nPr 0.2\n"
+                         "newmtl clay\nPm 0\nmap_Pr r.png\nTf 0.5 1 1\n");
+    const std::string path = folder.file("a.obj");
+    ScratchFolder::write(path, "mtllib a.mtl\ncall legs.obj\nbevel off\nV 0 0 0\n"
+                               "v 0 0 0\nv 1 0 0\nv 0 1 0\nV 1 1 1\nf 1 2 3\n");
+    const std::string mtl = folder.file("a.mtl"), begin = " lines begin with ",
+                      end = "; they are not used.";
+    CHECK(load_obj(path).report.notes ==
+          std::vector<std::string>{mtl + ", line 5: 2" + begin + "Pm" + end,
+                                   mtl + ", line 6: 1" + begin + "Pr" + end,
+                                   mtl + ", line 10: 1" + begin + "Tf" + end,
+                                   mtl + ", line 9: 1" + begin + "map_Pr" + end,
+                                   path + ", line 4: 2" + begin + "V" + end,
+                                   path + ", line 2: 1" + begin + "call" + end});
+    // Of many words the first twenty.
+    std::string many = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for (int i = 0; i < 50; ++i) many += "x" + std::to_string(i) + "\n";
+    CHECK(read_obj(many, "x.obj").report.notes.size() == 20);
+    // A picture, and nothing that says how it lies.
+    ScratchFolder::write(folder.file("b.mtl"), "newmtl wall\nmap_Kd p.png\n");
+    save_png(make_image<float>(1, 1, Rgb{1}), folder.file("p.png"));
+    ScratchFolder::write(path, "mtllib b.mtl\nusemtl wall\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                               "f 1 2 3\n");
+    CHECK(load_obj(path).report.notes ==
+          std::vector<std::string>{"the pictures of material wall lie on each triangle "
+                                   "alike: its faces have no texture coordinates."});
+    // Colours from 0 to 255 are none.
+    const auto report =
+        read_obj("v 0 0 0 255 0 0\nv 1 0 0 9 9 9\nv 0 1 0 1 1 1\nf 1 2 3\n", "x.obj")
+            .report;
+    CHECK(report[MeshTrouble::vertex_color].count == 3);
+}
+
 TEST_CASE("load_obj: files of other programs") {
     // Each has one peculiarity; the right values are worked out by hand.
     struct Case {

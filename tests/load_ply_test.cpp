@@ -134,7 +134,7 @@ TEST_CASE("load_ply: the colours of vertices are interpolated between them") {
     const std::string none = head("property float red\nproperty float green\n"
                                   "property float blue\n") +
                              "0 0 0 0.5 1 0\n1 0 0 0.5 7 0\n0 1 0 1 1 1\n3 0 1 2\n";
-    CHECK(read(none).report[MeshTrouble::vertex_color].count == 2);
+    CHECK(read(none).report[MeshTrouble::vertex_color].count == 3);
     CHECK(read(none).parts.at(0).material.diffuse == glm::dvec3(0.5));
 }
 
@@ -148,6 +148,43 @@ TEST_CASE("load_ply: colours that vary widely stay within [0, 1]") {
     CHECK_NOTHROW(check(picture)); // which refuses colours that are not
     CHECK(picture.image.width == 2);
     CHECK(picture.image.height == 2);
+}
+
+TEST_CASE("load_ply: faces may stand before the vertices, their colours are named") {
+    const std::string text =
+        "ply\nformat ascii 1.0\ncomment\nelement face 1\n"
+        "property list uchar int vertex_indices\nproperty uchar red\n"
+        "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float nx\nproperty float ny\nproperty float nz\n"
+        "property float quality\nend_header\n"
+        "4 0 1 2 3 255\n0 0 0 0 0.6 0.8 7\n2 0 0 0 0.6 0.8 7\n2 2 0 0 0.6 0.8 7\n"
+        "0 2 0 0 0.6 0.8 7\n";
+    const auto loaded = read(text);
+    CHECK(area(loaded.parts.at(0).mesh) == 4);
+    CHECK(loaded.parts[0].mesh.data().normals.at(3) == Vec3{0, 0.6f, 0.8f});
+    CHECK(loaded.report.notes ==
+          std::vector<std::string>{
+              "properties of the elements vertex are not used: quality.",
+              "properties of the elements face are not used: red."});
+    // A column that the header does not have shifts all that follows.
+    CHECK(to_text(read(text + "9 9 9\n").report)
+              .find("the file goes on for 6 bytes behind the last element that its "
+                    "header lists; they are not used.") != std::string::npos);
+}
+
+TEST_CASE("load_ply: behind a header whose lines end in CR, LF is a number") {
+    // A face of ten corners, whose number is that of LF, before its vertices.
+    Bytes bytes = bytes_of("ply\rformat binary_little_endian 1.0\relement face 1\r"
+                           "property list uchar uchar vertex_index\relement vertex 10\r"
+                           "property uchar x\rproperty uchar y\rproperty uchar z\r"
+                           "end_header\r\n");
+    for (unsigned char i = 0; i < 10; ++i) bytes.push_back(i);
+    const int places[10][2]{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0},
+                            {4, 2}, {3, 2}, {2, 2}, {1, 2}, {0, 2}};
+    for (const auto& [x, y] : places)
+        for (const int number : {x, y, 0})
+            bytes.push_back(static_cast<unsigned char>(number));
+    CHECK(area(read_ply(bytes, "x.ply").parts.at(0).mesh) == 8);
 }
 
 TEST_CASE("load_ply: a file that cannot be right is refused with a sentence") {
@@ -198,8 +235,8 @@ TEST_CASE("load_ply: a file that cannot be right is refused with a sentence") {
          "no face of the file can be used; the first problem: element 2: 1 vertices "
          "have coordinates that are not finite numbers; their faces are left out."},
         {as("vertex_indices", "corners"),
-         "no face of the file can be used; a mesh has elements 'face' with a list "
-         "'vertex_indices'."},
+         "no face of the file can be used; the first problem: properties of the "
+         "elements face are not used: corners."},
     };
     for (const auto& [text, why] : cases) CHECK(message(text) == "x.ply: " + why);
 }

@@ -51,10 +51,39 @@ TEST_CASE("load_stl: two solids, capital letters, polygons, and attributes") {
     colored[84 + 48] = 7;
     CHECK(to_text(read_stl(colored, "x.stl").report) ==
           "the triangles have attributes, perhaps colours; they are not used.\n");
-    // Bytes behind the last triangle are not read.
-    colored[84 + 48] = 0;
-    colored.push_back(1);
-    CHECK(to_text(read_stl(colored, "x.stl").report).empty());
+}
+
+TEST_CASE("load_stl: binary or text, whatever it begins with, and what is left over") {
+    const MeshData data{.positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                        .triangles{{0, 1, 2}}};
+    const auto notes = [](const Bytes& bytes) {
+        const auto loaded = read_stl(bytes, "x.stl");
+        CHECK(loaded.parts.at(0).mesh.size() == 1);
+        return loaded.report.notes;
+    };
+    // As a program of CAD begins, filled up with blanks; a byte more than there are.
+    Bytes solid = stl_bytes(data, false);
+    const std::string head = "solid gear";
+    std::fill_n(solid.begin(), 80, static_cast<unsigned char>(' '));
+    std::copy(head.begin(), head.end(), solid.begin());
+    CHECK(notes(solid).empty());
+    solid.push_back('\n');
+    CHECK(notes(solid) == std::vector<std::string>{
+                              "the file goes on for 1 bytes behind the 1 triangles "
+                              "that its head names; they are not used."});
+    solid[80] = 0;
+    CHECK(message(solid) ==
+          "x.stl: no face of the file can be used; the first problem: "
+          "the file goes on for 51 bytes behind the 0 triangles that "
+          "its head names; they are not used.");
+    // A text with a byte order mark; one that is cut off between two triangles.
+    const std::string text = "\xef\xbb\xbfsolid a\nfacet normal 0 0 1\nouter loop\n"
+                             "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+                             "endfacet\n";
+    CHECK(notes(bytes_of(text + "endsolid a\n")).empty());
+    CHECK(notes(bytes_of(text)) ==
+          std::vector<std::string>{
+              "the file ends before 'endsolid': perhaps it is cut off."});
 }
 
 TEST_CASE("load_stl: a file that cannot be right is refused with a sentence") {

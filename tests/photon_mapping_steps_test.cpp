@@ -763,3 +763,31 @@ TEST_CASE("photon mapping: caustics photons that were traced elsewhere") {
               gathered.set_caustics(own.maps().caustics);
           }).starts_with("The irradiance was already gathered"));
 }
+
+TEST_CASE("photon mapping: a radius in another unit than the scene's is remarked on") {
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    PhotonMappingSettings settings = few_photons(IndirectLight::photons);
+    settings.caustics_estimate.radius = settings.general_estimate.radius = 0;
+    const PhotonMapper chosen(room, settings);
+    CHECK(chosen.maps().remarks.find(".radius is") == std::string::npos);
+    for (const float scale : {1e-3f, 0.2f, 2.0f, 1e3f}) {
+        CAPTURE(scale);
+        settings.caustics_estimate.radius =
+            scale * chosen.settings().caustics_estimate.radius;
+        settings.general_estimate.radius =
+            scale * chosen.settings().general_estimate.radius;
+        const std::string remarks = PhotonMapper(room, settings).maps().remarks;
+        for (const char* name :
+             {"caustics_estimate.radius is", "general_estimate.radius is"})
+            CHECK((remarks.find(name) != std::string::npos) ==
+                  (scale < 0.1f || scale > 10));
+        CHECK((remarks.find("photons: most of their light is missed; 0 chooses") !=
+               std::string::npos) == (scale < 0.1f));
+        CHECK((remarks.find("photons: their light is blurred away; 0 chooses") !=
+               std::string::npos) == (scale > 10));
+    }
+    // Nobody asks the general map where rays carry the light.
+    settings.indirect = IndirectLight::rays;
+    CHECK(PhotonMapper(room, settings).maps().remarks.find("general_estimate") ==
+          std::string::npos);
+}

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -496,6 +497,12 @@ TEST_CASE("texture: a PNG file of another kind, and one of another gamma") {
     CHECK(srgb == doctest::Approx(0.5).epsilon(0.01));
     CHECK(shown(with("gAMA", 45455, true)) == srgb);
     CHECK(shown(with("sRGB", 0, false)) == srgb);
+    // Primaries and transfer by number: of sRGB, of HDR television, of Display P3.
+    CHECK(shown(with("cICP", 0x010d0001, true)) == srgb);
+    for (const std::uint32_t other : {0x09100001u, 0x0c0d0001u, 0x01080001u})
+        CHECK_THROWS_WITH((void)shown(with("cICP", other, true)),
+                          "a is a PNG file whose colours are not those of sRGB, as its "
+                          "cICP chunk says; save it as sRGB.");
 }
 
 TEST_CASE("texture: a photograph stands upright, as its EXIF segment says") {
@@ -603,6 +610,68 @@ TEST_CASE("texture: files that other readers of pictures had trouble with") {
     CHECK(refusal("arithmetic.jpg") ==
           " is a JPEG file that is lossless, in layers or coded arithmetically; save "
           "it as baseline JPEG or PNG.");
+}
+
+TEST_CASE("texture: BMP files from the top, of few colours, cut off and compressed") {
+    const auto refusal_of = [](const Bytes& bytes) -> std::string {
+        try {
+            (void)decode_image(bytes, "a");
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    // `colors` are those of its palette: blue, green, red, and a byte for nothing.
+    const auto bmp = [](int width, int height, int bits, const Bytes& colors,
+                        const Bytes& pixels, int compression = 0) {
+        Bytes file{'B', 'M'};
+        const auto add = [&](long long value, int size) {
+            for (int k = 0; k < size; ++k)
+                file.push_back(static_cast<unsigned char>(value >> 8 * k));
+        };
+        const auto offset = static_cast<long long>(54 + colors.size());
+        for (const long long word : {0LL, 0LL, offset, 40LL}) add(word, 4);
+        add(width, 4);
+        add(height, 4);
+        add(1, 2);
+        add(bits, 2);
+        for (const int word : {compression, 0, 0, 0, 0, 0}) add(word, 4);
+        file.insert(file.end(), colors.begin(), colors.end());
+        file.insert(file.end(), pixels.begin(), pixels.end());
+        return file;
+    };
+    const Rgb red{1, 0, 0}, green{0, 1, 0}, black{0};
+    // A red row above a green one, stored in both orders.
+    const Bytes red_first{0, 0, 255, 0, 0, 255, 0, 0};
+    CHECK(decode_image(bmp(1, -2, 24, {}, red_first), "a").pixels ==
+          std::vector{red, green});
+    CHECK(decode_image(bmp(1, 2, 24, {}, red_first), "a").pixels ==
+          std::vector{green, red});
+    // Indices 0 to 3 into a palette of red and green, of a byte, half a byte and a bit.
+    const Bytes two{0, 0, 255, 0, 0, 255, 0, 0};
+    const std::vector right{red, green, black, black};
+    CHECK(decode_image(bmp(4, 1, 8, two, {0, 1, 2, 3}), "a").pixels == right);
+    CHECK(decode_image(bmp(4, 1, 4, two, {0x01, 0x23, 0, 0}), "a").pixels == right);
+    CHECK(decode_image(bmp(2, 1, 1, two, {0x40, 0, 0, 0}), "a").pixels ==
+          std::vector{red, green});
+    // The oldest head, and the last one of 256 colours of three bytes.
+    Bytes old{'B', 'M', 0, 0, 0, 0, 0, 0, 0, 0, 26 + 0, 3, 0, 0, 12, 0, 0, 0};
+    old.insert(old.end(), {1, 0, 1, 0, 1, 0, 8, 0});
+    old.resize(26 + 3 * 256);
+    old[26 + 3 * 255 + 2] = 255;
+    old.insert(old.end(), {255, 0, 0, 0});
+    CHECK(decode_image(old, "a").pixels == std::vector{red});
+    // Each byte but those that fill up the last row is needed.
+    const Bytes whole = bmp(3, 2, 24, {}, Bytes(24, 200));
+    const std::string ends = "a is damaged: it ends in the middle of its pixels.";
+    for (std::size_t size = 54; size < whole.size() - 3; ++size)
+        CHECK(refusal_of(Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(size))) ==
+              ends);
+    CHECK(refusal_of(Bytes(whole.begin(), whole.end() - 3)).empty());
+    CHECK(refusal_of(bmp(1, std::numeric_limits<int>::min(), 24, {}, {}))
+              .find("a has 1 x 2147483648") == 0);
+    CHECK(refusal_of(bmp(8, 1, 8, two, {8, 1, 0, 0, 0, 1}, 1)) ==
+          "a is a BMP file that is compressed; save it without, or as PNG.");
 }
 
 TEST_CASE("texture: of pictures only those are read whose reader is trusted, and of "

@@ -685,7 +685,7 @@ TEST_CASE("tracing: memory is foretold, and refused in a sentence before it is t
                 CHECK_THROWS_WITH_AS(
                     (void)trace_photons(room, law,
                                         {.photons = photons, .numbers = numbers}),
-                    doctest::Contains("max_memory allows 4 GB"), std::invalid_argument);
+                    doctest::Contains("max_memory is 4 GB"), std::invalid_argument);
     // If the blocks alone take too much, no path is traced.
     int asked = 0;
     const auto ask = [&](long long, long long) { return ++asked > 0; };
@@ -812,19 +812,25 @@ TEST_CASE("tracing: the memory by hand, and what the sentences say") {
     // 2 x 10^9 x 2 x 44 bytes, and 10^9 / 512 blocks besides, some hundred bytes each.
     const PhotonPassSettings pass{.photons = 1000000000, .max_memory = 3e9};
     const double gigabytes = (176e9 + 1953125 * block) * 1e-9;
-    char right[40];
-    std::snprintf(right, sizeof right, "take %.3g GB at 2 stored", gigabytes);
-    CHECK_THROWS_WITH_AS(detail::require_memory<float>(pass, 2),
-                         doctest::Contains(right), std::invalid_argument);
-    CHECK_THROWS_WITH_AS(detail::require_memory<float>(pass, 2),
-                         doctest::Contains("photons is 1000000000, which"),
-                         std::invalid_argument);
-    CHECK_THROWS_WITH_AS(detail::require_memory<float>(pass, 2),
-                         doctest::Contains("max_memory allows 3 GB."),
-                         std::invalid_argument);
+    const auto words = [](MapType map, const PhotonPassSettings& of, double mean) {
+        try {
+            detail::require_memory<float>(map, of, mean);
+        } catch (const std::invalid_argument& wrong) {
+            return std::string(wrong.what());
+        }
+        return std::string();
+    };
+    char right[200];
+    std::snprintf(right, sizeof right,
+                  "The 1000000000 photons for the caustics map would take %.3g GB, and "
+                  "max_memory is 3 GB: %.0f photons would fit.",
+                  gigabytes, 512 * std::floor(3e9 / (2 * 512 * 2 * 44 + block)));
+    CHECK(words(MapType::caustics, pass, 2) == right);
+    CHECK(words(MapType::general, {.photons = 1000, .max_memory = 1}, 0)
+              .ends_with("max_memory is 1e-09 GB: at most 0 photons would fit."));
     const PhotonPassSettings exact{
         .photons = 1024, .max_memory = detail::expected_bytes<float>(1024, 1)};
-    CHECK_NOTHROW(detail::require_memory<float>(exact, 1)); // all of it may be taken
+    CHECK(words(MapType::general, exact, 1).empty()); // all of it may be taken
 
     // Of 800 paths 200 could not be sent; the others' 8 W went by tenths.
     const FluxAudit audit{.emitted{1, 2, 5},
@@ -1268,7 +1274,8 @@ TEST_CASE("tracing: as many lights as 16 bits can number, and no more") {
         LightChoice choice;
         for (std::size_t i = 0; i < lights; ++i)
             choice.cumulative.push_back(double(i + 1));
-        return detail::start_pass<float>(PhotonPassSettings{}, choice);
+        return detail::start_pass<float>(MapType::general, PhotonPassSettings{},
+                                         choice);
     };
     CHECK(start(65536).cumulative.size() == 65536);
     CHECK_THROWS_WITH_AS(

@@ -500,6 +500,8 @@ Options CommandLine::parse(const Presets& presets) {
     }
     fill(options.pick(presets.draft, presets.report, presets.reference));
     const std::vector<std::string>& types = parser_->file_types;
+    if (given("--out") && parser_->out.empty())
+        throw std::invalid_argument("--out is empty; it must be a name");
     const std::filesystem::path out = options.out = parser_->out;
     std::error_code error; // the text may not be a valid name at all
     const bool folder = std::filesystem::is_directory(out, error);

@@ -13,9 +13,17 @@
 
 namespace examples {
 
+/// The end of a file's name in small letters, as ".pfm".
+[[nodiscard]] inline std::string type_of(const std::string& path) {
+    std::string type = std::filesystem::path(path).extension().string();
+    for (char& c : type)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return type;
+}
+
 /// Whether a file's name says that it is an EXR file.
 [[nodiscard]] inline bool is_exr(const std::string& path) {
-    return std::filesystem::path(path).extension() == ".exr";
+    return type_of(path) == ".exr";
 }
 
 /// Saves a picture as PFM, HDR or EXR, which hold radiance, or else as PNG.
@@ -25,7 +33,7 @@ namespace examples {
 template <std::floating_point T>
 void save_picture(const ljus::ImageT<T>& image, const std::string& path,
                   double exposure) {
-    const std::string kind = std::filesystem::path(path).extension().string();
+    const std::string kind = type_of(path);
     if (kind == ".pfm")
         ljus::save_pfm(image, path);
     else if (kind == ".hdr")

@@ -74,8 +74,8 @@ split_path(PathStateT<float>&, const VertexT<float>&, const Glass&);
 // Photons.
 LJUS_CORE_EXTERN template LightChoice light_choice(const std::vector<Rgb>&);
 namespace detail {
-LJUS_CORE_EXTERN template LightChoice start_pass<float>(const PhotonPassSettings&,
-                                                        LightChoice);
+LJUS_CORE_EXTERN template LightChoice
+start_pass<float>(MapType, const PhotonPassSettings&, LightChoice);
 LJUS_CORE_EXTERN template TracedPhotonsT<float>
 run_pass(MapType, const PhotonPassSettings&, BlockTracerT<float>);
 LJUS_CORE_EXTERN template bool scatter_photon(PathStateT<float>&, const VertexT<float>&,

@@ -69,3 +69,15 @@ ljus_break_it(NAME contacts-remark HEADER render/passes.hpp TEST contacts
     FROM "    detail::add_contact_remarks(world.contacts(), type_of, remarks);"
     TO   ""
     CASES "contacts: the survey says*")
+
+# A disc in the plane of a floor is met or not, by the order of the list.
+ljus_break_it(NAME contacts-disc HEADER scene/contacts.hpp TEST contacts
+    FROM "is_facet<G> || is_disc<G> || is_ball<G>"
+    TO   "is_facet<G> || is_ball<G>"
+    CASES "contacts: a disc*")
+
+# A rug that is pulled over the floor is met or not, by the order of the list.
+ljus_break_it(NAME contacts-slides HEADER scene/contacts.hpp TEST contacts
+    FROM "return slides(facet_of(shape.shape), glm::dvec3(shape.displacement)) ? 1 : 0;"
+    TO   "return 0;"
+    CASES "contacts: what slides*")

@@ -33,3 +33,9 @@ ljus_break_it(NAME exr-two-names HEADER io/exr.hpp TEST exr
     FROM "name == channels[i - 1].name"
     TO   "name.empty()"
     CASES "exr: layers that no file*")
+
+# The colours of other primaries are taken for those of sRGB.
+ljus_break_it(NAME exr-primaries HEADER io/exr.hpp TEST exr
+    FROM "reader.require_srgb(found->part);"
+    TO   ";"
+    CASES "exr: other primaries*")

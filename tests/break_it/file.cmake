@@ -51,3 +51,9 @@ ljus_break_it(NAME file-pieces HEADER io/file.hpp TEST file
     FROM "left = text.size() - used;"
     TO   "left = 0;"
     CASES "file: pieces*")
+
+# What another process writes is taken for what a killed one has left.
+ljus_break_it(NAME file-lock HEADER io/file_beside.hpp TEST file
+    FROM "::flock(left, LOCK_EX | LOCK_NB) == 0 && "
+    TO   ""
+    CASES "file: what a killed program*")

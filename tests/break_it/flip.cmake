@@ -52,3 +52,9 @@ ljus_break_it(NAME flip-hdr-most HEADER image/hdr_flip.hpp TEST flip
     FROM "std::min(y, most)"
     TO   "y"
     CASES "flip: HDR: the film's curve*")
+
+# A tile comes without what is around it.
+ljus_break_it(NAME flip-tiles HEADER image/detail/flip_filter.hpp TEST flip
+    FROM "const int around = eye_radius(ppd),"
+    TO   "const int around = eye_radius(ppd) - 2,"
+    CASES "flip: of a large*")

@@ -97,3 +97,9 @@ ljus_break_it(NAME photon-mapping-spared HEADER render/photon_mapping.hpp
     FROM "!branches.empty() && !path.met_diffuse"
     TO   "!branches.empty()"
     CASES "photon mapping: behind a matt surface no branch*")
+
+# A radius of another unit than the scene's loses all caustics without a word.
+ljus_break_it(NAME photon-mapping-unit HEADER render/photon_mapping.hpp TEST photon_mapping_steps
+    FROM "const bool few = found < 0.1,"
+    TO   "const bool few = found < 0,"
+    CASES "photon mapping: a radius in another unit*")

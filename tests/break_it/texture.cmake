@@ -185,3 +185,21 @@ ljus_break_it(NAME texture-turn HEADER image/texture.hpp TEST texture
     FROM "map.turn.x * scaled.x - map.turn.y * scaled.y,"
     TO   "map.turn.x * scaled.x + map.turn.y * scaled.y,"
     CASES "texture: a UvMap scales*")
+
+# A BMP file that is cut off is black where it ends.
+ljus_break_it(NAME bmp-cut HEADER io/detail/picture_damage.hpp TEST texture
+    FROM "(height - 1) * row + (width * bits + 7) / 8"
+    TO   "(height - 1) * row"
+    CASES "texture: BMP files*")
+
+# Colours behind the end of a BMP file's palette are from memory that nobody has set.
+ljus_break_it(NAME bmp-palette HEADER io/load_image.hpp TEST texture
+    FROM ": is_bmp ? bmp_with_whole_palette(bytes)"
+    TO   ": is_bmp ? Bytes{}"
+    CASES "texture: BMP files*")
+
+# The brightness of an HDR picture is taken for that of a plain one.
+ljus_break_it(NAME png-cicp HEADER io/detail/picture_damage.hpp TEST texture
+    FROM "|| byte_at(file, at + 9) != 13"
+    TO   ""
+    CASES "texture: a PNG file of another kind*")

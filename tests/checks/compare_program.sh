@@ -87,6 +87,7 @@ refused "the pixel in column 0, row 0 of 'nan.pfm' is not finite" nan.pfm one.pf
 refused "the pixel in column 0, row 0 of 'nan.pfm' is not finite" one.pfm nan.pfm
 refused "--blocks needs --pieces" half.pfm one.pfm --blocks b.csv
 refused "--map" half.pfm one.pfm --map heat
+refused "--range needs --map" half.pfm one.pfm --range 2
 refused "--epsilon" half.pfm one.pfm --epsilon -1
 refused "--seed" half.pfm one.pfm --seed 3
 refused "cannot write" half.pfm one.pfm --map flip --out /proc/none/a.png

@@ -2,13 +2,14 @@
 # No program writes over what it reads, or over another of its own files, by whatever name
 # or link: it says so before any work, and every file is as it was. What cannot be written
 # is found before any work as well.
-# Usage: files_program.sh RENDER COMPARE MERGE SCENE.json SCRATCH
+# Usage: files_program.sh RENDER COMPARE MERGE INSPECT SCENE.json SCRATCH
 set -euo pipefail
 render=$1
 compare=$2
 merge=$3
-scene=$4
-scratch=$5
+inspect=$4
+scene=$5
+scratch=$6
 rm -rf "$scratch"
 mkdir -p "$scratch"
 cd "$scratch"
@@ -106,6 +107,15 @@ refused "the file of settings beside --out is 'm.pfm.json', which is read as" \
 cp m.pfm.json m.pfm
 refused "--out is 'm.pfm', which is read as" "$merge" m.pfm --out m.pfm
 rm m.pfm m.pfm.json
+sed 's/Kd 1 0 0/map_Kd tx.png/' tri.mtl >tx.mtl
+sed 's/tri.mtl/tx.mtl/' tri.obj >tx.obj
+for picture in tx.png here/tx.png linked/soft.png linked/hard.png; do
+    refused "--picture is '$picture', which is read as" "$inspect" tx.obj --picture "$picture"
+done
+refused "its name must end in .png, .hdr, .pfm or .exr" "$inspect" tx.obj --picture tx.obj
+refused "cannot write" "$inspect" tx.obj --picture /proc/none/a.png
+refused "--camera needs --picture" "$inspect" tx.obj --camera one
+refused "--out is empty" "$render" named.json "${few[@]}" --out ""
 
 # The file of settings is tried before the work, as the picture is. (A file that nobody may
 # write; the root may, but it is not replaced.)

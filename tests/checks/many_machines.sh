@@ -109,7 +109,7 @@ else
     kill "$job" || true
 fi
 [ ! -e never/$picture ] || wrong "there is a picture"
-leftover=$(find . -name '*.part*' -o -name '.ljus*')
+leftover=$(find . -name '*.ljus-part*' -o -name '.ljus*')
 [ -z "$leftover" ] || wrong "left behind: $leftover"
 [ $wrong -eq 0 ] && echo "many machines make the picture of one"
 exit $wrong

@@ -265,7 +265,8 @@ refused "--skip-radius" "$scene" --skip-radius -1
 refused "--caustic-budget" "$scene" --caustic-budget most
 refused "--photon-numbers" "$scene" --photon-numbers dice
 refused "--photon-bounces" "$scene" --photon-bounces 0
-refused "max_memory allows 1e-06 GB" "$scene" --photon-memory 1e-6
+refused "--photon-memory is 1e-06 GB: at most 0 photons would fit" "$scene" --photon-memory 1e-6
+refused "photons for the caustics map would take" "$scene" --photon-memory 1e-4
 refused "--path-lights" "$scene" --path-lights all
 refused "--roulette-max" "$scene" --roulette-max 0
 refused "--passes" "$scene" --passes 0
@@ -351,7 +352,7 @@ wait $pid || code=$?
 grep -q "stopped: [1-9][0-9]* passes are saved in 'never.check'; the same command with --resume" \
     err.txt || wrong "Ctrl-C in passes does not say how to go on: $(cat err.txt)"
 
-leftover=$(find . -name '*.part*' -o -name '.ljus*')
+leftover=$(find . -name '*.ljus-part*' -o -name '.ljus*')
 [ -z "$leftover" ] || wrong "left behind: $leftover"
 [ $wrong -eq 0 ] && echo "the render program does what it says"
 exit $wrong

@@ -119,7 +119,7 @@ done
 "$render" scene.json "${few[@]}" --slice 3/4 --out part4
 "$merge" part4 --quiet --out merged.pfm
 cmp whole.pfm merged.pfm || wrong "a slice that is rendered again makes another picture"
-leftover=$(find . -name '*.part*' -o -name '.ljus*')
+leftover=$(find . -name '*.ljus-part*' -o -name '.ljus*')
 [ -z "$leftover" ] || wrong "left behind: $leftover"
 
 [ $wrong -eq 0 ] && echo "slices make the picture of one process"

@@ -49,28 +49,11 @@ namespace detail {
                         : 0.95 + 0.05 * (error - bend) / (most - bend);
 }
 
-} // namespace detail
-
-/// FLIP of each pixel: how strongly a viewer who flips between two pictures sees it
-/// change.
-/// Detail too fine for the eye is blurred, channel by channel, before colours are
-/// compared. Where only one picture has an edge or a point, the colour difference is
-/// raised to a power below 1.
-/// \param image      Linear sRGB; clamped to [0, 1], as on a screen.
-/// \param reference  The other picture, of the same size.
-/// \param ppd        From pixels_per_degree().
-/// \return A grey image in [0, 1]; 0 where no difference is visible.
-/// \throws std::invalid_argument  as require_same_size(), or for a ppd outside
-///         [1, 1000].
-/// \cost Proportional to pixels times ppd.
-/// \cite andersson2020
+// flip_map() of a picture, or of a part of one.
 // [flip_map]
 template <std::floating_point T, std::floating_point U>
-[[nodiscard]] ImageT<double> flip_map(const ImageT<T>& image,
-                                      const ImageT<U>& reference,
-                                      double ppd = detail::pixels_per_degree()) {
-    detail::require_same_size(image, reference);
-    require(ppd >= 1 && ppd <= 1000, "pixels per degree", ppd, "from 1 to 1000");
+[[nodiscard]] ImageT<double> flip_tile(const ImageT<T>& image,
+                                       const ImageT<U>& reference, double ppd) {
     const ImageT<double> a = detail::opponent_image(image),
                          b = detail::opponent_image(reference);
     const ImageT<double> seen_a = detail::eye_filtered(a, ppd),
@@ -89,6 +72,33 @@ template <std::floating_point T, std::floating_point U>
     return map;
 }
 // [flip_map]
+
+} // namespace detail
+
+/// FLIP of each pixel: how strongly a viewer who flips between two pictures sees it
+/// change.
+/// Detail too fine for the eye is blurred, channel by channel, before colours are
+/// compared. Where only one picture has an edge or a point, the colour difference is
+/// raised to a power below 1.
+/// \param image      Linear sRGB; clamped to [0, 1], as on a screen.
+/// \param reference  The other picture, of the same size.
+/// \param ppd        From pixels_per_degree().
+/// \return A grey image in [0, 1]; 0 where no difference is visible.
+/// \throws std::invalid_argument  as require_same_size(), or for a ppd outside
+///         [1, 1000].
+/// \cost Proportional to pixels times ppd.
+/// \cite andersson2020
+template <std::floating_point T, std::floating_point U>
+[[nodiscard]] ImageT<double> flip_map(const ImageT<T>& image,
+                                      const ImageT<U>& reference,
+                                      double ppd = detail::pixels_per_degree()) {
+    detail::require_same_size(image, reference);
+    require(ppd >= 1 && ppd <= 1000, "pixels per degree", ppd, "from 1 to 1000");
+    return detail::map_by_tiles(image, reference, ppd,
+                                [ppd](const auto& tile, const auto& reference_tile) {
+                                    return detail::flip_tile(tile, reference_tile, ppd);
+                                });
+}
 
 namespace detail {
 

@@ -79,24 +79,27 @@ template <std::floating_point T, std::floating_point U>
                                           double ppd = detail::pixels_per_degree()) {
     detail::require_same_size(image, reference);
     const detail::Exposures exposures = detail::exposures_of(reference);
-    ImageT<double> worst = make_image<double>(image.width, image.height);
-    for (int i = 0; i < exposures.count; ++i) {
-        const double part = double(i) / (exposures.count - 1);
-        const double light =
-            std::exp2(exposures.first + part * (exposures.last - exposures.first));
-        const auto developed = [light](const auto& picture) {
-            ImageT<double> result = make_image<double>(picture.width, picture.height);
-            for (std::size_t k = 0; k < result.pixels.size(); ++k)
-                for (int c = 0; c < 3; ++c)
-                    result.pixels[k][c] =
-                        detail::film_curve(light * double(picture.pixels[k][c]));
-            return result;
-        };
-        const auto map = flip_map(developed(image), developed(reference), ppd);
-        for (std::size_t k = 0; k < map.pixels.size(); ++k)
-            worst.pixels[k] = glm::max(worst.pixels[k], map.pixels[k]);
-    }
-    return worst;
+    const auto worst_of = [&](const auto& tile, const auto& reference_tile) {
+        ImageT<double> worst = make_image<double>(tile.width, tile.height);
+        for (int i = 0; i < exposures.count; ++i) {
+            const double part = double(i) / (exposures.count - 1);
+            const double light =
+                std::exp2(exposures.first + part * (exposures.last - exposures.first));
+            const auto developed = [light](const auto& picture) {
+                auto result = make_image<double>(picture.width, picture.height);
+                for (std::size_t k = 0; k < result.pixels.size(); ++k)
+                    for (int c = 0; c < 3; ++c)
+                        result.pixels[k][c] =
+                            detail::film_curve(light * double(picture.pixels[k][c]));
+                return result;
+            };
+            const auto map = flip_map(developed(tile), developed(reference_tile), ppd);
+            for (std::size_t k = 0; k < map.pixels.size(); ++k)
+                worst.pixels[k] = glm::max(worst.pixels[k], map.pixels[k]);
+        }
+        return worst;
+    };
+    return detail::map_by_tiles(image, reference, ppd, worst_of);
 }
 
 /// The mean of hdr_flip_map().

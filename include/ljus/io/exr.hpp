@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -129,6 +130,22 @@ public:
 
     [[noreturn, gnu::cold]] void refuse(std::string_view why) const {
         throw std::runtime_error(join({shown_path(path_), " ", why, "."}));
+    }
+
+    // Refuses a part whose primaries are not about those of sRGB; white may be another
+    // one. A part that does not name them has these.
+    void require_srgb(int part) const {
+        exr_attr_chromaticities_t is{};
+        if (exr_attr_get_chromaticities(file_.context, part, "chromaticities", &is) !=
+            EXR_ERR_SUCCESS)
+            return;
+        const std::array found{is.red_x,   is.red_y,  is.green_x,
+                               is.green_y, is.blue_x, is.blue_y};
+        constexpr std::array srgb{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f};
+        for (std::size_t i = 0; i < srgb.size(); ++i)
+            if (!(std::abs(found[i] - srgb[i]) < 0.02f))
+                refuse("has other primaries than those of sRGB, as its chromaticities "
+                       "say; convert it to them");
     }
 
     // Decodes layers. All pixels together are at most `most`.
@@ -530,7 +547,8 @@ template <std::floating_point T = float>
 /// \return The picture of the data window, as it is stored: values may be negative,
 ///         infinite or NaN.
 /// \throws std::runtime_error  as load_exr_layers(), or for a file without that
-///         picture, with the names of what it has; or with more than 2^25 pixels.
+///         picture, with the names of what it has; for other primaries than those of
+///         sRGB; or with more than 2^25 pixels.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_exr(const std::string& path,
                                  const std::string& layer = "") {
@@ -552,6 +570,7 @@ template <std::floating_point T = float>
             {"has no ",
              layer.empty() ? "picture of R, G and B" : "layer '" + shown(layer) + "'",
              "; it has", shown(names, 400)}));
+    reader.require_srgb(found->part);
     auto layers = reader.decode({*found}, detail::max_image_pixels);
     return detail::layer_in<T>(std::move(layers.front())).image;
 }

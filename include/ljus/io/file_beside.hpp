@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "ljus/math/require.hpp"
@@ -18,6 +19,7 @@
 #if __has_include(<unistd.h>)
 #include <cstdlib>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #endif
@@ -96,7 +98,8 @@ namespace detail {
 
 // A new file beside `path`, removed unless it is renamed to `path`. If the system has
 // files without names (`nameless`), it is named only when it is complete: a program
-// that is killed before leaves nothing.
+// that is killed before leaves nothing. It is locked until then: what a program that
+// was killed has left is not, and the next one removes it.
 class FileBeside {
 public:
     [[gnu::cold]] explicit FileBeside(const std::string& path, bool nameless = true)
@@ -105,8 +108,10 @@ public:
         // "x" never opens an existing file, which may belong to another process.
         for (long long number = 0; file_ == nullptr && number < most_names; ++number) {
             name_ = name_of(number);
+            remove_what_is_left(name_);
             file_ = std::fopen(name_.c_str(), "wbx");
             if (file_ == nullptr && errno != EEXIST) break;
+            if (file_ != nullptr && !lock()) std::fclose(std::exchange(file_, nullptr));
         }
         if (file_ == nullptr) fail_to_write(path_, errno);
 #if __has_include(<unistd.h>)
@@ -120,6 +125,9 @@ public:
     [[gnu::cold]] ~FileBeside() {
         if (file_ != nullptr) std::fclose(file_);
         if (!renamed_ && !name_.empty()) std::remove(name_.c_str());
+#if __has_include(<unistd.h>)
+        if (lock_ >= 0) ::close(lock_);
+#endif
     }
 
     [[gnu::cold]] void write(const Bytes& bytes) {
@@ -163,7 +171,42 @@ public:
 private:
     static constexpr long long most_names = 10'000;
     [[gnu::cold]] std::string name_of(long long number) const {
-        return join({path_, ".part", to_text(number)});
+        return join({path_, ".ljus-part", to_text(number)});
+    }
+
+#if __has_include(<unistd.h>)
+    // Whether the name is that of an open file.
+    static bool is_named(int file, const std::string& name) {
+        struct ::stat open = {}, named = {};
+        return ::fstat(file, &open) == 0 && ::lstat(name.c_str(), &named) == 0 &&
+               open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+    }
+#endif
+    // Locks the file, where locks are known. False if another process has taken it for
+    // what is left, before it was locked.
+    [[gnu::cold]] bool lock() {
+#if __has_include(<unistd.h>)
+        if (lock_ >= 0) ::close(lock_);
+        lock_ =
+            ::fcntl(::fileno(file_), F_DUPFD_CLOEXEC, 0); // open until it is renamed
+        if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+            return false;
+        return name_.empty() || is_named(lock_, name_);
+#else
+        return true;
+#endif
+    }
+    [[gnu::cold]] static void remove_what_is_left(const std::string& name) {
+#if __has_include(<unistd.h>)
+        struct ::stat status = {};
+        const int left =
+            ::open(name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+        if (left < 0) return;
+        if (::fstat(left, &status) == 0 && S_ISREG(status.st_mode) &&
+            ::flock(left, LOCK_EX | LOCK_NB) == 0 && is_named(left, name))
+            std::remove(name.c_str());
+        ::close(left);
+#endif
     }
 
     // If this fails, the named file will fail as well, and report the reason.
@@ -177,7 +220,10 @@ private:
                                   O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
         if (number < 0) return;
         file_ = ::fdopen(number, "wb");
-        if (file_ == nullptr) ::close(number);
+        if (file_ == nullptr)
+            ::close(number);
+        else
+            lock();
 #endif
     }
     [[gnu::cold]] void give_name() {
@@ -185,6 +231,7 @@ private:
         const std::string mine = join({"/proc/self/fd/", to_text(::fileno(file_))});
         for (long long number = 0; number < most_names; ++number) {
             const std::string name = name_of(number);
+            remove_what_is_left(name);
             if (::linkat(AT_FDCWD, mine.c_str(), AT_FDCWD, name.c_str(),
                          AT_SYMLINK_FOLLOW) == 0) {
                 name_ = name;
@@ -199,6 +246,7 @@ private:
     std::string path_;
     std::string name_; // empty while the file has none
     std::FILE* file_ = nullptr;
+    int lock_ = -1; // the file once more
     bool renamed_ = false;
 };
 
@@ -206,8 +254,10 @@ private:
 
 /// Writes a file beside `path`, and renames it once every write, the flush and the
 /// close have succeeded. If anything fails, an older file is unchanged and nothing else
-/// is left. The new file has the older one's permissions. (A program that wants to
-/// receive the error of a file-size limit must ignore SIGXFSZ.)
+/// is left. The new file has the older one's permissions. A program that is killed while
+/// it renames leaves `a.png.ljus-part0`, the complete new file; the next save of `a.png`
+/// removes it. (A program that wants to receive the error of a file-size limit must
+/// ignore SIGXFSZ.)
 /// \throws std::runtime_error  "cannot write 'out/a.png': No space left on device.".
 [[gnu::cold]] inline void save_file(const std::string& path, const Bytes& bytes) {
     detail::FileBeside file(detail::file_to_replace(path));

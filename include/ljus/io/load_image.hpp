@@ -141,6 +141,8 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted,
     const bool jpeg = text.starts_with("\xff\xd8\xff");
     if (!png && !jpeg && !text.starts_with("BM"))
         refuse("is not a picture that can be read: it is neither PNG, JPEG nor BMP");
+    if (const char* const kind = jpeg ? jpeg_kind_unread(bytes) : nullptr)
+        refuse(join({"is a JPEG file ", kind}));
     if (const char* const why = png    ? png_trouble(bytes)
                                 : jpeg ? jpeg_trouble(bytes)
                                        : nullptr)
@@ -148,8 +150,13 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted,
     if (png && png_number(bytes, 12) == 0x43674249u) // CgBI
         refuse("is a PNG file of Apple's own kind (CgBI), which has red and blue "
                "exchanged; save it as plain PNG");
-    if (const char* const kind = jpeg ? jpeg_kind_unread(bytes) : nullptr)
-        refuse(join({"is a JPEG file ", kind}));
+    if (png && png_is_not_srgb(bytes))
+        refuse("is a PNG file whose colours are not those of sRGB, as its cICP chunk "
+               "says; save it as sRGB");
+    const BmpHead bmp(bytes);
+    const bool is_bmp = !png && !jpeg;
+    if (is_bmp && bmp.compression != 0 && bmp.compression != 3)
+        refuse("is a BMP file that is compressed; save it without, or as PNG");
     // A 16-bit channel takes twice the memory before it is reduced to 8 bits.
     const bool is_deep = png && byte_at(bytes, 24) == 16;
     const int most_pixels = is_deep ? max_image_pixels / 2 : max_image_pixels;
@@ -172,18 +179,23 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted,
     if (png) picture.gamma = png_gamma(bytes);
     if (png) picture.orientation = png_orientation(bytes);
     if (jpeg) picture.orientation = jpeg_orientation(bytes);
-    const Bytes filled = png ? with_whole_palette(bytes) : Bytes{};
+    const Bytes filled = png      ? with_whole_palette(bytes)
+                         : is_bmp ? bmp_with_whole_palette(bytes)
+                                  : Bytes{};
     const Bytes& read = filled.empty() ? bytes : filled;
     const auto* data = reinterpret_cast<const stbi_uc*>(read.data());
     const auto size = static_cast<int>(read.size());
     int &width = picture.width, &height = picture.height, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
         refuse("is not a picture that can be read: its header is damaged or unknown");
-    require_size(width, height);
+    // The rows of a BMP file whose height is below 0 are stored from the top.
+    const long long high = std::abs(static_cast<long long>(height));
+    require_size(width, high);
     // The largest number of pixels per byte: PNG packs a thousand bytes of eight pixels
     // into one, JPEG 64 pixels into a bit. stb_image fills missing data with zeros.
-    const std::size_t most = png ? 8256 : jpeg ? 1024 : 8;
-    if (std::size_t(width) * std::size_t(height) / most > bytes.size())
+    const std::size_t most = png ? 8256 : 1024;
+    if (is_bmp ? bmp.bytes(std::size_t(width), std::size_t(high)) > bytes.size()
+               : std::size_t(width) * std::size_t(high) / most > bytes.size())
         refuse("is damaged: it ends in the middle of its pixels");
     picture.pixels.reset(
         stbi_load_from_memory(data, size, &width, &height, &channels, wanted));

@@ -34,13 +34,12 @@ struct StlText {
         return bits;
     }
     // Whether it is text: programs write binary files that begin with "solid" too, but
-    // their size says how many triangles there are.
+    // in these a byte of the head is 0, if only one of the number of triangles.
     [[nodiscard]] bool is_text() const {
-        const std::size_t begin = text.find_first_not_of(" \t\r\n");
-        const bool solid =
-            begin != text.npos && text.substr(begin).starts_with("solid");
-        return solid && (text.size() < stl_head ||
-                         stl_head + stl_triangle * word(80) != text.size());
+        const std::string_view plain = plain_text(text, file);
+        const std::size_t begin = plain.find_first_not_of(" \t\r\n");
+        return begin != plain.npos && plain.substr(begin).starts_with("solid") &&
+               text.substr(0, stl_head).find('\0') == text.npos;
     }
 };
 
@@ -69,6 +68,12 @@ struct StlReader {
                               " triangles, but there are bytes for ",
                               std::to_string(room), " only"}));
         report.unit = "triangle";
+        if (const std::size_t more = from.text.size() - stl_head - stl_triangle * count;
+            more > 0)
+            report.notes.push_back(
+                join({"the file goes on for ", std::to_string(more),
+                      " bytes behind the ", std::to_string(count),
+                      " triangles that its head names; they are not used."}));
         bool colors = false;
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t at = stl_head + stl_triangle * i;
@@ -88,6 +93,7 @@ struct StlReader {
     }
     void read_text() {
         std::size_t first = 0; // of the face
+        bool open = false;     // a solid that has not ended
         LineReader{from.file}.read(
             from.text, true, [&](std::string_view line, long long number) {
                 Words words{line};
@@ -100,10 +106,16 @@ struct StlReader {
                     first = points.size();
                 } else if (same_word(keyword, "solid")) {
                     ++report.content.objects;
+                    open = true;
+                } else if (same_word(keyword, "endsolid")) {
+                    open = false;
                 }
             });
         if (first < points.size())
             from.refuse("the file ends within a triangle, before its 'endloop'");
+        if (open)
+            report.notes.push_back(
+                "the file ends before 'endsolid': perhaps it is cut off.");
     }
 };
 

@@ -112,16 +112,21 @@ template <std::floating_point T>
 
 /// Refuses a pass that would exceed its memory.
 /// \param mean  Stored photons per path so far.
-/// \throws std::invalid_argument  with both numbers.
+/// \throws std::invalid_argument  with both numbers, and how many photons would fit.
 template <std::floating_point T>
-[[gnu::cold]] void require_memory(const PhotonPassSettings& pass, double mean) {
+[[gnu::cold]] void require_memory(MapType map, const PhotonPassSettings& pass,
+                                  double mean) {
     const double bytes = expected_bytes<T>(pass.photons, mean);
     if (bytes <= pass.max_memory) return;
+    const double each_block = expected_bytes<T>(photon_block, mean);
+    const double fit = std::floor(pass.max_memory / each_block) * photon_block;
     char text[256];
     std::snprintf(text, sizeof text,
-                  "The number of photons is %lld, which would take %.3g GB at %.3g "
-                  "stored per path; max_memory allows %.3g GB.",
-                  pass.photons, bytes * 1e-9, mean, pass.max_memory * 1e-9);
+                  "The %lld photons for the %s map would take %.3g GB, and max_memory "
+                  "is %.3g GB: %s%.0f photons would fit.",
+                  pass.photons, map == MapType::caustics ? "caustics" : "general",
+                  bytes * 1e-9, pass.max_memory * 1e-9, mean > 0 ? "" : "at most ",
+                  fit);
     throw std::invalid_argument(text);
 }
 

@@ -76,8 +76,8 @@ long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& r
 /// \return The distribution for the pass.
 /// \throws std::invalid_argument  as trace_photons().
 template <std::floating_point T>
-[[nodiscard, gnu::cold]] LightChoice start_pass(const PhotonPassSettings& pass,
-                                                LightChoice choice) {
+[[nodiscard, gnu::cold]] LightChoice
+start_pass(MapType map, const PhotonPassSettings& pass, LightChoice choice) {
     check(pass);
     const std::size_t lights = choice.cumulative.size();
     require(lights > 0, "the number of lights", 0LL,
@@ -86,7 +86,7 @@ template <std::floating_point T>
             "at most 65536, because a photon has 16 bits for its light's number");
     require(choice.cumulative.back() > 0, "the power of all lights",
             choice.cumulative.back(), "above 0: a sun needs objects to shine on");
-    require_memory<T>(pass, 0);
+    require_memory<T>(map, pass, 0);
     check_shares(pass.light_shares, lights, "the number of lights");
     std::partial_sum(pass.light_shares.begin(), pass.light_shares.end(),
                      choice.cumulative.begin());
@@ -156,7 +156,8 @@ template <std::floating_point T>
         for (const auto& block : blocks) stored += block.photons.size();
         nothing = stored == 0;
         if (!result.complete) break;
-        require_memory<T>(pass, double(stored) / double(std::max(result.emitted, 1LL)));
+        require_memory<T>(map, pass,
+                          double(stored) / double(std::max(result.emitted, 1LL)));
         if (nothing && result.emitted >= pass.give_up) break;
     }
     const long long unsent = join_blocks(blocks, result);
@@ -186,7 +187,7 @@ template <AnyWorld W>
 trace_photons(const W& world, MapType map, const PhotonPassSettings& pass) {
     using T = typename W::Scalar;
     const auto aim = detail::scene_aim_of(
-        world, map, pass, detail::start_pass<T>(pass, world.light_choice()));
+        world, map, pass, detail::start_pass<T>(map, pass, world.light_choice()));
     const auto targets = detail::targets_of(world, map, pass);
     if (map == MapType::caustics && targets.empty()) return {.emitted = pass.photons};
 
@@ -221,7 +222,7 @@ trace_photons(const W& world, MapType map, const PhotonPassSettings& pass,
     require_at_least("the last path", last, first);
     require_at_least("the number of photons", pass.photons, last);
     const auto aim = detail::scene_aim_of(
-        world, map, pass, detail::start_pass<T>(pass, world.light_choice()));
+        world, map, pass, detail::start_pass<T>(map, pass, world.light_choice()));
     const auto targets = detail::targets_of(world, map, pass);
     detail::PhotonBlockT<T> block;
     if (map == MapType::general || !targets.empty())

@@ -232,6 +232,27 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     return maps;
 }
 
+/// A sentence about an estimate whose radius was given in another unit than the scene's:
+/// hardly any place finds a photon, or each one all of them.
+/// \return Empty, or with a line feed.
+template <std::floating_point T>
+[[nodiscard, gnu::cold]] std::string
+radius_remark(std::string_view name, const DensityEstimateSettings& estimate,
+              const PhotonMapT<T>& map) {
+    constexpr std::size_t some = 32;
+    const double typical = double(typical_radius(map, some));
+    const double share = double(estimate.radius) / typical;
+    const double found = double(some) * share * share;
+    const bool few = found<0.1, all = found> 4 * double(map.records.size());
+    if (map.empty() || !(few || all)) return {};
+    return join({name, ".radius is ", to_text(double(estimate.radius)),
+                 ", and a radius of ", to_text(double(float(typical))), " holds ",
+                 to_text(static_cast<long long>(some)),
+                 few ? " photons: most of their light is missed"
+                     : " photons: their light is blurred away",
+                 "; 0 chooses a radius by the photons\n"});
+}
+
 } // namespace detail
 
 /// The report's renderer: photon maps of a world, and the settings that they were made
@@ -374,6 +395,9 @@ private:
         if (radius_is_chosen_)
             settings_.caustics_estimate.radius =
                 float(typical_radius(maps_.caustics, 32));
+        else
+            maps_.remarks += detail::radius_remark(
+                "caustics_estimate", settings_.caustics_estimate, maps_.caustics);
         const bool widens =
             settings_.lone_radius > 1 && settings_.caustics_estimate.nearest == 0;
         maps_.lone = widens ? lone_photons(maps_.caustics,
@@ -382,6 +406,9 @@ private:
         if (settings_.general_estimate.radius == 0)
             settings_.general_estimate.radius =
                 float(typical_radius(maps_.general, 64));
+        else if (passes_.general_map && !passes_.irradiance)
+            maps_.remarks += detail::radius_remark(
+                "general_estimate", settings_.general_estimate, maps_.general);
     }
 
     [[gnu::cold]] static const PhotonMappingSettings&

@@ -38,8 +38,12 @@ namespace ljus {
 /// | a thin surface and anything              | anything but the thin surface       |
 ///
 /// A World looks for contacts once, when it is made. They are found between flat
-/// shapes, meshes and spheres at rest; other shapes are met in the order of addition.
+/// shapes, at rest or moving in their plane, meshes and spheres at rest; other shapes are
+/// met in the order of addition.
 /// \{
+
+template <std::floating_point T>
+struct DiscT;
 
 /// What a surface is in a contact. The first in this list is met.
 enum class ContactKind : std::uint8_t {
@@ -131,13 +135,70 @@ inline constexpr bool is_facet = requires(const G& shape) {
     facet_of(shape);
 };
 
+/// Whether a shape is a ball.
+template <typename G>
+inline constexpr bool is_ball = std::is_same_v<G, SphereT<ScalarOf<G>>>;
+
+/// Whether a shape is a disc.
+template <typename G>
+inline constexpr bool is_disc = std::is_same_v<G, DiscT<ScalarOf<G>>>;
+
+/// Whether a shape is one facet that moves.
+template <typename G>
+inline constexpr bool is_moving_facet = requires(const G& moving) {
+    facet_of(moving.shape);
+    moving.displacement;
+};
+
+/// Whether a facet moves within its plane, and so can share it with others.
+[[nodiscard, gnu::cold]] inline bool slides(const Facet& facet,
+                                            const glm::dvec3& way) noexcept {
+    const glm::dvec3 area = area_vector(facet);
+    return std::abs(glm::dot(area, way)) <= 1e-6 * glm::length(area) * glm::length(way);
+}
+
+/// A rectangle around all places of a facet that slides. What is met is found by rays,
+/// so that it may be too large.
+[[nodiscard, gnu::cold]] inline Facet around_way(const Facet& facet,
+                                                 const glm::dvec3& way) noexcept {
+    const glm::dvec3 edge = facet.corners[1] - facet.corners[0];
+    const glm::dvec3 normal = glm::normalize(area_vector(facet));
+    const glm::dvec3 u = glm::normalize(way != glm::dvec3(0) ? way : edge);
+    const glm::dvec3 v = glm::cross(normal, u);
+    BoxT<double> box; // of the corners, along u and v
+    for (int i = 0; i < facet.count; ++i) {
+        const glm::dvec3 p = facet.corners[std::size_t(i)] - facet.corners[0];
+        for (const glm::dvec3& at : {p, p + way})
+            box = box_union(box, glm::dvec3(glm::dot(at, u), glm::dot(at, v), 0));
+    }
+    const auto corner = [&](double x, double y) {
+        return facet.corners[0] + x * u + y * v;
+    };
+    return {.corners{corner(box.low.x, box.low.y), corner(box.high.x, box.low.y),
+                     corner(box.high.x, box.high.y), corner(box.low.x, box.high.y)},
+            .count = 4};
+}
+
+/// A square around a disc.
+template <typename G>
+[[nodiscard, gnu::cold]] Facet around_disc(const G& disc) noexcept {
+    const auto frame = frame_around(glm::normalize(glm::dvec3(disc.normal)));
+    const glm::dvec3 u = double(disc.radius) * frame.tangent;
+    const glm::dvec3 v = double(disc.radius) * frame.bitangent;
+    const glm::dvec3 center(disc.center);
+    return {.corners{center - u - v, center + u - v, center + u + v, center - u + v},
+            .count = 4};
+}
+
 /// The number of pieces of a shape; 0 if it is not compared with others.
 template <Shape G>
 [[nodiscard]] std::uint32_t piece_count([[maybe_unused]] const G& shape) noexcept {
     if constexpr (has_triangles<G>)
         return static_cast<std::uint32_t>(shape.size());
+    else if constexpr (is_moving_facet<G>)
+        return slides(facet_of(shape.shape), glm::dvec3(shape.displacement)) ? 1 : 0;
     else
-        return is_facet<G> || std::is_same_v<G, SphereT<ScalarOf<G>>> ? 1 : 0;
+        return is_facet<G> || is_disc<G> || is_ball<G> ? 1 : 0;
 }
 
 /// A piece of a shape.
@@ -148,7 +209,12 @@ template <Shape G>
         return {.facet = facet_of(shape.triangle(number))};
     else if constexpr (is_facet<G>)
         return {.facet = facet_of(shape)};
-    else if constexpr (std::is_same_v<G, SphereT<ScalarOf<G>>>)
+    else if constexpr (is_disc<G>)
+        return {.facet = around_disc(shape)};
+    else if constexpr (is_moving_facet<G>)
+        return {.facet =
+                    around_way(facet_of(shape.shape), glm::dvec3(shape.displacement))};
+    else if constexpr (is_ball<G>)
         return {.facet{.corners{glm::dvec3(shape.center)}, .count = 1},
                 .radius = double(shape.radius)};
     else

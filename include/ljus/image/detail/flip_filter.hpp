@@ -3,6 +3,7 @@
 /// \file ljus/image/detail/flip_filter.hpp
 /// \brief FLIP's model of the eye: it blurs, and detects edges and points.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -87,6 +88,51 @@ template <std::floating_point T>
     return result;
 }
 
+/// How many pixels away a pixel still counts: three standard deviations of the widest
+/// Gaussian of the eye; the one that finds edges is narrower.
+[[nodiscard]] inline int eye_radius(double ppd) noexcept {
+    return static_cast<int>(
+        std::ceil(3 * std::sqrt(0.04 / 2) / std::numbers::pi * ppd));
+}
+
+/// Copies a rectangle of one image into another image.
+template <std::floating_point T>
+void copy_part(const ImageT<T>& from, int x, int y, int width, int height,
+               ImageT<T>& to, int to_x, int to_y) {
+    for (int row = 0; row < height; ++row)
+        std::copy_n(&pixel(from, x, y + row), width, &pixel(to, to_x, to_y + row));
+}
+
+/// Makes a map of two pictures tile by tile, so that what is kept of a pixel on the way
+/// is kept in one tile only. The map is that of both pictures at once, because a tile
+/// comes with all pixels around it that count.
+/// \param make  make(image, reference) returns the map of a part of both pictures.
+template <std::floating_point T, std::floating_point U, typename Make>
+[[nodiscard]] ImageT<double> map_by_tiles(const ImageT<T>& image,
+                                          const ImageT<U>& reference, double ppd,
+                                          Make make) {
+    const int around = eye_radius(ppd), side = std::max(512, 8 * around);
+    const int most = side + 2 * around; // of a tile with what is around it
+    if (image.width <= most && image.height <= most) return make(image, reference);
+    ImageT<double> map = make_image<double>(image.width, image.height);
+    for (int top = 0; top < map.height; top += side)
+        for (int left = 0; left < map.width; left += side) {
+            const int x = std::max(left - around, 0), y = std::max(top - around, 0);
+            const int width = std::min(side, map.width - left);
+            const int height = std::min(side, map.height - top);
+            const auto part = [&]<std::floating_point V>(const ImageT<V>& whole) {
+                auto result =
+                    make_image<V>(std::min(left + width + around, map.width) - x,
+                                  std::min(top + height + around, map.height) - y);
+                copy_part(whole, x, y, result.width, result.height, result, 0, 0);
+                return result;
+            };
+            copy_part(make(part(image), part(reference)), left - x, top - y, width,
+                      height, map, left, top);
+        }
+    return map;
+}
+
 /// A picture as a distant viewer sees it: each channel is blurred by the eye's contrast
 /// sensitivity.
 /// \return Linear sRGB within [0, 1].
@@ -94,8 +140,7 @@ template <std::floating_point T>
 [[nodiscard]] inline ImageT<double> eye_filtered(const ImageT<double>& image,
                                                  double ppd) {
     constexpr double pi = std::numbers::pi;
-    // Three standard deviations of the widest Gaussian.
-    const int radius = static_cast<int>(std::ceil(3 * std::sqrt(0.04 / 2) / pi * ppd));
+    const int radius = eye_radius(ppd);
     ImageT<double> seen = make_image<double>(image.width, image.height);
     for (int channel = 0; channel < 3; ++channel) {
         double total = 0;

@@ -100,9 +100,22 @@ private:
             "KHR_lights_punctual",   "KHR_materials_emissive_strength",
             "KHR_materials_ior",     "KHR_materials_transmission",
             "KHR_mesh_quantization", "KHR_texture_transform"};
+        const auto least = find(member(file_.root(), "asset"), "minVersion");
+        if (least && text(*least) != "2.0")
+            refuse_value(*least, "2.0, the version of glTF that is known");
         const auto required = find(file_.root(), "extensionsRequired");
         for (std::size_t i = 0; required && i < list_size(*required); ++i)
             require_one_of(entry(*required, i), known);
+        // Those of materials are said there.
+        const auto used = find(file_.root(), "extensionsUsed");
+        for (std::size_t i = 0; used && i < list_size(*used); ++i) {
+            const JsonField name = entry(*used, i);
+            if (!text(name).starts_with("KHR_materials_") &&
+                std::find(std::begin(known), std::end(known), text(name)) ==
+                    std::end(known))
+                note(name, join({"is ", shown(text(name)),
+                                 ", which is not known: what it adds is left out"}));
+        }
     }
 
     // The nodes with which a scene begins; without scenes, those of no other node.
@@ -181,6 +194,11 @@ private:
         if (const auto field = find(node, "matrix")) {
             const std::vector<double> all = list_of(*field, 16);
             for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = all[std::size_t(i)];
+            for (int i = 0; i < 4; ++i)
+                if (matrix[i][3] != (i == 3 ? 1 : 0))
+                    refuse_value(*field,
+                                 "a matrix whose last row, every fourth number, "
+                                 "is 0, 0, 0, 1");
             return matrix;
         }
         if (const auto field = find(node, "rotation")) {
@@ -246,6 +264,11 @@ private:
         const std::size_t count = corners.empty() ? vertices : corners.size();
         const std::size_t faces =
             mode == 4 ? count / 3 : count - std::min(count, std::size_t(2));
+        if (mode == 4 && count % 3 != 0)
+            note(field, join({"has ", std::to_string(count),
+                              " corners of triangles; the "
+                              "last ",
+                              std::to_string(count % 3), " are left out"}));
         triangles_ += static_cast<long long>(faces);
         if (triangles_ > max_gltf_triangles)
             refuse(field, join({"is one too many: the file must have at most ",

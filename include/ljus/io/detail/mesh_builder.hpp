@@ -73,13 +73,13 @@ public:
         if (!is_finite(position(positions_.size() - 1)))
             report.add(MeshTrouble::bad_number, place);
     }
-    // The colour of the last position, linear. It counts if each channel is in [0, 1].
+    // The colour of the last position, linear. It is used if each channel is in [0, 1].
     void add_color(const glm::dvec3& color) {
         colors_.resize(positions_.size(), no_color);
+        if (colored_.count++ == 0) colored_.line = place;
         for (int i = 0; i < 3; ++i)
             if (!(color[i] >= 0 && color[i] <= 1)) return;
         colors_.back() = RgbT<float>(color);
-        if (colored_.count++ == 0) colored_.line = place;
     }
     void add_normal(const glm::dvec3& n) {
         const double length = glm::length(n);
@@ -161,6 +161,13 @@ public:
             if (settings_.normals == MeshNormals::smooth) part.smooth();
             if (!part.has_uv) part.data.uv.clear();
             const MeshMaterial& is = part.material;
+            const bool pictured = !is.picture.name.empty() || !is.mask.name.empty() ||
+                                  !is.normals.name.empty();
+            if (settings_.pictures && pictured && !part.has_uv)
+                report.notes.push_back(
+                    join({"the pictures of material ", shown(is.name),
+                          " lie on each triangle alike: its faces have no texture "
+                          "coordinates."}));
             if (!settings_.pictures || !is.picture.name.empty() || is.is_glass() ||
                 is.is_mirror() ||
                 std::count(part.colors.begin(), part.colors.end(), RgbT<T>(no_color)) >

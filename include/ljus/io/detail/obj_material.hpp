@@ -38,6 +38,7 @@ struct MaterialReader {
     bool has_diffuse = false, has_dissolve = false;
     std::string mirror_at{}; // where illum stands
     long long number = 0;    // of the line
+    UnusedLines others{};
 
     std::string where() const {
         return shown_path(path) + ", line " + std::to_string(number);
@@ -191,9 +192,12 @@ struct MaterialReader {
             } else if (is("map_bump") || is("bump")) {
                 note(keyword, "is a map of heights, which is not used; norm names one "
                               "of normals.");
+            } else if (!is_one_of(keyword, {"", "Tr", "Ka", "Ns", "sharpness"})) {
+                others.add(keyword, at);
             }
         });
         finish();
+        others.tell(path, notes);
     }
 };
 

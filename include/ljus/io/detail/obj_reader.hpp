@@ -53,6 +53,7 @@ public:
         std::vector<MeshFacesT<T>> parts = mesh_.take_faces(known);
         for (MeshFacesT<T>& part : parts)
             if (!part.colors.empty()) part.material.diffuse = glm::dvec3(1);
+        unused_.tell(file_, mesh_.report.notes);
         report = std::move(mesh_.report);
         return parts;
     }
@@ -84,9 +85,11 @@ private:
             ++mesh_.report.content.objects;
         else if (keyword == "g")
             ++mesh_.report.content.groups;
-        else if (keyword == "l" || keyword == "p" || keyword == "curv" ||
-                 keyword == "curv2" || keyword == "surf")
+        else if (is_one_of(keyword, {"l", "p", "curv", "curv2", "surf", "bsp", "bzp",
+                                     "cdc", "cdp"}))
             mesh_.report.add(MeshTrouble::no_face, mesh_.place);
+        else if (!is_one_of(keyword, without_effect))
+            unused_.add(keyword, mesh_.place);
     }
     void vertex(Words words) {
         mesh_.add_position(three_numbers(words));
@@ -136,7 +139,15 @@ private:
         mesh_.end_face();
     }
 
+    // What belongs to curves, or says how others draw faces.
+    static constexpr std::string_view without_effect[]{
+        "",       "vp",     "cstype",     "deg",      "bmat", "step",  "parm",
+        "trim",   "hole",   "scrv",       "sp",       "end",  "con",   "res",
+        "mg",     "bevel",  "c_interp",   "d_interp", "lod",  "ctech", "stech",
+        "maplib", "usemap", "shadow_obj", "trace_obj"};
+
     const std::string& file_; // its name, beside which its material files are
+    UnusedLines unused_{};
     LineReader text_;
     MeshBuilder<T> mesh_;
     MaterialLibraries libraries_{};

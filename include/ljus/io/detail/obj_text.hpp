@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
+#include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -102,6 +106,44 @@ inline bool same_word(std::string_view a, std::string_view b) {
     };
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                       [&](char c, char d) { return small(c) == small(d); });
+}
+
+// Lines that begin with words that nothing here uses. What is no word is no text.
+class UnusedLines {
+public:
+    void add(std::string_view keyword, long long line) {
+        const auto in_word = [](char c) {
+            return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
+                   (c >= 'a' && c <= 'z');
+        };
+        if (!std::all_of(keyword.begin(), keyword.end(), in_word)) return;
+        if (words_.size() < most || words_.contains(keyword))
+            ++words_.try_emplace(std::string(keyword), Found{0, line})
+                  .first->second.count;
+    }
+    // A sentence a word, with the first line.
+    void tell(const std::string& file, std::vector<std::string>& notes) const {
+        for (const auto& [word, at] : words_)
+            notes.push_back(join({shown_path(file), ", line ", to_text(at.line), ": ",
+                                  to_text(at.count), " lines begin with ", shown(word),
+                                  "; they are not used."}));
+    }
+
+private:
+    static constexpr std::size_t most = 20;
+    struct Found {
+        long long count, line;
+    };
+    std::map<std::string, Found, std::less<>> words_{};
+};
+
+// Whether a word is one of a list.
+inline bool is_one_of(std::string_view word, std::span<const std::string_view> list) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+}
+inline bool is_one_of(std::string_view word,
+                      std::initializer_list<std::string_view> list) {
+    return is_one_of(word, std::span(list.begin(), list.size()));
 }
 
 // The number that a word is, 0 if it is too small for double; NaN for anything else.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/picture_damage.hpp
-/// \brief What stb_image does not test for or does not read in PNG and JPEG files.
+/// \brief What stb_image does not test for or does not read in PNG, JPEG and BMP files.
 
 #include <algorithm>
 #include <array>
@@ -104,6 +104,16 @@ inline Bytes with_whole_palette(const Bytes& file) {
         return true;
     });
     return whole;
+}
+
+// Whether a PNG file has a cICP chunk by which its colours are not those of sRGB: they
+// may be brighter than white. png_trouble() must have found nothing.
+inline bool png_is_not_srgb(const Bytes& file) {
+    for (std::size_t at = 8; file.size() - at >= 12;
+         at += 12 + std::size_t(png_number(file, at)))
+        if (png_number(file, at + 4) == 0x63494350u) // cICP
+            return byte_at(file, at + 8) != 1 || byte_at(file, at + 9) != 13;
+    return false;
 }
 
 // The orientation, 1 to 8, in EXIF data, which are a TIFF file within a file: byte
@@ -269,6 +279,45 @@ inline const char* jpeg_trouble(const Bytes& file) {
         if (kind == scan) at = behind_pixels(file, at);
     }
     return nullptr;
+}
+
+// A little-endian number in a BMP file; 0 behind its end.
+inline std::size_t bmp_number(const Bytes& file, std::size_t at, std::size_t bytes) {
+    std::size_t value = 0;
+    for (std::size_t k = bytes; k > 0; --k)
+        value = value * 256 + byte_at(file, at + k - 1);
+    return value;
+}
+
+// The header of a BMP file.
+struct BmpHead {
+    std::size_t offset, size, bits, compression; // of the pixels, itself, a pixel
+    explicit BmpHead(const Bytes& file)
+        : offset(bmp_number(file, 10, 4)), size(bmp_number(file, 14, 4)),
+          bits(bmp_number(file, size == 12 ? 24 : 28, 2)),
+          compression(size == 12 ? 0 : bmp_number(file, 30, 4)) {}
+    // The bytes of a file of so many pixels, which begin at `offset`; without those
+    // that fill up the last row.
+    [[nodiscard]] std::size_t bytes(std::size_t width, std::size_t height) const {
+        const std::size_t row = (width * bits + 31) / 32 * 4;
+        return offset + (height - 1) * row + (width * bits + 7) / 8;
+    }
+};
+
+// A BMP file whose palette is filled up with black, as with_whole_palette().
+inline Bytes bmp_with_whole_palette(const Bytes& file) {
+    const BmpHead head(file);
+    // Of the oldest files stb_image takes four colours for something else.
+    const std::size_t full = 14 + head.size + (head.size == 12 ? 3 * 260 : 4 * 256);
+    if (head.bits >= 16 || head.offset < 14 + head.size || head.offset >= full ||
+        head.offset > file.size())
+        return {};
+    Bytes whole = file;
+    whole.insert(whole.begin() + static_cast<std::ptrdiff_t>(head.offset),
+                 full - head.offset, 0);
+    for (std::size_t k = 0; k < 4; ++k)
+        whole[10 + k] = static_cast<unsigned char>(full >> 8 * k);
+    return whole;
 }
 
 } // namespace ljus::detail

@@ -58,7 +58,7 @@ public:
 
     std::vector<MeshFacesT<T>> take_faces(LoadedMeshT<T>& loaded) {
         read_header();
-        for (const PlyElement& element : elements_) read_element(element);
+        read_elements();
         std::vector<MeshFacesT<T>> parts = mesh_.take_faces({nullptr});
         for (MeshFacesT<T>& part : parts)
             if (!part.colors.empty()) part.material.diffuse = glm::dvec3(1);
@@ -79,14 +79,22 @@ private:
                      "double"}));
     }
     void read_header() {
+        const std::string_view all = rest_;
         if (take_line(rest_) != "ply") refuse("it does not begin with a line 'ply'");
+        const bool cr = all.size() > 4 && all[3] == '\r' && all[4] != '\n';
         bool format = false;
         for (std::string_view line;;) {
             if (rest_.empty()) refuse("its header has no line 'end_header'");
             line = take_line(rest_);
             Words words{line};
             const std::string_view keyword = words.next();
-            if (keyword == "end_header") break;
+            if (keyword == "end_header") {
+                // Behind a CR alone LF is the first byte of a binary file's numbers.
+                const std::size_t used = line.size() + 1;
+                const auto from = static_cast<std::size_t>(line.data() - all.data());
+                if (cr) rest_ = all.substr(std::min(from + used, all.size()));
+                break;
+            }
             if (keyword == "format") {
                 format = true;
                 read_format(words);
@@ -202,13 +210,68 @@ private:
                        at("blue", "diffuse_blue")},
                 .uv{at("u", "s", "texture_u"), at("v", "t", "texture_v")}};
     }
-    void read_element(const PlyElement& element) {
-        const bool vertex = element.name == "vertex", face = element.name == "face";
+    // All elements. Faces that stand before the vertices are passed over, and read
+    // when the vertices are known.
+    void read_elements() {
+        const auto is_vertex = [](const PlyElement& e) { return e.name == "vertex"; };
+        const auto vertices =
+            std::find_if(elements_.begin(), elements_.end(), is_vertex);
+        std::vector<std::pair<const PlyElement*, std::string_view>> later;
+        for (auto e = elements_.begin(); e != elements_.end(); ++e) {
+            const bool early = e < vertices && e->name == "face";
+            if (early) later.emplace_back(&*e, rest_);
+            read_element(*e, early);
+        }
+        std::string_view behind = rest_;
+        if (ascii_)
+            behind.remove_prefix(
+                std::min(behind.find_first_not_of(" \t\r\n"), behind.size()));
+        for (const auto& [element, at] : later) {
+            rest_ = at;
+            read_element(*element, false);
+        }
+        if (!behind.empty())
+            mesh_.report.notes.push_back(
+                join({"the file goes on for ", std::to_string(behind.size()),
+                      " bytes behind the last element that its header lists; they are "
+                      "not used."}));
+    }
+    static bool is_corners(const PlyProperty& property) {
+        return property.count &&
+               (property.name == "vertex_indices" || property.name == "vertex_index");
+    }
+    // Says which properties of vertices and faces are not used.
+    void note_unused(const PlyElement& element, const PlyVertex& has) {
+        std::string unused;
+        for (std::size_t i = 0; i < element.properties.size(); ++i) {
+            const PlyProperty& property = element.properties[i];
+            const auto in = [&](const auto& at) {
+                return whole(at) && std::count(at.begin(), at.end(), int(i)) > 0;
+            };
+            if (in(has.position) || in(has.normal) || in(has.color) || in(has.uv) ||
+                (element.name == "face" && is_corners(property)))
+                continue;
+            unused.append(unused.empty() ? "" : ", ").append(property.name);
+        }
+        if (!unused.empty())
+            mesh_.report.notes.push_back(
+                join({"properties of the elements ", element.name,
+                      " are not used: ", shown(unused, 200), "."}));
+    }
+    template <std::size_t N>
+    static bool whole(const std::array<int, N>& at) {
+        return std::all_of(at.begin(), at.end(), [](int k) { return k >= 0; });
+    }
+    // `pass_over` is for faces.
+    void read_element(const PlyElement& element, bool pass_over) {
+        const bool vertex = element.name == "vertex";
+        const bool face = element.name == "face" && !pass_over;
         const PlyVertex has = vertex ? properties_of(element) : PlyVertex{};
-        if (vertex && std::min({has.position[0], has.position[1], has.position[2]}) < 0)
+        if (vertex && !whole(has.position))
             refuse("its vertices must have the properties x, y and z");
         if (element.properties.empty()) return; // it takes no bytes
-        if (element.count > 0 && !vertex && !face)
+        if (vertex || face) note_unused(element, has);
+        if (element.count > 0 && !vertex && element.name != "face")
             mesh_.report.notes.push_back(join(
                 {"the elements ", shown(std::string(element.name)), " are not used."}));
         std::vector<double> values(element.properties.size());
@@ -221,9 +284,7 @@ private:
                     values[k] = number(property.type, element, i);
                     continue;
                 }
-                const bool names_vertices = face && !corners &&
-                                            (property.name == "vertex_indices" ||
-                                             property.name == "vertex_index");
+                const bool names_vertices = face && !corners && is_corners(property);
                 corners = corners || names_vertices;
                 for (std::size_t n = list_length(property, element, i); n > 0; --n) {
                     const double value = number(property.type, element, i);
@@ -239,9 +300,6 @@ private:
         const auto value = [&](int k) { return values[static_cast<std::size_t>(k)]; };
         const auto vector = [&](const std::array<int, 3>& at) {
             return glm::dvec3(value(at[0]), value(at[1]), value(at[2]));
-        };
-        const auto whole = [](const auto& at) {
-            return std::all_of(at.begin(), at.end(), [](int k) { return k >= 0; });
         };
         mesh_.add_position(vector(has.position));
         normals_ = whole(has.normal);
