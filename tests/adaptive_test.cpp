@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -90,7 +91,8 @@ TEST_CASE("adaptive: the blocks of a picture hold each of its pixels once") {
             std::vector<int> held(std::size_t(width * height));
             double pixels = 0;
             for (const auto& block :
-                 detail::adaptive_blocks({.width = width, .height = height}, side)) {
+                 detail::adaptive_blocks({.width = width, .height = height}, side, 0,
+                                         (height + side - 1) / side)) {
                 REQUIRE((block.x >= 0 && block.right <= width));
                 REQUIRE((block.y >= 0 && block.bottom <= height));
                 CHECK(block.x % side == 0);
@@ -243,6 +245,42 @@ TEST_CASE("adaptive: pixels beside those that disagree get more, and no others")
     CHECK(render_adaptive(Halves{}, Camera{}, square(1, 10),
                           {.first = 2, .more = 8, .batches = 1, .disagreement = 9})
               .counts.camera_rays == 10);
+}
+
+TEST_CASE("adaptive: a picture in bands is the picture in one piece") {
+    // Bands of 4096 pixels per thread, of 16384 at least: with 64 threads one is all.
+    const auto picture = [](int width, int height, int threads) {
+        RenderSettings all{.width = width, .height = height, .samples = 6};
+        all.threads = threads;
+        return all;
+    };
+    const auto bands = [&](int width, int height, int threads, int block) {
+        const AdaptiveSettings rule{.more = 4, .batches = 1, .block = block};
+        AdaptiveSettings around = rule;
+        around.disagreement = 0.1;
+        around.first = 2;
+        return detail::rows_in_band(picture(width, height, threads), around);
+    };
+    CHECK(bands(100, 1000, 1, 1) == 163);
+    CHECK(bands(100, 1000, 1, 3) == 54);
+    CHECK(bands(100, 1000, 64, 1) == 1000);
+    CHECK(bands(100000, 3, 1, 1) == 1); // wider than a band
+    for (const auto& [width, height, block] :
+         {std::array{100, 500, 1}, {20000, 7, 1}, {100, 500, 3}, {1, 40000, 1}}) {
+        const AdaptiveSettings rule{
+            .first = 2, .more = 4, .batches = 1, .block = block, .disagreement = 0.3};
+        const Spot spot{0.02f};
+        const auto parts =
+            render_adaptive(spot, Camera{}, picture(width, height, 1), rule);
+        const auto whole =
+            render_adaptive(spot, Camera{}, picture(width, height, 64), rule);
+        CHECK(same_bytes(parts.image, whole.image));
+        CHECK(same_bytes(parts.rays, whole.rays));
+        CHECK(parts.estimate == whole.estimate);
+        CHECK(parts.counts.camera_rays == whole.counts.camera_rays);
+        CHECK(mean_of(parts.rays) > 2);
+        CHECK(mean_of(parts.rays) < 6);
+    }
 }
 
 TEST_CASE("adaptive: the largest variance within two blocks decides, not one's own") {
@@ -400,7 +438,7 @@ TEST_CASE("adaptive: a rule without sense is refused with its value") {
 TEST_CASE("adaptive: the relative variance of a block, by hand and in colours") {
     // Two pixels of a row of three, five rays each: of each channel the means of mean
     // and variance over both, then the quotient, and its mean.
-    std::vector<detail::PixelSums> sums(6);
+    detail::RowSums sums{.width = 3, .pixels = std::vector<detail::PixelSums>(6)};
     const double rays[2][3][5] = {{{1, 2, 3, 4, 5}, {0, 0, 0, 0, 0}, {2, 2, 2, 2, 7}},
                                   {{1, 1, 1, 1, 2}, {9, 0, 0, 0, 0}, {3, 3, 3, 3, 3}}};
     double mean[3] = {}, variance[3] = {};
@@ -408,8 +446,8 @@ TEST_CASE("adaptive: the relative variance of a block, by hand and in colours") 
         for (int c = 0; c < 3; ++c) {
             double m = 0, v = 0;
             for (const double x : rays[p][c]) {
-                sums[std::size_t(4 + p)].sum[c] += x;
-                sums[std::size_t(4 + p)].squares[c] += x * x;
+                sums.pixels[std::size_t(4 + p)].sum[c] += x;
+                sums.pixels[std::size_t(4 + p)].squares[c] += x * x;
                 m += x / 5;
             }
             for (const double x : rays[p][c]) v += (x - m) * (x - m) / 4;
@@ -420,20 +458,20 @@ TEST_CASE("adaptive: the relative variance of a block, by hand and in colours") 
     CHECK(block.pixels() == 2);
     double right = 0;
     for (int c = 0; c < 3; ++c) right += variance[c] / (mean[c] * mean[c] + 0.25) / 3;
-    CHECK(detail::relative_variance(block, sums, 3, 0.25) ==
+    CHECK(detail::relative_variance(block, sums, 0.25) ==
           doctest::Approx(right).epsilon(1e-12));
     // Every channel by itself.
     for (int c = 0; c < 3; ++c) {
-        std::vector<detail::PixelSums> one(6);
+        detail::RowSums one{.width = 3, .pixels = std::vector<detail::PixelSums>(6)};
         for (const std::size_t p : {4u, 5u}) {
-            one[p].sum[c] = sums[p].sum[c];
-            one[p].squares[c] = sums[p].squares[c];
+            one.pixels[p].sum[c] = sums.pixels[p].sum[c];
+            one.pixels[p].squares[c] = sums.pixels[p].squares[c];
         }
-        CHECK(detail::relative_variance(block, one, 3, 0.25) ==
+        CHECK(detail::relative_variance(block, one, 0.25) ==
               doctest::Approx(variance[c] / (mean[c] * mean[c] + 0.25) / 3));
     }
     block.rays = 0;
-    CHECK(detail::relative_variance(block, sums, 3, 0.25) == 0); // not NaN
+    CHECK(detail::relative_variance(block, sums, 0.25) == 0); // not NaN
 }
 
 TEST_CASE("adaptive: a sample counts with its weight, squared in the squares") {

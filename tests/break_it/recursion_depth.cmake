@@ -12,8 +12,8 @@ ljus_break_it(NAME adaptive-settled HEADER render/adaptive.hpp TEST adaptive
 
 # The error of one ray in place of that of their mean.
 ljus_break_it(NAME adaptive-mean HEADER render/adaptive.hpp TEST adaptive
-    FROM "error += block.pixels() * block.variance / std::max(block.rays, 1);"
-    TO   "error += block.pixels() * block.variance;"
+    FROM "std::max(block.rays, 1);"
+    TO   "1;"
     CASES "adaptive: it stops at the target*")
 
 # Absolute in place of relative: dark pixels do not count.
@@ -31,7 +31,7 @@ ljus_break_it(NAME adaptive-seed HEADER render/adaptive.hpp TEST adaptive
 
 # The first rays decide, and are counted as well.
 ljus_break_it(NAME adaptive-forgotten HEADER render/adaptive.hpp TEST adaptive
-    FROM "sums.assign(sums.size(), {});"
+    FROM "sums.pixels.assign(sums.pixels.size(), {});"
     TO   ""
     CASES "adaptive: in two stages*")
 
@@ -53,6 +53,12 @@ ljus_break_it(NAME adaptive-disagreement HEADER render/adaptive.hpp
     FROM "> rule.disagreement;"
     TO   ">= 0;"
     CASES "adaptive: pixels beside those*")
+
+# The rows beside a band do not decide.
+ljus_break_it(NAME adaptive-band HEADER render/adaptive.hpp TEST adaptive
+    FROM "band < all ? detail::deciding_blocks : 0"
+    TO   "0"
+    CASES "adaptive: a picture in bands*")
 
 # Roulette without the division: the report's program lost light like this.
 ljus_break_it(NAME depth-roulette HEADER path/path_state.hpp TEST recursion_depth

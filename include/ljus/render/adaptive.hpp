@@ -94,11 +94,15 @@ struct AdaptiveBlock {
     }
 };
 
-/// The blocks of a picture, from the top left.
+/// Some rows of the blocks of a picture, from the top left.
+/// \param picture  Its size.
+/// \param size     Side of a block.
+/// \param first    The first row of blocks.
+/// \param last     One past the last row of blocks.
 [[nodiscard]] inline std::vector<AdaptiveBlock>
-adaptive_blocks(const RenderSettings& picture, int size) {
+adaptive_blocks(const RenderSettings& picture, int size, int first, int last) {
     std::vector<AdaptiveBlock> blocks;
-    for (int y = 0; y < picture.height; y += size)
+    for (int y = first * size; y < std::min(last * size, picture.height); y += size)
         for (int x = 0; x < picture.width; x += size)
             blocks.push_back({.x = x,
                               .y = y,
@@ -111,6 +115,26 @@ adaptive_blocks(const RenderSettings& picture, int size) {
 [[nodiscard]] constexpr std::size_t pixel_index(int width, int x, int y) noexcept {
     return std::size_t(y) * std::size_t(width) + std::size_t(x);
 }
+
+/// The sums of the pixels in some rows of a picture.
+struct RowSums {
+    int width = 0;                   ///< Width of the picture.
+    int top = 0;                     ///< The first row.
+    std::vector<PixelSums> pixels{}; ///< Row by row.
+
+    /// The index of a pixel of the picture.
+    [[nodiscard]] std::size_t index(int x, int y) const noexcept {
+        return pixel_index(width, x, y - top);
+    }
+    /// Drops the first blocks, and their rows.
+    void drop(std::vector<AdaptiveBlock>& blocks, std::size_t count) {
+        if (count == 0) return;
+        const int rows = blocks[count - 1].bottom - top;
+        pixels.erase(pixels.begin(), pixels.begin() + std::ptrdiff_t(width) * rows);
+        blocks.erase(blocks.begin(), blocks.begin() + std::ptrdiff_t(count));
+        top += rows;
+    }
+};
 
 /// The number of rays per pixel in a batch.
 /// \param rule   The rule.
@@ -132,19 +156,17 @@ adaptive_blocks(const RenderSettings& picture, int size) {
 /// The rays of a pixel are assumed to be independent; because they are stratified, the
 /// true variance of their mean is slightly smaller.
 /// \param block    At least 2 rays per pixel.
-/// \param sums     The sums of all pixels.
-/// \param width    Width of the picture.
+/// \param sums     The sums of its pixels.
 /// \param epsilon  As in AdaptiveSettings.
 /// \return The variance of a ray divided by mean^2 + epsilon, averaged over channels
 ///         and pixels.
 [[nodiscard]] inline double relative_variance(const AdaptiveBlock& block,
-                                              const std::vector<PixelSums>& sums,
-                                              int width, double epsilon) {
+                                              const RowSums& sums, double epsilon) {
     const double n = block.rays, count = block.pixels();
     RgbT<double> mean{0}, variance{0};
     for (int y = block.y; y < block.bottom; ++y)
         for (int x = block.x; x < block.right; ++x) {
-            const PixelSums& found = sums[pixel_index(width, x, y)];
+            const PixelSums& found = sums.pixels[sums.index(x, y)];
             mean += found.sum / (n * count);
             variance += (found.squares - found.sum * found.sum / n) / ((n - 1) * count);
         }
@@ -276,7 +298,8 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
 }
 
 /// Traces the batches of a block in this round.
-/// \param samples   Receives the samples, by the pixels' indices in the picture.
+/// \param samples   Receives the samples of these pixels.
+/// \param sums      The sums to which `samples` adds them.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera.
 /// \param picture   Size, seed, pattern.
@@ -284,9 +307,9 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
 /// \param block     The block; its batches and rays are counted.
 /// \param cost      Counts the rays.
 template <typename R, CameraLike C, std::floating_point T>
-void trace_block(SampleSums<R, T>& samples, const R& renderer, const C& camera,
-                 const RenderSettings& picture, const AdaptiveSettings& rule,
-                 AdaptiveBlock& block, Counts& cost) {
+void trace_block(SampleSums<R, T>& samples, const RowSums& sums, const R& renderer,
+                 const C& camera, const RenderSettings& picture,
+                 const AdaptiveSettings& rule, AdaptiveBlock& block, Counts& cost) {
     for (; block.wanted > 0; --block.wanted) {
         const int batch = block.batches++;
         RenderSettings part = picture; // with its own sampling pattern
@@ -297,7 +320,7 @@ void trace_block(SampleSums<R, T>& samples, const R& renderer, const C& camera,
         for (int y = block.y; y < block.bottom; ++y)
             for (int x = block.x; x < block.right; ++x)
                 for (int i = 0; i < part.samples; ++i)
-                    samples.add(pixel_index(picture.width, x, y), [&](auto& later) {
+                    samples.add(sums.index(x, y), [&](auto& later) {
                         return trace_pixel(renderer, camera, rays, {x, y, i}, cost,
                                            no_log, later);
                     });
@@ -305,57 +328,68 @@ void trace_block(SampleSums<R, T>& samples, const R& renderer, const C& camera,
     }
 }
 
-/// Traces the batches of some blocks, and updates the variances of these blocks.
-/// Delayed queries of all their samples are batched.
+/// Traces the batches of some blocks. Delayed queries of all their samples are batched.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera.
 /// \param picture   Size, seed, pattern.
-/// \param rule      Rays in a batch; epsilon.
-/// \param blocks    The blocks; their batches, rays and variances are updated.
-/// \param sums      The sums of all pixels of the picture.
+/// \param rule      Rays in a batch.
+/// \param blocks    The blocks; their batches and rays are counted.
+/// \param sums      The sums of their pixels.
 /// \return The counts of the rays.
 template <typename R, CameraLike C>
 [[nodiscard]] Counts
 trace_blocks(const R& renderer, const C& camera, const RenderSettings& picture,
              const AdaptiveSettings& rule, std::span<AdaptiveBlock* const> blocks,
-             std::vector<PixelSums>& sums) {
+             RowSums& sums) {
     Counts cost; // local, so that threads do not share a cache line
-    SampleSums<R, typename C::Scalar> samples(renderer, sums, cost);
+    SampleSums<R, typename C::Scalar> samples(renderer, sums.pixels, cost);
     for (AdaptiveBlock* const block : blocks)
-        trace_block(samples, renderer, camera, picture, rule, *block, cost);
+        trace_block(samples, sums, renderer, camera, picture, rule, *block, cost);
     samples.finish();
-    for (AdaptiveBlock* const block : blocks)
-        block->variance = relative_variance(*block, sums, picture.width, rule.epsilon);
     return cost;
 }
 
-/// The estimated relMSE of the picture, without bias.
-/// \param blocks  All blocks of the picture.
-/// \param pixels  The number of its pixels.
-[[nodiscard]] inline double relative_error(const std::vector<AdaptiveBlock>& blocks,
-                                           std::size_t pixels) noexcept {
-    double error = 0;
+/// Adds the estimated squared relative errors of the pixels of some blocks, without
+/// bias.
+inline void add_errors(double& error, std::span<const AdaptiveBlock> blocks,
+                       const RowSums& sums, double epsilon) {
     for (const AdaptiveBlock& block : blocks)
-        error += block.pixels() * block.variance / std::max(block.rays, 1);
-    return error / double(pixels);
+        error += block.pixels() * relative_variance(block, sums, epsilon) /
+                 std::max(block.rays, 1);
 }
 
 /// Sets the pixels of an adaptive picture to the means of their rays.
 /// \param result     Receives the means and the numbers of rays.
-/// \param blocks     All blocks of the picture.
-/// \param sums       The sums of all its pixels.
+/// \param blocks     Some blocks of the picture.
+/// \param sums       The sums of their pixels.
 /// \param forgotten  Discarded rays per pixel, which the sums do not contain.
 template <std::floating_point T>
-void set_pixels(AdaptiveT<T>& result, const std::vector<AdaptiveBlock>& blocks,
-                const std::vector<PixelSums>& sums, int forgotten) {
+void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
+                const RowSums& sums, int forgotten) {
     for (const AdaptiveBlock& block : blocks)
         for (int y = block.y; y < block.bottom; ++y)
             for (int x = block.x; x < block.right; ++x) {
                 const auto i = pixel_index(result.image.width, x, y);
-                result.image.pixels[i] =
-                    RgbT<T>(sums[i].sum / double(std::max(block.rays, 1)));
+                result.image.pixels[i] = RgbT<T>(sums.pixels[sums.index(x, y)].sum /
+                                                 double(std::max(block.rays, 1)));
                 result.rays.pixels[i] = RgbT<T>(T(block.rays + forgotten));
             }
+}
+
+/// The number of rows of blocks that are finished before the next ones begin, to save
+/// memory. If each block gets at most one more batch, and there are rays for it, only
+/// the blocks within `deciding_blocks` matter; otherwise all rows are one band.
+[[nodiscard]] inline int rows_in_band(const RenderSettings& picture,
+                                      const AdaptiveSettings& rule) noexcept {
+    const int all = static_cast<int>(block_count(picture.height, rule.block));
+    if (rule.disagreement == 0 || rule.target > 0 || rule.batches > 1 ||
+        picture.samples - rule.first < rule.more)
+        return all;
+    // Enough for each thread that none waits long for the last one of a band.
+    const int threads = picture.threads == 0 ? max_threads() : picture.threads;
+    const long long pixels = 4096LL * std::max(threads, 4);
+    const long long row = static_cast<long long>(picture.width) * rule.block;
+    return static_cast<int>(std::clamp(pixels / row, 1LL, static_cast<long long>(all)));
 }
 
 } // namespace detail
@@ -375,7 +409,9 @@ void set_pixels(AdaptiveT<T>& result, const std::vector<AdaptiveBlock>& blocks,
 ///         that is not finite is left out and counted.
 /// \throws std::invalid_argument  as render(), or for a setting out of range, or if
 ///         there are fewer samples than first rays.
-/// \cost The rays, and 48 bytes of memory per pixel.
+/// \cost The rays. The result has 24 bytes per pixel in float; about 200 more are needed
+///       for all pixels at once, or with `disagreement`, one batch and enough samples,
+///       for 4096 pixels per thread, 16384 at least.
 /// \report{Sections 4.3 and 5}
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>
@@ -387,10 +423,13 @@ render_adaptive(const R& renderer, const C& camera, const RenderSettings& pictur
     check(rule, picture.samples);
     AdaptiveT<T> result{.image = make_image<T>(picture.width, picture.height),
                         .rays = make_image<T>(picture.width, picture.height)};
-    std::vector<detail::PixelSums> sums(result.image.pixels.size());
-    auto blocks = detail::adaptive_blocks(picture, rule.block);
+    const double pixels = double(result.image.pixels.size());
+    const double allowed = double(picture.samples) * pixels;
     double traced = 0; // rays so far
-    const double allowed = double(picture.samples) * double(sums.size());
+
+    // The rows in work: those of a band and, above and below it, those that decide.
+    std::vector<detail::AdaptiveBlock> blocks;
+    detail::RowSums sums{.width = picture.width};
 
     // Traces the batches of the blocks, 64 pixels or more at a time.
     const auto trace_round = [&] {
@@ -424,31 +463,65 @@ render_adaptive(const R& renderer, const C& camera, const RenderSettings& pictur
         traced += rays;
         return done;
     };
-    const auto estimate = [&] { return detail::relative_error(blocks, sums.size()); };
+    const auto update = [&](std::size_t from) {
+        for (std::size_t i = from; i < blocks.size(); ++i)
+            blocks[i].variance = relative_variance(blocks[i], sums, rule.epsilon);
+    };
 
-    // [rounds]
-    result.complete = trace_round(); // the first rays
-    double limit = picture.samples;
-    if (rule.two_stage) limit -= rule.first;
+    const double limit = picture.samples - (rule.two_stage ? rule.first : 0);
     const int rounds = rule.two_stage          ? 1
                        : rule.disagreement > 0 ? rule.batches
                                                : std::numeric_limits<int>::max();
-    for (int round = 0; round < rounds && result.complete; ++round) {
-        if (rule.target > 0 && estimate() <= rule.target && !rule.two_stage) break;
-        if (!detail::plan_round(blocks, rule, limit)) break;
-        if (rule.two_stage) {
-            sums.assign(sums.size(), {}); // discard the first rays
-            for (auto& block : blocks) block.rays = 0;
+    const auto columns = std::size_t(detail::block_count(picture.width, rule.block));
+    const int all = int(detail::block_count(picture.height, rule.block));
+    const int band = detail::rows_in_band(picture, rule);
+    const int around = band < all ? detail::deciding_blocks : 0;
+    const auto estimate = [&] { // if all rows are in work
+        double sum = 0;
+        detail::add_errors(sum, blocks, sums, rule.epsilon);
+        return sum / pixels;
+    };
+    double error = 0;
+    int below = 0; // the next row of blocks
+    for (int first = 0; first < all && result.complete; first += band) {
+        const int last = std::min(first + band, all);
+        const int end = std::min(last + around, all);
+        const auto fresh = detail::adaptive_blocks(picture, rule.block, below, end);
+        const std::size_t known = blocks.size();
+        blocks.insert(blocks.end(), fresh.begin(), fresh.end());
+        below = end;
+        sums.pixels.resize(std::size_t(picture.width) *
+                           std::size_t(blocks.back().bottom - sums.top));
+
+        // [rounds]
+        result.complete = trace_round(); // the first rays
+        update(known);
+        for (int round = 0; round < rounds && result.complete; ++round) {
+            if (rule.target > 0 && estimate() <= rule.target && !rule.two_stage) break;
+            if (!detail::plan_round(blocks, rule, limit)) break;
+            for (auto& block : blocks) // those beside the band only decide
+                if (block.y < first * rule.block || block.y >= last * rule.block)
+                    block.wanted = 0;
+            if (rule.two_stage) {
+                sums.pixels.assign(sums.pixels.size(), {}); // discard the first rays
+                for (auto& block : blocks) block.rays = 0;
+            }
+            result.complete = trace_round();
+            if (round + 1 < rounds) update(0); // the next band needs the first ones
         }
-        result.complete = trace_round();
+        // [rounds]
+        const int top = blocks[0].y / rule.block;
+        const auto part = std::span<const detail::AdaptiveBlock>(blocks).subspan(
+            columns * std::size_t(first - top), columns * std::size_t(last - first));
+        detail::add_errors(error, part, sums, rule.epsilon);
+        detail::set_pixels(result, part, sums, rule.two_stage ? rule.first : 0);
+        sums.drop(blocks, columns * std::size_t(std::max(last - around - top, 0)));
     }
-    // [rounds]
     if (result.complete) // it may have stopped early
         (void)picture.progress(static_cast<long long>(allowed),
                                static_cast<long long>(allowed));
-    result.estimate = estimate();
+    result.estimate = error / pixels;
     result.reached = result.estimate <= rule.target * (1 + 1e-6); // up to rounding
-    detail::set_pixels(result, blocks, sums, rule.two_stage ? rule.first : 0);
     return result;
 }
 
