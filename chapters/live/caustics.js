@@ -19,9 +19,7 @@ ljusLive.define("caustics", figure => {
     let trails = [], flights = [], next = 0, rate = 1;
     function send() {
         wasm.send();
-        const at = Array.from(figure.floats(wasm.path(), 2 * wasm.path_size()));
-        const path = [];
-        for (let i = 0; i < at.length; i += 2) path.push([at[i], at[i + 1]]);
+        const path = figure.pairs(figure.floats(wasm.path(), 2 * wasm.path_size()));
         trails.push(path);
         return path;
     }

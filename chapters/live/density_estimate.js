@@ -61,16 +61,6 @@ ljusLive.define("density_estimate", figure => {
         return count;
     }
 
-    function drawLight(r) {
-        const values = figure.floats(wasm.picture(r), cells * cells);
-        const bytes = new Uint8ClampedArray(4 * cells * cells);
-        values.forEach((e, i) => {
-            bytes.fill(255 * (e / white) ** (1 / 2.2), 4 * i, 4 * i + 3);
-            bytes[4 * i + 3] = 255;
-        });
-        figure.paint(light, bytes, cells, cells);
-    }
-
     function drawChart(colors, r) {
         const high = e => 160 - 150 * Math.min(e / white, 1);
         const line = (points, color, width) => {
@@ -106,7 +96,8 @@ ljusLive.define("density_estimate", figure => {
         const counting = wasm.count_reference(0) < 200000;
         if (counting) wasm.count_reference(2000);
         inside.value = drawFloor(colors, r, time);
-        if (stale) drawLight(r);
+        if (stale)
+            figure.shade(light, figure.floats(wasm.picture(r), cells * cells), cells, white);
         stale = false;
         off.value = drawChart(colors, r).toFixed(2) + " W/m²";
         found.value = wasm.estimate(at, r).toFixed(2) + " W/m²";

@@ -17,9 +17,7 @@ ljusLive.define("irradiance_cache", figure => {
 
     const number = wasm.setup(), places = wasm.curve_size(), wide = wasm.width_of_floor();
     const points = Array.from({ length: number }, (_, i) => {
-        const at = Array.from(figure.doubles(wasm.ends(i), 2 * wasm.ends_size()));
-        const ends = Array.from({ length: wasm.ends_size() }, (_, k) =>
-            [at[2 * k], at[2 * k + 1]]);
+        const ends = figure.pairs(figure.doubles(wasm.ends(i), 2 * wasm.ends_size()));
         return { x: wasm.point(i, 0), light: wasm.point(i, 1), far: wasm.point(i, 2), ends };
     });
     const exact = Array.from(figure.doubles(wasm.exact(), places));

@@ -114,6 +114,8 @@ var ljusLive = (function () {
     //   figure.onFrame(f)              f(time) per animation frame while in sight; when
     //                                  it returns false it is called again only after a
     //                                  control, a drag, the theme or figure.redraw()
+    //   figure.shade(canvas, values, size, white)   size x size values as greys
+    //   figure.pairs(numbers)          [x, y, x, y] as [[x, y], [x, y]]
     //   figure.redraw()                asks for a frame
     //   figure.along(path, length)     the part of a path of [x, y] up to a length
     //   figure.onSight(f)              f(true) and f(false): in sight or not
@@ -216,6 +218,15 @@ var ljusLive = (function () {
             copy.getContext("2d").putImageData(new ImageData(
                 new Uint8ClampedArray(rgba), width, height), 0, 0);
             canvas.getContext("2d").drawImage(copy, x, y, w, h);
+        };
+
+        figure.shade = (canvas, values, size, white) => {
+            const bytes = new Uint8ClampedArray(4 * size * size);
+            values.forEach((value, i) => {
+                bytes.fill(255 * (value / white) ** (1 / 2.2), 4 * i, 4 * i + 3);
+                bytes[4 * i + 3] = 255;
+            });
+            figure.paint(canvas, bytes, size, size);
         };
 
         // --- Pointer and keys
@@ -363,6 +374,7 @@ var ljusLive = (function () {
             const { input } = slider, min = Number(input.min), max = Number(input.max);
             let at = null, last = null; // where it is; null: it stands still
             const begin = from => {
+                if (at !== null && from === null) writeSettings();
                 at = from;
                 last = null;
                 button.input.textContent = at === null ? "play" : "pause";
@@ -373,13 +385,12 @@ var ljusLive = (function () {
             players.push(time => {
                 if (at === null) return false;
                 const passed = Math.min(time - (last || time), 100) / 1000;
+                const before = slider.value;
                 last = time;
                 at = Math.min(max, at + (max - min) * passed / seconds);
-                slider.choose(at);
-                if (at === max) {
-                    begin(null);
-                    writeSettings();
-                }
+                slider.value = at;
+                if (slider.value !== before) slider.choose(slider.value);
+                if (at === max) begin(null);
                 return true;
             });
         };
@@ -388,6 +399,8 @@ var ljusLive = (function () {
             const told = all.find(one => value <= Number(one.dataset.upto));
             for (const one of all) one.hidden = one !== told;
         };
+        figure.pairs = numbers => Array.from({ length: numbers.length / 2 },
+            (_, i) => [numbers[2 * i], numbers[2 * i + 1]]);
         figure.along = (path, length) => {
             const part = path.slice(0, 1);
             for (let i = 1; i < path.length && length > 0; ++i) {

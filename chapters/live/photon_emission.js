@@ -25,9 +25,7 @@ ljusLive.define("photon_emission", figure => {
     begin();
     function launch(time) {
         wasm.send(1);
-        const at = Array.from(figure.floats(wasm.path(), 2 * wasm.path_size()));
-        const path = [];
-        for (let i = 0; i < at.length; i += 2) path.push([at[i], at[i + 1]]);
+        const path = figure.pairs(figure.floats(wasm.path(), 2 * wasm.path_size()));
         flights.push({ path, time });
         next = time + 250;
     }
@@ -90,7 +88,7 @@ ljusLive.define("photon_emission", figure => {
             pen.fillText(k, left + wide / 2, axis + 15);
         }
         pen.textAlign = "right";
-        pen.fillText("flux that arrives at the k-th surface; black: ρ to the power k − 1",
+        pen.fillText("flux that arrives at the k-th surface; lines: ρ to the power k − 1",
                      X(1), axis - high + 6);
     }
 

@@ -69,15 +69,6 @@ ljusLive.define("progressive", figure => {
         return falling;
     }
 
-    function drawLight(picture) {
-        const bytes = new Uint8ClampedArray(4 * cells * cells);
-        picture.forEach((e, i) => {
-            bytes.fill(255 * (e / white) ** (1 / 2.2), 4 * i, 4 * i + 3);
-            bytes[4 * i + 3] = 255;
-        });
-        figure.paint(light, bytes, cells, cells);
-    }
-
     function drawChart(colors, now) {
         const draw = (points, color, width, dash = []) => {
             plot.strokeStyle = color;
@@ -126,7 +117,7 @@ ljusLive.define("progressive", figure => {
             dots = Array.from(figure.floats(wasm.dots(), 2 * number));
             landed = time;
             shown = s;
-            drawLight(now.picture);
+            figure.shade(light, now.picture, cells, white);
         }
         const falling = drawFloor(figure.colors, now.radius, time);
         drawChart(figure.colors, now);
