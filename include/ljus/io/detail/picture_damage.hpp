@@ -38,8 +38,8 @@ inline std::uint32_t png_sum(const Bytes& file, std::size_t first, std::size_t l
 }
 
 // Calls use(name, at, size) for the chunks of a PNG file up to IEND, with the index of
-// each one's data, until it returns true. Ends at the first chunk that is cut off. Behind
-// IEND, a file may have bytes that are no chunks.
+// each one's data, until it returns true. Ends at the first chunk that is cut off.
+// Behind IEND, a file may have bytes that are no chunks.
 template <typename Use>
 void find_png_chunk(const Bytes& file, Use use) {
     for (std::size_t at = 8; at <= file.size() && file.size() - at >= 12;) {
