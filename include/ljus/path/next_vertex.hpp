@@ -16,7 +16,7 @@
 #include "ljus/math/frame.hpp"
 #include "ljus/math/random.hpp"
 #include "ljus/optics/absorption.hpp"
-#include "ljus/optics/dispersion.hpp"
+#include "ljus/optics/wavelength.hpp"
 #include "ljus/path/path_state.hpp"
 #include "ljus/scene/nested_bodies.hpp"
 
