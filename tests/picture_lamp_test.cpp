@@ -13,11 +13,11 @@
 
 #include "ljus/geometry/disc.hpp"
 #include "ljus/materials/glass.hpp"
-#include "ljus/materials/picture_lamp.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scene/make_scene.hpp"
+#include "ljus/scene/picture_lamp.hpp"
 #include "support/integrate.hpp"
 #include "support/mean.hpp"
 #include "support/refusal.hpp"
@@ -359,7 +359,8 @@ TEST_CASE("picture lamp: aimed photons, through glass and from afar") {
     const World far(make_scene(
         placed(Quad{{-1, 0, -1}, {0, 0, 2}, {2, 0, 0}}, matt),
         placed(Quad{{-3, 60, -3}, {6, 0, 0}, {0, 0, 6}}, shown, Rgb{400, 200, 100})));
-    CHECK(aim_at_scene(far, far.light_choice()).is_aimed == std::vector<bool>{true});
+    CHECK(aim_at_scene(far, far.light_choice()).is_aimed ==
+          std::vector<std::uint8_t>{1});
     const Mean from_afar = flux_by_photons(far, {MapType::general}, 2000);
     const Mean from_below = flux_by_paths(far, {}, 20000);
     CHECK(std::abs(apart(from_afar, from_below)) < 5);

@@ -9,10 +9,10 @@
 
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
-#include <ljus/materials/picture_lamp.hpp>
 #include <ljus/math/stratified_stream.hpp>
 #include <ljus/render/gathering.hpp>
 #include <ljus/render/lamp_shares.hpp>
+#include <ljus/scene/picture_lamp.hpp>
 
 #include "common/example.hpp"
 

@@ -216,17 +216,6 @@ template <typename L, typename Point>
         return {};
 }
 
-/// The flux of all photons of a light together, if each leaves as one from this point
-/// does: the light's flux, or that of flux_from().
-template <typename L, typename Point>
-[[nodiscard]] RgbT<typename L::Scalar> flux_leaving(const L& light,
-                                                    const Point& point) {
-    if constexpr (requires { flux_from(light, point); })
-        return flux_from(light, point);
-    else
-        return power(light);
-}
-
 /// The position of a point of a light, on a surface or not.
 template <std::floating_point T>
 [[nodiscard]] const Vec3T<T>& position_of(const SurfacePointT<T>& point) noexcept {

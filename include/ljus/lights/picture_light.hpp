@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 
 #include "ljus/geometry/disc.hpp"
 #include "ljus/geometry/quad.hpp"
@@ -82,33 +83,35 @@ template <std::floating_point T>
 /// \param picture     Factors of the radiance, as of a PictureLampT.
 /// \param radiance    W/(m^2 sr).
 /// \param inside_out  Whether it shines on the other side.
-/// \throws std::invalid_argument  if no pixel shines.
+/// \throws std::invalid_argument  if no pixel shines, or if the shape is another.
 /// \cost 8 bytes a pixel beside the picture.
 template <typename S, std::floating_point T>
-requires requires(const S& shape) {
-    detail::picture_frame(shape);
-}
-[[nodiscard]] PictureLightT<T> make_picture_light(const S& shape,
-                                                  const ImageT<T>& picture,
-                                                  const RgbT<T>& radiance,
-                                                  bool inside_out) {
-    PictureLightT<T> light{.frame = detail::picture_frame(shape),
-                           .normal = inside_out ? -normal(shape) : normal(shape),
-                           .round = std::same_as<S, DiscT<T>>,
-                           .picture = picture};
-    const int width = picture.width, height = picture.height;
-    light.pixel_area = double(area(light.frame)) / (double(width) * double(height));
-    RgbT<double> sum{0};
-    light.cells = make_piecewise_constant(width, height, [&](int x, int y) {
-        RgbT<T>& there = pixel(light.picture, x, y);
-        there *= radiance;
-        const double part =
-            light.round ? detail::fraction_in_circle(width, height, x, y) : 1.0;
-        sum += part * RgbT<double>(there);
-        return part > 0 ? double(detail::brightness(there)) : 0.0;
-    });
-    light.flux = RgbT<T>(std::numbers::pi * light.pixel_area * sum);
-    return light;
+[[nodiscard]] PictureLightT<T>
+make_picture_light(const S& shape, const ImageT<T>& picture, const RgbT<T>& radiance,
+                   bool inside_out) {
+    if constexpr (!requires { detail::picture_frame(shape); }) {
+        throw std::invalid_argument("A lamp that shows a picture must be a quad or a "
+                                    "disc at rest; give another shape a radiance "
+                                    "without a picture.");
+    } else {
+        PictureLightT<T> light{.frame = detail::picture_frame(shape),
+                               .normal = inside_out ? -normal(shape) : normal(shape),
+                               .round = std::same_as<S, DiscT<T>>,
+                               .picture = picture};
+        const int width = picture.width, height = picture.height;
+        light.pixel_area = double(area(light.frame)) / (double(width) * double(height));
+        RgbT<double> sum{0};
+        light.cells = make_piecewise_constant(width, height, [&](int x, int y) {
+            RgbT<T>& there = pixel(light.picture, x, y);
+            there *= radiance;
+            const double part =
+                light.round ? detail::fraction_in_circle(width, height, x, y) : 1.0;
+            sum += part * RgbT<double>(there);
+            return part > 0 ? double(detail::brightness(there)) : 0.0;
+        });
+        light.flux = RgbT<T>(std::numbers::pi * light.pixel_area * sum);
+        return light;
+    }
 }
 
 /// The radiance at a point of the picture, W/(m^2 sr): that of a pixel.

@@ -191,8 +191,8 @@ template <Refractive M>
 
 /// A material that differs between wavelengths, like glass that makes a rainbow:
 /// `at_wavelength(m, nm)` returns it at one, as a material whose colours are those of
-/// all wavelengths. A path that meets it has one wavelength from there on; see
-/// \ref dispersion.
+/// all wavelengths. A path that meets it has one wavelength from there on, chosen by
+/// ljus/optics/dispersion.hpp, which it needs; see \ref dispersion.
 template <typename M>
 concept Dispersive = requires(const M& m, typename M::Scalar nm) {
     at_wavelength(m, nm);
@@ -236,7 +236,8 @@ requires std::floating_point<typename M::Scalar>
 }
 
 /// A material whose lamp shows a picture: `emission_picture(m)` returns the factors of
-/// the radiance, over the (u, v) of a quad or a disc.
+/// the radiance, over the (u, v) of a quad or a disc. It needs
+/// ljus/lights/picture_light.hpp.
 template <typename M>
 concept ShowsPicture = requires(const M& m) {
     emission_picture(m).pixels;

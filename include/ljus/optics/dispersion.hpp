@@ -11,6 +11,7 @@
 
 #include "ljus/math/piecewise_constant.hpp"
 #include "ljus/optics/cie_observer.hpp"
+#include "ljus/optics/wavelength.hpp"
 
 namespace ljus {
 
@@ -20,16 +21,6 @@ namespace ljus {
 ///
 /// Wavelengths are in nm, and are those in air.
 /// \{
-
-/// Three of Fraunhofer's lines, at which catalogues state indices.
-/// \{
-template <std::floating_point T>
-inline constexpr T line_F = T(486.13); ///< Hydrogen, blue.
-template <std::floating_point T>
-inline constexpr T line_d = T(587.56); ///< Helium, yellow; its index is *the* index.
-template <std::floating_point T>
-inline constexpr T line_C = T(656.27); ///< Hydrogen, red.
-/// \}
 
 /// Sellmeier's formula, with the wavelength in micrometres \cite sellmeier1871 :
 /// \f[ n^2(\lambda) = 1 + \sum_i \frac{B_i \lambda^2}{\lambda^2 - C_i} \f]

@@ -16,7 +16,7 @@
 #include "ljus/math/frame.hpp"
 #include "ljus/math/random.hpp"
 #include "ljus/optics/absorption.hpp"
-#include "ljus/optics/dispersion.hpp"
+#include "ljus/optics/wavelength.hpp"
 #include "ljus/path/path_state.hpp"
 #include "ljus/scene/nested_bodies.hpp"
 
@@ -392,8 +392,9 @@ template <AnyWorld W>
 /// \report{Section 2.1}
 template <AnyWorld W, StreamLike Stream>
 [[nodiscard]] typename W::Scalar path_time(const W& world, Stream& stream) {
-    if (!has_moving(world)) return 0;
-    return next_1d<typename W::Scalar>(stream);
+    if constexpr (lists_moving<W>)
+        if (has_moving(world)) return next_1d<typename W::Scalar>(stream);
+    return 0;
 }
 
 } // namespace detail

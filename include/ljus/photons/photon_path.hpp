@@ -34,6 +34,17 @@ template <std::floating_point T>
     return {.origin = point, .direction = direction};
 }
 
+/// The flux of all photons of a light together, if each leaves as one from this point
+/// does: the light's flux, or that of flux_from().
+template <typename L, typename Point>
+[[nodiscard]] RgbT<typename L::Scalar> flux_leaving(const L& light,
+                                                    const Point& point) {
+    if constexpr (requires { flux_from(light, point); })
+        return flux_from(light, point);
+    else
+        return power(light);
+}
+
 } // namespace detail
 
 /// A photon that leaves a given light.

@@ -4,6 +4,7 @@
 /// \brief Photons of a far lamp, aimed at the scene.
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -133,9 +134,10 @@ template <AnyWorld W, NearLight L, std::floating_point T>
 /// aimed. `emit(world, aim.choice, stream, aim)` emits one.
 template <std::floating_point T>
 struct SceneAimT {
-    LightChoice choice{};         ///< By the flux that goes to the scene.
-    SphereT<T> sphere{};          ///< As of lit_sphere().
-    std::vector<bool> is_aimed{}; ///< One per light; none if none is aimed.
+    LightChoice choice{};                 ///< By the flux that goes to the scene.
+    SphereT<T> sphere{};                  ///< As of lit_sphere().
+    std::vector<std::uint8_t> is_aimed{}; ///< 1 for each aimed light, 0 for others;
+                                          ///< empty if none is aimed.
 
     /// A photon that leaves a light.
     /// \param number       The light's number.
@@ -171,7 +173,7 @@ aim_at_scene(const W& world, const LightChoice& choice, bool by_power = true) {
     const auto sphere = lit_sphere(world);
     if (!sphere) return aim;
     aim.sphere = *sphere;
-    std::vector<bool> is_aimed;
+    std::vector<std::uint8_t> is_aimed;
     double before = 0, sum = 0;
     for (std::uint32_t i = 0; i < world.light_count(); ++i) {
         const auto part =
@@ -180,12 +182,12 @@ aim_at_scene(const W& world, const LightChoice& choice, bool by_power = true) {
                     return detail::part_of_flux_in(world, l, *sphere);
                 return std::nullopt;
             });
-        is_aimed.push_back(part.has_value());
+        is_aimed.push_back(part ? 1 : 0);
         sum += (choice.cumulative[i] - before) * part.value_or(1.0);
         before = choice.cumulative[i];
         if (by_power) aim.choice.cumulative[i] = sum;
     }
-    if (std::find(is_aimed.begin(), is_aimed.end(), true) == is_aimed.end())
+    if (std::find(is_aimed.begin(), is_aimed.end(), 1) == is_aimed.end())
         return {.choice = choice};
     aim.is_aimed = std::move(is_aimed);
     return aim;

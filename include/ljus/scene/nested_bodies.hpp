@@ -143,8 +143,10 @@ template <AnyWorld W, std::floating_point T>
 /// \cost A comparison outside the bounding box of all bodies.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] BodyList bodies_at(const W& world, const RayT<T>& ray) {
-    if (!world.has_priorities() || !world.may_be_in_medium(ray.origin)) return {};
-    return bodies_around(world, ray);
+    if constexpr (W::lists_priorities)
+        if (world.has_priorities() && world.may_be_in_medium(ray.origin))
+            return bodies_around(world, ray);
+    return {};
 }
 
 /// \}

@@ -13,7 +13,7 @@
 
 #include "ljus/accel/bvh8.hpp"
 #include "ljus/image/texture.hpp"
-#include "ljus/lights/picture_light.hpp"
+#include "ljus/lights/area_light.hpp"
 #include "ljus/math/frame.hpp"
 #include "ljus/ref.hpp"
 #include "ljus/scene/body_list.hpp"
@@ -156,6 +156,21 @@ inline constexpr bool is_scene<Scene<G, M, L, P>> = true;
 
 } // namespace detail
 
+/// Declared only: programs without such a lamp do not compile lights/picture_light.hpp.
+template <std::floating_point T>
+struct PictureLightT;
+
+namespace detail {
+
+/// The textured lamps of a World.
+template <std::floating_point T>
+struct KeptPicturesT {
+    std::vector<PictureLightT<T>> lights{}; ///< The lamps.
+    std::vector<std::uint32_t> shown{};     ///< In lights, for each lamp; or no_light.
+};
+
+} // namespace detail
+
 /// Selects the arithmetic of a world's intersections in its constructor:
 /// `World world(std::move(scene), compute_in<double>)`.
 template <typename Compute>
@@ -288,6 +303,9 @@ public:
     /// Whether the scene lists a material whose lamp shows a picture.
     static constexpr bool lists_pictures =
         S::any_material([]<typename M>() { return ShowsPicture<M>; });
+    static_assert(
+        !lists_pictures || requires { sizeof(PictureLightT<Scalar>); },
+        "A material with emission_picture() needs ljus/lights/picture_light.hpp.");
     /// The textured lamp that an object is; null if it is none.
     [[nodiscard]] const PictureLightT<Scalar>*
     picture_of(const ObjectT<Scalar>& object) const noexcept {
@@ -564,26 +582,24 @@ private:
     // The textured lamp that a lamp is, or null.
     [[nodiscard]] const PictureLightT<Scalar>*
     picture_of(std::uint32_t lamp) const noexcept {
-        return shown_[lamp] == no_light ? nullptr : &pictures_[shown_[lamp]];
+        if constexpr (lists_pictures)
+            if (const std::uint32_t number = pictures_.shown[lamp]; number != no_light)
+                return &pictures_.lights[number];
+        return nullptr;
     }
 
     // Gives the last lamp its picture, if its material shows one.
     template <typename G>
     [[gnu::cold]] void add_picture(const S& scene, const G& shape,
                                    const ObjectT<Scalar>& object) {
-        shown_.push_back(no_light);
+        pictures_.shown.push_back(no_light);
         const auto add = [&]<typename M>(const M& material) {
             if constexpr (ShowsPicture<M>) {
-                const auto& picture = emission_picture(material);
-                if constexpr (requires { detail::picture_frame(shape); }) {
-                    shown_.back() = static_cast<std::uint32_t>(pictures_.size());
-                    pictures_.push_back(make_picture_light(
-                        shape, picture, object.emission, object.inside_out));
-                } else {
-                    throw std::invalid_argument(
-                        "A lamp that shows a picture must be a quad or a disc at rest; "
-                        "give another shape a radiance without a picture.");
-                }
+                auto& [lights, shown] = pictures_;
+                shown.back() = static_cast<std::uint32_t>(lights.size());
+                lights.push_back(make_picture_light(shape, emission_picture(material),
+                                                    object.emission,
+                                                    object.inside_out));
             }
         };
         detail::visit_element(scene.materials, object.material.type,
@@ -620,8 +636,8 @@ private:
     std::vector<RgbT<Scalar>> powers_{};
     LightChoice choice_{};
     Contacts contacts_{};
-    std::vector<PictureLightT<Scalar>> pictures_{};
-    std::vector<std::uint32_t> shown_{}; // in pictures_, for each lamp; or no_light
+    std::conditional_t<lists_pictures, detail::KeptPicturesT<Scalar>, std::tuple<>>
+        pictures_{};
 };
 
 namespace detail {

@@ -20,11 +20,11 @@
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
 #include "ljus/materials/nested.hpp"
-#include "ljus/materials/picture_lamp.hpp"
 #include "ljus/materials/rough_glass.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/materials/textured.hpp"
 #include "ljus/scene/make_scene.hpp"
+#include "ljus/scene/picture_lamp.hpp"
 
 namespace ljus {
 

@@ -11,6 +11,7 @@
 
 #include <glm/common.hpp>
 
+#include "ljus/io/detail/mesh_builder.hpp"
 #include "ljus/io/detail/obj_text.hpp"
 #include "ljus/io/mesh_file.hpp"
 

@@ -1,9 +1,10 @@
 #pragma once
 
-/// \file ljus/materials/picture_lamp.hpp
-/// \brief A matt surface whose lamp shows a picture.
+/// \file ljus/scene/picture_lamp.hpp
+/// \brief A matt surface whose lamp shows a picture: the material with its light.
 
 #include "ljus/image/image.hpp"
+#include "ljus/lights/picture_light.hpp"
 #include "ljus/materials/lambertian.hpp"
 
 namespace ljus {

@@ -1,0 +1,33 @@
+#pragma once
+
+/// \file ljus/optics/wavelength.hpp
+/// \brief The wavelength of a path, as far as programs without dispersion know it.
+
+#include <concepts>
+
+#include "ljus/math/vector.hpp"
+
+namespace ljus {
+
+/// \addtogroup dispersion
+/// \{
+
+/// Three of Fraunhofer's lines, at which catalogues state indices.
+/// \{
+template <std::floating_point T>
+inline constexpr T line_F = T(486.13); ///< Hydrogen, blue.
+template <std::floating_point T>
+inline constexpr T line_d = T(587.56); ///< Helium, yellow; its index is *the* index.
+template <std::floating_point T>
+inline constexpr T line_C = T(656.27); ///< Hydrogen, red.
+/// \}
+
+// Defined in dispersion.hpp, which only programs with a dispersive material include.
+template <std::floating_point T>
+[[nodiscard]] T sample_wavelength(T u);
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> wavelength_color(T nm);
+
+/// \}
+
+} // namespace ljus
