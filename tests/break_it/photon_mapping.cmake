@@ -100,6 +100,6 @@ ljus_break_it(NAME photon-mapping-spared HEADER render/photon_mapping.hpp
 
 # A radius of another unit than the scene's loses all caustics without a word.
 ljus_break_it(NAME photon-mapping-unit HEADER render/photon_mapping.hpp TEST photon_mapping_steps
-    FROM "const bool few = found < 0.1,"
-    TO   "const bool few = found < 0,"
+    FROM "const bool few = found < 0.1;"
+    TO   "const bool few = found < 0;"
     CASES "photon mapping: a radius in another unit*")

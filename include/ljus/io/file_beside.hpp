@@ -254,10 +254,10 @@ private:
 
 /// Writes a file beside `path`, and renames it once every write, the flush and the
 /// close have succeeded. If anything fails, an older file is unchanged and nothing else
-/// is left. The new file has the older one's permissions. A program that is killed while
-/// it renames leaves `a.png.ljus-part0`, the complete new file; the next save of `a.png`
-/// removes it. (A program that wants to receive the error of a file-size limit must
-/// ignore SIGXFSZ.)
+/// is left. The new file has the older one's permissions. A program that is killed
+/// while it renames leaves `a.png.ljus-part0`, the complete new file; the next save of
+/// `a.png` removes it. (A program that wants to receive the error of a file-size limit
+/// must ignore SIGXFSZ.)
 /// \throws std::runtime_error  "cannot write 'out/a.png': No space left on device.".
 [[gnu::cold]] inline void save_file(const std::string& path, const Bytes& bytes) {
     detail::FileBeside file(detail::file_to_replace(path));

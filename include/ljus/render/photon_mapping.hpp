@@ -232,8 +232,8 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     return maps;
 }
 
-/// A sentence about an estimate whose radius was given in another unit than the scene's:
-/// hardly any place finds a photon, or each one all of them.
+/// A sentence about an estimate whose radius was given in another unit than that of the
+/// scene: hardly any place finds a photon, or each one all of them.
 /// \return Empty, or with a line feed.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string
@@ -243,7 +243,8 @@ radius_remark(std::string_view name, const DensityEstimateSettings& estimate,
     const double typical = double(typical_radius(map, some));
     const double share = double(estimate.radius) / typical;
     const double found = double(some) * share * share;
-    const bool few = found<0.1, all = found> 4 * double(map.records.size());
+    const bool few = found < 0.1;
+    const bool all = found > 4 * double(map.records.size());
     if (map.empty() || !(few || all)) return {};
     return join({name, ".radius is ", to_text(double(estimate.radius)),
                  ", and a radius of ", to_text(double(float(typical))), " holds ",

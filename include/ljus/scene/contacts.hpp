@@ -38,8 +38,8 @@ namespace ljus {
 /// | a thin surface and anything              | anything but the thin surface       |
 ///
 /// A World looks for contacts once, when it is made. They are found between flat
-/// shapes, at rest or moving in their plane, meshes and spheres at rest; other shapes are
-/// met in the order of addition.
+/// shapes, also those that move in their plane, meshes and spheres at rest; other
+/// shapes are met in the order of addition.
 /// \{
 
 template <std::floating_point T>
