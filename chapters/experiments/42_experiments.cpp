@@ -1,11 +1,13 @@
 // smoke: --quality draft
 /// \file chapters/experiments/42_experiments.cpp
-/// \brief Chapter 42: bias and noise of photons in fog over radius and number, the tree
-/// against a loop, and photon maps against path tracing in a foggy room.
+/// \brief Chapter 42: bias and noise of photons in fog over radius and number, points
+/// and beams, the tree against a loop, and photon maps against path tracing in a foggy
+/// room.
 
 #include <cmath>
 #include <ctime>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -140,6 +142,57 @@ void tabulate_nearest(const Options& options, const World<Yard>& world) {
     examples::save_table(options.path(""), table);
 }
 
+/// Table: a ray across the beam of the yard, by the points at which 2000 photons are
+/// scattered, and by their whole flights.
+void tabulate_beams(const Options& options) {
+    examples::Table table{.name = "volume_photons-beams",
+                          .columns = {"radius", "noise of points", "points at a ray",
+                                      "noise of beams", "beams at a ray"}};
+    constexpr int photons = 2000;
+    constexpr double s = extinction_of_yard, albedo = 0.4 / s;
+    const double flux = 4 * double(half_width) * std::exp(-s) / photons;
+    const double phase = 1 / (4 * std::numbers::pi);
+    const int runs = options.pick(10, 400, 4000);
+    for (const double part : {0.25, 0.5, 1.0}) {
+        const double r = part * double(half_width);
+        Spread by_points, by_beams;
+        double points = 0, beams = 0;
+        for (int run = 0; run < runs; ++run) {
+            double of_points = 0, of_beams = 0;
+            for (int i = 0; i < photons; ++i) {
+                auto stream =
+                    random_stream(3, Pass::user, std::uint64_t(run), std::uint64_t(i));
+                const auto u = next_2d<double>(stream);
+                const double x = 2 * u.x - 1, z = double(half_width) * (2 * u.y - 1);
+                const double seen = flux * phase * std::exp(-s * (x + 1.5));
+                const double up = -std::log(1 - next_1d<double>(stream)) / s - 0.5;
+                if (const double d2 = (up * up + z * z) / (r * r); d2 < 1) {
+                    of_points +=
+                        seen * albedo * 2 * (1 - d2) / (std::numbers::pi * r * r);
+                    ++points;
+                }
+                if (const double d2 = z * z / (r * r); d2 < 1) {
+                    of_beams += seen * 0.4 * std::exp(-0.5 * s) * 0.75 * (1 - d2) / r;
+                    ++beams;
+                }
+            }
+            by_points.add(of_points);
+            by_beams.add(of_beams);
+        }
+        table.rows.push_back({examples::text(r, "%.3f"),
+                              examples::text(by_points.noise(), "%.3f"),
+                              examples::text(points / runs, "%.0f"),
+                              examples::text(by_beams.noise(), "%.3f"),
+                              examples::text(beams / runs, "%.0f")});
+        // Neither has a bias here.
+        for (const Spread& spread : {by_points, by_beams})
+            if (spread.bias() > 5 * spread.noise() / std::sqrt(double(runs)))
+                throw std::logic_error("volume_photons-beams: an estimate is biased");
+    }
+    examples::print_table(table);
+    examples::save_table(options.path(""), table);
+}
+
 /// The seconds that a processor works on something, whatever else it does meanwhile.
 template <typename Work>
 double processor_seconds(Work&& work) {
@@ -268,6 +321,7 @@ int main(int argc, char** argv) {
         const auto world = yard();
         plot_radius(options, world);
         tabulate_nearest(options, world);
+        tabulate_beams(options);
         tabulate_tree(options, world);
         tabulate_room(options);
     });
