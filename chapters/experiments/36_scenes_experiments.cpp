@@ -275,7 +275,7 @@ void compare(const Scenery& scenery, const examples::Options& options,
     for (int seed = 0; seed < seeds; ++seed)
         right.add(render(tracer, made.camera,
                          {.width = options.width / 2,
-                          .height = options.height / 2,
+                          .height = options.width / 2,
                           .samples = options.samples,
                           .seed = options.seed + std::uint64_t(seed),
                           .threads = options.threads})
@@ -318,10 +318,13 @@ void compare(const Scenery& scenery, const examples::Options& options,
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         line.about("Chapter 36: the presets in scenes beyond the room.");
+        line.without({"--height"});
         std::string only;
         line.add("--scene", only, "Only this one");
         const examples::Options options = line.parse(
             {.draft{12, 12, 4}, .report{48, 48, 100}, .reference{48, 48, 1024}});
+        require(options.width > 0 && options.width % (2 * across) == 0, "--width",
+                static_cast<long long>(options.width), "a multiple of 6");
         examples::Table table{.name = "trades-scenes",
                               .columns = {"scene", "preset", "mean over the true mean",
                                           "largest error of a block, %", "stated, %",
