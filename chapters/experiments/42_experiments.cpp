@@ -1,7 +1,8 @@
 // smoke: --quality draft
 /// \file chapters/experiments/42_experiments.cpp
-/// \brief Chapter 42: bias and noise of photons in fog over radius and number, points and beams, the tree
-/// against a loop, and photon maps against path tracing in a foggy room.
+/// \brief Chapter 42: bias and noise of photons in fog over radius and number, points
+/// and beams, the tree against a loop, and photon maps against path tracing in a foggy
+/// room.
 
 #include <cmath>
 #include <ctime>

@@ -1,8 +1,8 @@
 # Rows of a machine's part that are traced as if they were the first ones: each strip
 # shows the top of the picture.
 ljus_break_it(NAME parallel-rows HEADER render/render.hpp TEST render
-    FROM "{x, region.y + row, i}"
-    TO   "{x, row, i}"
+    FROM "const int y = region.y + row;"
+    TO   "const int y = row;"
     CASES "render: rows that are*")
 
 # Blocks in turns: two threads are given the same one where one had it.
@@ -93,6 +93,6 @@ ljus_break_it(NAME parallel-each-options HEADER parallel.hpp TEST parallel
 
 # A region is cut out one column beside where it is.
 ljus_break_it(NAME render-region-column HEADER render/render.hpp TEST render
-    FROM "for (int x = std::max(first, region.x); x < std::min(last, right); ++x)"
-    TO   "for (int x = std::max(first, region.x + 1); x < std::min(last, right); ++x)"
+    FROM "for (int x = begin; x < end; ++x)"
+    TO   "for (int x = begin + 1; x < end; ++x)"
     CASES "render: a region is that part*")

@@ -202,18 +202,21 @@ render_region(const R& renderer, const C& camera, const RenderSettings& picture,
         const int first =
             (first_tile + static_cast<int>(number % tiles)) * detail::strip_width;
         const int last = std::min(first + detail::strip_width, picture.width);
+        const int y = region.y + row;
         Counts cost; // local, so that threads do not share a cache line
         std::array<detail::PixelSums, detail::strip_width> sums{};
         detail::SampleSums<R, T> samples(renderer, sums, cost);
         for (int x = first; x < last; ++x)
             for (int i = 0; i < picture.samples; ++i)
                 samples.add(std::size_t(x - first), [&](auto& batch) {
-                    return trace_pixel(renderer, camera, rays, {x, region.y + row, i},
-                                       cost, detail::no_log, batch);
+                    return trace_pixel(renderer, camera, rays, {x, y, i}, cost,
+                                       detail::no_log, batch);
                 });
         samples.finish();
-        for (int x = std::max(first, region.x); x < std::min(last, right); ++x)
-            pixel(result.image, x - region.x, row) =
+        const int begin = std::max(first, region.x), end = std::min(last, right);
+        RgbT<T>* out = &pixel(result.image, begin - region.x, row);
+        for (int x = begin; x < end; ++x)
+            *out++ =
                 RgbT<T>(sums[std::size_t(x - first)].sum / double(picture.samples));
         counts[static_cast<std::size_t>(number)] = cost;
     };
