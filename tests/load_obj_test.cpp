@@ -904,7 +904,7 @@ TEST_CASE("load_obj: the rarer words of a file") {
 TEST_CASE("load_obj: lines that are not used are counted, by their first words") {
     const ScratchFolder folder;
     ScratchFolder::write(folder.file("a.mtl"),
-                         "newmtl gold\nKa 0 0 0\nKd 1 0.8 0.3\nNs 900\nPm 1\nPr 0.2\n"
+                         "newmtl gold\nka 0 0 0\nKd 1 0.8 0.3\nNs 900\nPm 1\nPr 0.2\n"
                          "newmtl clay\nPm 0\nmap_Pr r.png\nTf 0.5 1 1\n");
     const std::string path = folder.file("a.obj");
     ScratchFolder::write(path, "mtllib a.mtl\ncall legs.obj\nbevel off\nV 0 0 0\n"

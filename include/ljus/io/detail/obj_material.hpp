@@ -193,7 +193,8 @@ struct MaterialReader {
             } else if (is("map_bump") || is("bump")) {
                 note(keyword, "is a map of heights, which is not used; norm names one "
                               "of normals.");
-            } else if (!is_one_of(keyword, {"", "Tr", "Ka", "Ns", "sharpness"})) {
+            } else if (!(is("") || is("Tr") || is("Ka") || is("Ns") ||
+                         is("sharpness"))) {
                 others.add(keyword, at);
             }
         });
