@@ -561,9 +561,11 @@ TEST_CASE("load_json: the report's sliders") {
     };
     const auto made = [&](const std::string& rest) {
         const LoadedScene loaded = read(mixture(rest));
-        return std::get<std::vector<Mixture>>(loaded.scene.materials).at(0);
+        return std::get<std::vector<Nested<Mixture>>>(loaded.scene.materials).at(0);
     };
-    const Mixture plain = made("");
+    const Mixture plain = made("").base;
+    CHECK(made("").priority == 0);
+    CHECK(made(R"(, "priority": 3)").priority == 3);
     CHECK(plain.color == Rgb{0.5f, 0.25f, 1});
     CHECK(plain.index == 1.5f);
     for (const float slider :
@@ -572,7 +574,8 @@ TEST_CASE("load_json: the report's sliders") {
         CHECK(slider == 0);
     const Mixture all = made(R"(, "reflectivity": 0.125, "transparency": 0.5,
         "ior": 1.25, "specularity": 0.75, "emissivity": 3, "sigma_deg": 90,
-        "absorption": [1, 2, 3])");
+        "absorption": [1, 2, 3])")
+                            .base;
     CHECK(all.reflectivity == 0.125f);
     CHECK(all.transparency == 0.5f);
     CHECK(all.index == 1.25f);
@@ -589,8 +592,8 @@ TEST_CASE("load_json: the report's sliders") {
             "materials.glass.emissivity is -1; it must be within [0, 1e12].");
     refused(mixture(R"(, "shininess": 1)"),
             "materials.glass.shininess is not known; the fields here are type, color, "
-            "reflectivity, transparency, ior, specularity, emissivity, sigma_deg and "
-            "absorption.");
+            "reflectivity, transparency, ior, specularity, emissivity, sigma_deg, "
+            "absorption and priority.");
 }
 
 TEST_CASE("load_json: each name makes its own material") {

@@ -25,6 +25,7 @@
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
+#include "ljus/materials/mixture.hpp"
 #include "ljus/materials/nested.hpp"
 #include "ljus/materials/rough_glass.hpp"
 #include "ljus/render/path_tracing.hpp"
@@ -39,10 +40,11 @@ using ljus_test::Mean, ljus_test::mean_radiance;
 namespace {
 
 template <typename T>
-using Bodies = Scene<Shapes<QuadT<T>, SphereT<T>>,
-                     Materials<LambertianT<T>, MirrorT<T>, GlassT<T>, ThinGlassT<T>,
-                               Nested<GlassT<T>>, Nested<RoughGlassT<T>>>,
-                     Lights<EnvironmentLightT<T>>>;
+using Bodies =
+    Scene<Shapes<QuadT<T>, SphereT<T>>,
+          Materials<LambertianT<T>, MirrorT<T>, GlassT<T>, ThinGlassT<T>,
+                    Nested<GlassT<T>>, Nested<RoughGlassT<T>>, Nested<MixtureT<T>>>,
+          Lights<EnvironmentLightT<T>>>;
 
 template <typename T>
 Nested<GlassT<T>> nested(double index, int priority, double absorption = 0) {
@@ -120,6 +122,14 @@ Mean seen_through(const std::function<void(Bodies<T>&)>& add, double degrees) {
         });
 }
 
+/// Clear all over, so that light splits at it into a reflected and a refracted part.
+template <typename M>
+concept Splits = Refractive<std::remove_cvref_t<M>> &&
+    requires(const std::remove_cvref_t<M>& m,
+             Vec3T<typename std::remove_cvref_t<M>::Scalar> wo) {
+    split(m, wo, Transport::flux);
+};
+
 /// A vertex of a path that always goes through.
 struct Passed {
     double position, ratio; ///< x, and the index behind the vertex over that before.
@@ -133,7 +143,7 @@ std::vector<Passed> pass_all(const W& world, PathStateT<T>& path) {
     RandomStream stream{};
     while (const auto vertex = next_vertex(world, path, stream)) {
         const bool through = visit_material_at(world, *vertex, [&](const auto& m) {
-            if constexpr (Refractive<std::remove_cvref_t<decltype(m)>>) {
+            if constexpr (Splits<decltype(m)>) {
                 const bool in = vertex->wo.z > T(0);
                 const auto n = double(refractive_index(m));
                 all.push_back({double(vertex->point.position.x), in ? n : 1 / n,
@@ -284,6 +294,18 @@ TEST_CASE("nested bodies: water on glass and glass in water, as the exact series
         const double on = transmittance_of({1, 1.33, 1.5, 1}, {0, 0.5, 0.25}, degrees);
         agrees(seen_through<float>(on_glass, degrees), on);
         agrees(seen_through<double>(on_glass, degrees), on);
+        agrees(seen_through<double>(
+                   [](auto& scene) {
+                       add_slab(scene, -0.3, 1,
+                                scene.add(nested<double>(1.33, 1, 0.5)));
+                       const MixtureT<double> glass{.transparency = 1,
+                                                    .specularity = 1,
+                                                    .absorption = RgbT<double>{0.25}};
+                       add_slab(scene, -1, 0,
+                                scene.add(Nested<MixtureT<double>>{glass, 2}));
+                   },
+                   degrees),
+               on);
         // The same, touching: priorities and contacts know each other.
         agrees(seen_through<double>(
                    [](auto& scene) {
@@ -372,7 +394,7 @@ TEST_CASE("nested bodies: a ball of glass in water, by the lens maker's formula"
         const auto vertex = next_vertex(world, path, stream);
         REQUIRE(vertex);
         visit_material_at(world, *vertex, [&](const auto& m) {
-            if constexpr (Refractive<std::remove_cvref_t<decltype(m)>>) {
+            if constexpr (Splits<decltype(m)>) {
                 const auto both = split(m, vertex->wo, Transport::radiance);
                 REQUIRE(both);
                 detail::follow(path, *vertex, m, (*both)[1],

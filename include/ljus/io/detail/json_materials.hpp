@@ -241,8 +241,10 @@ constexpr auto material_rows() {
                     "radiance over color, W/(m^2 sr)"),
              preset("sigma_deg", sigma_row.value, 0,
                     "standard deviation of the slope, degrees"),
-             absorption_row},
-            [](In in) { return read_mixture(in); }),
+             absorption_row, priority_row},
+            [](In in) {
+                return Nested<MixtureT<T>>{read_mixture(in), in.priority()};
+            }),
         row("oren-nayar-full", "", "with interreflection between facets",
             {albedo_row, sigma_row}, [](In in) { return in.rough(RoughModel::full); }),
         row("oren-nayar-printed", "", "the formula of the report's program",
