@@ -1,81 +1,102 @@
 /// \file rays_meshes.cpp
-/// \brief The two trees over meshes of 6 000 to 125 000 triangles, Embree, and the
-/// eight-wide tree of tinybvh where it was fetched (LJUS_PEERS).
+/// \brief The two trees over meshes of 6 000 to 125 000 triangles, Embree in its
+/// default and its robust mode, and the eight-wide tree of tinybvh where it was fetched
+/// (LJUS_PEERS).
+///
+/// bench_rays_meshes is tuned to the machine. bench_rays_meshes_core is compiled as a
+/// program that tunes nothing, by -O2 with ljus::core, which chooses its instructions at
+/// run time as Embree does.
 
 #include <cstdio>
 
-#include <ljus/accel/triangle_bvh.hpp>
+#ifdef LJUS_CORE
+#include <ljus/core.hpp>
+#endif
+#include <ljus/accel/mesh.hpp>
 #include <ljus/geometry/shape.hpp>
 
 #include "csv.hpp"
 #include "rays_scenes.hpp"
 #include "rays_timing.hpp"
 
-using ljus::NearestHit;
 using ljus::Ray;
 using ljus::Triangle;
 using ljus::Vec3;
 
 namespace {
 
-/// One of the library's two trees; the test of a triangle is in double.
-template <typename Tree>
-struct House {
+/// The plain tree; the test of a triangle is in double.
+struct Plain {
     const rays::Mesh& mesh;
-    Tree tree;
-    NearestHit nearest(const Ray& ray) const {
-        NearestHit found;
-        tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
-            const Triangle triangle = rays::triangle_at(tree, mesh, place);
-            if (const auto hit = ljus::intersect<double>(rest, triangle))
-                found.offer(*hit, tree.primitive_ids()[place], rest);
-        });
-        return found;
-    }
+    ljus::Bvh tree = rays::plain_tree(mesh);
     float closest(const Ray& ray) const {
-        const NearestHit found = nearest(ray);
+        const auto found =
+            nearest_hit(tree, ray, [&](std::uint32_t place, const Ray& rest) {
+                return ljus::intersect(rest, rays::triangle_at(tree, mesh, place));
+            });
         return found.found ? found.at.t : -1;
     }
     bool any(const Ray& ray) const {
         return tree.any(ray, [&](std::uint32_t place) {
-            const Triangle triangle = rays::triangle_at(tree, mesh, place);
-            return ljus::intersect<double>(ray, triangle).has_value();
+            return ljus::intersect(ray, rays::triangle_at(tree, mesh, place))
+                .has_value();
         });
     }
 };
 
+/// The wide tree as a scene asks it: through the mesh that owns it, also in double.
+struct Wide {
+    ljus::Mesh mesh;
+    float closest(const Ray& ray) const {
+        const auto hit = ljus::intersect(ray, mesh);
+        return hit ? hit->t : -1;
+    }
+    bool any(const Ray& ray) const { return ljus::meets(ray, mesh); }
+};
+/// A mesh whose triangles share no corner.
+ljus::Mesh mesh_of(const rays::Mesh& triangles) {
+    ljus::MeshData data;
+    for (const Triangle& t : triangles) {
+        const auto first = static_cast<std::uint32_t>(data.positions.size());
+        data.positions.insert(data.positions.end(), {t.v1, t.v2, t.v3});
+        data.triangles.push_back({first, first + 1, first + 2});
+    }
+    return ljus::Mesh(std::move(data), 1);
+}
+
 /// A row of the book's tables for one mesh: times over those of a peer, ray set
 /// by ray set.
 struct Ratios {
-    std::vector<std::string> wide, plain; ///< Embree's over ours.
-    std::vector<std::string> tiny;        ///< tinybvh's over ours.
+    std::vector<std::string> wide, robust, plain; ///< Embree's over ours.
+    std::vector<std::string> tiny;                ///< tinybvh's over ours.
 };
 
 /// Traces all rays of a set, prints a row on the terminal and keeps the ratios.
-template <typename Embree, typename Tiny>
-void row(const char* name, const std::vector<Ray>& set, bool any,
-         const House<ljus::Bvh>& plain, const House<ljus::TriangleBvh>& wide,
-         const Embree& embree, const Tiny& tiny, Ratios& ratios) {
-    const auto t = rays::compare(set, any, plain, wide, embree, tiny);
-    std::printf("%-10s %-8s %9.1f %9.1f %9.1f %9.1f   %15.2f %5.2f   %s\n", "", name,
-                t.nanoseconds[0], t.nanoseconds[1], t.nanoseconds[2], t.nanoseconds[3],
-                t.nanoseconds[2] / t.nanoseconds[0],
-                t.nanoseconds[2] / t.nanoseconds[1],
-                t.sums[0] == t.sums[1] ? "same" : "DIFFERENT");
+template <typename... Peer>
+void row(const char* name, const std::vector<Ray>& set, bool any, Ratios& ratios,
+         const Peer&... peers) {
+    const auto t = rays::compare(set, any, peers...);
+    std::printf("%-10s %-8s", "", name);
+    for (const double ns : t.nanoseconds) std::printf(" %9.1f", ns);
+    std::printf("   wide x");
+    for (const double ns : t.nanoseconds) std::printf(" %5.2f", ns / t.nanoseconds[1]);
+    std::printf("   %s\n", t.sums[0] == t.sums[1] ? "same" : "DIFFERENT");
+    std::fflush(stdout);
     const auto over = [&](std::size_t peer, std::size_t k) {
         return examples::text(t.nanoseconds[peer] / t.nanoseconds[k], "%.2f");
     };
     ratios.plain.push_back(over(2, 0));
     ratios.wide.push_back(over(2, 1));
-    ratios.tiny.push_back(over(3, 1));
+    ratios.robust.push_back(over(3, 1));
+    ratios.tiny.push_back(over(4, 1));
 }
 
 /// Rays from the camera of a mesh, from their hits, and to a lamp.
-rays::RaySets sets_of(const rays::Named& named, const House<ljus::TriangleBvh>& wide) {
+rays::RaySets sets_of(const rays::Named& named, const ljus::Mesh& mesh) {
     const auto first_hit = [&](const Ray& ray) -> std::optional<ljus::SurfacePoint> {
-        const NearestHit found = wide.nearest(ray);
-        if (!found.found) return std::nullopt;
-        return ljus::surface_point(named.mesh[found.number], ray, found.at);
+        const auto hit = ljus::intersect(ray, mesh);
+        if (!hit) return std::nullopt;
+        return ljus::surface_point(mesh, ray, *hit);
     };
     const bool hills = named.name[0] == 'h';
     return rays::ray_sets(first_hit,
@@ -106,35 +127,44 @@ void add_row(examples::Table& table, const rays::Named& named,
 /// Prints a row for each mesh and set of rays.
 int main(int argc, char** argv) {
     const std::string folder = csv_folder(argc, argv);
-    examples::Table table{.name = "bvh-embree",
+#ifdef LJUS_CORE
+    const char* const name = "bvh-embree-core";
+#else
+    const char* const name = "bvh-embree";
+#endif
+    examples::Table table{.name = name,
                           .columns = {"mesh", "triangles", "primary", "diffuse",
+                                      "shadow", "robust Embree: primary", "diffuse",
                                       "shadow", "plain tree: primary", "diffuse",
                                       "shadow", "build time", "bytes per triangle"}};
     examples::Table tiny_table{.name = "bvh-tinybvh",
                                .columns = {"mesh", "triangles", "primary", "diffuse",
                                            "shadow", "build time",
                                            "tinybvh's bytes per triangle"}};
-    std::printf("%-10s %-8s %9s %9s %9s %9s   x Embree: plain  wide\n", "", "",
-                "plain, ns", "wide, ns", "Embree", "tinybvh");
+    std::printf("%-19s %9s %9s %9s %9s %9s\n", "", "plain, ns", "wide, ns", "Embree",
+                "robust", "tinybvh");
     for (const rays::Named& named : rays::meshes()) {
-        const rays::Mesh& mesh = named.mesh;
-        const House<ljus::Bvh> plain{mesh, rays::plain_tree(mesh)};
+        const Plain plain{named.mesh};
         const double start = rays::seconds();
-        const House<ljus::TriangleBvh> wide{mesh, rays::wide_tree(mesh)};
+        const ljus::TriangleBvh tree = rays::wide_tree(named.mesh);
         const double build = rays::seconds() - start;
-        const rays::RaySets sets = sets_of(named, wide);
-        std::printf("%s: %zu triangles, %.1f bytes each, built in %.1f ms",
-                    named.name.c_str(), mesh.size(),
-                    double(wide.tree.bytes()) / double(mesh.size()), 1e3 * build);
-        const std::vector<float> vertices = corners_of(mesh);
+        const Wide wide{mesh_of(named.mesh)};
+        const rays::RaySets sets = sets_of(named, wide.mesh);
+        const std::string bytes =
+            examples::text(double(tree.bytes()) / double(named.mesh.size()), "%.0f");
+        std::printf("%s: %s bytes per triangle, built in %.1f ms", named.name.c_str(),
+                    bytes.c_str(), 1e3 * build);
+        const std::vector<float> vertices = corners_of(named.mesh);
 #ifdef LJUS_BENCH_EMBREE
-        rays::Embree embree;
-        embree.add(RTC_GEOMETRY_TYPE_TRIANGLE, vertices, 3, 3);
-        embree.commit();
+        rays::Embree embree, robust(RTC_SCENE_FLAG_ROBUST);
+        for (rays::Embree* const each : {&embree, &robust}) {
+            each->add(RTC_GEOMETRY_TYPE_TRIANGLE, vertices, 3, 3);
+            each->commit();
+        }
         std::printf(", Embree in %.1f ms", 1e3 * embree.build);
         const std::string ratio = examples::text(build / embree.build, "%.2f");
 #else
-        const rays::NoPeer embree;
+        const rays::NoPeer embree, robust;
         const std::string ratio;
 #endif
 #ifdef LJUS_BENCH_TINYBVH
@@ -142,19 +172,18 @@ int main(int argc, char** argv) {
         std::printf(", tinybvh in %.1f ms", 1e3 * tiny.build);
         const std::string tiny_ratio = examples::text(build / tiny.build, "%.2f");
         const std::string tiny_bytes =
-            examples::text(tiny.bytes() / double(mesh.size()), "%.0f");
+            examples::text(tiny.bytes() / double(named.mesh.size()), "%.0f");
 #else
         const rays::NoPeer tiny;
         const std::string tiny_ratio, tiny_bytes;
 #endif
         std::printf("\n");
         Ratios ratios;
-        row("primary", sets.primary, false, plain, wide, embree, tiny, ratios);
-        row("diffuse", sets.diffuse, false, plain, wide, embree, tiny, ratios);
-        row("shadow", sets.shadow, true, plain, wide, embree, tiny, ratios);
-        const std::string bytes =
-            examples::text(double(wide.tree.bytes()) / double(mesh.size()), "%.0f");
-        add_row(table, named, {ratios.wide, ratios.plain, {ratio, bytes}});
+        row("primary", sets.primary, false, ratios, plain, wide, embree, robust, tiny);
+        row("diffuse", sets.diffuse, false, ratios, plain, wide, embree, robust, tiny);
+        row("shadow", sets.shadow, true, ratios, plain, wide, embree, robust, tiny);
+        add_row(table, named,
+                {ratios.wide, ratios.robust, ratios.plain, {ratio, bytes}});
         add_row(tiny_table, named, {ratios.tiny, {tiny_ratio, tiny_bytes}});
     }
     save_csv(folder, table);

@@ -98,7 +98,10 @@ struct Embree {
     mutable RTCIntersectContext context{};
     double build = 0; ///< Seconds of rtcCommitScene.
 
-    Embree() = default;
+    /// \param flags  RTC_SCENE_FLAG_ROBUST, or none.
+    explicit Embree(RTCSceneFlags flags = RTC_SCENE_FLAG_NONE) {
+        rtcSetSceneFlags(scene, flags);
+    }
     Embree(const Embree&) = delete;
     ~Embree() {
         rtcReleaseScene(scene);
