@@ -410,6 +410,11 @@ TEST_CASE("contacts: what slides over a surface is met where it is at that time"
             if (!turned) scene.add(rug, dark);
             const World world(std::move(scene));
             CHECK(world.contacts().pairs.size() == (up == 0 ? 1 : 0));
+            std::string remarks;
+            for (const std::string& remark : scene_remarks(world, {}))
+                remarks += remark;
+            CHECK((remarks.find("such as Quad 0 and moving Quad 0 around (") !=
+                   std::string::npos) == (up == 0));
             for (const float time : {0.25f, 0.5f, 1.0f})
                 for (const float x : {-0.99f, 0.99f, 1.01f}) {
                     const auto hit =

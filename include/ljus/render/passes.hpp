@@ -309,10 +309,14 @@ LJUS_CORE_INLINE void add_contact_remarks(const Contacts& contacts,
         if (i == all.size()) all.push_back({rule, &contact, 0});
         ++all[i].pairs;
     }
-    const auto name = [&](std::uint32_t position) { // such as "Quad 3"
+    const auto name = [&](std::uint32_t position) { // such as "Quad 3", "moving Quad 0"
         const ObjectId id = contacts.objects[position].object;
-        const std::string type = type_of(id);
-        return join({std::string_view(type).substr(0, type.find("T<")), " ",
+        const std::string whole = type_of(id);
+        constexpr std::string_view motion = "Moving<";
+        const bool moves = whole.starts_with(motion);
+        const std::string_view type =
+            std::string_view(whole).substr(moves ? motion.size() : 0);
+        return join({moves ? "moving " : "", type.substr(0, type.find("T<")), " ",
                      to_text(static_cast<long long>(id.index))});
     };
     for (const auto& [rule, first, pairs] : all)

@@ -246,8 +246,8 @@ radius_remark(std::string_view name, const DensityEstimateSettings& estimate,
     const bool few = found < 0.1;
     const bool all = found > 4 * double(map.records.size());
     if (map.empty() || !(few || all)) return {};
-    return join({name, ".radius is ", to_text(double(estimate.radius)),
-                 ", and a radius of ", to_text(double(float(typical))), " holds ",
+    return join({name, ".radius is ", to_text(estimate.radius), ", and a radius of ",
+                 to_text(float(typical)), " holds ",
                  to_text(static_cast<long long>(some)),
                  few ? " photons: most of their light is missed"
                      : " photons: their light is blurred away",
