@@ -4,10 +4,13 @@
 /// compares.
 ///
 /// Each case is a function `guard_...`, which callgrind names. A case `..._plain` has a
-/// fast twin without that word; their ratio is guarded as well. The work is the same at
-/// every run: one thread, fixed seeds.
+/// fast twin without that word, a case `..._nanoflann` does the same by nanoflann; their
+/// ratios are guarded as well. (Not that of building: there nanoflann waits for branches
+/// rather than executes instructions.) The work is the same at every run: one thread, fixed
+/// seeds.
 
 #include <cstdio>
+#include <memory>
 #include <vector>
 
 #include <ljus/accel/bvh8.hpp>
@@ -27,6 +30,7 @@
 #include <ljus/render/render.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 
+#include "nanoflann_peer.hpp"
 #include "rays_scenes.hpp"
 
 #if defined(_MSC_VER)
@@ -42,6 +46,10 @@ namespace {
 /// All cases add to this, so that no work is optimised away.
 volatile double result = 0;
 
+#ifdef LJUS_BENCH_NANOFLANN
+using Nanoflann = nanoflann_peer::Nanoflann<nanoflann_peer::Installed>;
+#endif
+
 /// The data of the cases, made before counting begins.
 struct Work {
     std::vector<Ray> rays;
@@ -53,6 +61,9 @@ struct Work {
     Bvh8 eight;
     KdTree kd;
     KdTree8 kd8;
+#ifdef LJUS_BENCH_NANOFLANN
+    std::unique_ptr<Nanoflann> peer; // it keeps its address
+#endif
     PhotonMap map;
     Room<CornellSceneT<float>> room = cornell_box();
     PhotonMappingSettings settings{};
@@ -79,6 +90,10 @@ struct Work {
         eight = Bvh8(boxes, {.leaf_size = 1, .threads = 1});
         kd = KdTree(points);
         kd8 = KdTree8(points, 1);
+#ifdef LJUS_BENCH_NANOFLANN
+        peer = std::make_unique<Nanoflann>(points);
+        peer->arrange(std::vector<float>(points.size(), 1.0f));
+#endif
         map = make_photon_map(photons, 1);
         settings.indirect = IndirectLight::map;
         settings.caustics.photons = settings.general.photons = 1000;
@@ -188,6 +203,16 @@ LJUS_GUARD guard_build_kd_tree_plain() {
 LJUS_GUARD guard_build_kd_tree() {
     result = result + double(KdTree8(work().points, 1).point_ids().size());
 }
+#ifdef LJUS_BENCH_NANOFLANN
+LJUS_GUARD guard_nearest_nanoflann() {
+    for (std::size_t i = 0; i < 500; ++i)
+        result = result + work().peer->sum_nearest(work().points[i * 37], 50);
+}
+LJUS_GUARD guard_within_nanoflann() {
+    for (std::size_t i = 0; i < 1000; ++i)
+        result = result + work().peer->sum_within(work().points[i * 19], 0.05f);
+}
+#endif
 LJUS_GUARD guard_build_mesh() {
     result = result + double(rays::wide_tree(work().mesh).primitive_ids().size());
 }
@@ -257,5 +282,9 @@ int main() {
           guard_fresnel,        guard_random,        guard_photon_maps,
           guard_photon_mapping, guard_path_tracing,  guard_png})
         each();
+#ifdef LJUS_BENCH_NANOFLANN
+    guard_nearest_nanoflann();
+    guard_within_nanoflann();
+#endif
     std::printf("%.9g\n", double(result));
 }

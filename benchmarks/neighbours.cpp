@@ -2,15 +2,16 @@
 /// \brief Searches for near points: the k-d trees of the book, and other libraries
 /// (peers).
 ///
-/// Each peer is called through one adapter struct:
+/// Each peer is called through one adapter struct, at its best:
 ///
 ///     struct Peer {
-///         explicit Peer(const std::vector<ljus::Vec3>& points);       // builds
-///         float sum_within(ljus::Vec3 center, float radius) const;    // visits a ball
-///         float sum_blocks(ljus::Vec3 center, float radius) const;    // for an
-///         estimate float sum_nearest(ljus::Vec3 center, std::size_t k) const;  // k
-///         nearest float any(ljus::Vec3 center, float radius) const;           // 1 or
-///         0 float one(ljus::Vec3 center) const;                         // the nearest
+///         explicit Peer(const std::vector<ljus::Vec3>& points);      // builds
+///         void arrange(const std::vector<float>& payload); // if it wants that
+///         float sum_within(ljus::Vec3 center, float radius) const;   // visits a ball
+///         float sum_blocks(ljus::Vec3 center, float radius) const;   // by blocks
+///         float sum_nearest(ljus::Vec3 center, std::size_t k) const; // k nearest
+///         float any(ljus::Vec3 center, float radius) const;          // 1 or 0
+///         float one(ljus::Vec3 center) const;                        // the nearest
 ///     };
 ///
 /// The sums are of a payload of the points found, so that no peer gets away without
@@ -39,18 +40,9 @@
 #include <ljus/math/random.hpp>
 
 #include "csv.hpp"
+#include "nanoflann_peer.hpp"
 #include "point_structures.hpp"
 
-#if __has_include(<nanoflann.hpp>)
-#include <nanoflann.hpp>
-#define LJUS_BENCH_NANOFLANN 1
-#endif
-#ifdef LJUS_BENCH_NANOFLANN_LATEST // a file; its names must not meet the older ones
-#undef NANOFLANN_VERSION
-#define nanoflann nanoflann_latest
-#include LJUS_BENCH_NANOFLANN_LATEST
-#undef nanoflann
-#endif
 #if __has_include(<kdtree++/kdtree.hpp>)
 #include <kdtree++/kdtree.hpp>
 #define LJUS_BENCH_KDTREEPP 1
@@ -148,115 +140,6 @@ struct PlainTree {
     float one(Vec3 center) const { return sum_nearest(center, 1); }
 };
 
-/// A vector of points, as nanoflann reads it.
-struct Cloud {
-    std::vector<Vec3> points;
-    std::size_t kdtree_get_point_count() const { return points.size(); }
-    float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-        return points[i][static_cast<int>(axis)];
-    }
-    template <typename Box>
-    bool kdtree_get_bbox(Box&) const {
-        return false;
-    }
-};
-
-#ifdef LJUS_BENCH_NANOFLANN
-/// The parameters of the installed nanoflann.
-struct Installed {
-    static constexpr const char* name = "nanoflann";
-    static constexpr const char* stopped = "  stopped";
-    static constexpr const char* book = "kd_tree-nanoflann";
-    using Metric = nanoflann::L2_Simple_Adaptor<float, Cloud>;
-    using Tree = nanoflann::KDTreeSingleIndexAdaptor<Metric, Cloud, 3, std::uint32_t>;
-    using Found = std::pair<std::uint32_t, float>;
-    using Search = nanoflann::SearchParams;
-};
-#endif
-#ifdef LJUS_BENCH_NANOFLANN_LATEST
-/// The parameters of the newer one.
-struct Latest {
-    static constexpr const char* name = "nanoflann, newer";
-    static constexpr const char* stopped = "  stopped";
-    static constexpr const char* book = "kd_tree-nanoflann-latest";
-    using Metric = nanoflann_latest::L2_Simple_Adaptor<float, Cloud>;
-    using Tree =
-        nanoflann_latest::KDTreeSingleIndexAdaptor<Metric, Cloud, 3, std::uint32_t>;
-    using Found = nanoflann_latest::ResultItem<std::uint32_t, float>;
-    using Search = nanoflann_latest::SearchParameters;
-};
-#endif
-
-/// nanoflann, of one version or the other.
-template <typename Words>
-struct Nanoflann {
-    static constexpr const char* name = Words::name;
-    static constexpr const char* book = Words::book;
-    Cloud cloud;
-    typename Words::Tree tree;
-    std::vector<float> values;
-
-    explicit Nanoflann(const std::vector<Vec3>& points)
-        // From version 1.4 on the constructor builds the tree.
-        : cloud{points}, tree(3, cloud, {16}), values(payload(points.size())) {}
-    const auto& within(const Vec3& center, float radius) const {
-        static thread_local std::vector<typename Words::Found> found;
-        typename Words::Search unsorted;
-        unsorted.sorted = false;
-        (void)tree.radiusSearch(&center.x, radius * radius, found, unsorted);
-        return found;
-    }
-    float sum_within(Vec3 center, float radius) const {
-        float sum = 0;
-        for (const auto& [index, distance2] : within(center, radius))
-            sum += values[index];
-        return sum;
-    }
-    float sum_blocks(Vec3 center, float radius) const {
-        return sum_within(center, radius);
-    }
-    float sum_nearest(Vec3 center, std::size_t k) const {
-        std::array<std::uint32_t, 256> index;
-        std::array<float, 256> distance2;
-        const std::size_t count =
-            tree.knnSearch(&center.x, k, index.data(), distance2.data());
-        float sum = 0;
-        for (std::size_t i = 0; i < count; ++i) sum += values[index[i]];
-        return sum;
-    }
-    float any(Vec3 center, float radius) const {
-        return within(center, radius).empty() ? 0.0f : 1.0f;
-    }
-    float one(Vec3 center) const { return sum_nearest(center, 1); }
-};
-
-/// nanoflann with a result set of our own, which stops it at the first point found.
-template <typename Words>
-struct NanoflannStopped : Nanoflann<Words> {
-    static constexpr const char* name = Words::stopped;
-    static constexpr const char* book = nullptr; // in the other one's table
-    using Nanoflann<Words>::Nanoflann;
-    struct First {
-        using DistanceType = float;
-        using IndexType = std::uint32_t;
-        float radius2;
-        bool found = false;
-        std::size_t size() const { return found ? 1 : 0; }
-        bool full() const { return true; }
-        bool addPoint(float distance2, std::uint32_t) {
-            found = found || distance2 < radius2;
-            return !found;
-        }
-        void sort() {}
-        float worstDist() const { return radius2; }
-    };
-    float any(Vec3 center, float radius) const {
-        First first{radius * radius};
-        this->tree.findNeighbors(first, &center.x, {});
-        return first.found ? 1.0f : 0.0f;
-    }
-};
-
 #ifdef LJUS_BENCH_KDTREEPP
 /// Functions of an allocator that libkdtree++ calls and C++20 has removed.
 template <typename T>
@@ -317,6 +200,15 @@ struct KdTreePp {
     }
 };
 #endif
+
+/// A peer that is ready to be asked.
+template <typename Peer>
+std::unique_ptr<Peer> arranged(const std::vector<Vec3>& points) {
+    auto peer = std::make_unique<Peer>(points);
+    if constexpr (requires { peer->arrange(payload(0)); })
+        peer->arrange(payload(points.size()));
+    return peer;
+}
 
 /// Points of a kind: 0 on walls, 1 in caustics.
 std::vector<Vec3> points_of(int kind, std::size_t count) {
@@ -392,12 +284,12 @@ void build(benchmark::State& state) {
 template <typename Peer, Query which>
 void query(benchmark::State& state) {
     const auto points = points_of(int(state.range(1)), std::size_t(state.range(0)));
-    const Peer peer(points);
+    const auto peer = arranged<Peer>(points);
     const float radius = radius_for_50(points);
     std::size_t i = 0;
     for (auto _ : state) {
         i = (i + 102947) % points.size();
-        benchmark::DoNotOptimize(ask<which>(peer, points[i], radius));
+        benchmark::DoNotOptimize(ask<which>(*peer, points[i], radius));
     }
     state.SetItemsProcessed(state.iterations());
 }
@@ -407,7 +299,7 @@ void register_all() {
     const auto with = [&](const char* what, auto function) {
         benchmark::RegisterBenchmark((std::string(what) + "/" + Peer::name).c_str(),
                                      function)
-            ->ArgsProduct({{10000, 1000000}, {0, 1}});
+            ->ArgsProduct({{10000, 100000, 1000000}, {0, 1}});
     };
     with("build", build<Peer>);
     if constexpr (has<Peer, Query::within>())
@@ -462,7 +354,7 @@ float sink = 0; // sum of all results, so that no call is optimised away
 /// A table of the book: one peer, and its index.
 struct Book {
     examples::Table table;
-    std::size_t peer; ///< The one that stops at the first point follows.
+    std::size_t peer;
 };
 
 /// The centres of 10 000 searches, contiguous in memory: fetching them from
@@ -477,9 +369,10 @@ std::vector<Vec3> centers_of(const std::vector<Vec3>& points) {
 /// Prints the times of all peers over some points, and adds a row to each table.
 /// \param kind   Of the points: 0 on walls, 1 in caustics.
 /// \param count  How many points.
+/// \param size   The same in words.
 /// \param books  The tables.
 template <typename... Peers>
-void measure(int kind, std::size_t count, std::vector<Book>& books) {
+void measure(int kind, std::size_t count, const char* size, std::vector<Book>& books) {
     const auto points = points_of(kind, count);
     const float radius = radius_for_50(points);
     std::printf("%zu points %s; ns, and times the first\n", count,
@@ -491,9 +384,9 @@ void measure(int kind, std::size_t count, std::vector<Book>& books) {
             return (cpu_seconds() - start) * 1e9 / double(count);
         };
     };
-    const auto note = [&](const std::vector<double>& ratios, std::size_t after) {
+    const auto note = [&](const std::vector<double>& ratios) {
         for (Book& book : books) {
-            const double ratio = ratios[book.peer + after];
+            const double ratio = ratios[book.peer];
             book.table.rows.back().push_back(
                 ratio > 0 ? examples::text(ratio, ratio < 9.5 ? "%.1f" : "%.0f") : "");
         }
@@ -501,11 +394,9 @@ void measure(int kind, std::size_t count, std::vector<Book>& books) {
     const std::vector<const char*> all{Peers::name...};
     for (Book& book : books)
         book.table.rows.push_back(
-            {(count == 10000 ? "10 000" : "a million") +
-             std::string(kind == 0 ? " on walls" : " in caustics")});
-    note(print_line("build", all, 5, built.template operator()<Peers>()...).first, 0);
-    const std::tuple<std::unique_ptr<Peers>...> peers{
-        std::make_unique<Peers>(points)...};
+            {std::string(size) + (kind == 0 ? " on walls" : " in caustics")});
+    note(print_line("build", all, 5, built.template operator()<Peers>()...).first);
+    const std::tuple<std::unique_ptr<Peers>...> peers{arranged<Peers>(points)...};
     const std::vector<Vec3> centers = centers_of(points);
     const auto line = [&]<Query query>() {
         const auto time = [&](const auto& peer) {
@@ -524,8 +415,7 @@ void measure(int kind, std::size_t count, std::vector<Book>& books) {
         const auto [ratios, first] =
             print_line(names[std::size_t(query)], all, 7,
                        time(*std::get<std::unique_ptr<Peers>>(peers))...);
-        note(ratios, 0);
-        if (query == Query::any) note(ratios, 1); // stopped at the first
+        note(ratios);
         if (query == Query::one)
             for (Book& book : books)
                 book.table.rows.back().push_back(examples::text(1e-3 * first, "%.2f"));
@@ -543,12 +433,12 @@ template <typename A, typename B>
 void must_agree() {
     for (const int kind : {0, 1}) {
         const auto points = points_of(kind, 10000);
-        const A a(points);
-        const B b(points);
+        const auto a = arranged<A>(points);
+        const auto b = arranged<B>(points);
         const float radius = radius_for_50(points);
         for (std::size_t i = 0; i < points.size(); i += 97) {
             const float difference =
-                a.sum_within(points[i], radius) - b.sum_within(points[i], radius);
+                a->sum_within(points[i], radius) - b->sum_within(points[i], radius);
             if (std::abs(difference) < 7.0f) continue; // one on the edge
             std::fprintf(stderr, "Two peers find different points near number %zu.\n",
                          i);
@@ -563,16 +453,14 @@ template <typename... A, typename... B>
 constexpr List<A..., B...> operator+(List<A...>, List<B...>) {
     return {};
 }
-template <typename Words>
-using Both = List<Nanoflann<Words>, NanoflannStopped<Words>>;
-
 /// All available peers.
 constexpr auto all_peers = List<WideTree>{}
 #ifdef LJUS_BENCH_NANOFLANN
-                           + Both<Installed>{}
+                           +
+                           List<nanoflann_peer::Nanoflann<nanoflann_peer::Installed>>{}
 #endif
 #ifdef LJUS_BENCH_NANOFLANN_LATEST
-                           + Both<Latest>{}
+                           + List<nanoflann_peer::Nanoflann<nanoflann_peer::Latest>>{}
 #endif
 #ifdef LJUS_BENCH_KDTREEPP
                            + List<KdTreePp>{}
@@ -586,15 +474,13 @@ std::vector<Book> books_of(List<Peers...>) {
     std::size_t place = 0;
     const auto look = [&]<typename Peer>() {
         if constexpr (requires { Peer::book; })
-            if (Peer::book != nullptr)
-                books.push_back(
-                    {.table = {.name = Peer::book,
-                               .columns = {"nanoflann's time over the wide tree's",
-                                           "build", "ball", "by blocks", "50 nearest",
-                                           "200 nearest", "any", "any, stopped",
-                                           "nearest",
-                                           "the wide tree's nearest, microseconds"}},
-                     .peer = place});
+            books.push_back(
+                {.table = {.name = Peer::book,
+                           .columns = {"nanoflann's time over the wide tree's", "build",
+                                       "ball", "by blocks", "50 nearest", "200 nearest",
+                                       "any", "nearest",
+                                       "the wide tree's nearest, microseconds"}},
+                 .peer = place});
         ++place;
     };
     (look.template operator()<Peers>(), ...);
@@ -607,8 +493,10 @@ int run(int argc, char** argv, List<Peers...> list) {
     if (argc > 1 &&
         (std::strcmp(argv[1], "--table") == 0 || std::strcmp(argv[1], "--csv") == 0)) {
         std::vector<Book> books = books_of(list);
-        for (const std::size_t count : {10000u, 1000000u})
-            for (const int kind : {0, 1}) measure<Peers...>(kind, count, books);
+        for (const auto& [count, size] : {std::pair(10000u, "10 000"),
+                                          {100000u, "100 000"},
+                                          {1000000u, "a million"}})
+            for (const int kind : {0, 1}) measure<Peers...>(kind, count, size, books);
         for (const Book& book : books) save_csv(csv_folder(argc, argv), book.table);
         return std::isnan(sink) ? 1 : 0;
     }
