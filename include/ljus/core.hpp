@@ -46,6 +46,8 @@ LJUS_CORE_EXTERN template void check(const Image&);
 // Trees.
 LJUS_CORE_EXTERN template detail::BvhNodesT<float>
 detail::build_bvh(std::span<const Box>, const BvhSettings&);
+LJUS_CORE_EXTERN template detail::BvhNodesT<float>
+detail::build_bvh(std::vector<Box>&&, const BvhSettings&);
 LJUS_CORE_EXTERN template detail::BvhNodesT<double>
 detail::build_bvh(std::span<const BoxT<double>>, const BvhSettings&);
 LJUS_CORE_EXTERN template detail::Bvh8Nodes
