@@ -88,7 +88,7 @@ TEST_CASE("kd_tree8: more neighbours than are counted go through a heap") {
 }
 
 TEST_CASE("kd_tree8: each range is halved by one of the axes") {
-    for (const std::size_t n : {777u, 5000u, 70000u})
+    for (const std::size_t n : {777u, 5000u, 70000u, 200000u})
         for (const auto& set : point_sets<float>(n, 1, 0)) {
             CAPTURE(set.name);
             CAPTURE(n);

@@ -737,6 +737,38 @@ TEST_CASE("photon_map: in double") {
     CHECK(gathered > 500);
 }
 
+TEST_CASE("photon_map: each photon's record lies beside its position") {
+    Draws numbers{31};
+    for (const int count : {0, 1, 7, 8, 9, 4095, 4097, 20000, 150000}) {
+        std::vector<Photon> photons = rain(count, numbers, 0.25f);
+        for (std::size_t i = 0; i < photons.size(); ++i)
+            photons[i].flux.x = float(i + 1);
+        const PhotonMap map = ljus::make_photon_map(photons);
+        REQUIRE(map.records.size() == photons.size());
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < photons.size(); ++i) {
+            const Photon& photon = photons[map.tree.point_ids()[i]];
+            const auto record = map.records[i];
+            wrong += map.tree.point(i) != photon.position ||
+                     record.direction != photon.direction ||
+                     record.flux != photon.flux || record.kind != photon.kind ||
+                     record.normal != photon.normal || record.light != photon.light;
+        }
+        CHECK(wrong == 0);
+        // Parts are the same photons.
+        ljus::detail::PhotonPartsT<float> parts(1);
+        for (const Photon& photon : photons) {
+            if (parts.back().size() == 777) parts.emplace_back();
+            parts.back().push_back(photon);
+        }
+        const PhotonMap same = ljus::detail::map_of_parts(std::move(parts), 3);
+        CHECK(same.tree.point_ids() == map.tree.point_ids());
+        for (std::size_t i = 0; i < same.records.size(); ++i)
+            wrong += same.records[i].flux != map.records[i].flux;
+        CHECK(wrong == 0);
+    }
+}
+
 TEST_CASE("photon_map: data that are not finite or have no direction are refused") {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     const auto refuse = [](Photon photon) {

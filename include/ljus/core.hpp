@@ -46,6 +46,8 @@ LJUS_CORE_EXTERN template void check(const Image&);
 // Trees.
 LJUS_CORE_EXTERN template detail::BvhNodesT<float>
 detail::build_bvh(std::span<const Box>, const BvhSettings&);
+LJUS_CORE_EXTERN template detail::BvhNodesT<float>
+detail::build_bvh(std::vector<Box>&&, const BvhSettings&);
 LJUS_CORE_EXTERN template detail::BvhNodesT<double>
 detail::build_bvh(std::span<const BoxT<double>>, const BvhSettings&);
 LJUS_CORE_EXTERN template detail::Bvh8Nodes
@@ -76,7 +78,7 @@ LJUS_CORE_EXTERN template LightChoice light_choice(const std::vector<Rgb>&);
 namespace detail {
 LJUS_CORE_EXTERN template LightChoice
 start_pass<float>(MapType, const PhotonPassSettings&, LightChoice);
-LJUS_CORE_EXTERN template TracedPhotonsT<float>
+LJUS_CORE_EXTERN template TracedPartsT<float>
 run_pass(MapType, const PhotonPassSettings&, BlockTracerT<float>);
 LJUS_CORE_EXTERN template bool scatter_photon(PathStateT<float>&, const VertexT<float>&,
                                               const Lambertian&, MapType, SobolStream&,
@@ -91,6 +93,7 @@ LJUS_CORE_EXTERN template bool scatter_photon(PathStateT<float>&, const VertexT<
                                               const Glass&, MapType, SobolStream&,
                                               FluxAudit&, bool);
 LJUS_CORE_EXTERN template Sphere sphere_around(const std::vector<Sphere>&);
+LJUS_CORE_EXTERN template PhotonMap map_of_parts(PhotonPartsT<float>, int);
 } // namespace detail
 LJUS_CORE_EXTERN template PhotonMap make_photon_map(const std::vector<Photon>&, int);
 LJUS_CORE_EXTERN template float typical_radius(const PhotonMap&, std::size_t);

@@ -40,9 +40,15 @@ ljus_break_it(NAME wide-kd-tree-rank HEADER accel/detail/kd_tree8_build.hpp TEST
     TO   ""
     CASES "kd_tree8: each range*")
 
+# The same in the lists of a large tree's upper ranges.
+ljus_break_it(NAME wide-kd-tree-list-rank HEADER accel/detail/kd_tree8_build.hpp TEST kd_tree8
+    FROM "band.size(), rank - front, axis);"
+    TO   "band.size(), rank / 8, axis);"
+    CASES "kd_tree8: each range*")
+
 # NaN and infinity let in.
 ljus_break_it(NAME wide-kd-tree-not-finite HEADER accel/detail/kd_tree8_build.hpp TEST kd_tree8
-    FROM [[require_finite("a point of the k-d tree", points[i]);]]
+    FROM [[require_finite("a point of the k-d tree", point);]]
     TO   ""
     CASES "kd_tree8: a point that*")
 

@@ -136,3 +136,10 @@ ljus_break_it(NAME photon-map-no-direction HEADER photons/photon_map.hpp TEST ph
     FROM "- T(1)) <= T(0.01)"
     TO   "- T(1)) <= T(1)"
     CASES "photon_map: data that are not finite*")
+
+# Records that are moved to their groups, and not to their places.
+ljus_break_it(NAME photon-map-record-places HEADER photons/detail/photon_records.hpp
+    TEST photon_map
+    FROM "while (to[i] != i)"
+    TO   "while (to[i] / 8 != i / 8)"
+    CASES "photon_map: each photon's record*")

@@ -6,10 +6,10 @@ ljus_break_it(NAME tracing-roulette HEADER photons/photon_path.hpp TEST tracing
 
 # Photons share the flux among those that were stored, not those that were emitted.
 ljus_break_it(NAME tracing-stored HEADER photons/tracing.hpp TEST tracing
-    FROM "const long long unsent = join_blocks(blocks, result);"
-    TO   "const long long unsent = join_blocks(blocks, result);
-    for (auto& photon : result.photons)
-        photon.flux *= T(pass.photons) / T(result.photons.size());"
+    FROM "    return traced;"
+    TO   "    for (auto& part : traced.parts)
+        for (auto& photon : part) photon.flux *= T(pass.photons) / T(traced.stored);
+    return traced;"
     CASES "tracing: a caustic has*")
 
 # What the glass has focused is kept by both maps.
@@ -50,7 +50,7 @@ ljus_break_it(NAME tracing-memory HEADER photons/photon_pass.hpp TEST tracing
 
 # Goes on for ever after nothing.
 ljus_break_it(NAME tracing-give-up HEADER photons/tracing.hpp TEST tracing
-    FROM "if (nothing && result.emitted >= pass.give_up) break;"
+    FROM "if (traced.stored == 0 && result.emitted >= pass.give_up) break;"
     TO   ""
     CASES "tracing: a pass that stores nothing*")
 
@@ -94,8 +94,8 @@ ljus_break_it(NAME tracing-keep HEADER photons/photon_path.hpp TEST tracing
 
 # Who is stopped before anything was stored says that it gave up.
 ljus_break_it(NAME tracing-stopped-remark HEADER photons/tracing.hpp TEST tracing
-    FROM "if (nothing && result.complete && result.emitted"
-    TO   "if (nothing && result.emitted"
+    FROM "if (traced.stored == 0 && result.complete &&"
+    TO   "if (traced.stored == 0 &&"
     CASES "tracing: progress ascends*")
 
 # Light that gloss throws counts as indirect as well as a caustic.

@@ -30,11 +30,15 @@ public:
     requires std::convertible_to<const Boxes&, std::span<const Box>>
     explicit Bvh8(const Boxes& boxes, const BvhSettings& settings = {},
                   std::uint32_t multiple = 1) {
-        require(settings.leaf_size <= 16, "leaf_size",
-                static_cast<long long>(settings.leaf_size), "at most 16");
         wide_ = detail::make_bvh8(
-            detail::build_bvh(std::span<const Box>(boxes), settings), multiple);
+            detail::build_bvh(std::span<const Box>(boxes), checked(settings)),
+            multiple);
     }
+    /// The same; frees the boxes before the tree is built.
+    explicit Bvh8(std::vector<Box>&& boxes, const BvhSettings& settings = {},
+                  std::uint32_t multiple = 1)
+        : wide_(detail::make_bvh8(
+              detail::build_bvh(std::move(boxes), checked(settings)), multiple)) {}
 
     /// The primitive_ids() entry of an unused slot between leaves.
     static constexpr std::uint32_t padding = detail::Bvh8Nodes::padding;
@@ -86,6 +90,12 @@ public:
     }
 
 private:
+    static const BvhSettings& checked(const BvhSettings& settings) {
+        require(settings.leaf_size <= 16, "leaf_size",
+                static_cast<long long>(settings.leaf_size), "at most 16");
+        return settings;
+    }
+
     detail::Bvh8Nodes wide_;
 };
 

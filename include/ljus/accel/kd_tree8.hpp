@@ -60,22 +60,18 @@ public:
     /// \param threads  As in ParallelSettings; the tree does not depend on it.
     /// \throws std::invalid_argument  if a point is not finite.
     /// \cost O(n log n) for any points; in float 16 bytes per point, about 1 for the
-    ///       boxes, and 32 more during the build.
-    explicit KdTree8T(std::span<const Vec3T<T>> points, int threads = 0) {
-        require(points.size() <= std::numeric_limits<std::uint32_t>::max(),
-                "the number of points in a k-d tree",
-                static_cast<long long>(points.size()), "below 2^32");
-        if (points.empty()) return;
-        parts_.shape = detail::KdTree8Shape::of(points.size());
-        constexpr T nan = std::numeric_limits<T>::quiet_NaN();
+    ///       boxes, and at most 32 more during the build.
+    explicit KdTree8T(std::span<const Vec3T<T>> points, int threads = 0)
+        : KdTree8T(detail::kd_tree8_items(points), threads) {}
+
+    /// Builds the tree of items, which it consumes.
+    KdTree8T(detail::KdTree8ItemsT<T> items, int threads) {
+        if (items.size() == 0) return;
+        parts_.shape = detail::KdTree8Shape::of(items.size());
         parts_.nodes = std::vector<detail::KdTree8NodeT<T>>(
             parts_.shape.first[std::size_t(parts_.shape.levels)]);
-        parts_.blocks = std::vector<detail::Lanes3T<T>>(parts_.shape.blocks);
-        detail::for_lanes(
-            [&](int i) { parts_.blocks.back().set(std::size_t(i), Vec3T<T>{nan}); });
-        point_ids_ = std::vector<std::uint32_t>(points.size());
         detail::KdTree8Builder<T>(parts_.shape, parts_.nodes, parts_.blocks, point_ids_)
-            .build(points, threads);
+            .build(std::move(items), threads);
     }
 
     /// The i-th point of the tree has the index point_ids()[i] in the span from which

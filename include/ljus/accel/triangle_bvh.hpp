@@ -122,7 +122,7 @@ public:
         const BvhSettings settings{.leaf_size = detail::lane_count,
                                    .at_a_time = detail::lane_count,
                                    .threads = threads};
-        tree_ = Bvh8(boxes, settings, detail::lane_count);
+        tree_ = Bvh8(std::move(boxes), settings, detail::lane_count);
         detail::TriangleLanes empty;
         for (float& size : empty.size.lane) size = -1; // no triangle
         blocks_.resize(primitive_ids().size() / detail::lane_count, empty);

@@ -174,6 +174,7 @@ void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {
         bytes.insert(bytes.end(), text.begin(), text.end());
         return text.size();
     });
+    bytes.shrink_to_fit(); // it grew by doubling
     return bytes;
 }
 

@@ -12,6 +12,25 @@ namespace ljus {
 /// \addtogroup load_obj
 /// \{
 
+namespace detail {
+
+// What is in a file whose bytes are no longer needed.
+template <std::floating_point T>
+LoadedMeshT<T> read_gltf_content(const GltfFile& content,
+                                 const MeshFileSettings& settings) {
+    GltfReader<T> reader(content, settings);
+    return make_meshes<T>(
+        content.name, settings, "; its scene must have nodes with meshes of triangles.",
+        [&](LoadedMeshT<T>& loaded) { return reader.take_faces(loaded); },
+        [&](MeshMaterial& material, LoadedMeshT<T>& loaded, long long& pixels) {
+            load_pictures(material, loaded, pixels, [&](const std::string& name) {
+                return reader.picture(name);
+            });
+        });
+}
+
+} // namespace detail
+
 /// Reads the meshes of a glTF 2.0 file, .gltf or .glb, and its cameras and lights.
 /// Optional (nlohmann-json). The meshes stand as the nodes of the file's scene place
 /// them; faces of one material are one mesh.
@@ -42,16 +61,7 @@ namespace ljus {
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> read_gltf(const Bytes& bytes, const std::string& file,
                                        const MeshFileSettings& settings = {}) {
-    const detail::GltfFile content(bytes, file);
-    detail::GltfReader<T> reader(content, settings);
-    return detail::make_meshes<T>(
-        file, settings, "; its scene must have nodes with meshes of triangles.",
-        [&](LoadedMeshT<T>& loaded) { return reader.take_faces(loaded); },
-        [&](MeshMaterial& material, LoadedMeshT<T>& loaded, long long& pixels) {
-            detail::load_pictures(
-                material, loaded, pixels,
-                [&](const std::string& name) { return reader.picture(name); });
-        });
+    return detail::read_gltf_content<T>(detail::GltfFile(bytes, file), settings);
 }
 
 /// Loads a glTF file.
@@ -63,7 +73,8 @@ template <std::floating_point T = float>
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_gltf(const std::string& path,
                                        const MeshFileSettings& settings = {}) {
-    return read_gltf<T>(load_file(path, detail::max_mesh_file), path, settings);
+    const detail::GltfFile content(load_file(path, detail::max_mesh_file), path);
+    return detail::read_gltf_content<T>(content, settings); // without the file's bytes
 }
 
 /// \}

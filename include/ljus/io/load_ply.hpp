@@ -10,6 +10,24 @@ namespace ljus {
 /// \addtogroup load_obj
 /// \{
 
+namespace detail {
+
+// The meshes of a file; bytes_of() returns its bytes, which are freed before the meshes
+// are made if they are a value.
+template <std::floating_point T, typename BytesOf>
+LoadedMeshT<T> read_ply_bytes(const std::string& file, const MeshFileSettings& settings,
+                              BytesOf bytes_of) {
+    return make_meshes<T>(
+        file, settings, "; a mesh has elements 'face' with a list 'vertex_indices'.",
+        [&](LoadedMeshT<T>& loaded) {
+            const Bytes& bytes = bytes_of();
+            return PlyReader<T>(bytes, file, settings).take_faces(loaded);
+        },
+        no_pictures);
+}
+
+} // namespace detail
+
 /// Reads a mesh from the bytes of a PLY file: text or binary of either byte order.
 /// It has positions (x, y, z), perhaps normals (nx, ny, nz), texture coordinates (u, v;
 /// s, t; texture_u, texture_v), colours (red, green, blue, with diffuse_ before them or
@@ -27,12 +45,8 @@ namespace ljus {
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> read_ply(const Bytes& bytes, const std::string& file,
                                       const MeshFileSettings& settings = {}) {
-    return detail::make_meshes<T>(
-        file, settings, "; a mesh has elements 'face' with a list 'vertex_indices'.",
-        [&](LoadedMeshT<T>& loaded) {
-            return detail::PlyReader<T>(bytes, file, settings).take_faces(loaded);
-        },
-        detail::no_pictures);
+    return detail::read_ply_bytes<T>(file, settings,
+                                     [&]() -> const Bytes& { return bytes; });
 }
 
 /// Loads a PLY file.
@@ -44,7 +58,8 @@ template <std::floating_point T = float>
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_ply(const std::string& path,
                                       const MeshFileSettings& settings = {}) {
-    return read_ply<T>(load_file(path, detail::max_mesh_file), path, settings);
+    return detail::read_ply_bytes<T>(
+        path, settings, [&] { return load_file(path, detail::max_mesh_file); });
 }
 
 /// \}

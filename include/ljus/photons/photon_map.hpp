@@ -29,20 +29,46 @@ using PhotonMap = PhotonMapT<float>; ///< PhotonMapT in float.
 
 namespace detail {
 
-// The positions of photons whose members are right: a direction of (0, 0, 0), for one,
-// would arrive at neither side of a surface.
+/// Photons in several lists, one after another.
 template <std::floating_point T>
-[[nodiscard]] std::vector<Vec3T<T>>
-checked_positions(const std::vector<PhotonT<T>>& photons) {
-    std::vector<Vec3T<T>> positions(photons.size());
-    for (std::size_t i = 0; i < photons.size(); ++i) {
-        require_finite("photon.flux", photons[i].flux);
-        const Vec3T<T>& direction = photons[i].direction;
+using PhotonPartsT = std::vector<std::vector<PhotonT<T>>>;
+
+/// Builds a map of photons that each(add) hands to `add` one by one.
+/// \throws std::invalid_argument  as make_photon_map().
+template <std::floating_point T, typename Each>
+[[nodiscard]] PhotonMapT<T> map_of(std::size_t count, const Each& each, int threads) {
+    require_point_count(count);
+    PhotonMapT<T> map;
+    map.records = PhotonRecordsT<T>(count);
+    KdTree8ItemsT<T> items;
+    each([&](const PhotonT<T>& photon) {
+        // A direction of (0, 0, 0) would arrive at neither side of a surface.
+        require_finite("photon.flux", photon.flux);
+        const Vec3T<T>& direction = photon.direction;
         require(std::abs(glm::dot(direction, direction) - T(1)) <= T(0.01),
                 "photon.direction", direction, "a vector of length 1");
-        positions[i] = photons[i].position;
-    }
-    return positions;
+        items.add(photon.position);
+        map.records.add(photon);
+    });
+    map.tree = KdTree8T<T>(std::move(items), threads);
+    map.records.sort(map.tree.point_ids(), threads);
+    return map;
+}
+
+/// Builds the map of photons that are freed meanwhile.
+/// \cost At most 80 bytes per photon in float at a time, theirs included: the records
+///       are sorted in place.
+template <std::floating_point T>
+[[nodiscard]] PhotonMapT<T> map_of_parts(PhotonPartsT<T> parts, int threads = 0) {
+    std::size_t count = 0;
+    for (const auto& part : parts) count += part.size();
+    const auto each = [&](const auto& add) {
+        for (auto& part : parts) {
+            for (const PhotonT<T>& photon : part) add(photon);
+            std::vector<PhotonT<T>>().swap(part);
+        }
+    };
+    return map_of<T>(count, each, threads);
 }
 
 } // namespace detail
@@ -56,10 +82,10 @@ checked_positions(const std::vector<PhotonT<T>>& photons) {
 template <std::floating_point T>
 [[nodiscard]] PhotonMapT<T> make_photon_map(const std::vector<PhotonT<T>>& photons,
                                             int threads = 0) {
-    PhotonMapT<T> map;
-    map.tree = KdTree8T<T>(detail::checked_positions(photons), threads);
-    map.records = detail::PhotonRecordsT<T>(photons, map.tree.point_ids());
-    return map;
+    const auto each = [&](const auto& add) {
+        for (const PhotonT<T>& photon : photons) add(photon);
+    };
+    return detail::map_of<T>(photons.size(), each, threads);
 }
 
 /// The typical radius of a disc with a given number of photons: the geometric mean over

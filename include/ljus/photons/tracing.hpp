@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -54,22 +55,48 @@ void trace_block(const W& world, MapType map, const SceneAimT<T>& aim,
     }
 }
 
-/// Joins blocks in their order, and frees them.
+/// The photons of a pass in parts, which can be freed one by one.
+template <std::floating_point T>
+struct TracedPartsT {
+    std::vector<std::vector<PhotonT<T>>> parts{}; ///< In the order of emission.
+    std::size_t stored = 0;                       ///< Their number.
+    TracedPhotonsT<T> pass{};                     ///< All else; it has no photons.
+};
+
+/// Adds the photons of blocks, in their order, to those of a pass. The blocks keep
+/// their memory.
 /// \return The number of paths that no light could emit.
 template <std::floating_point T>
-long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& result) {
-    std::size_t stored = 0;
-    for (const PhotonBlockT<T>& block : blocks) stored += block.photons.size();
-    result.photons.reserve(stored);
+long long take_photons(std::span<PhotonBlockT<T>> blocks, TracedPartsT<T>& result) {
+    constexpr std::size_t part = 1 << 13; // photons
     long long unsent = 0;
     for (PhotonBlockT<T>& block : blocks) {
-        for (PhotonT<T>& photon : block.photons)
-            result.photons.push_back(std::move(photon));
-        result.audit += block.audit;
+        for (const PhotonT<T>& photon : block.photons) {
+            if (result.stored++ % part == 0) {
+                result.parts.emplace_back();
+                result.parts.back().reserve(part);
+            }
+            result.parts.back().push_back(photon);
+        }
+        result.pass.audit += block.audit;
         unsent += block.unsent;
-        block = {};
+        block.photons.clear();
+        block.audit = {};
+        block.unsent = 0;
     }
     return unsent;
+}
+
+/// Joins the photons of a pass, and frees its parts.
+template <std::floating_point T>
+[[nodiscard]] TracedPhotonsT<T> join_parts(TracedPartsT<T> traced) {
+    TracedPhotonsT<T> result = std::move(traced.pass);
+    result.photons.reserve(traced.stored);
+    for (auto& part : traced.parts) {
+        result.photons.insert(result.photons.end(), part.begin(), part.end());
+        std::vector<PhotonT<T>>().swap(part);
+    }
+    return result;
 }
 
 /// Checks the settings and the lights of a pass.
@@ -126,46 +153,73 @@ struct BlockTracerT {
     void (*call)(const void* tracer, const BlockRange& paths, PhotonBlockT<T>& block);
 };
 
-/// Traces the blocks of a pass by several threads, and joins them.
+/// Traces the blocks of a pass by several threads.
 /// \return The photons in the order of emission.
 /// \throws std::invalid_argument  if the memory would not suffice.
 template <std::floating_point T>
-[[nodiscard]] TracedPhotonsT<T> run_pass(MapType map, const PhotonPassSettings& pass,
-                                         BlockTracerT<T> trace) {
-    TracedPhotonsT<T> result{.emitted = pass.photons};
-    std::vector<PhotonBlockT<T>> blocks;
+[[nodiscard]] TracedPartsT<T> run_pass(MapType map, const PhotonPassSettings& pass,
+                                       BlockTracerT<T> trace) {
+    TracedPartsT<T> traced;
+    TracedPhotonsT<T>& result = traced.pass;
+    result.emitted = pass.photons;
+    std::vector<PhotonBlockT<T>> blocks; // of a round; the next one uses them again
     const long long count = block_count(pass.photons, photon_block);
-    long long done = 0;  // finished blocks
-    bool nothing = true; // no photon has been stored
+    const long long threads = pass.threads == 0 ? max_threads() : pass.threads;
+    long long done = 0, unsent = 0; // finished blocks; paths that were not emitted
     for (const long long paths : {pilot_paths, pass.give_up, pass.photons}) {
-        const long long last = std::min(block_count(paths, photon_block), count);
-        if (last <= done) continue;
-        blocks.resize(static_cast<std::size_t>(last));
-        const auto body = [&](long long i) {
-            trace.call(trace.tracer, block_range(done + i, photon_block, pass.photons),
-                       blocks[static_cast<std::size_t>(done + i)]);
-        };
-        const auto progress = [&](long long now, long long) {
-            return pass.progress(done + now, count);
-        };
-        result.complete = parallel_blocks(
-            last - done, body, {.threads = pass.threads, .progress = progress});
-        done = last;
-        result.emitted = std::min(last * photon_block, pass.photons);
-        std::size_t stored = 0;
-        for (const auto& block : blocks) stored += block.photons.size();
-        nothing = stored == 0;
+        const long long stop = std::min(block_count(paths, photon_block), count);
+        if (stop <= done) continue;
+        while (done < stop && result.complete) {
+            // Few rounds, so that no thread waits often, of a small part of the
+            // photons, which are there twice for a moment.
+            const long long last =
+                std::min(done + std::max(16 * threads, done / 16), stop);
+            blocks.resize(static_cast<std::size_t>(last - done));
+            const auto body = [&](long long i) {
+                trace.call(trace.tracer,
+                           block_range(done + i, photon_block, pass.photons),
+                           blocks[static_cast<std::size_t>(i)]);
+            };
+            const auto progress = [&](long long now, long long) {
+                return pass.progress(done + now, count);
+            };
+            result.complete = parallel_blocks(
+                last - done, body, {.threads = pass.threads, .progress = progress});
+            unsent += take_photons<T>(blocks, traced);
+            done = last;
+        }
+        result.emitted = std::min(done * photon_block, pass.photons);
         if (!result.complete) break;
-        require_memory<T>(map, pass,
-                          double(stored) / double(std::max(result.emitted, 1LL)));
-        if (nothing && result.emitted >= pass.give_up) break;
+        require_memory<T>(
+            map, pass, double(traced.stored) / double(std::max(result.emitted, 1LL)));
+        if (traced.stored == 0 && result.emitted >= pass.give_up) break;
     }
-    const long long unsent = join_blocks(blocks, result);
-    if (nothing && result.complete && result.emitted < pass.photons) {
+    if (traced.stored == 0 && result.complete && result.emitted < pass.photons) {
         result.audit *= double(pass.photons) / double(result.emitted);
         result.remark = why_nothing(pass, map, result.emitted, unsent, result.audit);
     }
-    return result;
+    return traced;
+}
+
+/// Emits and traces the photons of one map; trace_photons() joins them.
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] TracedPartsT<typename W::Scalar>
+trace_parts(const W& world, MapType map, const PhotonPassSettings& pass) {
+    using T = typename W::Scalar;
+    const auto aim =
+        scene_aim_of(world, map, pass, start_pass<T>(map, pass, world.light_choice()));
+    const auto targets = targets_of(world, map, pass);
+    if (map == MapType::caustics && targets.empty())
+        return {.pass = {.emitted = pass.photons}};
+
+    const auto trace = [&](const BlockRange& paths, PhotonBlockT<T>& block) {
+        trace_block(world, map, aim, targets, pass, paths, block);
+    };
+    const auto call = [](const void* tracer, const BlockRange& paths,
+                         PhotonBlockT<T>& block) {
+        (*static_cast<const decltype(trace)*>(tracer))(paths, block);
+    };
+    return run_pass<T>(map, pass, {&trace, call});
 }
 
 } // namespace detail
@@ -185,21 +239,7 @@ template <std::floating_point T>
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] TracedPhotonsT<typename W::Scalar>
 trace_photons(const W& world, MapType map, const PhotonPassSettings& pass) {
-    using T = typename W::Scalar;
-    const auto aim = detail::scene_aim_of(
-        world, map, pass, detail::start_pass<T>(map, pass, world.light_choice()));
-    const auto targets = detail::targets_of(world, map, pass);
-    if (map == MapType::caustics && targets.empty()) return {.emitted = pass.photons};
-
-    const auto trace = [&](const detail::BlockRange& paths,
-                           detail::PhotonBlockT<T>& block) {
-        detail::trace_block(world, map, aim, targets, pass, paths, block);
-    };
-    const auto call = [](const void* tracer, const detail::BlockRange& paths,
-                         detail::PhotonBlockT<T>& block) {
-        (*static_cast<const decltype(trace)*>(tracer))(paths, block);
-    };
-    return detail::run_pass<T>(map, pass, {&trace, call});
+    return detail::join_parts(detail::trace_parts(world, map, pass));
 }
 
 /// Emits and traces some of the paths of a pass, by one thread, so that several

@@ -409,9 +409,9 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
 ///         that is not finite is left out and counted.
 /// \throws std::invalid_argument  as render(), or for a setting out of range, or if
 ///         there are fewer samples than first rays.
-/// \cost The rays. The result has 24 bytes per pixel in float; about 200 more are needed
-///       for all pixels at once, or with `disagreement`, one batch and enough samples,
-///       for 4096 pixels per thread, 16384 at least.
+/// \cost The rays. The result has 24 bytes per pixel in float. About 200 more are
+///       needed for all pixels at a time; with `disagreement`, no target, one batch and
+///       enough samples, for 4096 pixels per thread, at least for 16384.
 /// \report{Sections 4.3 and 5}
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>

@@ -124,17 +124,36 @@ requires(Included<First>&& StreamLike<First>) struct StreamAmong<First, X...> {
 /// The number of photons of a kind.
 /// \param photons  Of the general pass.
 template <std::floating_point T>
-[[nodiscard]] long long count_of(const std::vector<PhotonT<T>>& photons,
-                                 PhotonKind kind) {
-    return std::count_if(photons.begin(), photons.end(),
-                         [kind](const auto& photon) { return photon.kind == kind; });
+[[nodiscard]] long long count_of(const PhotonPartsT<T>& photons, PhotonKind kind) {
+    long long count = 0;
+    for (const auto& part : photons)
+        count += std::count_if(part.begin(), part.end(), [kind](const auto& photon) {
+            return photon.kind == kind;
+        });
+    return count;
+}
+
+/// Removes the photons of all kinds but some.
+template <std::floating_point T>
+void keep_kinds(PhotonPartsT<T>& photons, PhotonKinds kinds) {
+    for (auto& part : photons)
+        std::erase_if(part,
+                      [&](const auto& photon) { return !kinds.has(photon.kind); });
+}
+
+/// All photons in one list.
+template <std::floating_point T>
+[[nodiscard]] std::vector<PhotonT<T>> joined(const PhotonPartsT<T>& photons) {
+    std::vector<PhotonT<T>> all;
+    for (const auto& part : photons) all.insert(all.end(), part.begin(), part.end());
+    return all;
 }
 
 /// Whether most photons land once only, as in the open: irradiance points at indirect
 /// photons alone would then be too few.
 /// \param photons  Of the general pass.
 template <std::floating_point T>
-[[nodiscard]] bool lands_once(const std::vector<PhotonT<T>>& photons) {
+[[nodiscard]] bool lands_once(const PhotonPartsT<T>& photons) {
     return count_of(photons, PhotonKind::direct) >
            2 * count_of(photons, PhotonKind::indirect);
 }
@@ -176,26 +195,29 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
         maps.remarks.append(remark).append("\n");
     const auto trace = [&](MapType type, const PhotonPassSettings& pass,
                            FluxAudit& audit, [[maybe_unused]] auto& in_fog) {
-        auto traced = trace_photons(world, type, pass);
+        auto [parts, stored, traced] = trace_parts(world, type, pass);
         if constexpr (W::lists_fog) {
-            in_fog =
-                make_volume_map(traced.photons, settings.fog_estimate, pass.threads);
-            std::erase_if(traced.photons, [](const auto& photon) {
-                return photon.kind == PhotonKind::fog;
-            });
+            std::vector<PhotonT<typename W::Scalar>> scattered;
+            for (const auto& part : parts)
+                std::copy_if(
+                    part.begin(), part.end(), std::back_inserter(scattered),
+                    [](const auto& photon) { return photon.kind == PhotonKind::fog; });
+            in_fog = make_volume_map(scattered, settings.fog_estimate, pass.threads);
+            keep_kinds(parts, all_kinds);
+            stored -= scattered.size();
         }
         audit = traced.audit;
         maps.complete = maps.complete && traced.complete;
         const bool by_power = world.light_count() > 1 && pass.light_shares.empty();
         if (traced.remark.empty() && by_power && type == MapType::caustics)
-            traced.remark = few_stored(traced.photons.size(), traced.emitted);
+            traced.remark = few_stored(stored, traced.emitted);
         if (!traced.remark.empty()) maps.remarks.append(traced.remark).append("\n");
-        return std::move(traced.photons);
+        return std::move(parts);
     };
     if (run.caustics_map) {
         PhotonPassSettings caustics = settings.caustics;
         if (run.volume_map) caustics.keep.bits |= fog.bits;
-        maps.caustics = make_photon_map(
+        maps.caustics = map_of_parts(
             trace(MapType::caustics, caustics, maps.caustics_audit, maps.fog_caustics));
     }
     const bool verdicts = run.skipped_rays || run.skipped_bounces;
@@ -213,7 +235,7 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     }
     if (scatters) general.keep.bits = (run.general_map ? kept.bits : 0) | fog.bits;
     auto photons = trace(MapType::general, general, maps.general_audit, maps.fog);
-    if (verdicts) judge(photons);
+    if (verdicts) judge(joined(photons));
     const long long indirect = count_of(photons, PhotonKind::indirect);
     maps.starved = run.irradiance && indirect < settings.irradiance.least;
     if (maps.starved) maps.remarks.append(starved_remark(indirect, settings) + "\n");
@@ -225,10 +247,8 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
         maps.remarks.append(blurred_remark(indirect, settings) + "\n");
     if (maps.starved && !settings.keep_general_map) return maps;
     if (choose && lands_once(photons)) kept = light_kinds;
-    if (verdicts || choose)
-        std::erase_if(photons,
-                      [&](const auto& photon) { return !kept.has(photon.kind); });
-    if (run.general_map) maps.general = make_photon_map(photons);
+    if (verdicts || choose) keep_kinds(photons, kept);
+    if (run.general_map) maps.general = map_of_parts(std::move(photons));
     return maps;
 }
 

@@ -298,16 +298,31 @@ private:
     std::vector<PrimitiveRefT<T>> refs_;
 };
 
+/// Refuses what no tree can be built of; see BvhT's constructor.
+inline void require_buildable(std::size_t boxes, const BvhSettings& settings) {
+    require(boxes < (std::size_t{1} << 31), "the number of boxes in a tree",
+            static_cast<long long>(boxes), "below 2^31");
+    require_at_least("leaf_size", settings.leaf_size, 1);
+    require_at_least("at_a_time", settings.at_a_time, 1);
+}
+
 /// Builds a tree over boxes; BvhT's constructor documents the arguments and the cost.
 /// \return The tree, the same for any number of threads; no deeper than bvh_depth.
 template <std::floating_point T>
 [[nodiscard]] BvhNodesT<T> build_bvh(std::span<const BoxT<T>> boxes,
                                      const BvhSettings& settings = {}) {
-    require(boxes.size() < (std::size_t{1} << 31), "the number of boxes in a tree",
-            static_cast<long long>(boxes.size()), "below 2^31");
-    require_at_least("leaf_size", settings.leaf_size, 1);
-    require_at_least("at_a_time", settings.at_a_time, 1);
+    require_buildable(boxes.size(), settings);
     return BvhBuilder<T>(boxes, settings).build();
+}
+
+/// The same; frees the boxes before the tree is built.
+template <std::floating_point T>
+[[nodiscard]] BvhNodesT<T> build_bvh(std::vector<BoxT<T>>&& boxes,
+                                     const BvhSettings& settings) {
+    require_buildable(boxes.size(), settings);
+    BvhBuilder<T> builder(boxes, settings);
+    std::vector<BoxT<T>>().swap(boxes);
+    return builder.build();
 }
 
 /// \}

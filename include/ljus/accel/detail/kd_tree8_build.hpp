@@ -83,88 +83,254 @@ struct KdTree8PartsT {
     }
 };
 
+/// A point during construction: 16 bytes in float, moved as a unit.
+template <std::floating_point T>
+struct KdTree8ItemT {
+    using Index = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+    T v[3];
+    Index index;
+    KdTree8ItemT() noexcept {} // uninitialised: items are written before they are read
+    KdTree8ItemT(const Vec3T<T>& point, std::size_t number) noexcept
+        : v{point.x, point.y, point.z}, index(static_cast<Index>(number)) {}
+};
+
+/// A list of items in pieces, each of which is freed when it has been read: what is
+/// made of a list needs no memory beside it.
+template <std::floating_point T>
+class KdTree8ItemsT {
+public:
+    using Item = KdTree8ItemT<T>;                 ///< What it holds.
+    static constexpr std::size_t piece = 1 << 13; ///< Items per piece.
+
+    /// The number of items.
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    /// An item that is still there.
+    [[nodiscard]] const Item& operator[](std::size_t i) const noexcept {
+        return pieces_[i / piece][i % piece];
+    }
+    /// Some places behind the last item, at least one; take() makes them items.
+    [[nodiscard]] std::span<Item> room() {
+        if (size_ == piece * pieces_.size()) pieces_.emplace_back(piece);
+        return std::span<Item>(pieces_.back()).subspan(size_ % piece);
+    }
+    /// Adds the first places of room().
+    void take(std::size_t count) noexcept { size_ += count; }
+    /// Adds a point, numbered in the order of adding.
+    /// \throws std::invalid_argument  if it is not finite.
+    void add(const Vec3T<T>& point) {
+        require_finite("a point of the k-d tree", point);
+        push({point, size_});
+    }
+    /// Adds an item.
+    void push(const Item& item) {
+        room()[0] = item;
+        take(1);
+    }
+    /// Calls use(items) for each piece, from the first one, or from the last one; frees
+    /// it after that.
+    template <typename Use>
+    void drain(Use use, bool backwards = false) {
+        const std::size_t count = pieces_.size();
+        for (std::size_t n = 0; n < count; ++n) {
+            const std::size_t k = backwards ? count - 1 - n : n;
+            use(std::span<const Item>(pieces_[k])
+                    .first(std::min(piece, size_ - k * piece)));
+            std::vector<Item>().swap(pieces_[k]);
+        }
+        *this = {};
+    }
+    /// All items in one array; the list is empty then.
+    [[nodiscard]] std::vector<Item> joined() {
+        std::vector<Item> all;
+        all.reserve(size_);
+        drain([&](auto items) { all.insert(all.end(), items.begin(), items.end()); });
+        return all;
+    }
+
+private:
+    std::vector<std::vector<Item>> pieces_;
+    std::size_t size_ = 0;
+};
+
+/// Refuses more points than a tree can have.
+inline void require_point_count(std::size_t count) {
+    require(count <= std::numeric_limits<std::uint32_t>::max(),
+            "the number of points in a k-d tree", static_cast<long long>(count),
+            "below 2^32");
+}
+
+/// The items of points.
+/// \throws std::invalid_argument  as KdTree8T.
+template <std::floating_point T>
+[[nodiscard]] KdTree8ItemsT<T> kd_tree8_items(std::span<const Vec3T<T>> points) {
+    require_point_count(points.size());
+    KdTree8ItemsT<T> items;
+    for (std::size_t i = 0; i < points.size(); ++i) items.add(points[i]);
+    return items;
+}
+
 // Builds the nodes, the blocks and the order of a tree.
 template <std::floating_point T>
 class KdTree8Builder {
 public:
-    // A point during construction: 16 bytes in float, moved as a unit.
-    struct Item {
-        using Index = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
-        T v[3];
-        Index index;
-        Item() noexcept {} // uninitialised: all items are written before they are read
-    };
+    using Item = KdTree8ItemT<T>;
+    using Items = KdTree8ItemsT<T>;
 
     KdTree8Builder(const KdTree8Shape& shape, std::vector<KdTree8NodeT<T>>& nodes,
                    std::vector<Lanes3T<T>>& blocks, std::vector<std::uint32_t>& order)
-        : shape_(shape), nodes_(nodes), blocks_(blocks), order_(order) {
-        for (auto& items : items_) items = std::vector<Item>(shape.points);
-    }
-    void build(std::span<const Vec3T<T>> points, int threads) {
-        constexpr long long piece = 1 << 14;
-        if (shape_.points < 2 * piece) threads = 1; // too few to wake threads
-        const auto take = [&](std::size_t i) {
-            require_finite("a point of the k-d tree", points[i]);
-            Item& item = items_[0][i];
-            for (int c = 0; c < 3; ++c) item.v[c] = points[i][c];
-            item.index = static_cast<typename Item::Index>(i);
-        };
-        parallel_each(points.size(), piece, take, {.threads = threads});
+        : shape_(shape), nodes_(nodes), blocks_(blocks), order_(order) {}
 
-        // The upper ranges are built level by level, then whole subtrees in parallel.
-        const int together = std::min(shape_.halvings, 5);
-        for (int depth = 0; depth < together; ++depth)
-            parallel_blocks(
-                1LL << depth,
-                [&](long long number) { halve(depth, std::uint64_t(number)); },
-                {.threads = threads});
-        parallel_blocks(
-            1LL << together,
-            [&](long long number) { finish(together, std::uint64_t(number)); },
-            {.threads = threads});
+    // The upper ranges are built level by level, in lists, then whole subtrees in
+    // parallel, in arrays; the tree grows as the items of its subtrees are freed.
+    void build(Items items, int threads) {
+        if (shape_.points < 4 * Items::piece) threads = 1; // too few to wake threads
+        int depth = 0;
+        std::vector<Items> ranges(1);
+        ranges[0] = std::move(items);
+        for (; depth < shape_.halvings && (shape_.points >> depth) > 16 * Items::piece;
+             ++depth) {
+            std::vector<Items> halves(2 * ranges.size());
+            parallel_blocks(static_cast<long long>(ranges.size()),
+                            [&](long long number) {
+                                const auto i = static_cast<std::size_t>(number);
+                                divide(depth, i, ranges[i], halves[2 * i],
+                                       halves[2 * i + 1]);
+                            },
+                            {.threads = threads});
+            ranges = std::move(halves);
+        }
+        blocks_.reserve(shape_.blocks);
+        order_.reserve(shape_.points);
+        const std::size_t together =
+            2 * static_cast<std::size_t>(threads == 0 ? max_threads() : threads);
+        for (std::size_t i = 0; i < ranges.size(); i += together) {
+            const std::size_t end = std::min(i + together, ranges.size());
+            blocks_.resize(shape_.first_block(depth, end));
+            order_.resize(first_point(depth, end));
+            if (end == ranges.size()) pad();
+            parallel_blocks(static_cast<long long>(end - i),
+                            [&](long long number) {
+                                const std::size_t n = i + std::size_t(number);
+                                std::vector<Item> from = ranges[n].joined();
+                                std::vector<Item> to(from.size());
+                                finish(depth, n, from.data(), to.data());
+                            },
+                            {.threads = threads});
+        }
     }
 
 private:
-    void finish(int depth, std::uint64_t number) {
-        halve(depth, number);
-        if (depth == shape_.halvings) return;
-        finish(depth + 1, 2 * number);
-        finish(depth + 1, 2 * number + 1);
+    void pad() { // the places behind the last point
+        constexpr T nan = std::numeric_limits<T>::quiet_NaN();
+        for (std::uint64_t i = shape_.points; i < 8 * shape_.blocks; ++i)
+            blocks_.back().set(i % 8, Vec3T<T>{nan});
     }
-
-    // Processes a range: writes its box into its node, then moves its points to its two
-    // halves in the other array, or into its leaf.
-    void halve(int depth, std::uint64_t number) {
-        const auto point = [&](std::uint64_t block) {
-            return std::min(8 * block, shape_.points);
-        };
-        const std::uint64_t first = point(shape_.first_block(depth, number));
-        const std::uint64_t last = point(shape_.first_block(depth, number + 1));
-        Item* const from = items_[depth % 2].data() + first;
-        Vec3T<T> low, high;
-        bounds(from, last - first, low, high);
+    [[nodiscard]] std::uint64_t first_point(int depth, std::uint64_t number) const {
+        return std::min(8 * shape_.first_block(depth, number), shape_.points);
+    }
+    // Writes the box of a range into its node.
+    void write(int depth, std::uint64_t number, const Vec3T<T>& low,
+               const Vec3T<T>& high) {
         const int below = shape_.halvings - depth;
-        if (depth > 0 && below % 3 == 0) {
-            const int level = shape_.levels - 1 - below / 3;
-            KdTree8NodeT<T>& node =
-                nodes_[shape_.first[std::size_t(level)] + std::size_t(number / 8)];
-            node.low.set(number % 8, low);
-            node.high.set(number % 8, high);
+        if (depth == 0 || below % 3 != 0) return;
+        const int level = shape_.levels - 1 - below / 3;
+        KdTree8NodeT<T>& node =
+            nodes_[shape_.first[std::size_t(level)] + std::size_t(number / 8)];
+        node.low.set(number % 8, low);
+        node.high.set(number % 8, high);
+    }
+    // Moves the points of a range to its halves, in the order of partition().
+    void divide(int depth, std::uint64_t number, Items& from, Items& low, Items& high) {
+        const std::uint64_t count = from.size();
+        const std::uint64_t rank =
+            first_point(depth + 1, 2 * number + 1) - first_point(depth, number);
+        Vec3T<T> box_low, box_high;
+        bounds(from, count, box_low, box_high);
+        write(depth, number, box_low, box_high);
+        const int axis = longest_axis(box_low, box_high);
+        const auto [least, most] = pivots(from, count, rank, axis);
+        Items above, between;
+        from.drain([&](auto items) {
+            for (std::size_t i = 0; i < items.size();) {
+                const auto to_low = low.room(), to_above = above.room(),
+                           to_between = between.room();
+                const std::size_t end =
+                    i + std::min({items.size() - i, to_low.size(), to_above.size(),
+                                  to_between.size()});
+                std::size_t front = 0, back = 0, band = 0;
+                for (; i < end; ++i) {
+                    const Item item = items[i];
+                    const T key = item.v[axis];
+                    to_low[front] = item;
+                    to_above[back] = item;
+                    to_between[band] = item;
+                    const bool is_low = key < least;
+                    const bool is_above = key > most;
+                    front += is_low;
+                    back += is_above;
+                    band += !(is_low | is_above);
+                }
+                low.take(front);
+                above.take(back);
+                between.take(band);
+            }
+        });
+        const std::uint64_t front = low.size();
+        const auto push = [](Items& list, auto first, auto last) {
+            for (; first != last; ++first) list.push(*first);
+        };
+        const bool inside = front <= rank && rank <= count - above.size();
+        if (!inside || (least != most && between.size() > count / 2)) {
+            std::vector<Item> all = low.joined();
+            all.reserve(count);
+            const auto add = [&](auto items) {
+                all.insert(all.end(), items.begin(), items.end());
+            };
+            between.drain(add);
+            above.drain(
+                [&](auto items) {
+                    all.insert(all.end(), items.rbegin(), items.rend());
+                },
+                true);
+            select(all.data(), count, rank, axis);
+            push(low, all.data(), all.data() + rank);
+            push(high, all.data() + rank, all.data() + count);
+            return;
         }
-        if (below == 0) {
-            for (std::uint64_t i = first; i < last; ++i) {
-                const Item& item = from[i - first];
-                blocks_[i / 8].set(i % 8, {item.v[0], item.v[1], item.v[2]});
-                order_[i] = static_cast<std::uint32_t>(item.index);
+        std::vector<Item> band = between.joined();
+        if (least != most) {
+            std::vector<Item> sorted(band.size());
+            partition(band.data(), sorted.data(), band.size(), rank - front, axis);
+            band = std::move(sorted);
+        }
+        push(low, band.data(), band.data() + (rank - front));
+        push(high, band.data() + (rank - front), band.data() + band.size());
+        above.drain([&](auto items) { push(high, items.rbegin(), items.rend()); },
+                    true);
+    }
+    // Builds a subtree; `from` has its items, and `to` the room for as many.
+    void finish(int depth, std::uint64_t number, Item* from, Item* to) {
+        const std::uint64_t first = first_point(depth, number);
+        const std::uint64_t count = first_point(depth, number + 1) - first;
+        Vec3T<T> low, high;
+        bounds(from, count, low, high);
+        write(depth, number, low, high);
+        if (depth == shape_.halvings) {
+            for (std::uint64_t i = 0; i < count; ++i) {
+                const Item& item = from[i];
+                blocks_[(first + i) / 8].set((first + i) % 8,
+                                             {item.v[0], item.v[1], item.v[2]});
+                order_[first + i] = static_cast<std::uint32_t>(item.index);
             }
             return;
         }
-        const std::uint64_t middle =
-            point(shape_.first_block(depth + 1, 2 * number + 1));
-        partition(from, items_[(depth + 1) % 2].data() + first, last - first,
-                  middle - first, longest_axis(low, high));
+        const std::uint64_t half = first_point(depth + 1, 2 * number + 1) - first;
+        partition(from, to, count, half, longest_axis(low, high));
+        finish(depth + 1, 2 * number, to, from);
+        finish(depth + 1, 2 * number + 1, to + half, from + half);
     }
-    static void bounds(const Item* items, std::uint64_t count, Vec3T<T>& low,
+    template <typename List> // an array or a list
+    static void bounds(const List& items, std::uint64_t count, Vec3T<T>& low,
                        Vec3T<T>& high) noexcept {
         // The fourth lane holds the index; its bits are read but not used.
         T lows[2][4], highs[2][4];
@@ -213,11 +379,7 @@ private:
             const bool inside = front <= rank && rank <= back;
             if (!inside || low == high || band > count / 2) {
                 std::copy(from, from + band, to + front);
-                if (!inside || low != high)
-                    std::nth_element(to, to + rank, to + count,
-                                     [axis](const Item& a, const Item& b) {
-                                         return a.v[axis] < b.v[axis];
-                                     });
+                if (!inside || low != high) select(to, count, rank, axis);
                 return;
             }
             to += front;
@@ -227,9 +389,16 @@ private:
     }
     // [partition]
 
+    static void select(Item* items, std::uint64_t count, std::uint64_t rank, int axis) {
+        std::nth_element(
+            items, items + rank, items + count,
+            [axis](const Item& a, const Item& b) { return a.v[axis] < b.v[axis]; });
+    }
+
     // Two numbers that are likely to enclose the item of a rank. For a few items both
     // are that item's coordinate; for many they are estimated from a sample.
-    static Extremes<T> pivots(const Item* items, std::uint64_t count,
+    template <typename List>
+    static Extremes<T> pivots(const List& items, std::uint64_t count,
                               std::uint64_t rank, int axis) {
         constexpr std::uint64_t few = 2048;
         constexpr std::uint64_t sample = 512;
@@ -254,7 +423,6 @@ private:
     std::vector<KdTree8NodeT<T>>& nodes_;
     std::vector<Lanes3T<T>>& blocks_;
     std::vector<std::uint32_t>& order_;
-    std::vector<Item> items_[2];
 };
 
 /// \}

@@ -114,7 +114,8 @@ public:
         missing_ = {};
     }
 
-    // The faces by material, in the order of its first use. Completes the report.
+    // The faces by material, in the order of its first use. Completes the report, and
+    // frees all lists.
     // `known` are the materials by their numbers, nullptr for none.
     std::vector<MeshFacesT<T>>
     take_faces(const std::vector<const MeshMaterial*>& known) {
@@ -122,7 +123,15 @@ public:
         report.content.normals = static_cast<long long>(normals_.size());
         report.content.uvs = static_cast<long long>(uv_.size());
         report.content.unused = std::count(latest_.begin(), latest_.end(), no_number);
-        count_edges(whole_, lines_, report);
+        std::vector<glm::dvec3>().swap(positions_);
+        std::vector<std::uint32_t>().swap(latest_);
+        std::vector<std::uint32_t>().swap(before_);
+        const MeshDataT<T> whole = std::move(whole_);
+        const auto lines = std::move(lines_);
+        const auto corners = std::move(corners_);
+        const auto normals = std::move(normals_);
+        const auto uvs = std::move(uv_);
+        count_edges(whole, lines, report);
 
         std::vector<MeshFacesT<T>> parts;
         std::unordered_map<const MeshMaterial*, std::size_t> numbers; // of the parts
@@ -132,34 +141,38 @@ public:
             if (fresh) parts.push_back({is ? *is : MeshMaterial{}});
             return parts[at->second];
         };
-        colors_.resize(colored_.count > 0 ? positions_.size() : 0, no_color);
-        std::vector<std::uint32_t> vertices; // of `whole_`, in their parts
-        for (std::size_t i = 0; i < corners_.size(); ++i) {
-            const auto [position, uv, normal, number] = corners_[i];
-            MeshFacesT<T>& part = part_of(corners_[i]);
+        colors_.resize(colored_.count > 0 ? std::size_t(report.content.vertices) : 0,
+                       no_color);
+        std::vector<std::uint32_t> vertices; // of `whole`, in their parts
+        vertices.reserve(corners.size());
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const auto [position, uv, normal, number] = corners[i];
+            MeshFacesT<T>& part = part_of(corners[i]);
             vertices.push_back(static_cast<std::uint32_t>(part.positions.size()));
             part.positions.push_back(position);
-            part.data.positions.push_back(whole_.positions[i]);
-            part.data.normals.push_back(normal != no_number ? normals_[normal]
-                                                            : Vec3T<T>{0});
-            part.data.uv.push_back(uv != no_number ? uv_[uv] : Vec2T<T>{0});
+            part.data.positions.push_back(whole.positions[i]);
+            if (!normals.empty())
+                part.data.normals.push_back(normal != no_number ? normals[normal]
+                                                                : Vec3T<T>{0});
+            if (!uvs.empty())
+                part.data.uv.push_back(uv != no_number ? uvs[uv] : Vec2T<T>{0});
             part.has_normals = part.has_normals || normal != no_number;
             part.has_uv = part.has_uv || uv != no_number;
             if (!colors_.empty()) part.colors.emplace_back(colors_[position]);
         }
-        for (std::size_t i = 0; i < lines_.size(); ++i) {
-            const auto [a, b, c] = whole_.triangles[i];
-            MeshFacesT<T>& part = part_of(corners_[a]);
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            const auto [a, b, c] = whole.triangles[i];
+            MeshFacesT<T>& part = part_of(corners[a]);
             part.data.triangles.push_back({vertices[a], vertices[b], vertices[c]});
-            if (part.has_uv && corners_[a][of_uv] == no_number &&
-                part.without_uv != lines_[i])
-                report.add(MeshTrouble::no_uv, part.without_uv = lines_[i]);
+            if (part.has_uv && corners[a][of_uv] == no_number &&
+                part.without_uv != lines[i])
+                report.add(MeshTrouble::no_uv, part.without_uv = lines[i]);
         }
         bool all_colors = settings_.pictures && !colors_.empty();
         for (MeshFacesT<T>& part : parts) {
-            if (!part.has_normals) part.data.normals.clear();
+            if (!part.has_normals) part.data.normals = std::vector<Vec3T<T>>();
             if (settings_.normals == MeshNormals::smooth) part.smooth();
-            if (!part.has_uv) part.data.uv.clear();
+            if (!part.has_uv) part.data.uv = std::vector<Vec2T<T>>();
             const MeshMaterial& is = part.material;
             const bool pictured = !is.picture.name.empty() || !is.mask.name.empty() ||
                                   !is.normals.name.empty();

@@ -3,11 +3,16 @@
 /// \file ljus/photons/detail/photon_records.hpp
 /// \brief The data of a photon map besides the positions, eight photons side by side.
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
+#include <cstring>
+#include <utility>
 #include <vector>
 
 #include "ljus/math/lanes.hpp"
+#include "ljus/parallel.hpp"
 #include "ljus/photons/photon.hpp"
 
 namespace ljus::detail {
@@ -67,16 +72,57 @@ public:
     /// No records.
     PhotonRecordsT() = default;
 
-    /// Gathers the records of photons in a given order.
-    /// \param order    Indices of the photons.
-    PhotonRecordsT(const std::vector<PhotonT<T>>& photons,
-                   const std::vector<std::uint32_t>& order)
-        : blocks_((order.size() + 7) / 8, RecordBlockT<T>{}), size_(order.size()) {
-        for (std::size_t i = 0; i < size_; ++i) {
-            const PhotonT<T>& photon = photons[order[i]];
-            set(i, {photon.direction, photon.flux, photon.light, photon.kind,
-                    photon.normal});
-        }
+    /// Takes memory for some records; none is there yet.
+    explicit PhotonRecordsT(std::size_t count) { blocks_.reserve((count + 7) / 8); }
+
+    /// Adds the record of a photon. All are there before sort() makes the blocks.
+    void add(const PhotonT<T>& photon) {
+        if (size_ % 8 == 0) blocks_.emplace_back();
+        put(size_++,
+            {photon.direction, photon.flux, photon.light, photon.kind, photon.normal});
+    }
+
+    /// Sorts the records in place, and makes the blocks.
+    /// \param order    order[i] is the index of the record that becomes the i-th.
+    /// \param threads  As in ParallelSettings.
+    /// \cost O(n), and 4 bytes per record.
+    void sort(const std::vector<std::uint32_t>& order, int threads) {
+        std::vector<std::uint32_t> to(size_);
+        for (std::size_t i = 0; i < size_; ++i)
+            to[order[i]] = static_cast<std::uint32_t>(i);
+        const auto exchange = [&](std::size_t i, std::size_t j) {
+            const PhotonRecordT<T> record = get(i);
+            put(i, get(j));
+            put(j, record);
+            std::swap(to[i], to[j]);
+        };
+        // First into groups that fit into a cache, then within each: records that move
+        // straight to their places would miss the cache each time.
+        constexpr std::size_t group = 4096;
+        std::vector<std::size_t> next; // the first place of a group that is not settled
+        for (std::size_t i = 0; i < size_; i += group) next.push_back(i);
+        for (std::size_t g = 0; g < next.size(); ++g)
+            for (const std::size_t end = std::min((g + 1) * group, size_);
+                 next[g] < end;) {
+                const std::size_t other = to[next[g]] / group;
+                if (other != g) exchange(next[g], next[other]);
+                ++next[other];
+            }
+        const auto settle = [&](long long number) {
+            const auto first = static_cast<std::size_t>(number) * group;
+            const std::size_t end = std::min(first + group, size_);
+            for (std::size_t i = first; i < end; ++i)
+                while (to[i] != i) exchange(i, to[i]);
+            for (std::size_t i = first; i < end; i += 8) {
+                std::array<PhotonRecordT<T>, 8> records;
+                const std::size_t count = std::min<std::size_t>(8, end - i);
+                for (std::size_t k = 0; k < count; ++k) records[k] = get(i + k);
+                blocks_[i / 8] = {};
+                for (std::size_t k = 0; k < count; ++k) set(i + k, records[k]);
+            }
+        };
+        parallel_blocks(static_cast<long long>(next.size()), settle,
+                        {.threads = threads});
     }
 
     /// The number of records.
@@ -100,6 +146,21 @@ public:
     }
 
 private:
+    // Until the records are sorted, a block holds eight of them one after another.
+    static_assert(8 * sizeof(PhotonRecordT<T>) <= sizeof(RecordBlockT<T>));
+    [[nodiscard]] PhotonRecordT<T> get(std::size_t index) const noexcept {
+        PhotonRecordT<T> record;
+        std::memcpy(static_cast<void*>(&record),
+                    reinterpret_cast<const char*>(&blocks_[index / 8]) +
+                        index % 8 * sizeof record,
+                    sizeof record);
+        return record;
+    }
+    void put(std::size_t index, const PhotonRecordT<T>& record) noexcept {
+        std::memcpy(reinterpret_cast<char*>(&blocks_[index / 8]) +
+                        index % 8 * sizeof record,
+                    static_cast<const void*>(&record), sizeof record);
+    }
     void set(std::size_t index, const PhotonRecordT<T>& record) noexcept {
         RecordBlockT<T>& block = blocks_[index / 8];
         const std::size_t i = index % 8;

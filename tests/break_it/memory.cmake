@@ -1,0 +1,17 @@
+# Photons that are in the map already are kept until all are.
+ljus_break_it(NAME memory-photons HEADER photons/photon_map.hpp TEST memory
+    FROM "std::vector<PhotonT<T>>().swap(part);"
+    TO   ""
+    CASES "memory: a photon*")
+
+# The sums of all pixels at a time.
+ljus_break_it(NAME memory-pixels HEADER render/adaptive.hpp TEST memory
+    FROM "picture.samples - rule.first < rule.more)"
+    TO   "picture.samples > 0)"
+    CASES "memory: adaptive*")
+
+# The lists of a mesh file, until its tree is there.
+ljus_break_it(NAME memory-triangles HEADER accel/detail/bvh_build.hpp TEST memory
+    FROM "std::vector<BoxT<T>>().swap(boxes);"
+    TO   ""
+    CASES "memory: a triangle*")

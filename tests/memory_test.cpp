@@ -1,0 +1,160 @@
+// concept: photon_map
+/// \file memory_test.cpp
+/// \brief The most memory that photons, pixels and triangles take at a time.
+
+#include <doctest/doctest.h>
+
+#if defined(__GLIBC__)
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <string>
+
+#include "ljus/io/load_obj.hpp"
+#include "ljus/photons/photon_map.hpp"
+#include "ljus/photons/tracing.hpp"
+#include "ljus/render/adaptive.hpp"
+#include "support/rooms.hpp"
+
+namespace {
+
+std::atomic<long long> taken{0}, most{0};
+
+void count(long long bytes) {
+    const long long now = taken += bytes;
+    for (long long old = most; now > old && !most.compare_exchange_weak(old, now);) {
+    }
+}
+
+void* counted(void* memory) {
+    if (memory == nullptr) throw std::bad_alloc();
+    count(static_cast<long long>(::malloc_usable_size(memory)));
+    return memory;
+}
+
+void give(void* memory) noexcept {
+    if (memory != nullptr) count(-static_cast<long long>(::malloc_usable_size(memory)));
+    std::free(memory);
+}
+
+/// The most bytes that are taken at a time while something is done, beyond those that
+/// are taken before.
+template <typename Work>
+double peak_of(const Work& work) {
+    const long long before = most = taken.load();
+    work();
+    return double(most - before);
+}
+
+} // namespace
+
+void* operator new(std::size_t size) {
+    return counted(std::malloc(std::max(size, std::size_t(1))));
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    const auto unit = std::size_t(alignment);
+    return counted(std::aligned_alloc(unit, (size + unit - 1) / unit * unit));
+}
+void operator delete(void* memory) noexcept {
+    give(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    give(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+    give(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+    give(memory);
+}
+
+using namespace ljus;
+
+TEST_CASE("memory: a photon is never there twice while it is traced and mapped") {
+    const ljus_test::ClosedRoom room =
+        ljus_test::make_room<float>(ljus_test::Ball::glass, ljus_test::Lamp::quad, 1);
+    const PhotonPassSettings pass{.photons = 300000, .threads = 2};
+    detail::TracedPartsT<float> traced;
+    const double tracing =
+        peak_of([&] { traced = detail::trace_parts(room, MapType::general, pass); });
+    const double photons = double(traced.stored);
+    REQUIRE(photons > 300000);
+    CHECK(tracing < 54 * photons); // 44 for each, and the photons of a round
+    PhotonMap map;
+    const double mapping = peak_of(
+        [&] { map = detail::map_of_parts(std::move(traced.parts), pass.threads); });
+    CHECK(mapping < (80 - 44) * photons); // 44 are there, 49 remain
+    CHECK(double(map.tree.bytes() + map.records.bytes()) < 50 * photons);
+    // The tree of points that are kept by the caller.
+    std::vector<Vec3> points(300000);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = {float(i % 1000), float(i % 777), float(i % 13)};
+    CHECK(peak_of([&] { (void)KdTree8{std::span<const Vec3>(points)}; }) < 45 * 3e5);
+}
+
+namespace {
+
+/// A renderer of noise.
+struct Noise {
+    using Stream = RandomStream;
+};
+template <typename Context>
+Rgb radiance(const Noise&, const Ray&, Context& context) {
+    return Rgb{next_1d(context.stream)};
+}
+
+} // namespace
+
+TEST_CASE("memory: adaptive rays add 24 bytes for each further pixel") {
+    const auto peak = [](int height) {
+        RenderSettings picture{.width = 300, .height = height, .samples = 6};
+        picture.threads = 2;
+        return peak_of([&] {
+            (void)render_adaptive(
+                Noise{}, Camera{}, picture,
+                {.first = 2, .more = 4, .batches = 1, .disagreement = 0.3});
+        });
+    };
+    const double small = peak(300), large = peak(1200);
+    CHECK(large - small < 25.0 * 300 * 900);
+    CHECK(small - 24.0 * 300 * 300 < 6e6); // the rows in work
+}
+
+TEST_CASE("memory: a triangle takes at most 150 bytes while its file is read") {
+    constexpr int side = 200;
+    std::string text;
+    const auto add = [&](const char* word, double x, double y, double z) {
+        text.append(word).append(std::to_string(x)).append(" ");
+        text.append(std::to_string(y)).append(" ").append(std::to_string(z)) += '\n';
+    };
+    for (int y = 0; y <= side; ++y)
+        for (int x = 0; x <= side; ++x) {
+            const double u = double(x) / side, v = double(y) / side;
+            add("v ", u, v, 0.1 * std::sin(7 * u + v));
+            add("vn ", 0, 0, 1);
+            add("vt ", u, v, 0);
+        }
+    const auto corner = [](int number) {
+        const std::string one = std::to_string(number);
+        return " " + one + "/" + one + "/" + one;
+    };
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const int a = y * (side + 1) + x + 1, b = a + 1, c = a + side + 1;
+            text += "f" + corner(a) + corner(b) + corner(c) + "\n";
+            text += "f" + corner(b) + corner(c + 1) + corner(c) + "\n";
+        }
+    LoadedMesh loaded;
+    const double peak = peak_of([&] { loaded = read_obj(text, "hills.obj"); });
+    REQUIRE(loaded.parts.size() == 1);
+    const Mesh& mesh = loaded.parts[0].mesh;
+    REQUIRE(mesh.size() == 2 * side * side);
+    CHECK(peak < 150.0 * mesh.size());
+}
+
+#endif
