@@ -7,9 +7,9 @@
 
 #include "ljus/geometry/moving.hpp"
 #include "ljus/lights/point_light.hpp"
-#include "ljus/materials/picture_lamp.hpp"
 #include "ljus/radiosity/form_factor_matrix.hpp"
 #include "ljus/radiosity/radiosity.hpp"
+#include "ljus/scene/picture_lamp.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/form_factor_facing.hpp"
