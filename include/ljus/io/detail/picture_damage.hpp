@@ -107,13 +107,15 @@ inline Bytes with_whole_palette(const Bytes& file) {
 }
 
 // Whether a PNG file has a cICP chunk by which its colours are not those of sRGB: they
-// may be brighter than white. png_trouble() must have found nothing.
+// may be brighter than white.
 inline bool png_is_not_srgb(const Bytes& file) {
-    for (std::size_t at = 8; file.size() - at >= 12;
-         at += 12 + std::size_t(png_number(file, at)))
-        if (png_number(file, at + 4) == 0x63494350u) // cICP
-            return byte_at(file, at + 8) != 1 || byte_at(file, at + 9) != 13;
-    return false;
+    bool other = false;
+    find_png_chunk(file, [&](std::uint32_t name, std::size_t at, std::size_t) {
+        if (name != 0x63494350u) return false; // cICP
+        other = byte_at(file, at) != 1 || byte_at(file, at + 1) != 13;
+        return true;
+    });
+    return other;
 }
 
 // The orientation, 1 to 8, in EXIF data, which are a TIFF file within a file: byte
