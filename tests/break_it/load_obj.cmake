@@ -42,8 +42,8 @@ ljus_break_it(NAME load-obj-uv-index HEADER io/detail/obj_reader.hpp TEST load_o
 
 # All corners have the first texture coordinates of the file.
 ljus_break_it(NAME load-obj-uv HEADER io/detail/mesh_builder.hpp TEST load_obj
-    FROM "uv != no_number ? uv_[uv]"
-    TO   "uv != no_number ? uv_[0]"
+    FROM "uv != no_number ? uvs[uv]"
+    TO   "uv != no_number ? uvs[0]"
     CASES "load_obj: texture coordinates*")
 
 # A seam of the picture is an edge of the surface.

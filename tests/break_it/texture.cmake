@@ -74,7 +74,7 @@ ljus_break_it(NAME jpeg-tables HEADER io/detail/picture_damage.hpp TEST texture
 
 # A file of a few bytes may promise as many pixels as it likes.
 ljus_break_it(NAME load-image-size HEADER io/load_image.hpp TEST texture
-    FROM "std::size_t(width) * std::size_t(height) / most > bytes.size()"
+    FROM "std::size_t(width) * std::size_t(high) / most > bytes.size()"
     TO   "false"
     CASES "texture: a file of many pixels*")
 
