@@ -253,6 +253,7 @@ TEST_CASE("file: a program that is killed while it saves leaves the older file, 
     const std::string path = folder.file("a");
     const ljus::Bytes first(6'000'000, 'a'), second(6'000'000, 'b');
     ljus::save_file(path, first);
+    int left = 0; // rounds with a file beside
     for (int round = 0; round < 40; ++round) {
         const ::pid_t child = ::fork();
         REQUIRE(child >= 0);
@@ -264,14 +265,16 @@ TEST_CASE("file: a program that is killed while it saves leaves the older file, 
         REQUIRE(::waitpid(child, &status, 0) == child);
         const ljus::Bytes found = ljus::load_file(path, 10'000'000);
         REQUIRE((found == first || found == second));
+        left += folder.count() > 1 ? 1 : 0;
     }
     CHECK(message_of_save(path, first) == "saved");
+    CHECK(folder.count() == 1);
 #ifdef O_TMPFILE
     const int nameless =
         ::open(folder.path.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
     if (nameless < 0) return;
     ::close(nameless);
-    CHECK(folder.count() == 1);
+    CHECK(left < 20); // killed between the naming and the renaming; in practice 0
 #endif
 }
 
