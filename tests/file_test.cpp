@@ -259,7 +259,7 @@ TEST_CASE("file: a program that is killed while it saves leaves the older file, 
         REQUIRE(child >= 0);
         if (child == 0)
             for (;;) ljus::save_file(path, round % 2 == 0 ? second : first);
-        ::usleep(static_cast<::useconds_t>(500 + 397 * round));
+        ::usleep(static_cast<::useconds_t>(3000 + 397 * round));
         REQUIRE(::kill(child, SIGKILL) == 0);
         int status = 0;
         REQUIRE(::waitpid(child, &status, 0) == child);
@@ -274,7 +274,7 @@ TEST_CASE("file: a program that is killed while it saves leaves the older file, 
         ::open(folder.path.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
     if (nameless < 0) return;
     ::close(nameless);
-    CHECK(left < 20); // killed between the naming and the renaming; in practice 0
+    CHECK(left < 4); // killed between the naming and the renaming: once in 200 rounds
 #endif
 }
 
