@@ -32,9 +32,13 @@ void count(long long bytes) {
 }
 
 void* counted(void* memory) {
-    if (memory == nullptr) throw std::bad_alloc();
-    count(static_cast<long long>(::malloc_usable_size(memory)));
+    if (memory != nullptr) count(static_cast<long long>(::malloc_usable_size(memory)));
     return memory;
+}
+
+void* required(void* memory) {
+    if (memory == nullptr) throw std::bad_alloc();
+    return counted(memory);
 }
 
 void give(void* memory) noexcept {
@@ -54,11 +58,14 @@ double peak_of(const Work& work) {
 } // namespace
 
 void* operator new(std::size_t size) {
-    return counted(std::malloc(std::max(size, std::size_t(1))));
+    return required(std::malloc(std::max(size, std::size_t(1))));
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    return counted(std::malloc(size));
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
     const auto unit = std::size_t(alignment);
-    return counted(std::aligned_alloc(unit, (size + unit - 1) / unit * unit));
+    return required(std::aligned_alloc(unit, (size + unit - 1) / unit * unit));
 }
 void operator delete(void* memory) noexcept {
     give(memory);
