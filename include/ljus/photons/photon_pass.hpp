@@ -100,8 +100,8 @@ inline constexpr long long photon_block = 512;
 /// Number of paths before the memory of the whole pass is predicted.
 inline constexpr long long pilot_paths = 4 * photon_block;
 
-/// Predicts the memory of a pass in bytes: twice its photons, because all blocks are
-/// joined at the end, plus the blocks.
+/// Predicts the memory of a pass in bytes, and of the map that is made of it: at most
+/// twice its photons, plus the blocks.
 /// \param mean     Stored photons per path so far.
 template <std::floating_point T>
 [[nodiscard]] double expected_bytes(long long photons, double mean) noexcept {

@@ -249,8 +249,8 @@ private:
         write(depth, number, box_low, box_high);
         const int axis = longest_axis(box_low, box_high);
         const Extremes<T> pivot = pivots(from, count, rank, axis);
-        const T least = pivot.low,
-                most = pivot.high; // which clang 14 lets a lambda use
+        // No structured binding: clang 14 lets no lambda use one.
+        const T least = pivot.low, most = pivot.high;
         Items above, between;
         from.drain([&](auto items) {
             for (std::size_t i = 0; i < items.size();) {
