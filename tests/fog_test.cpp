@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "ljus/geometry/moving.hpp"
 #include "ljus/lights/environment.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/materials/glass.hpp"
@@ -133,6 +134,17 @@ TEST_CASE_TEMPLATE("fog: samples follow the phase function", T, float, double) {
     }
 }
 
+TEST_CASE("fog: at the ends of the unit square samples are unit directions") {
+    const float last = std::nextafter(1.0f, 0.0f);
+    const Vec3 travel = glm::normalize(Vec3{3, 1, -2});
+    for (float g = -0.99f; g <= 0.99f; g += 0.01f)
+        for (const float u : {0.0f, 1e-30f, 1e-7f, last - 1e-7f, last})
+            for (const float v : {0.0f, 0.3f, last}) {
+                const Vec3 w = sample_henyey_greenstein(g, travel, Vec2{u, v});
+                REQUIRE(std::abs(glm::length(w) - 1) < 1e-5f);
+            }
+}
+
 TEST_CASE("fog: the part of a ray in a sphere and in a box") {
     auto stream = random_stream(3, Pass::user, 0, 0);
     const SphereT<double> ball{.center{1, 2, 3}, .radius = 1.5};
@@ -199,6 +211,15 @@ TEST_CASE("fog: equi-angular samples follow their density, which integrates to 1
     }
 }
 
+TEST_CASE("fog: seen from very far, equi-angular samples are uniform") {
+    const Ray ray{.direction{1, 0, 0}};
+    for (const Vec3& light : {Vec3{1e6f, 3e5f, 0}, Vec3{-2e7f, 0, 1e7f}}) {
+        const auto angles = equi_angular(ray, SpanT<float>{1, 5}, light);
+        for (const float t : {1.0f, 2.5f, 5.0f})
+            CHECK(pdf_equi_angular(angles, t) == doctest::Approx(0.25).epsilon(1e-4));
+    }
+}
+
 TEST_CASE(
     "fog: what a ray gathers of a point light is the integral of one scattering") {
     // Quadrature of sigma_s phase I / d^2 exp(-sigma_t (t + d)) along the ray.
@@ -241,6 +262,96 @@ TEST_CASE(
         }
 }
 
+TEST_CASE("fog: several media scatter each by its own coefficients") {
+    // Two balls, one behind the other, and a box that overlaps the second one.
+    struct Ball {
+        double from, to, scattering, g;
+    };
+    const Ball media[] = {{1, 3, 0.3, 0.7}, {4, 8, 0.1, -0.5}, {6, 9, 0.2, 0}};
+    const glm::dvec3 lamp{5, 4, 0}; // outside all of them
+    const auto inside = [&](int i, const glm::dvec3& p) {
+        const auto [from, to, scatters, g] = media[i];
+        return i < 2 ? glm::distance(p, {(from + to) / 2, 0, 0}) < (to - from) / 2
+                     : p.x > from && p.x < to && std::abs(p.y) < 1;
+    };
+    Balls scene = black_wall();
+    scene.add(PointLight{.position = Vec3(lamp), .intensity = Rgb{10}});
+    for (int i = 0; i < 2; ++i)
+        scene.add(
+            Fog<Sphere>{.region{.center{float(media[i].from + media[i].to) / 2, 0, 0},
+                                .radius = float(media[i].to - media[i].from) / 2},
+                        .scattering = Rgb{float(media[i].scattering)},
+                        .g = float(media[i].g)});
+    scene.add(Fog<Box>{.region{{6, -1, -1}, {9, 1, 1}}, .scattering = Rgb{0.2f}});
+    const World world(std::move(scene));
+
+    const auto depth = [&](const glm::dvec3& from, const glm::dvec3& to) {
+        return glm::distance(from, to) * integrate(0, 1, 400, [&](double t) {
+                   const glm::dvec3 p = glm::mix(from, to, t);
+                   double sum = 0;
+                   for (int i = 0; i < 3; ++i)
+                       sum += inside(i, p) ? media[i].scattering : 0;
+                   return sum;
+               });
+    };
+    double truth = 0;
+    for (int i = 0; i < 3; ++i)
+        truth += integrate(media[i].from, media[i].to, 400, [&](double x) {
+            const glm::dvec3 p{x, 0, 0}, way = lamp - p;
+            const double d = glm::length(way);
+            return media[i].scattering * printed(media[i].g, way.x / d) * 10 / (d * d) *
+                   std::exp(-depth({0, 0, 0}, p) - depth(p, lamp));
+        });
+    for (const FogLight how : ways) {
+        CAPTURE(int(how));
+        const PathTracer tracer(world, {.max_depth = 1, .fog = how});
+        CHECK(mean_radiance(tracer, 40000, 13, along_x({0, 0, 0}))
+                  .agrees_with(truth, 2e-3 * truth));
+    }
+}
+
+TEST_CASE("fog: at each time of the shutter a path sees what stands there") {
+    // A lamp and a ball before it, both in motion, against the same world at rest at
+    // the time that the path draws.
+    using Moved = Moving<Sphere>;
+    Moved lamp{{.center{-1, 2, 0}, .radius = 0.9f}, {2, 0, 0}};
+    Moved ball{{.center{0.6f, 0.7f, 0}, .radius = 0.3f}, {-1.2f, 0, 0.3f}};
+    const auto at = [&](float time, float moves) {
+        Scene<Shapes<Moved>, Materials<Lambertian>, Lights<>, Media<Fog<Sphere>>> scene;
+        const auto add = [&](Moved shape, Rgb emission) {
+            shape.shape = at_time(shape, time);
+            shape.displacement *= moves;
+            scene.add(shape, scene.add(Lambertian{.albedo = Rgb{0.5f}}), emission);
+        };
+        add(lamp, Rgb{5});
+        add(ball, Rgb{0});
+        scene.add(
+            Fog<Sphere>{.region{.radius = 3}, .scattering = Rgb{0.6f}, .g = 0.3f});
+        return World(std::move(scene));
+    };
+    const auto moving = at(0, 1);
+    Counts counts;
+    for (const bool lights : {true, false}) {
+        const PathTracingSettings settings{.sample_lights = lights};
+        const PathTracer tracer(moving, settings);
+        int lit = 0;
+        for (std::uint64_t i = 0; i < 400; ++i) {
+            CAPTURE(i);
+            auto stream = random_stream(14, Pass::camera, 0, i);
+            const Ray ray{.origin{-2, 0, 0}, .direction{1, 0, 0}};
+            auto other = stream;
+            const auto still = at(next_1d<float>(other), 0);
+            auto context = context_of(stream, counts);
+            auto still_context = context_of(other, counts);
+            const Rgb found = radiance(tracer, ray, context);
+            const Rgb truth = radiance(PathTracer(still, settings), ray, still_context);
+            lit += truth.x > 0 ? 1 : 0;
+            REQUIRE(found.x == doctest::Approx(truth.x).epsilon(1e-3));
+        }
+        CHECK(lit > 10);
+    }
+}
+
 TEST_CASE("fog: of thin fog the closed form, the angle over the distance") {
     Balls scene = black_wall();
     scene.add(PointLight{.position{5, 0, 2}, .intensity = Rgb{1}});
@@ -260,6 +371,9 @@ TEST_CASE("fog: in a glowing room, fog that absorbs nothing is not seen") {
             Balls scene = glowing_room(0.5f);
             scene.add(
                 Fog<Sphere>{.region{.radius = 5}, .scattering{0.3f, 2, 0.1f}, .g = g});
+            // Paths begin in glass that bends nothing, which is a specular surface.
+            scene.add(Sphere{.center{-1, 0, 0}, .radius = 0.5f},
+                      scene.add(Glass{.index = 1}));
             const World world(std::move(scene));
             for (const auto heuristic : {MisHeuristic::balance, MisHeuristic::power,
                                          MisHeuristic::shadow_rays}) {
@@ -271,6 +385,25 @@ TEST_CASE("fog: in a glowing room, fog that absorbs nothing is not seen") {
                 if (!lights) break;
             }
         }
+}
+
+TEST_CASE("fog: at the limit of depth, weights share the light as before it") {
+    // Behind a mirror or clear glass, too, a path may end in fog; its last ray then
+    // finds the lamps that its weight leaves to it.
+    Balls scene = glowing_room();
+    scene.add(Sphere{.center{-1, 0, 0}, .radius = 0.5f}, scene.add(Glass{.index = 1}));
+    scene.add(Fog<Sphere>{.region{.radius = 5}, .scattering = Rgb{1.5f}});
+    const World world(std::move(scene));
+    for (const int depth : {1, 2, 3}) {
+        CAPTURE(depth);
+        const auto mean = [&](MisHeuristic heuristic, std::uint64_t seed) {
+            return mean_radiance(
+                PathTracer(world, {.max_depth = depth, .heuristic = heuristic}), 20000,
+                seed, along_x({-1, 0.3f, 0}));
+        };
+        CHECK(std::abs(ljus_test::apart(mean(MisHeuristic::balance, 15),
+                                        mean(MisHeuristic::shadow_rays, 16))) < 5);
+    }
 }
 
 TEST_CASE("fog: a slab dims what is behind it by the law of Beer") {
@@ -510,6 +643,10 @@ TEST_CASE("fog: what does not carry it says so") {
     Scene<Shapes<Sphere>, Materials<Lambertian, SoapFilm>, Lights<>, Media<Fog<Sphere>>>
         bubble;
     bubble.add(Sphere{}, bubble.add(SoapFilm{}));
+    CHECK(refusal([&] {
+              const World clear(bubble);
+              (void)PathTracer(clear);
+          }) == "");
     bubble.add(Fog<Sphere>{});
     const World both(std::move(bubble));
     CHECK(refusal([&] {

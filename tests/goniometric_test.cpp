@@ -129,6 +129,22 @@ TEST_CASE_TEMPLATE("goniometric: the same in all directions, a table is a point 
     }
 }
 
+TEST_CASE("goniometric: where a table ends after a whole turn, it is not dark") {
+    for (double first = -359.5; first < 360; first += 0.5) {
+        const auto made = prepared(
+            GoniometricLightT<double>{.table{.polar{0, 180},
+                                             .azimuth{first, first + 360},
+                                             .candela = std::vector<double>(4, 1.0)}});
+        for (const double off : {-1e-16, 0.0, 1e-16}) {
+            const double phi = first * pi / 180 * (1 + off) + off;
+            const auto wo =
+                to_world(made.frame, glm::dvec3{std::cos(phi), std::sin(phi), 0});
+            CAPTURE(first);
+            REQUIRE(detail::intensity_towards(made, wo) == doctest::Approx(1));
+        }
+    }
+}
+
 TEST_CASE("goniometric: the flux of tables with a closed form") {
     const auto lumens = [](const IntensityTable& table) {
         return double(

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ljus/geometry/moving.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
@@ -178,6 +179,18 @@ TEST_CASE("layers: the picture keeps its bytes, and the light adds up to it") {
         }
         CHECK(check_renderer(PathTracer(room))[3] > 0);
     }
+}
+
+TEST_CASE("layers: a picture of what moves keeps its bytes") {
+    // Each ray draws a time, for the picture and for its layers alike.
+    const World world(
+        make_scene(placed(Sphere{.radius = 9}, Lambertian{}, Rgb{1}, true),
+                   placed(Moving<Sphere>{{.center{-1, 0, -4}, .radius = 1}, {2, 0, 0}},
+                          Lambertian{})));
+    const PathTracer tracer(world);
+    const RenderSettings picture{.width = 8, .height = 8, .samples = 2};
+    CHECK(render_layers(tracer, Camera{}, picture, surfaces).rendered.image.pixels ==
+          render(tracer, Camera{}, picture).image.pixels);
 }
 
 TEST_CASE("layers: each layer of light is the picture of its class of paths") {

@@ -354,6 +354,20 @@ TEST_CASE("rough glass: the index of its surroundings makes it invisible, and no
     }
 }
 
+TEST_CASE("rough glass: along the surface, where float overflows, f is 0") {
+    const RoughGlass rough{.roughness = 1};
+    int finite = 0;
+    for (const float out : {1e-3f, 1e-20f, 1e-38f, 5e-43f})
+        for (const float in : {1e-3f, 1e-20f, 1e-38f, 5e-43f, 2e-40f})
+            for (const float side : {1.0f, -1.0f}) {
+                const auto f = evaluate(rough, Vec3T<float>{1, 0, side * out},
+                                        Vec3T<float>{-1, 0, side * in});
+                REQUIRE((std::isfinite(f.x) && f.x >= 0));
+                finite += f.x > 0 ? 1 : 0;
+            }
+    CHECK(finite > 2);
+}
+
 TEST_CASE("rough glass: beyond the critical angle most stays inside, and what leaves "
           "does so by tilted facets") {
     const auto wo = at_degrees<double>(180 - 60);

@@ -245,6 +245,7 @@ TEST_CASE("texture: a UvMap looks up by the shape's own coordinates, and repeats
     using Wallpaper = Textured<Lambertian, UvPicture>;
     static_assert(UsesUv<Wallpaper> && !UsesUv<Lambertian>);
     static_assert(!UsesUv<Textured<Lambertian, PictureTexture>>);
+    static_assert(UsesUv<Textured<Wallpaper, PictureTexture>>); // the base does
     const Wallpaper paper{{.albedo = Rgb{0.5f}}, {.image = four()}};
     CHECK(material_at(paper, Vec3{9}, Vec2{0.75f, 0.75f}).albedo == Rgb{0, 0.5f, 0});
     const Ray ray{.origin{0.75f, 0.75f, 1}, .direction{0, 0, -1}};

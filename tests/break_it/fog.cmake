@@ -94,3 +94,22 @@ ljus_break_it(NAME fog-passing HEADER path/fog_path.hpp TEST fog
     FROM "path.pdf *= detail::passing(vertex.transmittance);"
     TO   ""
     CASES "fog: in a glowing room*")
+
+# A light of several media is a factor too strong on rays that cross more than one.
+ljus_break_it(NAME fog-media HEADER path/fog_path.hpp TEST fog
+    FROM "           T(aim->media);"
+    TO   "           T(1);"
+    CASES "fog: several media*")
+
+# What fog scatters sees all that moves where it is when the shutter opens.
+ljus_break_it(NAME fog-time HEADER path/fog_path.hpp TEST fog
+    FROM ".time = segment.ray.time};"
+    TO   ".time = T(0)};"
+    CASES "fog: at each time*")
+
+# Behind glass the last ray from fog finds no lamp.
+ljus_break_it(NAME fog-last-ray HEADER path/fog_path.hpp TEST fog
+    FROM "    path.specular = false;
+    path.met"
+    TO   "    path.met"
+    CASES "fog: at the limit of depth*")

@@ -178,7 +178,7 @@ template <std::floating_point T>
     constexpr double turn = 2 * std::numbers::pi;
     const double first = light.azimuth.front(), last = light.azimuth.back();
     double around = std::atan2(d.y, d.x);
-    around -= turn * std::floor((around - first) / turn);
+    around = std::max(first, around - turn * std::floor((around - first) / turn));
     if (around > last && around - last < 1e-9) around = last; // rounding at the seam
     const auto azimuth = between_angles(light.azimuth, around);
     if (!polar || !azimuth) return 0;
