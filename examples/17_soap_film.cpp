@@ -4,7 +4,7 @@
 /// bubble, diffuse.
 
 #include <ljus/ljus.hpp>
-#include <ljus/scenes/report_room.hpp>
+#include <ljus/scenes/report_rooms.hpp>
 
 #include "common/example.hpp"
 

@@ -21,7 +21,7 @@
 #include "common/program_files.hpp"
 #include "common/save_picture.hpp"
 #include "ljus/image/hdr_flip.hpp"
-#include "ljus/inspect/block_statistics.hpp"
+#include "ljus/inspect/metrics.hpp"
 #include "ljus/io/hdr.hpp"
 #include "ljus/io/load_image.hpp"
 #include "ljus/io/pfm.hpp"

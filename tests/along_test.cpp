@@ -14,7 +14,7 @@
 
 #include <doctest/doctest.h>
 
-#include <ljus/inspect/block_statistics.hpp>
+#include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 
 #include "support/seed.hpp"

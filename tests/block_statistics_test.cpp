@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "ljus/inspect/block_statistics.hpp"
+#include "ljus/inspect/metrics.hpp"
 #include "support/numbers.hpp"
 
 namespace {
@@ -74,7 +74,7 @@ TEST_CASE("block_statistics: pixels that share their noise do not fool it") {
 TEST_CASE("block_statistics: what it refuses") {
     const auto one = ljus::make_image<double>(8, 8);
     CHECK_THROWS_WITH_AS((void)block_statistics(std::vector{one}),
-                         "A standard error needs at least 2 runs, but there are 1.",
+                         "the number of runs is 1; it must be at least 2.",
                          std::invalid_argument);
     CHECK_THROWS_AS((void)block_statistics(std::vector<ImageD>{}),
                     std::invalid_argument);

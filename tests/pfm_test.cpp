@@ -132,13 +132,13 @@ TEST_CASE("pfm: a file without end is refused at once") {
 }
 
 TEST_CASE("pfm: a decimal of a header is the nearest number") {
-    using ljus::detail::to_number;
-    CHECK(to_number("0.3") == 0.3); // 3 times 0.1 is not
-    CHECK(to_number("-12.7") == -12.7);
-    CHECK(to_number("7e2") == 700);
-    CHECK(to_number("+2.5E-1") == 0.25);
+    using ljus::detail::number_of;
+    CHECK(number_of("0.3") == 0.3); // 3 times 0.1 is not
+    CHECK(number_of("-12.7") == -12.7);
+    CHECK(number_of("7e2") == 700);
+    CHECK(number_of("+2.5E-1") == 0.25);
     for (const char* const none : {"", "-", ".", "1.", "1e", "1 ", "x", "0x1"})
-        CHECK(std::isnan(to_number(none)) == (std::string(none) != "1."));
+        CHECK(std::isnan(number_of(none)) == (std::string(none) != "1."));
 }
 
 TEST_CASE("pfm: infinity and NaN are what they are at any scale") {

@@ -7,7 +7,7 @@
 /// are integers below 2^53: a double holds them, and the roots stay exact. Values are
 /// compared as fractions.
 
-#include "ljus/geometry/detail/quartic_formula.hpp"
+#include "ljus/geometry/detail/metaball_quartic.hpp"
 #include "ljus/math/polynomial.hpp"
 
 #include <doctest/doctest.h>

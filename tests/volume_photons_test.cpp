@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "ljus/inspect/block_statistics.hpp"
+#include "ljus/inspect/metrics.hpp"
 #include "ljus/inspect/survey.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/lights/sun_light.hpp"

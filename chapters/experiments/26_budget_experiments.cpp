@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include <ljus/inspect/bias_variance.hpp>
 #include <ljus/inspect/estimate.hpp>
+#include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 #include <ljus/render/budgeting.hpp>
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "ljus/inspect/bias_variance.hpp"
+#include "ljus/inspect/metrics.hpp"
 
 namespace examples {
 

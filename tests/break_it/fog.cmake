@@ -84,7 +84,7 @@ ljus_break_it(NAME fog-unsaid HEADER render/render.hpp TEST fog
     CASES "fog: what does not carry*")
 
 # Scene files have white fog only.
-ljus_break_it(NAME fog-file HEADER io/detail/json_fog.hpp TEST load_json
+ljus_break_it(NAME fog-file HEADER io/detail/json_lights.hpp TEST load_json
     FROM ".absorption = vector(\"absorption\"),"
     TO   ""
     CASES "load_json: fog*")

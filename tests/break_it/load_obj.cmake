@@ -1,5 +1,5 @@
 # The number of a vertex from the end is counted from the beginning.
-ljus_break_it(NAME load-obj-from-the-end HEADER io/detail/obj_reader.hpp TEST load_obj
+ljus_break_it(NAME load-obj-from-the-end HEADER io/load_obj.hpp TEST load_obj
     FROM "number - 1 : number + all"
     TO   "number - 1 : -number - 1"
     CASES "load_obj: line ends*")
@@ -11,7 +11,7 @@ ljus_break_it(NAME load-obj-bad-number HEADER io/detail/obj_text.hpp TEST load_o
     CASES "load_obj: each trouble*")
 
 # A number that does not fit, or is none, is taken as far as it goes.
-ljus_break_it(NAME load-obj-overflow HEADER io/detail/obj_reader.hpp TEST load_obj
+ljus_break_it(NAME load-obj-overflow HEADER io/load_obj.hpp TEST load_obj
     FROM "end > 0 && (stop != last || error != std::errc{})"
     TO   "false"
     CASES "load_obj: each trouble*")
@@ -35,7 +35,7 @@ ljus_break_it(NAME polygon-neighbours HEADER geometry/detail/polygon.hpp TEST lo
     CASES "load_obj: polygons*,load_obj: many corners*")
 
 # A hostile texture coordinate is taken for none without a word.
-ljus_break_it(NAME load-obj-uv-index HEADER io/detail/obj_reader.hpp TEST load_obj
+ljus_break_it(NAME load-obj-uv-index HEADER io/load_obj.hpp TEST load_obj
     FROM "if (end > 0 && at[k] == no_number) mesh_.miss(k);"
     TO   ""
     CASES "load_obj: each trouble*")
@@ -89,25 +89,25 @@ ljus_break_it(NAME polygon-no-area HEADER geometry/detail/polygon.hpp TEST load_
     CASES "load_obj: of corners without*")
 
 # A map without Kd is grey.
-ljus_break_it(NAME obj-map-alone HEADER io/detail/obj_material.hpp TEST load_obj
+ljus_break_it(NAME obj-map-alone HEADER io/load_obj.hpp TEST load_obj
     FROM "(black || !has_diffuse)"
     TO   "black"
     CASES "load_obj: files of other programs")
 
 # What one material says, the next one has.
-ljus_break_it(NAME obj-next-material HEADER io/detail/obj_material.hpp TEST load_obj
+ljus_break_it(NAME obj-next-material HEADER io/load_obj.hpp TEST load_obj
     FROM "has_diffuse = has_dissolve = false;"
     TO   ";"
     CASES "load_obj: files of other programs")
 
 # Options before the name of a picture are a part of it.
-ljus_break_it(NAME obj-map-options HEADER io/detail/obj_material.hpp TEST load_obj
+ljus_break_it(NAME obj-map-options HEADER io/load_obj.hpp TEST load_obj
     FROM "if (option.size() < 2 || option[0] != '-') break;"
     TO   "break;"
     CASES "load_obj: files of other programs")
 
 # One number of a colour is red.
-ljus_break_it(NAME obj-one-number HEADER io/detail/obj_material.hpp TEST load_obj
+ljus_break_it(NAME obj-one-number HEADER io/load_obj.hpp TEST load_obj
     FROM "glm::dvec3 value(number_of(words.next()));"
     TO   "glm::dvec3 value(number_of(words.next()), 0, 0);"
     CASES "load_obj: files of other programs")
@@ -167,13 +167,13 @@ ljus_break_it(NAME obj-vertices HEADER io/detail/mesh_builder.hpp TEST load_obj
     CASES "load_obj: what is written*")
 
 # A material file is read as often as it is named.
-ljus_break_it(NAME obj-library-once HEADER io/detail/obj_material.hpp TEST load_obj
+ljus_break_it(NAME obj-library-once HEADER io/load_obj.hpp TEST load_obj
     FROM "if (fresh) {"
     TO   "if (fresh || true) {"
     CASES "load_obj: a material file is read once*")
 
 # The next faces have the material before.
-ljus_break_it(NAME obj-part-reset HEADER io/detail/obj_reader.hpp TEST load_obj
+ljus_break_it(NAME obj-part-reset HEADER io/load_obj.hpp TEST load_obj
     FROM "mesh_.material = known.number;"
     TO   "mesh_.material = 1;"
     CASES "load_obj: materials of a file*")
@@ -203,7 +203,7 @@ ljus_break_it(NAME obj-tiny-number HEADER io/detail/obj_text.hpp TEST load_obj
     CASES "load_obj: files of other programs")
 
 # A 0 for "no normal" makes the whole corner unreadable.
-ljus_break_it(NAME obj-zero-index HEADER io/detail/obj_reader.hpp TEST load_obj
+ljus_break_it(NAME obj-zero-index HEADER io/load_obj.hpp TEST load_obj
     FROM "at[k] = place_of(number, counts[k]);"
     TO   "if (end > 0 && number == 0) break;"
     CASES "load_obj: files of other programs")
@@ -215,25 +215,25 @@ ljus_break_it(NAME obj-glass-of-nothing HEADER io/mesh_file.hpp TEST load_obj
     CASES "load_obj: files of other programs")
 
 # A picture under a black Kd is black.
-ljus_break_it(NAME obj-black-picture HEADER io/detail/obj_material.hpp TEST load_obj
+ljus_break_it(NAME obj-black-picture HEADER io/load_obj.hpp TEST load_obj
     FROM "const bool black = has_diffuse && is.diffuse == glm::dvec3(0);"
     TO   "const bool black = false;"
     CASES "load_obj: files of other programs")
 
 # Tr 1 under a picture is glass.
-ljus_break_it(NAME obj-tr-opaque HEADER io/detail/obj_material.hpp TEST load_obj
+ljus_break_it(NAME obj-tr-opaque HEADER io/load_obj.hpp TEST load_obj
     FROM "!has_dissolve && is.dissolve == 0)"
     TO   "false)"
     CASES "load_obj: files of other programs")
 
 # That faces are meant to be smooth is not said.
-ljus_break_it(NAME obj-not-smooth HEADER io/detail/obj_reader.hpp TEST load_obj
+ljus_break_it(NAME obj-not-smooth HEADER io/load_obj.hpp TEST load_obj
     FROM "mesh_.in_smooth_group = !group.empty() && group != \"off\" && group != \"0\";"
     TO   "mesh_.in_smooth_group = group == \"on\";"
     CASES "load_obj: each trouble*")
 
 # A black mirror is not remarked.
-ljus_break_it(NAME obj-black-mirror HEADER io/detail/obj_material.hpp TEST load_obj
+ljus_break_it(NAME obj-black-mirror HEADER io/load_obj.hpp TEST load_obj
     FROM "is.is_mirror() && is.specular == glm::dvec3(0)"
     TO   "false"
     CASES "load_obj: which words*")

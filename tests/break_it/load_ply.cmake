@@ -1,41 +1,41 @@
 # The highest byte comes last in either order.
-ljus_break_it(NAME ply-byte-order HEADER io/detail/ply_reader.hpp TEST load_ply
+ljus_break_it(NAME ply-byte-order HEADER io/load_ply.hpp TEST load_ply
     FROM "big_endian_ ? k : type.size - 1 - k;"
     TO   "type.size - 1 - k;"
     CASES "load_ply: a mesh is the same*,load_ply: whole numbers*")
 
 # A char of -1 is 255.
-ljus_break_it(NAME ply-sign HEADER io/detail/ply_reader.hpp TEST load_ply
+ljus_break_it(NAME ply-sign HEADER io/load_ply.hpp TEST load_ply
     FROM "type.kind == 'i' && unsigned_value >= range / 2"
     TO   "false"
     CASES "load_ply: whole numbers*")
 
 # A list may be longer than its file.
-ljus_break_it(NAME ply-list-length HEADER io/detail/ply_reader.hpp TEST load_ply
+ljus_break_it(NAME ply-list-length HEADER io/load_ply.hpp TEST load_ply
     FROM "if (!(count >= 0 && count == std::floor(count)))"
     TO   "if (false)"
     CASES "load_ply: a file that cannot be right*")
 
 # Every list of a face names vertices.
-ljus_break_it(NAME ply-other-list HEADER io/detail/ply_reader.hpp TEST load_ply
+ljus_break_it(NAME ply-other-list HEADER io/load_ply.hpp TEST load_ply
     FROM "face && !corners &&"
     TO   "face ||"
     CASES "load_ply: what other programs write")
 
 # Colours of a screen are taken for linear ones.
-ljus_break_it(NAME ply-color-linear HEADER io/detail/ply_reader.hpp TEST load_ply
+ljus_break_it(NAME ply-color-linear HEADER io/load_ply.hpp TEST load_ply
     FROM "color[k] = srgb_decode(color[k]);"
     TO   "color[k] = color[k] * 1;"
     CASES "load_ply: the colours of vertices*")
 
 # The fourth pixel of a triangle is a mean, and the middle of its long side is off.
-ljus_break_it(NAME vertex-colors-fourth HEADER io/detail/vertex_colors.hpp TEST load_ply
+ljus_break_it(NAME vertex-colors-fourth HEADER io/detail/mesh_builder.hpp TEST load_ply
     FROM "return colors[corner[1]] + colors[corner[2]] - colors[corner[0]];"
     TO   "return (colors[corner[1]] + colors[corner[2]]) / T(2);"
     CASES "load_ply: the colours of vertices*")
 
 # The fourth pixel leaves [0, 1].
-ljus_break_it(NAME vertex-colors-clamp HEADER io/detail/vertex_colors.hpp TEST load_ply
+ljus_break_it(NAME vertex-colors-clamp HEADER io/detail/mesh_builder.hpp TEST load_ply
     FROM "return glm::clamp(fourth(), RgbT<T>{0}, RgbT<T>{1});"
     TO   "return fourth();"
     CASES "load_ply: colours that vary widely*")

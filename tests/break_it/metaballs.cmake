@@ -10,7 +10,7 @@ ljus_break_it(NAME metaballs-gradient HEADER geometry/metaballs.hpp TEST metabal
     CASES "metaballs: the gradient agrees*")
 
 # A bound of the slope that is too low lets steps jump over the surface.
-ljus_break_it(NAME metaballs-lipschitz HEADER geometry/detail/metaball_line.hpp TEST metaballs
+ljus_break_it(NAME metaballs-lipschitz HEADER geometry/detail/metaball_quartic.hpp TEST metaballs
     FROM "steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);"
     TO   "steepest_blob = T(1);"
     CASES "metaballs: the gradient agrees*"
@@ -34,7 +34,7 @@ ljus_break_it(NAME metaballs-range HEADER geometry/detail/metaball_quartic.hpp T
     CASES "metaballs: the first hit*")
 
 # A seventeenth blob that forgets the sixteen before it.
-ljus_break_it(NAME metaballs-heap HEADER geometry/detail/metaball_line.hpp TEST metaballs
+ljus_break_it(NAME metaballs-heap HEADER geometry/detail/metaball_quartic.hpp TEST metaballs
     FROM "if (many.empty()) many.assign(few.begin(), few.end());"
     TO   ""
     CASES "metaballs: more than 16*")
@@ -106,7 +106,7 @@ ljus_break_it(NAME metaballs-border-of-span HEADER geometry/detail/metaball_quar
     CASES "metaballs: a surface on the border*")
 
 # On the heap the first sixteen blobs are all the first one.
-ljus_break_it(NAME metaballs-heap-order HEADER geometry/detail/metaball_line.hpp TEST metaballs
+ljus_break_it(NAME metaballs-heap-order HEADER geometry/detail/metaball_quartic.hpp TEST metaballs
     FROM "many.assign(few.begin(), few.end())"
     TO   "many.assign(few.size(), few.front())"
     CASES "metaballs: more than 16*")

@@ -125,7 +125,7 @@ ljus_break_it(NAME form-factor-weights HEADER radiosity/form_factor_matrix.hpp T
     CASES "form_factors: rays from both*")
 
 # Grey by two of three channels.
-ljus_break_it(NAME radiosity-grey HEADER radiosity/radiosity_lu.hpp TEST radiosity
+ljus_break_it(NAME radiosity-grey HEADER radiosity/radiosity_solve.hpp TEST radiosity
     FROM "patch.albedo == RgbT<double>(patch.albedo.x)"
     TO   "patch.albedo.x == patch.albedo.y"
     CASES "radiosity: patches of different areas*")

@@ -1,13 +1,13 @@
 # The noise that is left in the mean of the runs passes for bias.
-ljus_break_it(NAME metrics-bias HEADER inspect/bias_variance.hpp TEST metrics
+ljus_break_it(NAME metrics-bias HEADER inspect/metrics.hpp TEST metrics
     FROM "glm::dot(shift, shift) / 3.0 - variances[i] / count"
     TO   "glm::dot(shift, shift) / 3.0"
     CASES "metrics: *")
 
 # Divided by M where one of the M differences is used up by the mean.
-ljus_break_it(NAME metrics-variance HEADER inspect/bias_variance.hpp TEST metrics
-    FROM "squares / (count - 1.0)"
-    TO   "squares / count"
+ljus_break_it(NAME metrics-variance HEADER inspect/metrics.hpp TEST metrics
+    FROM "variances[i] = squares / (count - 1.0)"
+    TO   "variances[i] = squares / count"
     CASES "metrics: *")
 
 # The square of r + epsilon, as some tools have it.

@@ -216,7 +216,6 @@ template <std::floating_point T>
 } // namespace detail
 
 /// The nearest hit of a ray on an instance: that of its mesh, with the same t.
-/// \tparam Compute  As for a mesh.
 /// \cost That of the mesh, and 18 multiplications.
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
@@ -225,7 +224,6 @@ template <typename Compute = void, std::floating_point T>
 }
 
 /// Whether a ray hits an instance, for shadow rays.
-/// \tparam Compute  As for intersect().
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] bool meets(const RayT<T>& ray, const InstanceT<T>& instance) {
     return meets<Compute>(detail::ray_at_mesh(instance, ray), instance.mesh());

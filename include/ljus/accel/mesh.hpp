@@ -129,7 +129,6 @@ intersect(const RayT<T>& ray, const MeshT<T>& mesh) {
 // [intersect]
 
 /// Whether a ray hits a mesh, for shadow rays: any triangle ends the search.
-/// \tparam Compute  As for intersect().
 /// \return Whether intersect() would return a hit.
 /// \cost O(log n) triangles on average, fewer than intersect().
 template <typename Compute = void, std::floating_point T>

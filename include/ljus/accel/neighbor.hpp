@@ -57,7 +57,6 @@ namespace detail {
 /// The squared distance from a point to a box, rounded so that no point of the box is
 /// nearer: 0 within the box; NaN if the point has a NaN.
 /// \param low, high  The corners with the least and the greatest coordinates.
-/// \param point      The point.
 template <std::floating_point T>
 [[nodiscard]] double box_distance2(const Vec3T<T>& low, const Vec3T<T>& high,
                                    const Vec3T<T>& point) noexcept {

@@ -46,7 +46,6 @@ struct BoxRayT {
     std::array<bool, 3> is_negative{}; ///< Sign of `inverse`; -0 counts as negative.
     T slack = T(0); ///< Margin added to all sides of each box, in scene units.
 };
-using BoxRay = BoxRayT<float>; ///< BoxRayT in float.
 
 /// Prepares a ray for intersection with many boxes.
 ///

@@ -104,7 +104,6 @@ template <std::floating_point T>
 namespace detail {
 
 /// The scale of a round shape, the same in all directions.
-/// \param shape  Its name, for the message.
 template <std::floating_point T>
 [[nodiscard]] T one_scale(const PlacementT<T>& placement, const char* shape) {
     const Vec3T<T>& s = placement.scale;

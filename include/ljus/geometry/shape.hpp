@@ -119,9 +119,6 @@ requires(!HasArea<S>) [[nodiscard]] SurfacePointT<ScalarOf<S>> sample_area(
 }
 
 /// Samples a point of any shape, uniformly over its area.
-/// \param shape  The shape.
-/// \param from   The observer.
-/// \param u      Point of the unit square.
 /// \return The point and its density per steradian at the observer; the density is 0
 ///         for a shape without an area, and if the observer is at that point.
 template <Shape S, std::floating_point T>

@@ -41,7 +41,6 @@ struct ChordT {
     T enter = T(0); ///< The smaller root, in units of the direction's length.
     T leave = T(0); ///< The larger root, at least `enter`.
 };
-using Chord = ChordT<float>; ///< ChordT in float.
 
 /// Both distances at which the infinite line of a ray meets a sphere.
 ///
@@ -237,9 +236,6 @@ template <std::floating_point T>
 
 /// Samples a point of the visible side of a sphere, uniformly over its cone; from
 /// inside, uniformly over its area.
-/// \param sphere  The sphere.
-/// \param from    The observer.
-/// \param u       Point of the unit square.
 /// \return The point and its density per steradian at the observer; the density is 0 if
 ///         the observer is at that point.
 /// \cite shirley1996

@@ -89,10 +89,6 @@ template <std::floating_point W>
            differ(a.x * b.y, a.y * b.x);
 }
 
-} // namespace detail
-
-namespace detail {
-
 /// The distance from a surface at which offset_ray_origin() lets a ray start.
 // [leaving_distance]
 template <std::floating_point T>

@@ -114,8 +114,6 @@ template <std::floating_point T>
 }
 
 /// Requires a picture of radiances, at least one of which is not black.
-/// \param what   What it is, for the message.
-/// \param image  The picture.
 /// \throws std::invalid_argument  as check(); with the pixel, if one is negative or not
 ///         finite; if all are black.
 template <std::floating_point T>

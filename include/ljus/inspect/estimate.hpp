@@ -38,8 +38,6 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 // [add]
 
 /// Merges the estimates of two independent sets of samples.
-/// \param a  Estimate of one set.
-/// \param b  Estimate of the other set.
 /// \return The estimate of all samples, up to rounding.
 [[nodiscard]] constexpr Estimate joined(const Estimate& a, const Estimate& b) noexcept {
     if (a.count == 0) return b;
@@ -51,7 +49,6 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 }
 
 /// The unbiased estimate of the variance of one sample.
-/// \param estimate  The estimate of n samples.
 /// \return Sum of (x - mean)^2 over n - 1; infinity for fewer than 2 samples.
 [[nodiscard]] constexpr double variance(const Estimate& estimate) noexcept {
     if (estimate.count < 2) return std::numeric_limits<double>::infinity();
@@ -62,7 +59,6 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 ///
 /// *Trap*: it is an estimate itself, from the same samples. Where the variance is
 /// infinite, or the light is rare, it is too small.
-/// \param estimate  The estimate of n samples.
 /// \return sqrt(variance / n), in the unit of the samples; infinity for fewer than 2.
 [[nodiscard]] inline double standard_error(const Estimate& estimate) noexcept {
     return std::sqrt(variance(estimate) / estimate.count);

@@ -185,8 +185,6 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
 } // namespace detail
 
 /// Reports which passes a scene requires.
-/// \param world     The closed scene.
-/// \param settings  The user's settings.
 /// \return The plan that a PhotonMapper follows.
 template <AnyWorld W>
 [[nodiscard]] Plan survey(const W& world, const PhotonMappingSettings& settings) {

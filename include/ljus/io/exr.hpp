@@ -522,7 +522,6 @@ LayerT<T> layer_in(LayerT<float>&& layer) {
 /// Loads all layers of an EXR file: scanlines or tiles, one part or several, numbers of
 /// any type, by each compression that OpenEXRCore reads. Deep parts are left out, and
 /// so are channels with fewer values than pixels.
-/// \param path  The file.
 /// \return In the order of the parts, and within a part of the names: channels R, G, B
 ///         or X, Y, Z of one name together, each other channel alone. In a file of
 ///         several parts the name of the part is that of its channels without a name.

@@ -137,7 +137,7 @@ inline std::vector<double> header_numbers(const std::string& line, std::size_t n
         at = line.find_first_not_of(" \t", at);
         if (at == std::string::npos) return numbers;
         const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
-        numbers.push_back(to_number(line.substr(at, end - at)));
+        numbers.push_back(number_of(std::string_view(line).substr(at, end - at)));
         at = end;
     }
 }

@@ -188,8 +188,6 @@ struct IesGrid {
 } // namespace detail
 
 /// Reads a lamp from the text of an IES file.
-/// \param source  The text.
-/// \param file    What messages call it.
 /// \return The lamp, its table complete.
 /// \throws std::runtime_error  with one sentence: "desk.ies: line 12: a vertical angle
 ///         is 20; it must be above the one before, 25."
@@ -249,7 +247,6 @@ struct IesGrid {
 }
 
 /// Loads an IES file.
-/// \param path  The file.
 /// \throws std::runtime_error  as read_ies(); or, if the file cannot be read, with its
 ///         name and the reason.
 [[nodiscard]] inline IesLamp load_ies(const std::string& path) {

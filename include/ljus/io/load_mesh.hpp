@@ -17,8 +17,6 @@ namespace ljus {
 
 /// Loads a mesh file; the end of its name says which format it has: .obj, .ply, .stl,
 /// .gltf or .glb, in small or in capital letters.
-/// \param path      The file.
-/// \param settings  Scale and normals.
 /// \return As load_obj(), load_ply(), load_stl() or load_gltf().
 /// \throws std::runtime_error  as they do, and for a name with another end.
 template <std::floating_point T = float>
@@ -57,9 +55,6 @@ struct MeshFilesT {
     }
 
     /// Reads one file with its materials.
-    /// \param path     As for operator().
-    /// \param scale    As for operator().
-    /// \param normals  As for operator().
     /// \return Its content; the report says if it has lights, which are not used.
     /// \throws std::runtime_error  as load_mesh().
     [[nodiscard]] LoadedMeshT<T> with_materials(const std::string& path, double scale,

@@ -123,9 +123,6 @@ struct StlReader {
 
 /// Reads a mesh from the bytes of an STL file, text or binary. Corners at one place are
 /// one vertex. The normals of the file are not used: they are those of its triangles.
-/// \param bytes     The bytes.
-/// \param file      What messages call it.
-/// \param settings  Scale and normals.
 /// \return One mesh without a material, and what is wrong with the file.
 /// \throws std::runtime_error  with one sentence: "gear.stl: its head says that it has
 ///         9000 triangles, but there are bytes for 12 only."; or as read_obj().
@@ -167,8 +164,6 @@ template <std::floating_point T = float>
 }
 
 /// Loads an STL file.
-/// \param path      The file.
-/// \param settings  Scale and normals.
 /// \return As read_stl().
 /// \throws std::runtime_error  as read_stl(); or, if the file cannot be read, with its
 ///         name and the reason.

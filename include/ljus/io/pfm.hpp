@@ -56,7 +56,7 @@ template <std::floating_point T = float>
     if (kind != "PF" && kind != "Pf") reader.fail("it does not begin with PF or Pf");
     const int width = reader.size(reader.word());
     const int height = reader.size(reader.word());
-    const double scale = detail::to_number(reader.word());
+    const double scale = detail::number_of(reader.word());
     if (!std::isfinite(scale) || scale == 0.0)
         reader.fail("the third line of its header is not a finite number other than 0");
     reader.require_pixels(width, height);

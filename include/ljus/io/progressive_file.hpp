@@ -92,7 +92,6 @@ inline void save_checkpoint(const std::string& path, const ProgressiveState& sta
 }
 
 /// Loads a checkpoint. require_first_pass() tests whether it belongs to a picture.
-/// \param path  The file.
 /// \return The state, equal to the saved one in every bit.
 /// \throws std::runtime_error  "cannot read 'a.check': its checksum is wrong ...": as
 ///         open_file().

@@ -167,7 +167,6 @@ struct CellCorners {
 }
 
 /// The intensity in a direction.
-/// \param wo  Unit direction away from the light.
 /// \return cd.
 template <std::floating_point T>
 [[nodiscard]] double intensity_towards(const GoniometricInSceneT<T>& light,

@@ -85,7 +85,6 @@ template <std::floating_point T>
 }
 
 /// Normalises a direction of any length.
-/// \param what  Its name.
 /// \throws std::invalid_argument  if it is 0 or not finite.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> unit_along(std::string_view what, const Vec3T<T>& way) {

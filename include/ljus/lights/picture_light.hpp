@@ -129,8 +129,6 @@ template <std::floating_point T>
 
 /// The density of a point of the lamp, per squared scene unit: the brightness of its
 /// pixel over the integral of all brightness.
-/// \param light     The lamp.
-/// \param radiance  At the point.
 // [pdf of point]
 template <std::floating_point T>
 [[nodiscard]] T pdf_of_point(const PictureLightT<T>& light,

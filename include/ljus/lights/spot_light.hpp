@@ -79,7 +79,6 @@ template <std::floating_point T>
 namespace detail {
 
 /// The fall-off: the factor of the intensity in a direction.
-/// \param wo     Unit direction away from it.
 /// \return 1 within the inner cone, 0 outside the outer one.
 template <std::floating_point T>
 [[nodiscard]] T fall_off(const SpotInSceneT<T>& light, const Vec3T<T>& wo) noexcept {

@@ -62,7 +62,6 @@ compensated_glossy(const GlossyT<T, F>& first, const detail::EnergyLossT<T>& los
 }
 
 /// Adds multiple scattering to a rough mirror.
-/// \param first  The rough mirror.
 /// \return The material; with roughness 0 the same mirror.
 /// \throws std::invalid_argument as check(first).
 /// \cost bake_energy_loss(), once.

@@ -153,7 +153,6 @@ struct PaneFractionsT {
 ///
 /// with a = tint^(1/cos) for the angle within the glass. The reflections are added
 /// without interference: the pane is thicker than the light's coherence length.
-/// \param pane       The pane.
 /// \param cos_theta  Cosine between ray and normal, in [0, 1].
 /// \return Reflectance and transmittance; without tint they add up to 1.
 /// \cost fresnel(), one more square root, three powers if there is a tint.

@@ -15,7 +15,6 @@ namespace ljus {
 ///
 ///     const auto glass = scene.add(Nested<Glass>{{.index = 1.5f}, 2});
 ///     const auto water = scene.add(Nested<Glass>{{.index = 1.33f}, 1});
-/// \tparam Base  The material.
 /// \cite schmidt2002
 template <Material Base>
 requires Transparent<Base>

@@ -95,8 +95,6 @@ template <std::floating_point T>
 /// Chooses a cell with a probability proportional to its weight, and a point in it,
 /// uniformly. Neighbours in u stay neighbours, so that stratified numbers stay
 /// stratified.
-/// \param density  The weights.
-/// \param u        Point of [0,1)^2.
 /// \return A cell whose weight is not 0.
 /// \cost Two binary searches.
 // [sample_cell]

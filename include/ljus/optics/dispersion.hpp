@@ -41,8 +41,6 @@ struct CauchyT {
 using Cauchy = CauchyT<float>; ///< CauchyT in float.
 
 /// The index of refraction by Sellmeier's formula.
-/// \param law  The medium.
-/// \param nm   The wavelength.
 /// \return NaN if the medium is opaque at the wavelength.
 /// \cost Four divisions and a square root.
 // [refractive_index]
@@ -168,7 +166,6 @@ template <std::floating_point T>
 }
 
 /// The density of sample_wavelength(): the mean of the three responses.
-/// \param nm  The wavelength.
 /// \return Per nm; 0 outside [360, 830].
 template <std::floating_point T>
 [[nodiscard]] T pdf_wavelength(T nm) {

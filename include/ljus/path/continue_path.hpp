@@ -99,7 +99,6 @@ template <typename M, std::floating_point T>
 
 /// Continues a path in a given direction.
 /// \param path      Receives its new ray, throughput and medium.
-/// \param wi        The direction in the world.
 template <std::floating_point T, Material M>
 void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
             const BsdfSampleT<T>& next, const Vec3T<T>& wi) noexcept {

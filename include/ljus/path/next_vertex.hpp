@@ -285,9 +285,6 @@ decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f
 
 /// Whether a vertex lies on an object that is nearly_specular(). This is a property of
 /// the whole object, not of the point, because photons are aimed at whole objects.
-/// \param world     The closed scene.
-/// \param vertex    The vertex.
-/// \param material  The material at the vertex.
 template <AnyWorld W, std::floating_point T, Material M>
 [[nodiscard]] bool nearly_specular_at(const W& world, const VertexT<T>& vertex,
                                       const M& material) {
@@ -299,8 +296,6 @@ template <AnyWorld W, std::floating_point T, Material M>
 namespace detail {
 
 /// Whether both normals of a vertex agree about the side of a direction.
-/// \param local   The direction in the surface's frame.
-/// \param world   The direction in the world.
 template <std::floating_point T>
 [[nodiscard]] bool agrees(const VertexT<T>& vertex, const Vec3T<T>& local,
                           const Vec3T<T>& world) noexcept {

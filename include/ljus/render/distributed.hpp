@@ -60,9 +60,6 @@ namespace detail {
 /// Direct light at a surface, by one shadow ray to a random point of each light. A
 /// glossy surface sends no shadow ray to a lamp, because its reflected ray finds the
 /// lamp: each path has one owner.
-/// \param world     The closed scene.
-/// \param vertex    The surface.
-/// \param material  Its material.
 /// \param context   Two numbers are drawn for each light with a size; counts the rays.
 /// \return Radiance towards wo.
 /// \report{Section 2.1}

@@ -24,7 +24,6 @@ namespace ljus {
 namespace detail {
 
 /// The shading normal of a surface, flipped to the side of `wo`.
-/// \param vertex  The surface.
 /// \return Unit vector.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> seen_normal(const VertexT<T>& vertex) noexcept {
@@ -83,7 +82,6 @@ namespace detail {
 /// The irradiance on the side of a surface into which a direction points. Few indirect
 /// photons land in the open, or where most of them stay behind a wall; there is no
 /// point near then, and the irradiance is computed as it is for the points.
-/// \param world    The closed scene.
 /// \param lookup   The points and the maps.
 /// \param resting  The surface, detail::at_rest().
 /// \param wi       In its frame.

@@ -114,12 +114,6 @@ struct GatheredRowT {
 /// Gathers irradiance at the first diffuse surfaces that a camera ray meets: these are
 /// the points of an irradiance cache \cite ward1988 . The ray follows mirrors, and is
 /// split at glass.
-/// \param world     The closed scene.
-/// \param lookup    The data that gather rays look up.
-/// \param ray       A primary ray.
-/// \param settings  Settings of gathering.
-/// \param stream    The random stream of the ray.
-/// \param row       Receives the points.
 template <AnyWorld W, std::floating_point T>
 void gather_along(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
                   const RayT<T>& ray, const GatherSettings& settings,
@@ -157,9 +151,7 @@ void gather_along(const W& world, const std::type_identity_t<GatherLookupT<T>>& 
 
 /// Sets the `spacing` of each point of a cache: the distance to its k-th nearest point
 /// with a similar normal.
-/// \param cache     The cache.
 /// \param settings  k is its member `nearest`.
-/// \param threads   As in ParallelSettings.
 template <std::floating_point T>
 void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
                      int threads) {

@@ -20,11 +20,6 @@ namespace ljus {
 /// The places at which a picture asks the photon maps, as a map of *importance*: the
 /// surfaces that camera paths meet first, through mirrors and glass, and those that
 /// they meet next. The flux of each is the throughput of its path.
-/// \param world   The closed scene.
-/// \param camera  Any camera.
-/// \param width   Width of the picture, in pixels.
-/// \param height  Its height.
-/// \param seed    Of the random streams.
 /// \cost 1024 paths.
 template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
 [[nodiscard]] PhotonMapT<T> seen_places(const W& world, const C& camera, int width,

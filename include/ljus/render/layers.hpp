@@ -67,9 +67,6 @@ struct RenderedLayersT {
 };
 
 /// The layers of a picture before it is rendered: their names and channels, all 0.
-/// \param which   The layers.
-/// \param width   Of the picture, in pixels.
-/// \param height  Of the picture, in pixels.
 /// \throws std::invalid_argument  as make_image().
 template <std::floating_point T>
 [[nodiscard]] std::vector<LayerT<T>> make_layers(const LayerSettings& which, int width,
@@ -232,9 +229,7 @@ private:
 
 /// The values of one pixel in all layers, in their order.
 /// \param means   Sums over its rays, divided by their number.
-/// \param world   The closed scene.
 /// \param middle  The ray through the middle of the pixel.
-/// \param add     Called with each value.
 template <AnyWorld W, std::floating_point T, typename Add>
 void layer_values(const LayerSettings& which, const LayeredPixel& means, const W& world,
                   const RayT<T>& middle, const Add& add) {

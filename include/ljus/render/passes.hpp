@@ -32,8 +32,6 @@ struct SceneNeeds {
 };
 
 /// Counts the objects and lights of a scene.
-/// \param world  The closed scene.
-/// \return The counts.
 template <AnyWorld W>
 [[nodiscard]] SceneNeeds needs(const W& world) {
     SceneNeeds found{.objects = world.size(),
@@ -83,9 +81,6 @@ scatters_in_fog(const PhotonMappingSettings& settings) noexcept {
 
 /// Decides which passes a PhotonMapper runs; survey() gives the reasons.
 /// \report{Section 3.2.2}
-/// \param found     The counts of the scene.
-/// \param settings  The user's settings.
-/// \return The decisions.
 // [survey]
 [[nodiscard, gnu::cold]] inline Passes
 choose_passes(const SceneNeeds& found, const PhotonMappingSettings& settings) {
@@ -135,7 +130,6 @@ namespace detail {
 
 /// How a plan describes the choices for caustics: how photons are distributed, and
 /// where the radius comes from.
-/// \param settings  The user's settings.
 /// \return The end of a clause; empty if nothing is chosen.
 [[nodiscard]] inline std::string
 caustics_clause(const PhotonMappingSettings& settings) {
@@ -167,7 +161,6 @@ caustics_clause(const PhotonMappingSettings& settings) {
 /// leaves log10(2^p r / c) digits. The direction of a shadow ray is as long as the ray,
 /// and chord() multiplies four lengths: above the fourth root of the largest number, a
 /// ball may cast no shadow.
-/// \param world  The closed scene.
 /// \return A sentence, or an empty string.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::string digits_remark(const W& world) {
@@ -219,7 +212,6 @@ template <AnyWorld W>
 
 /// The number of objects with a glossy lobe below a thousandth of a steradian: a shadow
 /// ray hardly ever lies in so narrow a lobe.
-/// \param world  The closed scene.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::size_t narrow_lobes(const W& world) {
     using T = typename W::Scalar;
@@ -439,8 +431,6 @@ template <AnyWorld W>
 } // namespace detail
 
 /// The warnings of a survey about a scene.
-/// \param world     The closed scene.
-/// \param settings  The user's settings.
 /// \return Sentences without a full stop.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::vector<std::string>
@@ -481,7 +471,6 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
 
 /// The remarks for path tracing: those of scene_remarks(), and the light that no path
 /// carries. A path meets lamps and the sky, but no light without a size.
-/// \param world  The closed scene.
 /// \return As scene_remarks().
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::vector<std::string> path_remarks(const W& world) {

@@ -27,7 +27,6 @@ struct PathTracingSettings {
 };
 
 /// Refuses settings that give no picture.
-/// \param settings  The settings.
 /// \throws std::invalid_argument  with name and value.
 inline void check(const PathTracingSettings& settings) {
     require_at_least("max_depth", settings.max_depth, 1);
@@ -75,7 +74,6 @@ namespace detail {
 /// The MIS weight of light that a path finds; 1 if no shadow ray from the vertex before
 /// could have found it.
 /// \param tracer  The tracer.
-/// \param path    The path.
 /// \param light   The number of the light.
 /// \param pdf     Returns the density of a shadow ray to that light, per steradian;
 ///                called only if it is needed.
@@ -91,8 +89,6 @@ template <AnyWorld W, std::floating_point T, typename Pdf>
 }
 
 /// The emission of a lamp that a path has met, times the MIS weight of the path.
-/// \param tracer  The world and the limits.
-/// \param path    The path.
 /// \param vertex  The point of the lamp that it hit.
 /// \return Throughput times radiance times the weight.
 /// \report{Eq. (1)}
@@ -110,8 +106,6 @@ template <AnyWorld W, std::floating_point T>
 // [emitted]
 
 /// The radiance of the sky for a path that leaves the scene, times its MIS weights.
-/// \param tracer  The world and the limits.
-/// \param path    The path.
 /// \return Throughput times radiance times the weight.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> escaped(const PathTracer<W>& tracer, const PathStateT<T>& path) {

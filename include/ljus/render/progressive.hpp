@@ -69,7 +69,6 @@ template <std::floating_point T>
 
 /// Updates the sums of squared deviations from the mean by one value (Welford).
 /// \param squares  The sums, one per pixel.
-/// \param x        The new values.
 /// \param sum      The sum of the n earlier values.
 /// \param n        The number of earlier values.
 template <std::floating_point T>
@@ -174,7 +173,6 @@ template <std::floating_point T = float>
 }
 
 /// The noise of the picture so far, without its bias; see ProgressiveError.
-/// \param state  The passes so far.
 /// \return Standard errors in W/(m^2 sr); infinity for fewer than two passes.
 [[nodiscard]] inline ProgressiveError estimate_error(const ProgressiveState& state) {
     constexpr double unknown = std::numeric_limits<double>::infinity();

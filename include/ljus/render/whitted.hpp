@@ -60,9 +60,6 @@ namespace detail {
 
 /// Adds the light that a diffuse surface reflects: by one shadow ray to each light that
 /// it faces, and the ambient light without a shadow ray.
-/// \param tracer    The world and the settings.
-/// \param vertex    The surface.
-/// \param material  Its material.
 /// \param counts    Counts the shadow rays.
 /// \param add       Called as add(owner, letters, radiance).
 /// \report{Section 2.1}
@@ -92,8 +89,6 @@ void local_light(const WhittedTracer<W>& tracer, const VertexT<T>& vertex,
 // [local light]
 
 /// Traces one branch of the tree with all branches that it splits into.
-/// \param tracer   The world and the settings.
-/// \param path     The branch.
 /// \param context  The random stream; counts rays, logs terms.
 /// \param sum      Radiance is added to it.
 /// \report{Section 2.1}

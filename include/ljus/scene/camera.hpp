@@ -40,8 +40,6 @@ struct ViewT {
 using View = ViewT<float>; ///< ViewT in float.
 
 /// The camera of a view.
-/// \param view  Its position, orientation and field of view.
-/// \return The camera.
 /// \throws std::invalid_argument  if the position and target are equal, `up` is along
 ///         the view, or the angle is out of range.
 template <std::floating_point T>
@@ -120,10 +118,6 @@ concept CameraLike = requires {
 };
 
 /// The position of a point in the picture: the inverse of primary_ray().
-/// \param camera  The camera.
-/// \param point   Any point.
-/// \param width   Width of the picture, in pixels.
-/// \param height  Height of the picture, in pixels.
 /// \return In pixels from the upper left corner, possibly outside the picture; nothing
 ///         for a point beside or behind the camera, or a result that is not finite.
 /// \report{Section 3.2, Fig. 3}

@@ -6,16 +6,18 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <list>
 #include <stdexcept>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "ljus/lights/area_light.hpp"
 #include "ljus/materials/material.hpp"
-#include "ljus/math/closed_list.hpp"
 #include "ljus/media/medium.hpp"
 #include "ljus/ref.hpp"
+#include "ljus/version.hpp"
 
 namespace ljus {
 
@@ -75,6 +77,45 @@ struct AddedId {
 };
 
 namespace detail {
+
+/// The index of a type in a list; that of the last type if no other one matches.
+template <typename X, typename First, typename... List>
+inline constexpr std::uint32_t type_number = 0;
+/// The case of at least two types.
+template <typename X, typename First, typename Second, typename... List>
+inline constexpr std::uint32_t type_number<X, First, Second, List...> =
+    std::is_same_v<X, First> ? 0 : 1 + type_number<X, Second, List...>;
+
+/// True if no type is listed twice.
+template <typename... T>
+inline constexpr bool each_once = true;
+/// The first type differs from all others, and these are distinct.
+template <typename First, typename... T>
+inline constexpr bool each_once<First, T...> =
+    !(std::is_same_v<First, T> || ...) && each_once<T...>;
+
+/// Calls f(element) with one element of a tuple of arrays, in the element's own type.
+/// The last type is not tested for, so that a list of one type needs no comparison.
+template <std::size_t I = 0, typename Tuple, typename F>
+decltype(auto) visit_element(const Tuple& arrays, std::uint32_t type,
+                             std::uint32_t index, F& f) {
+    if constexpr (I + 1 < std::tuple_size_v<Tuple>) {
+        if (type != I) return visit_element<I + 1>(arrays, type, index, f);
+    }
+    return f(std::get<I>(arrays)[index]);
+}
+
+/// Calls f(array) with each array of a tuple. All have different types.
+template <typename... A, typename F>
+void each_array([[maybe_unused]] const std::tuple<A...>& arrays, F&& f) {
+    (f(std::get<A>(arrays)), ...);
+}
+
+/// Whether f(array) is true for an array of a tuple; those after it are not asked.
+template <typename... A, typename F>
+[[nodiscard]] bool any_array([[maybe_unused]] const std::tuple<A...>& arrays, F&& f) {
+    return (f(std::get<A>(arrays)) || ...);
+}
 
 /// The type that a type of shape refers to by prototype(); void if it does not.
 template <typename S>
@@ -196,7 +237,6 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     detail::Prototypes<Prototype> prototypes;
 
     /// Adds a material.
-    /// \param material  One of the listed types.
     /// \return Its number, to add shapes with.
     /// \throws std::invalid_argument  if a value lies outside the material's range.
     template <Material B>
@@ -209,7 +249,6 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     }
 
     /// Keeps a mesh for instances; by itself it is not seen.
-    /// \param mesh  Moved in.
     /// \return A reference, to make instances with.
     /// \throws std::invalid_argument  if it was moved from.
     template <typename X>
@@ -246,7 +285,6 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     }
 
     /// Adds a light that is not an object; a black light is ignored.
-    /// \param light  One of the listed types.
     /// \throws std::invalid_argument  if a value or the flux is out of range.
     template <LightSource X>
     requires lists<X>
@@ -262,7 +300,6 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     }
 
     /// Adds a medium. Where several overlap, their coefficients add up.
-    /// \param medium  One of the listed types.
     /// \throws std::invalid_argument  if a value is out of range.
     template <Medium X>
     requires lists<X>

@@ -103,9 +103,7 @@ inline constexpr std::size_t flat_loop_limit = 2;
 
 /// Intersects a ray with a shape of any type, in a given arithmetic if the shape offers
 /// a choice.
-/// \tparam Compute  As for intersect().
 /// \param ray    Hits count in [t_min, t_max].
-/// \param shape  The shape.
 /// \return The hit; nothing for a miss.
 template <typename Compute, std::floating_point T, typename S>
 [[nodiscard]] std::optional<ShapeHitT<T>> hit_of(const RayT<T>& ray, const S& shape) {
@@ -126,9 +124,7 @@ template <typename Compute, std::floating_point T, typename S>
 
 /// Whether a ray meets a shape of any type. It uses the shape's any-hit test meets(),
 /// if there is one.
-/// \tparam Compute  As for intersect().
 /// \param ray    Hits count in [t_min, t_max].
-/// \param shape  The shape.
 /// \return Whether hit_of() would return a hit.
 template <typename Compute, std::floating_point T, typename S>
 [[nodiscard]] bool is_met(const RayT<T>& ray, const S& shape) {
@@ -313,7 +309,6 @@ public:
                                         : picture_of(lights_[object.light].index);
     }
     /// Whether a path can meet a light: whether it has a surface or fills the sky.
-    /// \param light  Its number.
     [[nodiscard]] bool can_be_met(std::uint32_t light) const {
         if constexpr (any_light([]<typename L>() { return FillsSky<L>; }))
             if (lights_[light].is_light)
@@ -664,10 +659,6 @@ struct Closed {
     static_assert(is_world<W>, "Close the scene: World world(std::move(scene)).");
 };
 
-} // namespace detail
-
-namespace detail {
-
 /// Whether a type of scene lists a material with holes.
 template <AnyWorld W>
 inline constexpr bool lists_cut_outs = W::any_material([]<typename M>() {
@@ -678,7 +669,6 @@ inline constexpr bool lists_cut_outs = W::any_material([]<typename M>() {
 inline constexpr int max_holes = 1000;
 
 /// The first hit of a ray on a shape of this material that is not in a hole.
-/// \tparam Compute  As for intersect().
 /// \cost An intersection more for each hole, and its place in the mask.
 // [solid_hit]
 template <typename Compute, std::floating_point T, typename G, CutOutMaterial M>

@@ -3,52 +3,14 @@
 /// \file ljus/io/detail/byte_reader.hpp
 /// \brief Reads the bytes of an image file; for pfm.hpp and hdr.hpp.
 
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
-#include <string_view>
 
 #include "ljus/image/image.hpp"
+#include "ljus/io/detail/obj_text.hpp"
 #include "ljus/io/file.hpp"
 
 namespace ljus::detail {
-
-// A number in a file's header, such as "-1.0" or "2.5e-3"; NaN if it is not a number.
-// strtod would depend on the locale.
-inline double to_number(std::string_view text) {
-    std::size_t i = 0;
-    const auto digit = [&] {
-        return i < text.size() && text[i] >= '0' && text[i] <= '9';
-    };
-    const auto sign = [&] {
-        const bool minus = i < text.size() && text[i] == '-';
-        if (i < text.size() && (text[i] == '-' || text[i] == '+')) ++i;
-        return minus ? -1.0 : 1.0;
-    };
-    const double sign_of_all = sign();
-    double mantissa = 0.0;
-    double exponent = 0.0;
-    bool digits = false;
-    for (; digit(); ++i, digits = true) mantissa = 10.0 * mantissa + (text[i] - '0');
-    if (i < text.size() && text[i] == '.') {
-        ++i;
-        for (; digit(); ++i, digits = true, exponent -= 1.0)
-            mantissa = 10.0 * mantissa + (text[i] - '0');
-    }
-    if (digits && i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
-        ++i;
-        const double sign_of_exponent = sign();
-        double power = 0.0;
-        for (digits = false; digit(); ++i, digits = true)
-            power = 10.0 * power + (text[i] - '0');
-        exponent += sign_of_exponent * power;
-    }
-    if (!digits || i != text.size()) return std::numeric_limits<double>::quiet_NaN();
-    // Division by a small power of ten is exact; multiplication by its inverse is not.
-    return sign_of_all * (exponent < 0.0 ? mantissa / std::pow(10.0, -exponent)
-                                         : mantissa * std::pow(10.0, exponent));
-}
 
 struct ByteReader {
     std::string path; // for messages

@@ -14,7 +14,7 @@
 #include "ljus/geometry/disc.hpp"
 #include "ljus/geometry/moving.hpp"
 #include "ljus/geometry/placement.hpp"
-#include "ljus/io/detail/json_fog.hpp"
+#include "ljus/io/detail/json_lights.hpp"
 #include "ljus/io/detail/json_materials.hpp"
 #include "ljus/io/detail/json_members.hpp"
 #include "ljus/lights/environment.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/json_textures.hpp
-/// \brief The vectors and colours of a scene file, and its textures.
+/// \brief The textures of a scene file.
 
 #include <cmath>
 #include <map>

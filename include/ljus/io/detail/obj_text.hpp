@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/obj_text.hpp
-/// \brief The lines, words and numbers of a mesh file and of a material file.
+/// \brief The lines, words and numbers of a text file.
 
 #include <algorithm>
 #include <charconv>
@@ -19,12 +19,7 @@
 
 #include "ljus/io/file.hpp"
 
-namespace ljus {
-
-/// \addtogroup obj_reader
-/// \{
-
-namespace detail {
+namespace ljus::detail {
 
 // Takes a line from the front of a text; it ends in LF, CR or CR LF.
 inline std::string_view take_line(std::string_view& text) {
@@ -164,8 +159,4 @@ inline glm::dvec3 three_numbers(Words& words) {
     return {x, y, number_of(words.next())};
 }
 
-} // namespace detail
-
-/// \}
-
-} // namespace ljus
+} // namespace ljus::detail
