@@ -219,6 +219,66 @@ TEST_CASE("dispersion: with a priority, glass has the same index at each wavelen
     }
 }
 
+TEST_CASE("dispersion: a second prism gathers a spectrum, or spreads it further") {
+    constexpr double apex = 60 / degrees;
+    const double s = std::sin(apex / 2), c = std::cos(apex / 2);
+    const Vec3T<double> left{-s / 2, 1 - c / 2, 0}, right{s / 2, 1 - c / 2, 0};
+    Optics scene;
+    const auto flint = scene.add(Flint{.law = sf10<double>});
+    // The prism of the test above, turned about z, with the middle of its left face at a
+    // place.
+    const auto add_prism = [&](double turn, const Vec3T<double>& to) {
+        const auto turned = [&](const Vec3T<double>& v) {
+            return Vec3T<double>{std::cos(turn) * v.x - std::sin(turn) * v.y,
+                                 std::sin(turn) * v.x + std::cos(turn) * v.y, v.z};
+        };
+        const auto side = [&](const Vec3T<double>& corner, const Vec3T<double>& u,
+                              double depth) {
+            scene.add(QuadT<double>{to + turned(corner - left), turned(u),
+                                    Vec3T<double>{0, 0, depth}},
+                      flint);
+        };
+        side({0, 1, -1}, {-s, -c, 0}, 2);
+        side({0, 1, 1}, {s, -c, 0}, -2);
+        side({-s, 1 - c, -1}, {2 * s, 0, 0}, 2);
+    };
+    const double incidence = 60 / degrees, up = incidence - apex / 2;
+    const Vec3T<double> in{std::cos(up), std::sin(up), 0};
+    const auto out = [&](double nm, const char* path) {
+        auto copy = scene;
+        return sent(World(std::move(copy)), {.origin = left - in, .direction = in}, nm,
+                    path);
+    };
+    add_prism(0, left);
+    const double first = angle(out(404.66, "TT"), out(706.52, "TT"));
+    CHECK(first > 4 / degrees);
+
+    const auto with_one = scene;
+    // Upside down: its faces are parallel to those of the first one, and so are the rays.
+    const Vec3T<double> on{c, -s, 0};
+    add_prism(180 / degrees, right + 0.3 * on + (right - left));
+    for (const double nm : {404.66, 587.56, 706.52}) {
+        CAPTURE(nm);
+        CHECK(angle(in, out(nm, "TTTT")) < 1e-9);
+    }
+
+    // Turned by 60 degrees, as the ray is: it deviates each wavelength once more.
+    scene = with_one;
+    add_prism(-60 / degrees, right + on);
+    for (const double nm : {404.66, 587.56, 706.52}) {
+        const double n = refractive_index(sf10<double>, nm);
+        const auto deviation = [&](double i) {
+            return i + std::asin(n * std::sin(apex - std::asin(std::sin(i) / n))) -
+                   apex;
+        };
+        const double once = deviation(incidence);
+        const double twice = once + deviation(incidence - once + 60 / degrees);
+        CAPTURE(nm);
+        CHECK(angle(in, out(nm, "TTTT")) == doctest::Approx(twice).epsilon(1e-9));
+    }
+    CHECK(angle(out(404.66, "TTTT"), out(706.52, "TTTT")) > 1.8 * first);
+}
+
 TEST_CASE("dispersion: a ball of water makes Descartes' rainbow") {
     Optics scene;
     scene.add(SphereT<double>{{0, 0, 0}, 1}, scene.add(Flint{.law = water<double>}));

@@ -356,6 +356,11 @@ TEST_CASE("load_gltf: what its materials become") {
          "KHR_materials_ior": {"ior": 1.33}}})");
     CHECK(glass.is_glass());
     CHECK(glass.index == 1.33);
+    const auto faint = read(file_of(R"({"extensions":
+        {"KHR_materials_transmission": {"transmissionFactor": 0.5}}})"));
+    CHECK_FALSE(faint.parts.at(0).material.is_glass());
+    CHECK(faint.report.notes.at(0) ==
+          "materials[0] has what is not used: a transmissionFactor of at most 0.5.");
 
     Scene<Shapes<Mesh>, Materials<Lambertian, Mirror, Glossy, Glass>> scene;
     add_meshes(scene, read(file_of(red_metal)));
@@ -395,6 +400,9 @@ TEST_CASE("load_gltf: pictures of colour, of metal and roughness, and colours") 
     CHECK(pixel(image, 0, 0) == Rgb{1, 0, 0});
     CHECK(loaded.parts[0].material.picture.name == "x.gltf, images[0]");
     CHECK(loaded.parts[0].mesh.data().uv.at(2) == Vec2{0.2f, 0});
+    // Roughness divides metals only.
+    file.all["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = 0;
+    CHECK(read(file).parts.size() == 1);
     CHECK(loaded.report.notes.at(0).find("materials[0] (two) has what is not "
                                          "used: metallicRoughnessTexture within a") ==
           0);
@@ -409,6 +417,17 @@ TEST_CASE("load_gltf: pictures of colour, of metal and roughness, and colours") 
     const auto red = read(colored);
     CHECK(red.parts.at(0).material.diffuse == glm::dvec3(0.5, 0, 0));
     CHECK(red.pictures.empty());
+    // A metal has them as well, of one colour or of several.
+    colored.all["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = 1;
+    CHECK(read(colored).parts.at(0).material.specular == glm::dvec3(0.5, 0, 0));
+    colored.primitive()["attributes"]["COLOR_0"] =
+        colored.add({255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255}, "VEC4", u8, true);
+    const auto three = read(colored);
+    CHECK(three.pictures.size() == 1);
+    CHECK_FALSE(three.parts.at(0).material.picture.name.empty());
+    // A smooth one has no picture, and it is said.
+    colored.all["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = 0;
+    CHECK(read(colored).pictures.empty());
 }
 
 TEST_CASE("load_gltf: cameras and lights stand where their nodes do") {

@@ -804,22 +804,52 @@ TEST_CASE("load_obj: no file crashes it") {
 
 TEST_CASE("load_obj: the pictures of all materials together are limited") {
     const ScratchFolder folder;
-    const std::string file = folder.file("two.png");
-    save_png(make_image<float>(2, 1), file);
     LoadedMesh loaded;
-    long long pixels = (1 << 25) - 4;
-    MeshMaterial material{.picture{file, "a.mtl, line 3"}};
-    for (int i = 0; i < 2; ++i)
+    long long pixels = (1 << 25) - 2;
+    const auto load = [&](const char* name) {
+        const std::string file = folder.file(name);
+        save_png(make_image<float>(2, 1), file);
+        MeshMaterial material{.picture{file, "a.mtl, line 3"}};
         detail::load_pictures(material, loaded, pixels, detail::picture_file);
+        return file;
+    };
+    load("two.png");
+    load("two.png"); // read once
     CHECK(loaded.report.notes.empty());
+    const std::string other = load("other.png");
+    load("other.png"); // said once
     CHECK(loaded.pictures.size() == 1);
-    detail::load_pictures(material, loaded, pixels, detail::picture_file);
-    CHECK(material.picture.name.empty()); // so that it is not copied
     REQUIRE(loaded.report.notes.size() == 1);
     CHECK(loaded.report.notes[0] ==
-          "a.mtl, line 3: " + file +
+          "a.mtl, line 3: " + other +
               " has 2 x 1 pixels, and the pictures before it have 33554432; together "
               "there must be at most 33554432.");
+}
+
+TEST_CASE("load_obj: pictures that many materials have are reduced") {
+    LoadedMesh loaded;
+    Image image = make_image<float>(3, 2);
+    for (int x = 0; x < 3; ++x)
+        for (int y = 0; y < 2; ++y)
+            pixel(image, x, y) = Rgb{float(1 << x), float(y), 1};
+    loaded.pictures["a"] = image;
+    std::vector<detail::MeshFacesT<float>> parts(2);
+    parts[0].material.picture.name = parts[0].material.normals.name = "a";
+    parts[1].material.mask.name = "a";
+    CHECK(detail::fit_copies(parts, loaded, 18) == 18);
+    CHECK(loaded.pictures["a"].pixels == image.pixels);
+    CHECK(loaded.report.notes.empty());
+    CHECK(detail::fit_copies(parts, loaded, 17) == 6);
+    const Image& half = loaded.pictures["a"];
+    REQUIRE(half.width == 2);
+    REQUIRE(half.height == 1);
+    CHECK(half.pixels == std::vector{Rgb{1.5f, 0.5f, 1}, Rgb{4, 0.5f, 1}});
+    REQUIRE(loaded.report.notes.size() == 1);
+    CHECK(loaded.report.notes[0] ==
+          "all pictures are reduced to 1/2 of their width and height, because each of "
+          "the 2 materials has copies of its own; together they may have 17 pixels.");
+    CHECK(detail::fit_copies(parts, loaded, 3) == 3);
+    CHECK(loaded.pictures["a"].pixels == std::vector{Rgb{2.75f, 0.5f, 1}});
 }
 
 TEST_CASE("load_obj: a report has all that the file has") {

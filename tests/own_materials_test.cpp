@@ -315,6 +315,11 @@ TEST_CASE("own materials: a glTF file's picture, its holes and its normals") {
     metal["pbrMetallicRoughness"]["metallicFactor"] = 1;
     metal["pbrMetallicRoughness"]["roughnessFactor"] = 0.5;
     CHECK(seen(metal) == Colors{0.5f * red, open, open, 0.5f * white});
+    // It is one without holes as well.
+    metal.erase("alphaMode");
+    write_gltf(folder, metal);
+    const auto painted = loaded_scene(folder, scene_text(gltf_object)).scene;
+    CHECK(std::get<std::vector<MeshMetalDetailed>>(painted.materials).size() == 1);
 
     json dented = cut;
     dented["normalTexture"] = {{"index", 1}};

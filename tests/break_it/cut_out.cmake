@@ -12,9 +12,15 @@ ljus_break_it(NAME cut_out-shadow HEADER scene/world.hpp TEST cut_out
 
 # So do those of a scene without a tree.
 ljus_break_it(NAME cut_out-shadow-plain HEADER scene/world.hpp TEST cut_out
-    FROM "if (detail::meets_object<Compute>(world, {type, i}, ray, shapes[i]))"
-    TO   "if (detail::is_met<Compute>(ray, shapes[i]))"
+    FROM "if (detail::meets_object<Compute>(world, id, ray, shape)) return true;"
+    TO   "if (detail::is_met<Compute>(ray, shape)) return true;"
     CASES "cut-out: the shadow*")
+
+# All shapes have the holes of the first one.
+ljus_break_it(NAME cut_out-shadow-number HEADER scene/world.hpp TEST cut_out
+    FROM "static_cast<std::uint32_t>(&shape - shapes.data())"
+    TO   "static_cast<std::uint32_t>(0 * (&shape - shapes.data()))"
+    CASES "cut-out: the tree*")
 
 # Behind a hole nothing of the same shape is looked for.
 ljus_break_it(NAME cut_out-behind HEADER scene/world.hpp TEST cut_out

@@ -39,3 +39,9 @@ ljus_break_it(NAME exr-primaries HEADER io/exr.hpp TEST exr
     FROM "reader.require_srgb(found->part);"
     TO   ";"
     CASES "exr: other primaries*")
+
+# A mesh that is read for its materials has the scale of its file.
+ljus_break_it(NAME exr-materials-scale HEADER io/exr.hpp TEST exr
+    FROM "return files.with_materials(path, scale, normals);"
+    TO   "return files.with_materials(path, 1.0, normals);"
+    CASES "exr: what reads meshes*")

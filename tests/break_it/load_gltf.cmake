@@ -75,3 +75,21 @@ ljus_break_it(NAME load-mesh-capitals HEADER io/load_mesh.hpp TEST load_gltf
     FROM "return detail::same_word(end, known);"
     TO   "return end == known;"
     CASES "load_mesh: the end of a name*")
+
+# What is no metal is divided by its roughness, and each part has copies of the pictures.
+ljus_break_it(NAME gltf-matt-roughness HEADER io/detail/gltf_reader.hpp TEST load_gltf
+    FROM "is_metal ? step : -1"
+    TO   "step"
+    CASES "load_gltf: pictures of colour*")
+
+# Nobody hears of a little transmission.
+ljus_break_it(NAME gltf-faint-glass HEADER io/detail/gltf_reader.hpp TEST load_gltf
+    FROM "else if (material.dissolve < 1)"
+    TO   "else if (false)"
+    CASES "load_gltf: what its materials*")
+
+# The colours of a metal's vertices are lost.
+ljus_break_it(NAME gltf-metal-colors HEADER io/detail/mesh_builder.hpp TEST load_gltf
+    FROM "is.is_mirror() && is.roughness == 0"
+    TO   "is.is_mirror()"
+    CASES "load_gltf: pictures of colour*")

@@ -237,3 +237,15 @@ ljus_break_it(NAME obj-black-mirror HEADER io/load_obj.hpp TEST load_obj
     FROM "is.is_mirror() && is.specular == glm::dvec3(0)"
     TO   "false"
     CASES "load_obj: which words*")
+
+# A reduced picture has every second column.
+ljus_break_it(NAME obj-reduced HEADER io/detail/mesh_builder.hpp TEST load_obj
+    FROM "const int right = std::min(2 * x + 1, image.width - 1);"
+    TO   "const int right = 2 * x;"
+    CASES "load_obj: pictures that many*")
+
+# The copies of pictures may be one pixel too many.
+ljus_break_it(NAME obj-reduced-late HEADER io/detail/mesh_builder.hpp TEST load_obj
+    FROM "for (; pixels > most; pixels"
+    TO   "for (; pixels > most + 1; pixels"
+    CASES "load_obj: pictures that many*")

@@ -37,3 +37,10 @@ ljus_break_it(NAME own_materials-parts HEADER io/detail/json_objects.hpp
     FROM "surfaces.empty() ? nullptr : &surfaces[i];"
     TO   "surfaces.empty() ? nullptr : &surfaces[0 * i];"
     CASES "own materials: three*")
+
+# A metal with a picture and without holes is matt.
+ljus_break_it(NAME own_materials-painted-metal HEADER io/mesh_file.hpp
+    TEST own_materials
+    FROM "(details || (picture && !lists_painted))"
+    TO   "details"
+    CASES "own materials: a glTF file's picture*")

@@ -610,6 +610,15 @@ struct WithExr {
                                   const std::string& normals) const {
         return files(path, scale, normals);
     }
+    /// Reads a mesh file with its materials, if `files` does.
+    template <typename F = Files>
+    requires requires(const F& by, const std::string& text) {
+        by.with_materials(text, 1.0, text);
+    }
+    [[nodiscard]] auto with_materials(const std::string& path, double scale,
+                                      const std::string& normals) const {
+        return files.with_materials(path, scale, normals);
+    }
     /// Reads a picture; see load_exr().
     template <std::floating_point T>
     [[nodiscard]] ImageT<T> load_picture(const std::string& path) const {

@@ -200,9 +200,11 @@ MaterialId add_material(Scene& scene, const MeshMaterial& is,
         if (is.is_glass()) return scene.add(Nested<GlassT<T>>{glass});
     if constexpr (Scene::template lists<MirrorT<T>>)
         if (is.is_mirror() && !rough) return scene.add(mirror);
+    constexpr bool lists_painted = Scene::template lists<MeshMetalPictureT<T, At>>;
     if constexpr (Scene::template lists<MeshDetailedT<GlossyT<T>>>)
-        if (rough && details) return scene.add(detail::detailed(metal, is, loaded));
-    if constexpr (Scene::template lists<MeshMetalPictureT<T, At>>)
+        if (rough && (details || (picture && !lists_painted)))
+            return scene.add(detail::detailed(metal, is, loaded));
+    if constexpr (lists_painted)
         if (rough && picture) return scene.add(painted(metal));
     if constexpr (Scene::template lists<GlossyT<T>>)
         if (rough && !picture) return scene.add(metal);
@@ -216,10 +218,10 @@ MaterialId add_material(Scene& scene, const MeshMaterial& is,
 /// Adds all meshes of a file to a scene, each made of what the file says: glass,
 /// mirrors and rough metals where the scene lists Glass, Mirror and Glossy, and else
 /// Lambert's surface with the material's colour; with its picture, if there is one and
-/// the scene lists MeshPicture or, for metals, MeshMetalPicture; with its holes and its
-/// normal map if the scene lists MeshDetailed or MeshMetalDetailed. What glows, glows
-/// by the file's emission, and has neither. Lights of the file are added where the
-/// scene lists their types.
+/// the scene lists MeshPicture or, for metals, MeshMetalPicture or MeshMetalDetailed;
+/// with its holes and its normal map if the scene lists MeshDetailed or
+/// MeshMetalDetailed. What glows, glows by the file's emission, and has neither. Lights
+/// of the file are added where the scene lists their types.
 /// \tparam Map    The map of the pictures that the scene lists; void: UvMapT.
 /// \param scene   A scene with meshes and Lambert's surface.
 /// \param loaded  The result of load_obj(), load_ply(), load_stl() or load_gltf().

@@ -898,9 +898,10 @@ template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] bool occluded_plain(const World<S, Compute>& world, const RayT<T>& ray) {
     std::uint32_t type = 0;
     const auto any = [&](const auto& shapes) {
-        for (std::uint32_t i = 0; i < shapes.size(); ++i)
-            if (detail::meets_object<Compute>(world, {type, i}, ray, shapes[i]))
-                return true;
+        for (const auto& shape : shapes) {
+            const ObjectId id{type, static_cast<std::uint32_t>(&shape - shapes.data())};
+            if (detail::meets_object<Compute>(world, id, ray, shape)) return true;
+        }
         ++type;
         return false;
     };

@@ -507,7 +507,7 @@ private:
             roughness = double(step) / roughness_steps;
         }
         const bool is_metal = metal >= 0.5;
-        const Key key{surface.number, is_metal, step};
+        const Key key{surface.number, is_metal, is_metal ? step : -1};
         const auto known = materials_.find(key);
         if (known != materials_.end()) return known->second.number;
         const auto number = static_cast<std::uint32_t>(materials_.size() + 1);
@@ -590,6 +590,8 @@ private:
                 material.dissolve = 1 - number_of(is, "transmissionFactor", 0, 0, 1);
                 if (material.is_glass())
                     unused.push_back("colour and roughness of glass");
+                else if (material.dissolve < 1)
+                    unused.push_back("a transmissionFactor of at most 0.5");
             } else {
                 unused.push_back(part.key());
             }

@@ -239,8 +239,9 @@ public:
                     join({"the pictures of material ", shown(is.name),
                           " lie on each triangle alike: its faces have no texture "
                           "coordinates."}));
+            const bool smooth_mirror = is.is_mirror() && is.roughness == 0;
             if (!settings_.pictures || !is.picture.name.empty() || is.is_glass() ||
-                is.is_mirror() ||
+                smooth_mirror ||
                 std::count(part.colors.begin(), part.colors.end(), RgbT<T>(no_color)) >
                     0)
                 part.colors.clear();
@@ -375,6 +376,7 @@ void paint(MeshFacesT<T>& part, LoadedMeshT<T>& loaded, long long& pixels) {
     if (std::count(part.colors.begin(), part.colors.end(), first) ==
         std::ptrdiff_t(part.colors.size())) {
         part.material.diffuse *= glm::dvec3(first);
+        part.material.specular *= glm::dvec3(first);
         return;
     }
     const auto size =
@@ -391,6 +393,51 @@ void paint(MeshFacesT<T>& part, LoadedMeshT<T>& loaded, long long& pixels) {
     pixels += static_cast<long long>(image.pixels.size());
 }
 
+// A picture of half the width and height.
+template <std::floating_point T>
+ImageT<T> halved(const ImageT<T>& image) {
+    ImageT<T> half = make_image<T>((image.width + 1) / 2, (image.height + 1) / 2);
+    for (int y = 0; y < half.height; ++y)
+        for (int x = 0; x < half.width; ++x) {
+            const int right = std::min(2 * x + 1, image.width - 1);
+            const int below = std::min(2 * y + 1, image.height - 1);
+            pixel(half, x, y) =
+                (pixel(image, 2 * x, 2 * y) + pixel(image, right, 2 * y) +
+                 pixel(image, 2 * x, below) + pixel(image, right, below)) /
+                T(4);
+        }
+    return half;
+}
+
+// Halves all pictures until the copies that add_meshes() makes of them, one for each
+// material that has one, are at most so many pixels. A material of many roughnesses is
+// many materials. Returns the pixels of all copies.
+template <std::floating_point T>
+long long fit_copies(const std::vector<MeshFacesT<T>>& parts, LoadedMeshT<T>& loaded,
+                     long long most = max_image_pixels) {
+    const auto copied = [&] {
+        std::size_t sum = 0;
+        for (const MeshFacesT<T>& part : parts)
+            for (const auto image :
+                 {&MeshMaterial::picture, &MeshMaterial::mask, &MeshMaterial::normals})
+                if (const auto* found = find_picture(loaded, part.material.*image))
+                    sum += found->pixels.size();
+        return static_cast<long long>(sum);
+    };
+    long long pixels = copied();
+    int part = 1;
+    for (; pixels > most; pixels = copied(), part *= 2)
+        for (auto& [name, image] : loaded.pictures) image = halved(image);
+    if (part > 1)
+        loaded.report.notes.push_back(
+            join({"all pictures are reduced to 1/", to_text(part),
+                  " of their width and height, because each of the ",
+                  to_text(static_cast<long long>(parts.size())),
+                  " materials has copies of its own; together they may have ",
+                  to_text(most), " pixels."}));
+    return pixels;
+}
+
 // The content of a mesh file. `read` makes the faces, completes the report, and frees
 // its lists, before the meshes, which need more memory, are made. `hint` goes on with a
 // sentence about a file without a face. load(material, loaded, pixels) loads a picture.
@@ -401,9 +448,11 @@ LoadedMeshT<T> make_meshes(const std::string& file, const MeshFileSettings& sett
     LoadedMeshT<T> loaded;
     std::vector<MeshFacesT<T>> parts = read(loaded);
     if (parts.empty()) refuse_without_faces(file, loaded.report, hint);
-    long long pixels = 0;
+    long long pixels = 0; // of all pictures, then of their copies
+    if (settings.pictures)
+        for (MeshFacesT<T>& part : parts) load(part.material, loaded, pixels);
+    pixels = fit_copies(parts, loaded);
     for (MeshFacesT<T>& part : parts) {
-        if (settings.pictures) load(part.material, loaded, pixels);
         if (!part.colors.empty()) paint(part, loaded, pixels);
         try {
             loaded.parts.push_back(

@@ -3,6 +3,8 @@
 /// \file ljus/io/detail/mesh_pictures.hpp
 /// \brief The pictures of the materials of a mesh file.
 
+#include <algorithm>
+
 #include "ljus/io/load_image.hpp"
 #include "ljus/io/mesh_file.hpp"
 
@@ -10,30 +12,23 @@ namespace ljus::detail {
 
 // Loads a picture of a material, unless it has none or it is loaded already;
 // bytes_of(name) are those of its file. It is kept under its name and `kind`, because
-// the same file may have colours and alpha. The pixels of all materials so far are
-// limited, because add_meshes() copies each picture.
+// the same file may have colours and alpha. The pixels of all files are limited.
 template <std::floating_point T, typename BytesOf>
 void load_picture(MeshImage& picture, PictureContent content, std::string_view kind,
                   LoadedMeshT<T>& loaded, long long& pixels, const BytesOf& bytes_of) {
     if (picture.name.empty()) return;
     const std::string name = picture.name;
     picture.name += kind;
+    if (loaded.pictures.contains(picture.name)) return;
     try {
-        auto known = loaded.pictures.find(picture.name);
-        if (known == loaded.pictures.end())
-            known = loaded.pictures
-                        .emplace(picture.name,
-                                 decode_image<T>(bytes_of(name), name, pixels, content))
-                        .first;
-        const ImageT<T>& image = known->second;
-        const std::string why = too_large_beside(pixels, image.width, image.height);
-        if (!why.empty()) {
-            picture.name.clear();
-            throw std::runtime_error(join({shown_path(name), " ", why, "."}));
-        }
+        const ImageT<T>& image = loaded.pictures[picture.name] =
+            decode_image<T>(bytes_of(name), name, pixels, content);
         pixels += static_cast<long long>(image.pixels.size());
     } catch (const std::runtime_error& wrong) {
-        loaded.report.notes.push_back((picture.at + ": ").append(wrong.what()));
+        std::string why = (picture.at + ": ").append(wrong.what());
+        auto& notes = loaded.report.notes; // several materials may have the picture
+        if (std::find(notes.begin(), notes.end(), why) == notes.end())
+            notes.push_back(std::move(why));
     }
 }
 
