@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ljus/accel/detail/lane_select.hpp"
+#include "ljus/accel/detail/stored_array.hpp"
 #include "ljus/accel/neighbor.hpp"
 #include "ljus/math/lanes.hpp"
 #include "ljus/math/require.hpp"
@@ -74,8 +75,9 @@ struct KdTree8Shape {
 template <std::floating_point T>
 struct KdTree8PartsT {
     KdTree8Shape shape{};                 ///< The layout.
-    std::vector<KdTree8NodeT<T>> nodes{}; ///< Level by level.
-    std::vector<Lanes3T<T>> blocks{};     ///< The points, in blocks of eight.
+    StoredArray<KdTree8NodeT<T>> nodes{}; ///< Level by level.
+    StoredArray<Lanes3T<T>> blocks{};     ///< The points, in blocks of eight.
+    StoredArray<std::uint32_t> order{};   ///< Where each point was in the list given.
 
     /// The point at an index.
     [[nodiscard]] Vec3T<T> point(std::size_t index) const noexcept {
@@ -176,13 +178,13 @@ public:
     using Item = KdTree8ItemT<T>;
     using Items = KdTree8ItemsT<T>;
 
-    KdTree8Builder(const KdTree8Shape& shape, std::vector<KdTree8NodeT<T>>& nodes,
-                   std::vector<Lanes3T<T>>& blocks, std::vector<std::uint32_t>& order)
-        : shape_(shape), nodes_(nodes), blocks_(blocks), order_(order) {}
+    explicit KdTree8Builder(std::size_t points)
+        : shape_(KdTree8Shape::of(points)),
+          nodes_(shape_.first[std::size_t(shape_.levels)]) {}
 
     // The upper ranges are built level by level, in lists, then whole subtrees in
     // parallel, in arrays; the tree grows as the items of its subtrees are freed.
-    void build(Items items, int threads) {
+    [[nodiscard]] KdTree8PartsT<T> build(Items items, int threads) {
         if (shape_.points < 4 * Items::piece) threads = 1; // too few to wake threads
         int depth = 0;
         std::vector<Items> ranges(1);
@@ -217,6 +219,7 @@ public:
                             },
                             {.threads = threads});
         }
+        return {shape_, std::move(nodes_), std::move(blocks_), std::move(order_)};
     }
 
 private:
@@ -421,10 +424,10 @@ private:
             select_smallest(keys.data(), size, std::min(middle + margin, sample))};
     }
 
-    const KdTree8Shape& shape_;
-    std::vector<KdTree8NodeT<T>>& nodes_;
-    std::vector<Lanes3T<T>>& blocks_;
-    std::vector<std::uint32_t>& order_;
+    const KdTree8Shape shape_;
+    std::vector<KdTree8NodeT<T>> nodes_;
+    std::vector<Lanes3T<T>> blocks_;
+    std::vector<std::uint32_t> order_;
 };
 
 /// \}
