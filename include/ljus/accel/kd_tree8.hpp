@@ -60,7 +60,7 @@ public:
     /// \param threads  As in ParallelSettings; the tree does not depend on it.
     /// \throws std::invalid_argument  if a point is not finite.
     /// \cost O(n log n) for any points; in float 16 bytes per point, about 1 for the
-    ///       boxes, and at most 32 more during the build.
+    ///       boxes, and some more during the build; see detail::GrowingArray.
     explicit KdTree8T(std::span<const Vec3T<T>> points, int threads = 0)
         : KdTree8T(detail::kd_tree8_items(points), threads) {}
 

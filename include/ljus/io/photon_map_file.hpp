@@ -238,9 +238,11 @@ inline void save_photon_map(const std::string& path, const PhotonMap& map,
 /// The settings of open_photon_map().
 struct PhotonMapFileSettings {
     std::uint64_t key = 0; ///< The key that the file must have.
-    bool check = true; ///< Whether all of it is read and checked at once. Without, a
-                       ///< damaged file gives wrong pictures.
-    int threads = 0;   ///< For the check; as in ParallelSettings.
+    bool check = true;     ///< Whether all of it is read and checked at once. Without,
+                           ///< damage is not noticed.
+    bool single_pages = false; ///< Whether a search reads the pages that it needs and
+                               ///< no others, for a map larger than the memory.
+    int threads = 0;           ///< For the check; as in ParallelSettings.
 };
 
 /// Opens a photon map in a file. It is mapped, not read: a search reads the pages that
@@ -278,6 +280,10 @@ open_photon_map(const std::string& path, const PhotonMapFileSettings& settings =
     map.records = {mappable.map<detail::RecordBlockT<float>>(places[3], sizes.blocks),
                    points};
     if (settings.check) detail::check_map(file, map, settings.threads);
+    if (settings.single_pages)
+        for (const auto& array : detail::arrays_of(map))
+            ::madvise(const_cast<unsigned char*>(array.data()), array.size(),
+                      MADV_RANDOM); // advice: if it fails, more is read
 #endif
     return map;
 }

@@ -44,7 +44,7 @@ template <std::floating_point T>
 template <std::floating_point T, typename Each>
 [[nodiscard]] PhotonMapT<T> map_of(std::size_t count, const Each& each, int threads) {
     require_point_count(count);
-    RecordSorterT<T> records(count);
+    RecordSorterT<T> records;
     KdTree8ItemsT<T> items;
     each([&](const PhotonT<T>& photon) {
         // A direction of (0, 0, 0) would arrive at neither side of a surface.
@@ -61,16 +61,21 @@ template <std::floating_point T, typename Each>
 }
 
 /// Builds the map of photons that are freed meanwhile.
-/// \cost At most 80 bytes per photon in float at a time, theirs included: the records
-///       are sorted in place.
+/// \cost At most 60 bytes per photon in float at a time, theirs included, where
+///       std::realloc() moves pages: the records are sorted in place.
 template <std::floating_point T>
 [[nodiscard]] PhotonMapT<T> map_of_parts(PhotonPartsT<T> parts, int threads = 0) {
     std::size_t count = 0;
     for (const auto& part : parts) count += part.size();
     const auto each = [&](const auto& add) {
+        std::size_t freed = 0;
         for (auto& part : parts) {
             for (const PhotonT<T>& photon : part) add(photon);
+            freed += part.size();
             std::vector<PhotonT<T>>().swap(part);
+            if (freed < 1 << 18) continue;
+            freed = 0;
+            give_back_memory();
         }
     };
     return map_of<T>(count, each, threads);

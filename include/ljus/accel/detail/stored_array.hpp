@@ -6,15 +6,16 @@
 #include <cstddef>
 #include <span>
 #include <utility>
-#include <vector>
+
+#include "ljus/accel/detail/growing_array.hpp"
 
 namespace ljus::detail {
 
 /// \addtogroup kd_tree8
 /// \{
 
-/// The elements of a vector, or elements in a mapped file, which the array unmaps when
-/// it ends. A copy of it is in memory.
+/// Elements in memory, or in a mapped file, which the array unmaps when it ends. A copy
+/// of it is in memory.
 template <typename Element>
 class StoredArray {
 public:
@@ -22,15 +23,14 @@ public:
     using Unmap = void (*)(std::span<const Element>) noexcept;
 
     StoredArray() = default;
-    /// Takes a vector.
-    StoredArray(std::vector<Element> own) noexcept
-        : own_(std::move(own)), elements_(own_) {}
+    /// Takes elements in memory.
+    StoredArray(GrowingArray<Element> own) noexcept
+        : own_(std::move(own)), elements_(own_.data(), own_.size()) {}
     /// Takes elements in a file.
     StoredArray(std::span<const Element> mapped, Unmap unmap) noexcept
         : elements_(mapped), unmap_(unmap) {}
     StoredArray(const StoredArray& other)
-        : StoredArray(
-              std::vector<Element>(other.elements_.begin(), other.elements_.end())) {}
+        : StoredArray(GrowingArray<Element>(other.elements_)) {}
     StoredArray(StoredArray&& other) noexcept
         : own_(std::move(other.own_)), elements_(std::exchange(other.elements_, {})),
           unmap_(std::exchange(other.unmap_, nullptr)) {}
@@ -54,7 +54,7 @@ public:
     [[nodiscard]] bool empty() const noexcept { return elements_.empty(); }
 
 private:
-    std::vector<Element> own_; // empty if the elements are in a file
+    GrowingArray<Element> own_; // empty if the elements are in a file
     std::span<const Element> elements_;
     Unmap unmap_ = nullptr;
 };

@@ -114,12 +114,9 @@ private:
 template <std::floating_point T>
 class RecordSorterT {
 public:
-    /// Takes memory for some records; none is there yet.
-    explicit RecordSorterT(std::size_t count) { blocks_.reserve((count + 7) / 8); }
-
     /// Adds the record of a photon.
     void add(const PhotonT<T>& photon) {
-        if (size_ % 8 == 0) blocks_.emplace_back();
+        if (size_ % 8 == 0) blocks_.resize(size_ / 8 + 1);
         put(size_++,
             {photon.direction, photon.flux, photon.light, photon.kind, photon.normal});
     }
@@ -166,6 +163,7 @@ public:
         };
         parallel_blocks(static_cast<long long>(next.size()), settle,
                         {.threads = threads});
+        blocks_.shrink_to_fit();
         return {std::move(blocks_), size_};
     }
 
@@ -194,7 +192,7 @@ private:
         block.code[i] = RecordCode::of(record.kind, record.normal);
     }
 
-    std::vector<RecordBlockT<T>> blocks_;
+    GrowingArray<RecordBlockT<T>> blocks_;
     std::size_t size_ = 0;
 };
 
