@@ -171,11 +171,11 @@ ljus_break_it(NAME photon-map-file-unused HEADER photons/detail/photon_records.h
     TEST photon_map_file
     FROM "blocks_[i / 8] = {};"
     TO   ""
-    CASES "photon_map_file: the same map*")
+    CASES "photon_map_file: no byte between*")
 
 # A copy of a map in a file refers to the file.
 ljus_break_it(NAME photon-map-file-copy HEADER accel/detail/stored_array.hpp
     TEST photon_map_file
-    FROM "own_(std::move(own)), elements_(own_)"
-    TO   "elements_(own_.data(), own.size())"
+    FROM "StoredArray(GrowingArray<Element>(other.elements_))"
+    TO   "elements_(other.elements_)"
     CASES "photon_map_file: it comes back*")
