@@ -14,8 +14,9 @@ using namespace ljus_test;
 namespace {
 
 /// Whether two lists hold the same bytes.
-template <typename V>
-bool same_bytes(const std::vector<V>& a, const std::vector<V>& b) {
+template <typename List>
+bool same_bytes(const List& a, const List& b) {
+    using V = typename List::value_type;
     static_assert(std::is_trivially_copyable_v<V>);
     if (a.size() != b.size()) return false;
     for (std::size_t i = 0; i < a.size(); ++i)

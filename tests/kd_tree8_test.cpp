@@ -169,7 +169,7 @@ TEST_CASE("kd_tree8: the same tree from any number of threads") {
         const KdTree8 one(set.points, 1);
         for (const int threads : {2, 3, 8}) {
             const KdTree8 many(set.points, threads);
-            REQUIRE(one.point_ids() == many.point_ids());
+            REQUIRE(std::ranges::equal(one.point_ids(), many.point_ids()));
             REQUIRE(std::memcmp(one.blocks().data(), many.blocks().data(),
                                 one.blocks().size() * sizeof(one.blocks()[0])) == 0);
         }

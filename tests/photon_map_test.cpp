@@ -762,7 +762,7 @@ TEST_CASE("photon_map: each photon's record lies beside its position") {
             parts.back().push_back(photon);
         }
         const PhotonMap same = ljus::detail::map_of_parts(std::move(parts), 3);
-        CHECK(same.tree.point_ids() == map.tree.point_ids());
+        CHECK(std::ranges::equal(same.tree.point_ids(), map.tree.point_ids()));
         for (std::size_t i = 0; i < same.records.size(); ++i)
             wrong += same.records[i].flux != map.records[i].flux;
         CHECK(wrong == 0);

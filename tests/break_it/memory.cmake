@@ -4,6 +4,12 @@ ljus_break_it(NAME memory-photons HEADER photons/photon_map.hpp TEST memory
     TO   ""
     CASES "memory: a photon*")
 
+# What was freed stays with the process, beside the arrays that are made of it.
+ljus_break_it(NAME memory-freed HEADER accel/detail/growing_array.hpp TEST memory
+    FROM "::malloc_trim(0);"
+    TO   ""
+    CASES "memory: a photon takes*")
+
 # The sums of all pixels at a time.
 ljus_break_it(NAME memory-pixels HEADER render/adaptive.hpp TEST memory
     FROM "picture.samples - rule.first < rule.more)"

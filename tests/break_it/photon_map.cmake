@@ -143,3 +143,39 @@ ljus_break_it(NAME photon-map-record-places HEADER photons/detail/photon_records
     FROM "while (to[i] != i)"
     TO   "while (to[i] / 8 != i / 8)"
     CASES "photon_map: each photon's record*")
+
+# A file whose numbers nobody has checked.
+ljus_break_it(NAME photon-map-file-checksum HEADER io/photon_map_file.hpp
+    TEST photon_map_file
+    FROM "map_checksum(file.bytes, map, threads))"
+    TO   "number_at<std::uint64_t>(file.bytes, checksum_place))"
+    CASES "photon_map_file: a file cut short*")
+ljus_break_it(NAME photon-map-file-valid HEADER io/photon_map_file.hpp
+    TEST photon_map_file
+    FROM "if (!is_whole_block(map, block))"
+    TO   "if (false)"
+    CASES "photon_map_file: photons that no map*")
+ljus_break_it(NAME photon-map-file-beyond HEADER io/photon_map_file.hpp
+    TEST photon_map_file
+    FROM "if (!std::isnan(points.x[i])) return false;"
+    TO   ""
+    CASES "photon_map_file: photons that no map*")
+ljus_break_it(NAME photon-map-file-key HEADER io/photon_map_file.hpp
+    TEST photon_map_file
+    FROM "file.take<std::uint64_t>() != settings.key"
+    TO   "file.take<std::uint64_t>() == 99"
+    CASES "photon_map_file: a file cut short*")
+
+# Bytes between the numbers of a record are what the memory held before.
+ljus_break_it(NAME photon-map-file-unused HEADER photons/detail/photon_records.hpp
+    TEST photon_map_file
+    FROM "blocks_[i / 8] = {};"
+    TO   ""
+    CASES "photon_map_file: no byte between*")
+
+# A copy of a map in a file refers to the file.
+ljus_break_it(NAME photon-map-file-copy HEADER accel/detail/stored_array.hpp
+    TEST photon_map_file
+    FROM "StoredArray(GrowingArray<Element>(other.elements_))"
+    TO   "elements_(other.elements_)"
+    CASES "photon_map_file: it comes back*")

@@ -60,29 +60,34 @@ public:
     /// \param threads  As in ParallelSettings; the tree does not depend on it.
     /// \throws std::invalid_argument  if a point is not finite.
     /// \cost O(n log n) for any points; in float 16 bytes per point, about 1 for the
-    ///       boxes, and at most 32 more during the build.
+    ///       boxes, and some more during the build; see detail::GrowingArray.
     explicit KdTree8T(std::span<const Vec3T<T>> points, int threads = 0)
         : KdTree8T(detail::kd_tree8_items(points), threads) {}
 
     /// Builds the tree of items, which it consumes.
     KdTree8T(detail::KdTree8ItemsT<T> items, int threads) {
         if (items.size() == 0) return;
-        parts_.shape = detail::KdTree8Shape::of(items.size());
-        parts_.nodes = std::vector<detail::KdTree8NodeT<T>>(
-            parts_.shape.first[std::size_t(parts_.shape.levels)]);
-        detail::KdTree8Builder<T>(parts_.shape, parts_.nodes, parts_.blocks, point_ids_)
-            .build(std::move(items), threads);
+        detail::KdTree8Builder<T> builder(items.size());
+        parts_ = builder.build(std::move(items), threads);
     }
+
+    /// A tree whose data are there.
+    explicit KdTree8T(detail::KdTree8PartsT<T> parts) : parts_(std::move(parts)) {}
 
     /// The i-th point of the tree has the index point_ids()[i] in the span from which
     /// the tree was built.
-    [[nodiscard]] const std::vector<std::uint32_t>& point_ids() const noexcept {
-        return point_ids_;
+    [[nodiscard]] std::span<const std::uint32_t> point_ids() const noexcept {
+        return parts_.order.span();
     }
 
     /// The points in the tree's order, in blocks of eight.
-    [[nodiscard]] const std::vector<detail::Lanes3T<T>>& blocks() const noexcept {
-        return parts_.blocks;
+    [[nodiscard]] std::span<const detail::Lanes3T<T>> blocks() const noexcept {
+        return parts_.blocks.span();
+    }
+
+    /// The tree's data.
+    [[nodiscard]] const detail::KdTree8PartsT<T>& parts() const noexcept {
+        return parts_;
     }
 
     /// The point at an index in the tree's order, below size().
@@ -91,7 +96,7 @@ public:
     }
 
     /// The number of points.
-    [[nodiscard]] std::size_t size() const noexcept { return point_ids_.size(); }
+    [[nodiscard]] std::size_t size() const noexcept { return parts_.order.size(); }
 
     /// How often the points were halved, from all of them down to a leaf.
     [[nodiscard]] int halvings() const noexcept { return parts_.shape.halvings; }
@@ -109,9 +114,8 @@ public:
 
     /// The size of the tree's arrays in bytes.
     [[nodiscard]] std::size_t bytes() const noexcept {
-        return parts_.blocks.size() * sizeof(parts_.blocks[0]) +
-               point_ids_.size() * sizeof(point_ids_[0]) +
-               parts_.nodes.size() * sizeof(parts_.nodes[0]);
+        return parts_.blocks.span().size_bytes() + parts_.order.span().size_bytes() +
+               parts_.nodes.span().size_bytes();
     }
 
     /// Calls `visit(found)` with a FoundBlockT for each block of eight that has points
@@ -220,7 +224,6 @@ private:
     }
 
     detail::KdTree8PartsT<T> parts_;
-    std::vector<std::uint32_t> point_ids_;
 };
 using KdTree8 = KdTree8T<float>; ///< KdTree8T in float.
 

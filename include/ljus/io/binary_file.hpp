@@ -17,7 +17,7 @@
 namespace ljus {
 
 /// \defgroup binary_file Files of numbers
-/// \brief The format of light maps, checkpoints and slices of pictures.
+/// \brief The format of light maps, photon maps, checkpoints and slices of pictures.
 ///
 /// A file has 16 letters that name its format; the version, 4 bytes; 12 bytes that the
 /// format defines; a checksum of everything else behind the letters, 8 bytes; then
@@ -142,19 +142,32 @@ struct FileReader {
     }
 };
 
-/// Opens a file.
-/// \return The file, positioned behind its version.
-/// \throws std::runtime_error  "cannot read 'a.map': its checksum is wrong ...": if the
-///         file is truncated, damaged, or of another version or format.
-[[nodiscard]] inline FileReader open_file(const std::string& path, std::size_t most,
-                                          const FileFormat& format) {
-    FileReader file{path, load_file(path, most, format.magic), format.magic.size()};
+namespace detail {
+
+// Refuses a file of another format or version; what follows is the next to be taken.
+inline void take_format(FileReader& file, const FileFormat& format) {
+    require_beginning({reinterpret_cast<const char*>(file.bytes.data()),
+                       std::min(file.bytes.size(), format.magic.size())},
+                      format.magic, file.path);
+    file.position = format.magic.size();
     if (file.bytes.size() < file_front_bytes)
         file.refuse("it ends in the middle of its header");
     const auto found = file.take<std::uint32_t>();
     if (found != format.version)
         file.refuse("its version is " + std::to_string(found) +
                     "; this library reads version " + std::to_string(format.version));
+}
+
+} // namespace detail
+
+/// Opens a file.
+/// \return The file, positioned behind its version.
+/// \throws std::runtime_error  "cannot read 'a.map': its checksum is wrong ...": if the
+///         file is truncated, damaged, or of another version or format.
+[[nodiscard]] inline FileReader open_file(const std::string& path, std::size_t most,
+                                          const FileFormat& format) {
+    FileReader file{path, load_file(path, most, format.magic)};
+    detail::take_format(file, format);
     const auto checksum =
         detail::number_at<std::uint64_t>(file.bytes, detail::checksum_place);
     if (checksum != detail::checksum(file.bytes))

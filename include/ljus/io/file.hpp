@@ -39,6 +39,14 @@ namespace detail {
         join({"cannot read '", shown_path(path), "': ", why, "."}));
 }
 
+// Refuses a file that does not begin as one of its kind.
+inline void require_beginning(std::string_view text, std::string_view begin,
+                              const std::string& path) {
+    if (!text.starts_with(begin))
+        fail_to_read(path, join({"it does not begin with '", shown(std::string(begin)),
+                                 "': it is another kind of file"}));
+}
+
 // The folder of a file, with the slash; empty for the current folder.
 inline std::string folder_of(const std::string& path) {
     return path.substr(0, path.find_last_of("/\\") + 1); // 0 if there is no slash
@@ -167,10 +175,7 @@ void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {
                                      std::string_view begin = {}) {
     Bytes bytes;
     read_in_pieces(path, most, [&](std::string_view text, bool) {
-        if (bytes.empty() && !text.starts_with(begin))
-            detail::fail_to_read(path, detail::join({"it does not begin with '",
-                                                     shown(std::string(begin)),
-                                                     "': it is another kind of file"}));
+        if (bytes.empty()) detail::require_beginning(text, begin, path);
         bytes.insert(bytes.end(), text.begin(), text.end());
         return text.size();
     });

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -130,7 +131,7 @@ public:
 #endif
     }
 
-    [[gnu::cold]] void write(const Bytes& bytes) {
+    [[gnu::cold]] void write(std::span<const unsigned char> bytes) {
         if (bytes.empty()) return;
         if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
             fail_to_write(path_, errno);
@@ -271,7 +272,7 @@ private:
 /// \throws std::runtime_error  as save_file().
 inline void require_writable(const std::string& path) {
     detail::FileBeside probe(detail::file_to_replace(path));
-    probe.write({0});
+    probe.write(Bytes{0});
     probe.close();
 }
 

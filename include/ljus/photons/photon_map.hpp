@@ -33,39 +33,49 @@ namespace detail {
 template <std::floating_point T>
 using PhotonPartsT = std::vector<std::vector<PhotonT<T>>>;
 
+/// Whether a direction has length 1, to 0.5 percent.
+template <std::floating_point T>
+[[nodiscard]] bool is_unit_direction(const Vec3T<T>& direction) noexcept {
+    return std::abs(glm::dot(direction, direction) - T(1)) <= T(0.01);
+}
+
 /// Builds a map of photons that each(add) hands to `add` one by one.
 /// \throws std::invalid_argument  as make_photon_map().
 template <std::floating_point T, typename Each>
 [[nodiscard]] PhotonMapT<T> map_of(std::size_t count, const Each& each, int threads) {
     require_point_count(count);
-    PhotonMapT<T> map;
-    map.records = PhotonRecordsT<T>(count);
+    RecordSorterT<T> records;
     KdTree8ItemsT<T> items;
     each([&](const PhotonT<T>& photon) {
         // A direction of (0, 0, 0) would arrive at neither side of a surface.
         require_finite("photon.flux", photon.flux);
-        const Vec3T<T>& direction = photon.direction;
-        require(std::abs(glm::dot(direction, direction) - T(1)) <= T(0.01),
-                "photon.direction", direction, "a vector of length 1");
+        require(is_unit_direction(photon.direction), "photon.direction",
+                photon.direction, "a vector of length 1");
         items.add(photon.position);
-        map.records.add(photon);
+        records.add(photon);
     });
+    PhotonMapT<T> map;
     map.tree = KdTree8T<T>(std::move(items), threads);
-    map.records.sort(map.tree.point_ids(), threads);
+    map.records = records.sorted(map.tree.point_ids(), threads);
     return map;
 }
 
 /// Builds the map of photons that are freed meanwhile.
-/// \cost At most 80 bytes per photon in float at a time, theirs included: the records
-///       are sorted in place.
+/// \cost At most 60 bytes per photon in float at a time, theirs included, where
+///       std::realloc() moves pages: the records are sorted in place.
 template <std::floating_point T>
 [[nodiscard]] PhotonMapT<T> map_of_parts(PhotonPartsT<T> parts, int threads = 0) {
     std::size_t count = 0;
     for (const auto& part : parts) count += part.size();
     const auto each = [&](const auto& add) {
+        std::size_t freed = 0;
         for (auto& part : parts) {
             for (const PhotonT<T>& photon : part) add(photon);
+            freed += part.size();
             std::vector<PhotonT<T>>().swap(part);
+            if (freed < 1 << 18) continue;
+            freed = 0;
+            give_back_memory();
         }
     };
     return map_of<T>(count, each, threads);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ljus/accel/detail/lane_select.hpp"
+#include "ljus/accel/detail/stored_array.hpp"
 #include "ljus/accel/neighbor.hpp"
 #include "ljus/math/lanes.hpp"
 #include "ljus/math/require.hpp"
@@ -74,8 +75,9 @@ struct KdTree8Shape {
 template <std::floating_point T>
 struct KdTree8PartsT {
     KdTree8Shape shape{};                 ///< The layout.
-    std::vector<KdTree8NodeT<T>> nodes{}; ///< Level by level.
-    std::vector<Lanes3T<T>> blocks{};     ///< The points, in blocks of eight.
+    StoredArray<KdTree8NodeT<T>> nodes{}; ///< Level by level.
+    StoredArray<Lanes3T<T>> blocks{};     ///< The points, in blocks of eight.
+    StoredArray<std::uint32_t> order{};   ///< Where each point was in the list given.
 
     /// The point at an index.
     [[nodiscard]] Vec3T<T> point(std::size_t index) const noexcept {
@@ -102,6 +104,10 @@ public:
     using Item = KdTree8ItemT<T>;                 ///< What it holds.
     static constexpr std::size_t piece = 1 << 13; ///< Items per piece.
 
+    /// Pieces that were read, for other lists of the same thread: the allocator may
+    /// keep what one thread frees from the others.
+    using Spare = std::vector<std::vector<Item>>;
+
     /// The number of items.
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     /// An item that is still there.
@@ -110,7 +116,14 @@ public:
     }
     /// Some places behind the last item, at least one; take() makes them items.
     [[nodiscard]] std::span<Item> room() {
-        if (size_ == piece * pieces_.size()) pieces_.emplace_back(piece);
+        if (size_ == piece * pieces_.size()) {
+            if (spare_ != nullptr && !spare_->empty()) {
+                pieces_.push_back(std::move(spare_->back()));
+                spare_->pop_back();
+            } else {
+                pieces_.emplace_back(piece);
+            }
+        }
         return std::span<Item>(pieces_.back()).subspan(size_ % piece);
     }
     /// Adds the first places of room().
@@ -121,6 +134,8 @@ public:
         require_finite("a point of the k-d tree", point);
         push({point, size_});
     }
+    /// Shares pieces with other lists; without, each piece is freed.
+    void share(Spare* spare) noexcept { spare_ = spare; }
     /// Adds an item.
     void push(const Item& item) {
         room()[0] = item;
@@ -135,6 +150,7 @@ public:
             const std::size_t k = backwards ? count - 1 - n : n;
             use(std::span<const Item>(pieces_[k])
                     .first(std::min(piece, size_ - k * piece)));
+            if (spare_ != nullptr) spare_->push_back(std::move(pieces_[k]));
             std::vector<Item>().swap(pieces_[k]);
         }
         *this = {};
@@ -150,6 +166,7 @@ public:
 private:
     std::vector<std::vector<Item>> pieces_;
     std::size_t size_ = 0;
+    Spare* spare_ = nullptr;
 };
 
 /// Refuses more points than a tree can have.
@@ -176,13 +193,14 @@ public:
     using Item = KdTree8ItemT<T>;
     using Items = KdTree8ItemsT<T>;
 
-    KdTree8Builder(const KdTree8Shape& shape, std::vector<KdTree8NodeT<T>>& nodes,
-                   std::vector<Lanes3T<T>>& blocks, std::vector<std::uint32_t>& order)
-        : shape_(shape), nodes_(nodes), blocks_(blocks), order_(order) {}
+    explicit KdTree8Builder(std::size_t points) : shape_(KdTree8Shape::of(points)) {
+        nodes_.resize(shape_.first[std::size_t(shape_.levels)]);
+        std::fill_n(nodes_.data(), nodes_.size(), KdTree8NodeT<T>{});
+    }
 
     // The upper ranges are built level by level, in lists, then whole subtrees in
     // parallel, in arrays; the tree grows as the items of its subtrees are freed.
-    void build(Items items, int threads) {
+    [[nodiscard]] KdTree8PartsT<T> build(Items items, int threads) {
         if (shape_.points < 4 * Items::piece) threads = 1; // too few to wake threads
         int depth = 0;
         std::vector<Items> ranges(1);
@@ -195,12 +213,14 @@ public:
                                 const auto i = static_cast<std::size_t>(number);
                                 divide(depth, i, ranges[i], halves[2 * i],
                                        halves[2 * i + 1]);
+                                halves[2 * i].share(nullptr);
+                                halves[2 * i + 1].share(nullptr);
                             },
                             {.threads = threads});
             ranges = std::move(halves);
         }
-        blocks_.reserve(shape_.blocks);
-        order_.reserve(shape_.points);
+        constexpr std::uint64_t many = 1 << 18;
+        std::uint64_t given_back = 0; // points whose lists are freed
         const std::size_t together =
             2 * static_cast<std::size_t>(threads == 0 ? max_threads() : threads);
         for (std::size_t i = 0; i < ranges.size(); i += together) {
@@ -216,14 +236,20 @@ public:
                                 finish(depth, n, from.data(), to.data());
                             },
                             {.threads = threads});
+            if (order_.size() < given_back + many) continue;
+            given_back = order_.size();
+            give_back_memory();
         }
+        blocks_.shrink_to_fit();
+        order_.shrink_to_fit();
+        return {shape_, std::move(nodes_), std::move(blocks_), std::move(order_)};
     }
 
 private:
     void pad() { // the places behind the last point
         constexpr T nan = std::numeric_limits<T>::quiet_NaN();
         for (std::uint64_t i = shape_.points; i < 8 * shape_.blocks; ++i)
-            blocks_.back().set(i % 8, Vec3T<T>{nan});
+            blocks_[i / 8].set(i % 8, Vec3T<T>{nan});
     }
     [[nodiscard]] std::uint64_t first_point(int depth, std::uint64_t number) const {
         return std::min(8 * shape_.first_block(depth, number), shape_.points);
@@ -252,6 +278,9 @@ private:
         // No structured binding: clang 14 lets no lambda use one.
         const T least = pivot.low, most = pivot.high;
         Items above, between;
+        typename Items::Spare spare;
+        for (Items* const list : {&from, &low, &high, &above, &between})
+            list->share(&spare);
         from.drain([&](auto items) {
             for (std::size_t i = 0; i < items.size();) {
                 const auto to_low = low.room(), to_above = above.room(),
@@ -421,10 +450,10 @@ private:
             select_smallest(keys.data(), size, std::min(middle + margin, sample))};
     }
 
-    const KdTree8Shape& shape_;
-    std::vector<KdTree8NodeT<T>>& nodes_;
-    std::vector<Lanes3T<T>>& blocks_;
-    std::vector<std::uint32_t>& order_;
+    const KdTree8Shape shape_;
+    GrowingArray<KdTree8NodeT<T>> nodes_;
+    GrowingArray<Lanes3T<T>> blocks_;
+    GrowingArray<std::uint32_t> order_;
 };
 
 /// \}

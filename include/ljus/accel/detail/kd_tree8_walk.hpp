@@ -264,7 +264,7 @@ template <std::floating_point T, typename Center, typename Expect>
 void find_in_balls(const KdTree8PartsT<T>& tree, std::size_t balls, Center center,
                    T radius, Expect expect, BallBlocks& found) {
     const auto reach = ReachT<T>::ball(radius);
-    const auto& [shape, nodes, blocks] = tree;
+    const KdTree8Shape& shape = tree.shape;
     found.here.clear();
     found.blocks.clear();
     if (!(radius >= T(0))) return;
@@ -274,7 +274,7 @@ void find_in_balls(const KdTree8PartsT<T>& tree, std::size_t balls, Center cente
         found.below.clear();
         for (const auto& [ball, number] : found.here) {
             const KdTree8NodeT<T>& node =
-                nodes[shape.first[std::size_t(level)] + number];
+                tree.nodes[shape.first[std::size_t(level)] + number];
             std::uint32_t children =
                 lanes_up_to(near2<Expect>(node, center(ball)), reach.last) & all;
             for (; children != 0; children &= children - 1)
@@ -286,7 +286,7 @@ void find_in_balls(const KdTree8PartsT<T>& tree, std::size_t balls, Center cente
     }
     for (const auto& [ball, leaf] : found.here)
         prefetch<KdTree8Shape::leaf_blocks * sizeof(Lanes3T<T>) / 64>(
-            blocks.data() + shape.first_block(shape.halvings, leaf));
+            tree.blocks.data() + shape.first_block(shape.halvings, leaf));
     for (const auto& [ball, leaf] : found.here) {
         const std::size_t first = shape.first_block(shape.halvings, leaf);
         const std::size_t last = shape.first_block(shape.halvings, leaf + 1);

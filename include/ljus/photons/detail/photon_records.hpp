@@ -8,9 +8,11 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "ljus/accel/detail/stored_array.hpp"
 #include "ljus/math/lanes.hpp"
 #include "ljus/parallel.hpp"
 #include "ljus/photons/photon.hpp"
@@ -37,6 +39,7 @@ struct RecordBlockT {
     Lanes3T<T> flux;                 ///< W.
     std::uint16_t light[lane_count]; ///< Indices of their lights.
     std::uint32_t code[lane_count];  ///< Their kinds and normals; see RecordCode.
+    std::uint32_t unused[4]; ///< 0: a file has no bytes that nobody has written.
 };
 
 // A photon's kind and its normal in 32 bits. One instruction shifts eight numbers by
@@ -72,21 +75,58 @@ public:
     /// No records.
     PhotonRecordsT() = default;
 
-    /// Takes memory for some records; none is there yet.
-    explicit PhotonRecordsT(std::size_t count) { blocks_.reserve((count + 7) / 8); }
+    /// Takes records.
+    /// \param blocks  All of them, in blocks of eight; the last one is padded.
+    /// \param count   Their number.
+    PhotonRecordsT(StoredArray<RecordBlockT<T>> blocks, std::size_t count) noexcept
+        : blocks_(std::move(blocks)), size_(count) {}
 
-    /// Adds the record of a photon. All are there before sort() makes the blocks.
+    /// The number of records.
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    /// Whether there are no records.
+    [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
+    /// The record at an index in the tree's order, below size().
+    [[nodiscard]] PhotonRecordT<T> operator[](std::size_t index) const noexcept {
+        const RecordBlockT<T>& block = blocks_[index / 8];
+        const std::size_t i = index % 8;
+        return {block.direction[i], block.flux[i], block.light[i],
+                RecordCode::kind(block.code[i]), RecordCode::normal(block.code[i])};
+    }
+    /// The size in bytes.
+    [[nodiscard]] std::size_t bytes() const noexcept {
+        return blocks_.span().size_bytes();
+    }
+    /// All records in blocks of eight; the last block is padded with 0.
+    [[nodiscard]] std::span<const RecordBlockT<T>> blocks() const noexcept {
+        return blocks_.span();
+    }
+    /// The same, with the memory that they are in.
+    [[nodiscard]] const StoredArray<RecordBlockT<T>>& stored() const noexcept {
+        return blocks_;
+    }
+
+private:
+    StoredArray<RecordBlockT<T>> blocks_;
+    std::size_t size_ = 0;
+};
+
+/// Records that are added one by one, and then sorted.
+template <std::floating_point T>
+class RecordSorterT {
+public:
+    /// Adds the record of a photon.
     void add(const PhotonT<T>& photon) {
-        if (size_ % 8 == 0) blocks_.emplace_back();
+        if (size_ % 8 == 0) blocks_.resize(size_ / 8 + 1);
         put(size_++,
             {photon.direction, photon.flux, photon.light, photon.kind, photon.normal});
     }
 
-    /// Sorts the records in place, and makes the blocks.
+    /// Sorts the records in place, and makes the blocks; none are left here.
     /// \param order    order[i] is the index of the record that becomes the i-th.
     /// \param threads  As in ParallelSettings.
     /// \cost O(n), and 4 bytes per record.
-    void sort(const std::vector<std::uint32_t>& order, int threads) {
+    [[nodiscard]] PhotonRecordsT<T> sorted(std::span<const std::uint32_t> order,
+                                           int threads) {
         std::vector<std::uint32_t> to(size_);
         for (std::size_t i = 0; i < size_; ++i)
             to[order[i]] = static_cast<std::uint32_t>(i);
@@ -123,26 +163,8 @@ public:
         };
         parallel_blocks(static_cast<long long>(next.size()), settle,
                         {.threads = threads});
-    }
-
-    /// The number of records.
-    [[nodiscard]] std::size_t size() const noexcept { return size_; }
-    /// Whether there are no records.
-    [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
-    /// The record at an index in the tree's order, below size().
-    [[nodiscard]] PhotonRecordT<T> operator[](std::size_t index) const noexcept {
-        const RecordBlockT<T>& block = blocks_[index / 8];
-        const std::size_t i = index % 8;
-        return {block.direction[i], block.flux[i], block.light[i],
-                RecordCode::kind(block.code[i]), RecordCode::normal(block.code[i])};
-    }
-    /// The size in bytes.
-    [[nodiscard]] std::size_t bytes() const noexcept {
-        return blocks_.size() * sizeof(RecordBlockT<T>);
-    }
-    /// All records in blocks of eight; the last block is padded with 0.
-    [[nodiscard]] const std::vector<RecordBlockT<T>>& blocks() const noexcept {
-        return blocks_;
+        blocks_.shrink_to_fit();
+        return {std::move(blocks_), size_};
     }
 
 private:
@@ -170,7 +192,7 @@ private:
         block.code[i] = RecordCode::of(record.kind, record.normal);
     }
 
-    std::vector<RecordBlockT<T>> blocks_;
+    GrowingArray<RecordBlockT<T>> blocks_;
     std::size_t size_ = 0;
 };
 
