@@ -101,6 +101,45 @@ TEST_CASE("all lights: the closed form has no noise where all of a lamp is seen"
     }
 }
 
+TEST_CASE("all lights: faint lamps among others take fewer rays, and lose no light") {
+    CHECK(detail::rays_to(4, 1.0f, 2.0f) == 4);
+    CHECK(detail::rays_to(4, 0.5f, 2.0f) == 2);
+    CHECK(detail::rays_to(4, 0.51f, 2.0f) == 3);
+    CHECK(detail::rays_to(4, 1e-9f, 2.0f) == 1);
+    CHECK(detail::rays_to(4, 0.0f, 0.0f) == 4);
+    const Lambertian white{.albedo = Rgb{0.5f}};
+    // Lamps of side 0.2 in a row, the first of them 9 times as bright: it sends half of
+    // the light to a far point, each other one an eighteenth.
+    const auto row = [&](int lamps) {
+        Lit scene;
+        scene.add(Quad{.corner{-50, 0, -50}, .edge_u{0, 0, 100}, .edge_v{100, 0, 0}},
+                  scene.add(white));
+        const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
+        for (int i = 0; i < lamps; ++i)
+            scene.add(Quad{.corner{0.3f * float(i), 20, -0.1f},
+                           .edge_u{0.2f, 0, 0},
+                           .edge_v{0, 0, 0.2f}},
+                      black, Rgb{i == 0 ? 9.1f : 1.0f});
+        return World(std::move(scene));
+    };
+    const auto rays = [&](const auto& world, int each, float& light) {
+        const Vertex at = below(world, {1.35f, 1, 0});
+        Counts counts;
+        auto stream = random_stream(test_seed(1), Pass::user, 0, 0);
+        auto context = context_of(stream, counts);
+        light =
+            sample_all_lights(world, at, white, {DirectLight::analytic, each}, context)
+                .x;
+        return counts.shadow_rays;
+    };
+    float many = 0, few = 0;
+    const auto ten = row(10);
+    CHECK(rays(ten, 8, many) == 8 + 9);
+    CHECK(rays(ten, 1, few) == 10);
+    CHECK(many == doctest::Approx(few).epsilon(1e-6));
+    CHECK(rays(row(2), 8, many) == 16); // not worth a comparison
+}
+
 TEST_CASE("all lights: in a penumbra the three ways have one mean") {
     // The screen hides, from x, the part of the lamp left of -x. Of 9 comparisons by 4
     // standard errors, one in 1800 runs would fail were the seeds new. The quotient's

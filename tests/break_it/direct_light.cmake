@@ -73,3 +73,9 @@ ljus_break_it(NAME all-lights-branch HEADER path/all_lights.hpp TEST all_lights
     FROM ".branch = std::uint64_t(1) << 44"
     TO   ".branch = 0"
     CASES "all lights: the ray towards a lamp*")
+
+# A faint lamp among many takes as many rays as a bright one alone.
+ljus_break_it(NAME all-lights-faint HEADER path/all_lights.hpp TEST all_lights
+    FROM "if (!(T(2) * sent < all)) return rays;"
+    TO   "if (!(T(0) * sent < T(0) * all)) return rays;"
+    CASES "all lights: faint lamps*")

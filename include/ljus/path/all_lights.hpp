@@ -3,6 +3,8 @@
 /// \file ljus/path/all_lights.hpp
 /// \brief The direct light of all lights at a vertex, by one of three methods.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -61,7 +63,7 @@ template <AnyWorld W, std::floating_point T>
 /// of it, there is no noise. In a penumbra the ratio of two random sums has a bias of
 /// the order of the variance of \f$f\f$ over the number of rays.
 /// \param rays      Number of shadow rays, at least 1.
-/// \param place     Called as place(i) for the i-th sample's point of the unit square.
+/// \param place     Called as place(i, cells) for the point of the i-th of its cells.
 /// \return Radiance towards wo.
 /// \cite heitz2018shadows
 template <AnyWorld W, std::floating_point T, typename Place>
@@ -71,9 +73,10 @@ analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
                const Place& place, Counts& counts, Verdict verdict) {
     RgbT<T> arrived{T(0)}, sent{T(0)}, result{T(0)};
     if (!(lamp.form_factor > T(0))) return result;
+    const Strata cells = strata_for(rays);
     for (int i = 0; i < rays; ++i) {
-        const LightShareT<T> share =
-            light_share(world, light, vertex, material, place(i), {}, counts, verdict);
+        const LightShareT<T> share = light_share(world, light, vertex, material,
+                                                 place(i, cells), {}, counts, verdict);
         arrived += share.arrived;
         sent += share.sent;
     }
@@ -130,6 +133,47 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
     return sum;
 }
 
+/// The sum of the channels of what a lamp would send to a vertex if nothing occluded
+/// it, up to a factor that is the same for all lamps.
+template <std::floating_point T>
+[[nodiscard]] T sent_by(const std::optional<SeenLampT<T>>& lamp) noexcept {
+    if (!lamp) return T(0);
+    return lamp->form_factor * (lamp->radiance.x + lamp->radiance.y + lamp->radiance.z);
+}
+
+/// The lamps with a closed form at a vertex. Some are kept, because a closed form takes
+/// as long as a shadow ray.
+template <std::floating_point T>
+struct SeenLampsT {
+    std::array<std::optional<SeenLampT<T>>, 16> kept{}; ///< The first ones.
+    T sent = T(0); ///< The sum of sent_by() all of them; 0: none was asked.
+};
+
+/// Asks all lamps, if there are more than two: for fewer, the comparison would take
+/// longer than the rays that it saves.
+template <AnyWorld W, std::floating_point T>
+void see_lamps(SeenLampsT<T>& seen, const W& world, const VertexT<T>& vertex) {
+    if (world.light_count() <= 2) return;
+    for (std::uint32_t light = 0; light < world.light_count(); ++light) {
+        const auto lamp = seen_lamp(world, light, vertex);
+        seen.sent += sent_by(lamp);
+        if (light < seen.kept.size()) seen.kept[light] = lamp;
+    }
+}
+
+/// The shadow rays to a lamp: `rays` if it sends half of the light or more, and in
+/// proportion if it sends less. A lamp with the share s of the light then adds s times
+/// the variance of half of it, so that many lamps are no noisier than one.
+/// \param rays  Shadow rays per light, at least 1.
+/// \param sent  sent_by() the lamp.
+/// \param all   SeenLampsT::sent.
+/// \return From 1 to `rays`.
+template <std::floating_point T>
+[[nodiscard]] int rays_to(int rays, T sent, T all) noexcept {
+    if (!(T(2) * sent < all)) return rays;
+    return std::max(1, static_cast<int>(std::ceil(T(2) * T(rays) * sent / all)));
+}
+
 /// Unknown visibility of all lights: every shadow ray is cast.
 struct NoVerdicts {
     /// Verdict::unknown for every light.
@@ -143,7 +187,8 @@ struct NoVerdicts {
 /// Method and number of rays for direct light.
 struct DirectLightSettings {
     DirectLight how = DirectLight::sampled; ///< The method.
-    int rays = 1;                           ///< Shadow rays per light, at least 1.
+    int rays = 1; ///< Shadow rays per light, at least 1; fewer to faint lamps in closed
+                  ///< form.
 };
 
 /// The light of all lights at a surface.
@@ -174,6 +219,10 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
                           both ? MisHeuristic::balance : MisHeuristic::shadow_rays,
                       .factor = T(rays),
                       .lobes = Lobes::non_specular};
+    [[maybe_unused]] detail::SeenLampsT<T> seen;
+    if constexpr (lambertian)
+        if (how == DirectLight::analytic && rays > 1)
+            detail::see_lamps(seen, world, vertex);
     RgbT<T> sum{T(0)};
     for (std::uint32_t light = 0; light < world.light_count(); ++light) {
         const Vec2T<T> u = next_2d<T>(context.stream);
@@ -182,22 +231,26 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
             context.counts.skipped_rays += std::uint64_t(rays);
             continue;
         }
-        const auto place = [&](int i) { // one ray needs no cells
-            if (settings.rays == 1) return u;
+        const auto place = [&](int i, const detail::Strata& cells) {
             const std::uint64_t key =
                 context.stream.key + std::uint32_t(u.x * T(0x1p24));
-            return detail::stratified(strata, i, key, u);
+            return detail::stratified(cells, i, key, u);
         };
         if constexpr (lambertian)
             if (how == DirectLight::analytic)
-                if (const auto lamp = detail::seen_lamp(world, light, vertex)) {
-                    sum += detail::analytic_light(world, light, *lamp, vertex, material,
-                                                  rays, place, context.counts, verdict);
+                if (const auto lamp = seen.sent > T(0) && light < seen.kept.size()
+                                          ? seen.kept[light]
+                                          : detail::seen_lamp(world, light, vertex)) {
+                    sum += detail::analytic_light(
+                        world, light, *lamp, vertex, material,
+                        detail::rays_to(rays, detail::sent_by(lamp), seen.sent), place,
+                        context.counts, verdict);
                     continue;
                 }
         for (int i = 0; i < rays; ++i) {
-            const RgbT<T> found = direct_light(world, light, vertex, material, place(i),
-                                               mis, context.counts, verdict);
+            const Vec2T<T> at = rays == 1 ? u : place(i, strata); // one needs no cells
+            const RgbT<T> found = direct_light(world, light, vertex, material, at, mis,
+                                               context.counts, verdict);
             sum += rays == 1 ? found : found / T(rays);
         }
     }
