@@ -14,6 +14,7 @@
 
 #include "ljus/image/image.hpp"
 #include "ljus/io/detail/byte_reader.hpp"
+#include "ljus/io/detail/srgb_primaries.hpp"
 #include "ljus/io/file.hpp"
 
 namespace ljus {
@@ -140,15 +141,6 @@ inline std::vector<double> header_numbers(const std::string& line, std::size_t n
         numbers.push_back(to_number(line.substr(at, end - at)));
         at = end;
     }
-}
-
-// Whether primaries are about those of sRGB, (x, y) of red, green and blue; the file
-// format's own differ by 0.01. White may be another one.
-inline bool are_srgb_primaries(const std::vector<double>& numbers) {
-    constexpr std::array<double, 6> srgb{0.64, 0.33, 0.3, 0.6, 0.15, 0.06};
-    return numbers.size() >= srgb.size() &&
-           std::equal(srgb.begin(), srgb.end(), numbers.begin(),
-                      [](double a, double b) { return std::abs(a - b) < 0.02; });
 }
 
 } // namespace detail
