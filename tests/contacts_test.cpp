@@ -634,6 +634,10 @@ TEST_CASE("contacts: cylinders and moving balls that touch in a line or a point"
     CHECK(narrow(met(moving(floor, {4, 2, 0}), shape(ball)), {0, 0, 0}, {0, 0, 0}));
     CHECK(narrow(met(moving(floor, {1, 0, 5}), moving(ball, {1, 0, 5})), {0, 0, 0},
                  {1, 0, 5}));
+    // A tile that slides onto another one, and one that does not come so far.
+    const Quad tile = face(0.0f, true, 1.0f), beside = translated(tile, {5, 0, 0});
+    CHECK(met(shape(tile), moving(beside, {-5, 0, 0})).over_area);
+    CHECK(met(shape(tile), moving(beside, {-2, 0, 0})).pairs == 0);
     // Side by side; a ball on a cylinder, and beyond its end; a rod on a tube's inside.
     CHECK(
         narrow(met(shape(tube(0, 0, 1)), shape(tube(2, 2, 1))), {2, 1, 1}, {3, 1, 1}));

@@ -86,7 +86,7 @@ ljus_break_it(NAME contacts-slides HEADER scene/contacts.hpp TEST contacts
 ljus_break_it(NAME contacts-way HEADER geometry/touching.hpp TEST contacts
     FROM "if (way != glm::dvec3(0)) other.facet = around_way(other.facet, way);"
     TO   ""
-    CASES "contacts: what slides*")
+    CASES "contacts: cylinders and moving balls*")
 
 # Water in a tube of glass is met or not, by the order of the list.
 ljus_break_it(NAME contacts-tube HEADER scene/contacts.hpp TEST contacts
