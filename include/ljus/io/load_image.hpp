@@ -235,8 +235,8 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
 ///         turned upright by its EXIF orientation. Pixels behind the end of a palette
 ///         are black.
 /// \throws std::runtime_error  with path and reason, if it is not a picture, or too
-///         large, or if its colours are wanted and the file says that they are not those
-///         of sRGB; std::bad_alloc if there is not enough memory.
+///         large, or if its colours are wanted and the file says that they are not
+///         those of sRGB; std::bad_alloc if there is not enough memory.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path,
                                      long long others = 0,
