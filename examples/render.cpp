@@ -113,6 +113,12 @@ std::string in_options(std::string sentence) {
     return sentence;
 }
 
+/// Prints the remarks of photon maps, and keeps them for the picture's JSON.
+void tell_maps(const std::string& remarks, Request& r) {
+    r.remarks = in_options(remarks);
+    std::fputs(r.remarks.c_str(), stderr);
+}
+
 /// Prints remarks on the terminal, a line each.
 void tell(const std::vector<std::string>& remarks) {
     for (const std::string& remark : remarks)
@@ -151,8 +157,7 @@ RenderedLayersT<typename S::Scalar> map_photons(const FileRoom<S>& room, Request
     examples::stop_if_asked();
     const Passes& passes = mapper.passes();
     const auto& maps = mapper.maps();
-    r.remarks = in_options(maps.remarks);
-    std::fputs(r.remarks.c_str(), stderr);
+    tell_maps(maps.remarks, r);
     if (!r.quiet && (passes.caustics_map || passes.general_map || passes.volume_map)) {
         std::printf("  %-16s %8.2f s\n", "photons", watch.seconds());
         if (passes.caustics_map)
@@ -178,8 +183,12 @@ RenderedT<typename S::Scalar> render_passes(const FileRoom<S>& room, Request& r)
     RenderSettings picture = r.picture;
     picture.progress = r.photon.caustics.progress = r.photon.general.progress = go_on;
     const examples::StopWatch watch;
-    r.photon = settings_for_passes(room.world, r.photon, abilities);
-    examples::stop_if_asked();
+    {
+        const PhotonMapper first(room.world, r.photon, abilities);
+        examples::stop_if_asked();
+        tell_maps(first.maps().remarks, r);
+        r.photon = settings_for_passes(first);
+    }
     RenderedT<typename S::Scalar> rendered;
     const auto pass = [&](long long i, double scale) {
         auto one = photon_mapping_pass(room.world, room.camera, r.photon, picture, i,
@@ -376,6 +385,27 @@ void print_plan(const W& world, const Request& r) {
         for (const std::string& line : survey_hooks(world)) std::puts(line.c_str());
 }
 
+/// Remarks on a camera in a surface, and on a scene without any.
+template <typename S>
+void tell_place(const FileRoom<S>& room) {
+    using T = typename S::Scalar;
+    if (room.world.size() == 0)
+        return tell({"the scene has no objects: nothing but its sky, if it has one, is "
+                     "seen"});
+    const auto& box = room.world.box();
+    const T size = max_component(glm::max(glm::abs(box.low), glm::abs(box.high)));
+    const T reach = T(1e-6) * size;
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3T<T> way{T(0)};
+        way[axis] = T(1);
+        const Vec3T<T> from = room.camera.pinhole.position - reach * way;
+        if (closest_hit(room.world,
+                        RayT<T>{.origin = from, .direction = way, .t_max = 2 * reach}))
+            return tell({"camera.position lies in a surface, which its rays may meet "
+                         "at once or not at all: move it to one side"});
+    }
+}
+
 /// Does what the user asks for, in one precision.
 template <std::floating_point T>
 void run_request(examples::CommandLine& line, Request& r,
@@ -395,6 +425,7 @@ void run_request(examples::CommandLine& line, Request& r,
     else if (!prints)
         check_files(r);
     tell_idle_options(line, r, choose_passes(needs(room.world), r.photon));
+    tell_place(room);
     const bool paths = r.renderer == RendererName::path && r.photons.empty();
     if (paths && (r.plan || !r.hooks)) tell(path_remarks(room.world));
     if (prints) return print_plan(room.world, r);

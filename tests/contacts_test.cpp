@@ -43,6 +43,10 @@ using Everything =
           Materials<LambertianT<T>, GlassT<T>, MirrorT<T>, ThinGlassT<T>, MixtureT<T>>,
           Lights<SunLightT<T>>>;
 
+using Rolling = Scene<
+    Shapes<Quad, Sphere, Cylinder, Moving<Quad>, Moving<Sphere>, Moving<Cylinder>>,
+    Materials<Lambertian, Glass>>;
+
 /// A rectangle in a plane of constant z, around the z axis; it faces up or down.
 template <typename T>
 QuadT<T> face(T z, bool up, T half = T(50)) {
@@ -102,19 +106,25 @@ double transmittance_of(const std::vector<double>& indices, double degrees) {
     return 1 / inverse;
 }
 
-/// The transmittance of a stack of slabs in contact before a lamp of radiance 1.
-/// \param add  Called with the scene and the lamp's black material; adds the slabs.
-template <typename T>
-Mean seen_through(const std::function<void(Everything<T>&)>& add, double degrees,
-                  long long paths = 20000) {
-    Everything<T> scene;
-    add(scene);
+/// The transmittance of bodies before a lamp of radiance 1.
+/// \param scene  The bodies; gets the lamp.
+template <typename T, typename S>
+Mean seen_through_scene(S scene, double degrees, long long paths = 20000) {
     scene.add(face(T(-5), true, T(500)), scene.add(LambertianT<T>{RgbT<T>{0}}),
               RgbT<T>{1});
     const World world(std::move(scene));
     const PathTracer tracer(world, {.roulette_depth = 1000});
     return mean_radiance(tracer, paths, 7,
                          [&](const auto&) { return ray_at<T>(degrees); });
+}
+
+/// The same of a stack of slabs, which add(scene) makes.
+template <typename T>
+Mean seen_through(const std::function<void(Everything<T>&)>& add, double degrees,
+                  long long paths = 20000) {
+    Everything<T> scene;
+    add(scene);
+    return seen_through_scene<T>(std::move(scene), degrees, paths);
 }
 
 /// The mean over the hemisphere of a function of the angle in degrees, weighted by the
@@ -517,6 +527,131 @@ TEST_CASE("contacts: a ball of water that fills a shell of glass") {
     const Mean mean = seen_through<double>(add, 0);
     CAPTURE(mean.mean);
     CHECK(mean.agrees_with(transmittance_of({1, 1.5, 1.33, 1.5, 1}, 0)));
+}
+
+TEST_CASE("contacts: water in a tube of glass, at rest and in motion") {
+    const Cylinder inner{{0, -20, 0}, {0, 40, 0}, 1}, outer{{0, -20, 0}, {0, 40, 0}, 2};
+    const double right = transmittance_of({1, 1.5, 1.33, 1.5, 1}, 0);
+    for (const bool turned : {false, true})
+        for (const bool moves : {false, true}) {
+            Rolling scene;
+            const auto glass = scene.add(Glass{1.5f}), water = scene.add(Glass{1.33f});
+            // All of it together; rays are of time 0.
+            const auto add = [&](const Cylinder& tube, MaterialId of, bool inside_out) {
+                if (moves)
+                    scene.add(Moving<Cylinder>{tube, {1, 0, 3}}, of, {}, inside_out);
+                else
+                    scene.add(tube, of, {}, inside_out);
+            };
+            if (turned) add(inner, glass, true);
+            add(inner, water, false);
+            if (!turned) add(inner, glass, true);
+            add(outer, glass, false);
+            const Mean mean = seen_through_scene<float>(std::move(scene), 0);
+            CAPTURE(turned);
+            CAPTURE(moves);
+            CAPTURE(mean.mean);
+            CHECK(mean.agrees_with(right));
+        }
+}
+
+TEST_CASE("contacts: balls that move together are met as one at rest") {
+    for (const bool turned : {false, true})
+        for (const float apart : {0.0f, 0.5f}) {
+            Rolling scene;
+            const auto glass = scene.add(Glass{1.5f}), water = scene.add(Glass{1.33f});
+            const Moving<Sphere> ball{{{0, 0, 0}, 1}, {8, 0, 2}};
+            const Moving<Sphere> other{{{0, 0, 0}, 1}, {8, apart, 2}};
+            if (turned) scene.add(ball, glass, {}, true);
+            scene.add(other, water);
+            if (!turned) scene.add(ball, glass, {}, true);
+            const World world(std::move(scene));
+            REQUIRE(world.contacts().pairs.size() == (apart == 0 ? 1 : 0));
+            for (const float time : {0.0f, 0.5f, 1.0f}) {
+                if (apart != 0) continue; // they are in one place for an instant
+                const Ray ray{.origin{8 * time + 0.3f, 0.2f, 20},
+                              .direction{0, 0, -1},
+                              .time = time};
+                const auto hit = closest_hit(world, ray);
+                REQUIRE(hit);
+                const auto place = place_of(world, ray, *hit);
+                CHECK(place.met.shared);
+                CHECK(place.left == glass);
+                CHECK(place.entered == water);
+            }
+        }
+}
+
+TEST_CASE("contacts: cylinders and moving balls that touch in a line or a point") {
+    using Add = std::function<void(Rolling&, MaterialId)>;
+    struct Met {
+        std::size_t pairs = 0;
+        bool over_area = false;
+        Vec3 low{0}, high{0};
+    };
+    const auto met = [](const Add& one, const Add& other) {
+        std::array<Met, 2> is;
+        for (std::size_t turned = 0; turned < 2; ++turned) {
+            Rolling scene;
+            const auto glass = scene.add(Glass{}), water = scene.add(Glass{1.33f});
+            if (turned != 0) other(scene, water);
+            one(scene, glass);
+            if (turned == 0) other(scene, water);
+            const World world(std::move(scene));
+            const auto& pairs = world.contacts().pairs;
+            if (!pairs.empty())
+                is[turned] = {pairs.size(), pairs[0].over_area, Vec3(pairs[0].box.low),
+                              Vec3(pairs[0].box.high)};
+        }
+        CHECK(is[0].pairs == is[1].pairs);
+        CHECK(is[0].over_area == is[1].over_area);
+        return is[0];
+    };
+    // Whether it is a small neighbourhood of a line or a point.
+    const auto narrow = [](const Met& is, const Vec3& low, const Vec3& high) {
+        return is.pairs == 1 && !is.over_area &&
+               max_component(glm::abs(is.low - low)) < 0.05f &&
+               max_component(glm::abs(is.high - high)) < 0.05f;
+    };
+    const auto shape = [](const auto& of) -> Add {
+        return [of](Rolling& scene, MaterialId material) { scene.add(of, material); };
+    };
+    const auto moving = [&](const auto& of, const Vec3& way) -> Add {
+        return shape(Moving{of, way});
+    };
+    const auto tube = [](float x, float y, float z) {
+        return Cylinder{{x, y, z}, {3, 0, 0}, 1};
+    };
+    const Quad floor = face(0.0f, true, 9.0f);
+    const Sphere ball{{0, 0, 1}, 1};
+    CHECK(narrow(met(shape(floor), shape(tube(0, 0, 1))), {0, 0, 0}, {3, 0, 0}));
+    CHECK(met(shape(floor), shape(tube(0, 0, 1.01f))).pairs == 0);
+    CHECK(met(shape(floor), shape(Cylinder{{0, 0, 1}, {3, 0, 1}, 0.5f})).pairs == 0);
+    // A ball that rolls over the floor, and one that is lifted; a floor beneath a ball;
+    // both together in a lift.
+    CHECK(narrow(met(shape(floor), moving(ball, {4, 2, 0})), {0, 0, 0}, {4, 2, 0}));
+    CHECK(met(shape(floor), moving(ball, {4, 2, 1})).pairs == 0);
+    CHECK(narrow(met(moving(floor, {4, 2, 0}), shape(ball)), {0, 0, 0}, {0, 0, 0}));
+    CHECK(narrow(met(moving(floor, {1, 0, 5}), moving(ball, {1, 0, 5})), {0, 0, 0},
+                 {1, 0, 5}));
+    // A tile that slides onto another one, and one that does not come so far.
+    const Quad tile = face(0.0f, true, 1.0f), beside = translated(tile, {5, 0, 0});
+    CHECK(met(shape(tile), moving(beside, {-5, 0, 0})).over_area);
+    CHECK(met(shape(tile), moving(beside, {-2, 0, 0})).pairs == 0);
+    // Side by side; a ball on a cylinder, and beyond its end; a rod on a tube's inside.
+    CHECK(
+        narrow(met(shape(tube(0, 0, 1)), shape(tube(2, 2, 1))), {2, 1, 1}, {3, 1, 1}));
+    CHECK(narrow(met(shape(tube(-1, 2, 1)), shape(ball)), {0, 1, 1}, {0, 1, 1}));
+    CHECK(met(shape(tube(1, 2, 1)), shape(ball)).pairs == 0);
+    CHECK(met(shape(Cylinder{{0, 0, 0.5f}, {3, 0, 0}, 0.5f}), shape(tube(0, 0, 1)))
+              .pairs == 1);
+    // A rod in a tube, also one that slides; end to end; one that is turned.
+    CHECK(met(shape(tube(0, 0, 1)), shape(tube(1, 0, 1))).over_area);
+    CHECK(met(shape(tube(0, 0, 1)), moving(tube(5, 0, 1), {-3, 0, 0})).over_area);
+    CHECK(met(shape(tube(0, 0, 1)), moving(tube(5, 0, 1), {-1, 0, 0})).pairs == 0);
+    CHECK(met(shape(tube(0, 0, 1)), shape(tube(3, 0, 1))).pairs == 0);
+    CHECK(met(shape(tube(0, 0, 1)), shape(Cylinder{{0, 0, 1}, {3, 1, 0}, 1})).pairs ==
+          0);
 }
 
 TEST_CASE("contacts: which of two surfaces counts") {

@@ -47,6 +47,21 @@ TEST_CASE("load_stl: two solids, capital letters, polygons, and attributes") {
     CHECK(area(loaded.parts.at(0).mesh) == 4);
     CHECK(loaded.report.content.objects == 2);
     CHECK(loaded.report[MeshTrouble::edge_open].line == 8);
+    // All in capitals; and a normal that points to the other side than the corners say.
+    for (const std::string up : {"1", "-1", "0", "NAN"}) {
+        const auto capital =
+            read_stl(bytes_of("SOLID A\nFACET NORMAL 0 0 " + up +
+                              "\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 2 0 0\nVERTEX 2 2 0\n"
+                              "ENDLOOP\nENDFACET\nENDSOLID A\n"),
+                     "x.stl");
+        CHECK(area(capital.parts.at(0).mesh) == 2);
+        CHECK(capital.report[MeshTrouble::turned].count == (up == "-1" ? 1 : 0));
+    }
+    Bytes turned = stl_bytes(
+        {.positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles{{0, 1, 2}}}, false);
+    turned[84 + 10] = 0x80; // the normal becomes (0, 0, -1)
+    turned[84 + 11] = 0xbf;
+    CHECK(read_stl(turned, "x.stl").report[MeshTrouble::turned].count == 1);
     Bytes colored = stl_bytes(ball, false);
     colored[84 + 48] = 7;
     CHECK(to_text(read_stl(colored, "x.stl").report) ==

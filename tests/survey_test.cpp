@@ -118,7 +118,8 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
           "7 of 8 objects reflect diffusely, lit by 1 light(s)");
     CHECK(plan.indirect_rays.on);
     CHECK(plan.caustics_map.on);
-    CHECK(plan.caustics_map.why == "1 of 8 objects mirror or refract");
+    CHECK(plan.caustics_map.why ==
+          "1 of 8 objects mirror or refract; radius 0.1 in a scene 2 across");
     CHECK_FALSE(plan.general_map.on);
     CHECK(plan.general_map.why == "no ray uses it");
     CHECK_FALSE(plan.shadow_photons.on);
@@ -236,7 +237,8 @@ TEST_CASE("survey: the lines as they are printed, and one photon is enough") {
     CHECK(plan.caustics_map.on);
     CHECK(plan.general_map.on);
     CHECK(plan.shadow_photons.why == "the general map keeps them");
-    CHECK(plan.general_map.why == "it provides indirect light");
+    CHECK(plan.general_map.why ==
+          "it provides indirect light; radius 0.3 in a scene 2 across");
     CHECK(plan.indirect_rays.why == "7 of 8 objects light each other");
     CHECK(to_text(plan.tree) ==
           "tree             on   8 objects, a tree finds the first on a ray\n");
@@ -598,7 +600,7 @@ TEST_CASE("survey: narrow gloss is a mirror to those who look irradiance up") {
             CHECK(plan.caustics_map.on == mirror);
             CHECK(plan.caustics_map.why ==
                   (mirror ? "1 of 2 objects are nearly mirrors, whose light is blurred "
-                            "as a caustic"
+                            "as a caustic; radius 0.1 in a scene 18 across"
                           : "no object mirrors or refracts"));
             CHECK(plan.remarks.empty());
             CHECK(choose_passes(needs(world), settings).gloss_as_mirrors == mirror);

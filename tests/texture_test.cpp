@@ -500,10 +500,287 @@ TEST_CASE("texture: a PNG file of another kind, and one of another gamma") {
     CHECK(shown(with("sRGB", 0, false)) == srgb);
     // Primaries and transfer by number: of sRGB, of HDR television, of Display P3.
     CHECK(shown(with("cICP", 0x010d0001, true)) == srgb);
-    for (const std::uint32_t other : {0x09100001u, 0x0c0d0001u, 0x01080001u})
+    for (const std::uint32_t other :
+         {0x09100001u, 0x0c0d0001u, 0x01080001u, 0x010d0000u})
         CHECK_THROWS_WITH((void)shown(with("cICP", other, true)),
-                          "a is a PNG file whose colours are not those of sRGB, as its "
-                          "cICP chunk says; save it as sRGB.");
+                          "a has other colours than those of sRGB, as its cICP chunk "
+                          "says; save it as sRGB.");
+}
+
+namespace {
+
+void add_big(Bytes& to, std::uint32_t value, int bytes) {
+    for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8)
+        to.push_back(static_cast<unsigned char>(value >> shift & 255u));
+}
+void add_text(Bytes& to, std::string_view text) {
+    to.insert(to.end(), text.begin(), text.end());
+}
+
+Bytes curve_of_gamma(double gamma) {
+    Bytes curve;
+    add_text(curve, {"curv\0\0\0\0\0\0\0\1", 12});
+    add_big(curve, std::uint32_t(std::lround(gamma * 256)), 2);
+    return curve;
+}
+Bytes curve_of_table(double (*decode)(double)) {
+    Bytes curve;
+    add_text(curve, {"curv\0\0\0\0\0\0\4\0", 12});
+    for (int i = 0; i < 1024; ++i)
+        add_big(curve, std::uint32_t(65535 * decode(i / 1023.0)), 2);
+    return curve;
+}
+Bytes curve_of_numbers(std::uint32_t kind, const std::vector<double>& numbers) {
+    Bytes curve;
+    add_text(curve, {"para\0\0\0\0", 8});
+    add_big(curve, kind << 16, 4);
+    for (const double x : numbers)
+        add_big(curve, std::uint32_t(std::lround(x * 65536)), 4);
+    return curve;
+}
+
+using Columns = std::array<double, 9>; // X, Y, Z of red, of green, of blue
+constexpr Columns of_srgb{0.4360, 0.2225, 0.0139, 0.3851, 0.7169,
+                          0.0971, 0.1431, 0.0606, 0.7139};
+constexpr Columns of_p3{0.5151, 0.2412, -0.0011, 0.2920, 0.6922,
+                        0.0419, 0.1571, 0.0666,  0.7841};
+constexpr Columns of_adobe{0.6097, 0.3111, 0.0195, 0.2053, 0.6257,
+                           0.0609, 0.1492, 0.0632, 0.7446};
+
+// With its name in UTF-16, as profiles of version 4 have it, or in ASCII.
+Bytes profile_of(std::string_view name, bool wide, const Columns& columns,
+                 const Bytes& curve, std::string_view space = "RGB ") {
+    std::vector<std::pair<std::string, Bytes>> tags;
+    Bytes said;
+    if (wide) {
+        add_text(said, {"mluc\0\0\0\0\0\0\0\1\0\0\0\x0c"
+                        "enUS",
+                        20});
+        add_big(said, std::uint32_t(2 * name.size()), 4);
+        add_big(said, 28, 4);
+        for (const char c : name) add_big(said, static_cast<unsigned char>(c), 2);
+    } else {
+        add_text(said, {"desc\0\0\0\0", 8});
+        add_big(said, std::uint32_t(name.size() + 1), 4);
+        add_text(said, name);
+        said.push_back(0);
+    }
+    tags.emplace_back("desc", said);
+    if (space == "GRAY") tags.emplace_back("kTRC", curve);
+    for (std::size_t k = 0; k < 3 && space == "RGB " && !curve.empty(); ++k) {
+        Bytes column;
+        add_text(column, {"XYZ \0\0\0\0", 8});
+        for (std::size_t i = 0; i < 3; ++i)
+            add_big(column, std::uint32_t(std::lround(columns[3 * k + i] * 65536)), 4);
+        tags.emplace_back(std::string(1, "rgb"[k]) + "XYZ", column);
+        tags.emplace_back(std::string(1, "rgb"[k]) + "TRC", curve);
+    }
+    Bytes profile(16), data;
+    add_text(profile, space);
+    add_text(profile, "XYZ ");
+    profile.resize(36);
+    add_text(profile, "acsp");
+    profile.resize(128);
+    add_big(profile, std::uint32_t(tags.size()), 4);
+    for (const auto& [tag, content] : tags) {
+        add_text(profile, tag);
+        add_big(profile, std::uint32_t(132 + 12 * tags.size() + data.size()), 4);
+        add_big(profile, std::uint32_t(content.size()), 4);
+        data.insert(data.end(), content.begin(), content.end());
+    }
+    profile.insert(profile.end(), data.begin(), data.end());
+    return profile;
+}
+
+// Behind the head of a PNG file, which ends at byte 33.
+Bytes png_with(Bytes file, std::string_view name, const Bytes& content) {
+    Bytes chunk;
+    add_big(chunk, std::uint32_t(content.size()), 4);
+    add_text(chunk, name);
+    chunk.insert(chunk.end(), content.begin(), content.end());
+    add_big(chunk, detail::png_sum(chunk, 4, chunk.size()), 4);
+    file.insert(file.begin() + 33, chunk.begin(), chunk.end());
+    return file;
+}
+
+// In one block of zlib that is not packed.
+Bytes png_with_profile(const Bytes& file, const Bytes& profile) {
+    Bytes content;
+    add_text(content, {"a name\0\0\x78\1\1", 11});
+    for (const unsigned flip : {0u, 0xffffu}) {
+        content.push_back(static_cast<unsigned char>((profile.size() ^ flip) & 255u));
+        content.push_back(static_cast<unsigned char>((profile.size() ^ flip) >> 8));
+    }
+    content.insert(content.end(), profile.begin(), profile.end());
+    content.resize(content.size() + 4); // a sum that nobody reads
+    return png_with(file, "iCCP", content);
+}
+
+// Behind the first mark of a JPEG file.
+Bytes jpeg_with(Bytes file, unsigned kind, std::string_view head,
+                const Bytes& content) {
+    Bytes segment{0xff, static_cast<unsigned char>(kind)};
+    add_big(segment, std::uint32_t(2 + head.size() + content.size()), 2);
+    add_text(segment, head);
+    segment.insert(segment.end(), content.begin(), content.end());
+    file.insert(file.begin() + 2, segment.begin(), segment.end());
+    return file;
+}
+
+} // namespace
+
+TEST_CASE("texture: colours of other profiles are refused by their name") {
+    const auto said = [](const Bytes& file, PictureContent content) -> std::string {
+        try {
+            (void)decode_image(file, "a", 0, content);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const auto other = [](const std::string& what) {
+        return "a has other colours than those of sRGB, as " + what +
+               " says; save it as sRGB.";
+    };
+    const Bytes png = encode_png(make_image<float>(2, 1, Rgb{0.5f}));
+    const Bytes jpeg = load_file(LJUS_TEST_INPUTS "/turned_padded.jpg", 1 << 20);
+    const Bytes gamma = curve_of_gamma(2.2), table = curve_of_table(srgb_decode);
+    const Bytes numbers =
+        curve_of_numbers(3, {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045});
+    REQUIRE(said(jpeg, PictureContent::colors).empty());
+
+    struct Row {
+        Bytes profile;
+        std::string why;
+    };
+    const std::array rows{
+        Row{profile_of("sRGB IEC61966-2.1", false, of_srgb, table), ""},
+        Row{profile_of("sRGB", true, of_srgb, numbers), ""},
+        Row{profile_of("c2", false, of_srgb, gamma), ""},
+        // Of tables alone.
+        Row{profile_of("sRGB v4 ICC preference", true, of_srgb, {}), ""},
+        Row{profile_of("ProPhoto RGB", true, of_srgb, {}), "'ProPhoto RGB'"},
+        Row{profile_of("Gray Gamma 2.2", true, {}, gamma, "GRAY"), ""},
+        Row{profile_of("Dot Gain 20%", true, {}, curve_of_gamma(1.75), "GRAY"),
+            "'Dot Gain 20%'"},
+        Row{profile_of("Display P3", true, of_p3, numbers), "'Display P3'"},
+        Row{profile_of("Adobe RGB (1998)", false, of_adobe, curve_of_gamma(2.199)),
+            "'Adobe RGB (1998)'"},
+        Row{profile_of("linear sRGB", true, of_srgb, curve_of_gamma(1)),
+            "'linear sRGB'"},
+        Row{profile_of("1.8", true, of_srgb, curve_of_numbers(0, {1.8})), "'1.8'"},
+        Row{profile_of("SWOP", false, {}, {}, "CMYK"), "'SWOP'"},
+        Row{Bytes(200), ""},
+    };
+    for (const Row& row : rows) {
+        const bool damaged = row.profile.size() == 200;
+        const std::string why = damaged ? other("its colour profile")
+                                : row.why.empty()
+                                    ? ""
+                                    : other("its colour profile " + row.why);
+        CHECK(said(png_with_profile(png, row.profile), PictureContent::colors) == why);
+        // A JPEG file has it in pieces, in any order.
+        const auto half = row.profile.begin() + 100;
+        Bytes file = jpeg_with(jpeg, 0xe2, {"ICC_PROFILE\0\1\2", 14},
+                               Bytes(row.profile.begin(), half));
+        file = jpeg_with(file, 0xe2, {"ICC_PROFILE\0\2\2", 14},
+                         Bytes(half, row.profile.end()));
+        CHECK(said(file, PictureContent::colors) == why);
+        // What is no colour is read as it is.
+        CHECK(said(file, PictureContent::numbers).empty());
+    }
+    // Not packed as it should be.
+    CHECK(said(png_with(png, "iCCP", {'a', 0, 0, 1, 2, 3}), PictureContent::colors) ==
+          other("its colour profile"));
+    CHECK(said(png_with(png, "iCCP", {'a', 'b'}), PictureContent::colors) ==
+          other("its colour profile"));
+
+    // Primaries by themselves, behind those of white; of two chunks, sRGB counts.
+    const auto primaries = [](std::initializer_list<std::uint32_t> all) {
+        Bytes content;
+        for (const std::uint32_t x : all) add_big(content, x, 4);
+        return content;
+    };
+    const Bytes those =
+        primaries({31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000});
+    const Bytes adobe =
+        primaries({31270, 32900, 64000, 33000, 21000, 71000, 15000, 6000});
+    CHECK(said(png_with(png, "cHRM", those), PictureContent::colors).empty());
+    CHECK(said(png_with(png, "cHRM", adobe), PictureContent::colors) ==
+          other("its cHRM chunk"));
+    CHECK(said(png_with(png_with(png, "cHRM", adobe), "sRGB", {0}),
+               PictureContent::colors)
+              .empty());
+
+    // What a camera that is set to Adobe RGB writes: no profile, but the rule R03 in a
+    // list of the list of EXIF fields. And the number of Adobe RGB.
+    const auto exif = [](bool by_rule) {
+        Bytes tiff;
+        const auto field = [&](std::uint32_t name, std::uint32_t kind,
+                               std::uint32_t value) {
+            add_big(tiff, 1, 2);
+            add_big(tiff, name, 2);
+            add_big(tiff, kind, 2);
+            add_big(tiff, kind == 2 ? 4 : 1, 4);
+            add_big(tiff, value, 4);
+            add_big(tiff, 0, 4);
+        };
+        add_text(tiff, {"MM\0*\0\0\0\x08", 8});
+        field(0x8769, 4, 26);
+        if (by_rule)
+            field(0xa005, 4, 44);
+        else
+            field(0xa001, 3, 2 << 16);
+        field(1, 2, 0x52303300);
+        return tiff;
+    };
+    for (const bool by_rule : {true, false}) {
+        const Bytes file = jpeg_with(jpeg, 0xe1, {"Exif\0\0", 6}, exif(by_rule));
+        CHECK(said(file, PictureContent::colors) == other("its EXIF data"));
+        CHECK(said(jpeg_with(file, 0xe2, {"ICC_PROFILE\0\1\1", 14}, rows[0].profile),
+                   PictureContent::colors)
+                  .empty());
+    }
+
+    // BMP: one white pixel, with the longest head.
+    const auto bmp = [&](std::uint32_t kind, const Bytes& profile,
+                         bool primaries_of_p3) {
+        Bytes file(14 + 124 + 4);
+        const auto put = [&](std::size_t at, std::uint32_t value) {
+            for (std::size_t k = 0; k < 4; ++k)
+                file[at + k] = static_cast<unsigned char>(value >> 8 * k);
+        };
+        file[0] = 'B';
+        file[1] = 'M';
+        put(10, 138);
+        put(14, 124);
+        put(18, 1);
+        put(22, 1);
+        put(26, 1 | 24 << 16);
+        put(70, kind);
+        const std::array<double, 6> p3{0.68, 0.32, 0.265, 0.69, 0.15, 0.06};
+        for (std::size_t k = 0; k < 3 && primaries_of_p3; ++k) {
+            const double x = p3[2 * k], y = p3[2 * k + 1];
+            put(74 + 12 * k, std::uint32_t(x * (1 << 30)));
+            put(78 + 12 * k, std::uint32_t(y * (1 << 30)));
+            put(82 + 12 * k, std::uint32_t((1 - x - y) * (1 << 30)));
+        }
+        put(126, 128);
+        put(130, std::uint32_t(profile.size()));
+        file.insert(file.end(), profile.begin(), profile.end());
+        return file;
+    };
+    const std::uint32_t embedded = 0x4d424544, linked = 0x4c494e4b, srgb = 0x73524742;
+    const auto bmp_said = [&](std::uint32_t kind, const Bytes& profile, bool p3) {
+        return said(bmp(kind, profile, p3), PictureContent::colors);
+    };
+    CHECK(bmp_said(0, {}, false).empty());
+    CHECK(bmp_said(srgb, {}, true).empty());
+    CHECK(bmp_said(0, {}, true) == other("its header"));
+    CHECK(bmp_said(linked, {}, false) == other("the colour profile that it names"));
+    CHECK(bmp_said(embedded, rows[0].profile, false).empty());
+    CHECK(bmp_said(embedded, rows[7].profile, false) ==
+          other("its colour profile 'Display P3'"));
 }
 
 TEST_CASE("texture: a photograph stands upright, as its EXIF segment says") {

@@ -69,7 +69,7 @@ inline void check_pass_files(const PassOptions& how) {
 /// \return The state after the last pass.
 /// \throws Interrupted  after Ctrl-C; the passes done so far are in the checkpoint.
 /// \throws std::invalid_argument  if the checkpoint is of another picture, with what
-///                                differs.
+///                                differs, or has more passes.
 template <typename RenderPass>
 [[nodiscard]] ljus::ProgressiveState run_passes(const PassOptions& how, bool quiet,
                                                 RenderPass&& pass) {
@@ -89,6 +89,11 @@ template <typename RenderPass>
     if (how.resume) {
         state = load_checkpoint(how.checkpoint);
         require_same_picture(how.checkpoint, state.picture, how.picture);
+        if (state.passes > how.passes) // it would be saved as one of fewer passes
+            throw std::invalid_argument("--passes is " + std::to_string(how.passes) +
+                                        "; it must be at least " +
+                                        std::to_string(state.passes) + ", as '" +
+                                        how.checkpoint + "' has so many already.");
         require_first_pass(state, pass);
         say(state.passes);
     }

@@ -42,8 +42,8 @@ ljus_break_it(NAME contacts-edge HEADER geometry/touching.hpp TEST contacts
 
 # Planes at a right angle are in contact.
 ljus_break_it(NAME contacts-plane HEADER geometry/touching.hpp TEST contacts
-    FROM ": over_area &&"
-    TO   ":"
+    FROM "!(std::abs(low) <= distance && std::abs(high) <= distance) ||"
+    TO   ""
     CASES "contacts: what only shares an edge*")
 
 # The search takes the look of a node's first part for that of all.
@@ -72,12 +72,36 @@ ljus_break_it(NAME contacts-remark HEADER render/passes.hpp TEST contacts
 
 # A disc in the plane of a floor is met or not, by the order of the list.
 ljus_break_it(NAME contacts-disc HEADER scene/contacts.hpp TEST contacts
-    FROM "is_facet<G> || is_disc<G> || is_ball<G>"
-    TO   "is_facet<G> || is_ball<G>"
+    FROM "is_disc<G> || is_tube<G> ||"
+    TO   "is_tube<G> ||"
     CASES "contacts: a disc*")
 
 # A rug that is pulled over the floor is met or not, by the order of the list.
 ljus_break_it(NAME contacts-slides HEADER scene/contacts.hpp TEST contacts
-    FROM "return slides(facet_of(shape.shape), glm::dvec3(shape.displacement)) ? 1 : 0;"
+    FROM "return piece_count(shape.shape);"
     TO   "return 0;"
     CASES "contacts: what slides*")
+
+# The places that what slides comes to are left out.
+ljus_break_it(NAME contacts-way HEADER geometry/touching.hpp TEST contacts
+    FROM "if (way != glm::dvec3(0)) other.facet = around_way(other.facet, way);"
+    TO   ""
+    CASES "contacts: cylinders and moving balls*")
+
+# Water in a tube of glass is met or not, by the order of the list.
+ljus_break_it(NAME contacts-tube HEADER scene/contacts.hpp TEST contacts
+    FROM "is_tube<G> || is_ball<G>"
+    TO   "is_ball<G>"
+    CASES "contacts: water in a tube*")
+
+# Two rods end to end share more than an edge.
+ljus_break_it(NAME contacts-end-to-end HEADER geometry/touching.hpp TEST contacts
+    FROM "!(last - first > (tubes ? distance : -distance))"
+    TO   "false"
+    CASES "contacts: cylinders and moving balls*")
+
+# What moves together is compared where it was first.
+ljus_break_it(NAME contacts-together HEADER geometry/touching.hpp TEST contacts
+    FROM "time * piece.displacement"
+    TO   "0.0 * time * piece.displacement"
+    CASES "contacts: balls that move together*")

@@ -35,7 +35,13 @@ ljus_break_it(NAME hdr-color-correction HEADER io/hdr.hpp TEST hdr
     CASES "hdr: the colour correction*")
 
 # Colours of other primaries are taken for those of sRGB.
-ljus_break_it(NAME hdr-primaries HEADER io/hdr.hpp TEST hdr
+ljus_break_it(NAME hdr-primaries HEADER io/detail/srgb_primaries.hpp TEST hdr
     FROM "std::abs(a - b) < 0.02"
     TO   "std::abs(a - b) < 2"
+    CASES "hdr: the colour correction*")
+
+# A picture of a screen is taken for radiance.
+ljus_break_it(NAME hdr-gamma HEADER io/hdr.hpp TEST hdr
+    FROM "!= std::vector<double>{1.0})"
+    TO   "== std::vector<double>{0.0})"
     CASES "hdr: the colour correction*")

@@ -15,3 +15,9 @@ ljus_break_it(NAME stl-merge HEADER io/load_stl.hpp TEST load_stl
     FROM "mesh.add_corner(vertex[equal[next]], detail::no_number,"
     TO   "mesh.add_corner(std::uint32_t(next % mesh.counts()[0]), detail::no_number,"
     CASES "load_stl: a mesh is the same*")
+
+# A triangle that is turned over is not remarked on.
+ljus_break_it(NAME stl-turned HEADER io/load_stl.hpp TEST load_stl
+    FROM "report.add(MeshTrouble::turned, static_cast<long long>(place));"
+    TO   ";"
+    CASES "load_stl: two solids*")

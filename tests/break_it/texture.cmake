@@ -199,7 +199,31 @@ ljus_break_it(NAME bmp-palette HEADER io/load_image.hpp TEST texture
     CASES "texture: BMP files*")
 
 # The brightness of an HDR picture is taken for that of a plain one.
-ljus_break_it(NAME png-cicp HEADER io/detail/picture_damage.hpp TEST texture
-    FROM "|| byte_at(file, at + 1) != 13"
+ljus_break_it(NAME png-cicp HEADER io/detail/picture_colors.hpp TEST texture
+    FROM "byte_at(file, by_number + 1) == 13 &&"
     TO   ""
     CASES "texture: a PNG file of another kind*")
+
+# The colours of a screen or a camera are taken for those of sRGB.
+ljus_break_it(NAME profile-primaries HEADER io/detail/picture_colors.hpp TEST texture
+    FROM "- xyz[k]) < 0.01"
+    TO   "- xyz[k]) < 9"
+    CASES "texture: colours of other profiles*")
+
+# So are colours that are linear.
+ljus_break_it(NAME profile-curve HEADER io/detail/picture_colors.hpp TEST texture
+    FROM "- srgb_decode(x)) < 0.01"
+    TO   "- srgb_decode(x)) < 9"
+    CASES "texture: colours of other profiles*")
+
+# The primaries of a PNG file without a profile are passed over.
+ljus_break_it(NAME png-primaries HEADER io/detail/picture_colors.hpp TEST texture
+    FROM "srgb != 0 || primaries == 0"
+    TO   "true"
+    CASES "texture: colours of other profiles*")
+
+# A normal map is refused for its profile, which says nothing of its numbers.
+ljus_break_it(NAME profile-numbers HEADER io/load_image.hpp TEST texture
+    FROM "if (colors && !says.empty())"
+    TO   "if (!says.empty())"
+    CASES "texture: colours of other profiles*")

@@ -122,6 +122,25 @@ done
 grep -q '^of 500 general photons .* landed twice or more, fewer than 1024' err.txt ||
     wrong "no remark on few photons: $(cat err.txt)"
 json_has '"remarks": "of 500 general photons'
+# So is a camera in a surface, which may see nothing else.
+sed 's/"position": \[0, 1, 4.5\]/"position": [0, 0, 1]/' "$scene" >floor.json
+"$render" floor.json "${few[@]}" --quiet --out choice.pfm 2>err.txt
+grep -q '^camera.position lies in a surface' err.txt ||
+    wrong "no remark on a camera in the floor: $(cat err.txt)"
+"$render" "$scene" "${few[@]}" --quiet --out choice.pfm 2>err.txt
+[ ! -s err.txt ] || wrong "a remark on nothing: $(cat err.txt)"
+# So is a radius in another unit than the scene's, of a picture in passes as well; the plan
+# shows it beside the scene's size.
+for passes in "" "--passes 2"; do
+    "$render" "$scene" "${few[@]}" --caustic-radius 1e-5 $passes --quiet --out choice.pfm \
+        2>err.txt
+    grep -q '^--caustic-radius is 1e-5, and .* most of their light is missed' err.txt ||
+        wrong "no remark on the radius with '$passes': $(cat err.txt)"
+    json_has '"remarks": "--caustic-radius is 1e-5'
+done
+"$render" "$scene" --caustic-radius 1e-5 --plan >plan.txt
+grep -q '^caustics map .*; radius 1e-5 in a scene 3 across$' plan.txt ||
+    wrong "no radius in the plan: $(cat plan.txt)"
 "$render" "$scene" "${few[@]}" --renderer path --path-lights power --quiet --out choice.pfm
 json_has '"path-lights": "power"'
 
@@ -134,6 +153,9 @@ passes=("$scene" "${few[@]}" --caustic-radius 0 --caustic-budget brightness --al
     --resume --preview part.png --every 0
 cmp whole.pfm choice.pfm || wrong "a resumed picture is another"
 [ -s part.png ] || wrong "no preview"
+refused "--passes is 5; it must be at least 6, as 'part.check' has so many already." \
+    "${passes[@]}" --passes 5 --out fewer.pfm --checkpoint part.check --resume
+[ ! -e fewer.pfm ] || wrong "six passes are saved as five"
 json_has '"passes": 6,'
 json_has '"alpha": 0.5'
 json_has '"caustic-shares": \['

@@ -18,11 +18,13 @@ namespace ljus {
 /// \brief A slab that rests on a floor shares its plane. Chapter: \ref ch_refraction.
 /// \{
 
-/// A piece of a surface: a convex polygon, or a sphere, whose facet is its centre.
+/// A piece of a surface: a convex polygon, a sphere, whose facet is its centre, or a
+/// tube, whose facet is the two ends of its axis.
 struct SurfacePiece {
-    Facet facet{};           ///< Three corners or more; of a sphere one.
-    double radius = 0;       ///< Of a sphere; otherwise 0.
+    Facet facet{};           ///< Three corners or more; of a sphere one, of a tube two.
+    double radius = 0;       ///< Of a sphere or a tube; otherwise 0.
     bool inside_out = false; ///< Whether its outside is opposite to its normal.
+    glm::dvec3 displacement{0}; ///< From time 0 to 1, in scene units.
 };
 
 /// What two pieces have in common.
@@ -34,12 +36,14 @@ struct SharedPlace {
 
 namespace detail {
 
-/// The box around a piece.
+/// The box around all places of a piece.
 [[nodiscard, gnu::cold]] inline BoxT<double>
 box_of(const SurfacePiece& piece) noexcept {
     BoxT<double> box;
     for (int i = 0; i < piece.facet.count; ++i)
-        box = box_union(box, piece.facet.corners[std::size_t(i)]);
+        for (const double time : {0.0, 1.0})
+            box = box_union(box, piece.facet.corners[std::size_t(i)] +
+                                     time * piece.displacement);
     return {box.low - piece.radius, box.high + piece.radius};
 }
 
@@ -72,52 +76,177 @@ separated(const Facet& facet, const SurfacePiece& other, double distance) noexce
     return false;
 }
 
+/// Whether a way is within a plane.
+/// \param normal  Of the plane, with any length.
+[[nodiscard, gnu::cold]] inline bool slides(const glm::dvec3& normal,
+                                            const glm::dvec3& way) noexcept {
+    return std::abs(glm::dot(normal, way)) <=
+           1e-6 * glm::length(normal) * glm::length(way);
+}
+
+/// Whether two directions or ways are parallel; 0 is parallel to all.
+[[nodiscard, gnu::cold]] inline bool parallel(const glm::dvec3& a,
+                                              const glm::dvec3& b) noexcept {
+    return glm::length(glm::cross(a, b)) <= 1e-6 * glm::length(a) * glm::length(b);
+}
+
+/// A rectangle around all places of a polygon that slides in its plane. What is met is
+/// found by rays, so that it may be too large.
+[[nodiscard, gnu::cold]] inline Facet around_way(const Facet& facet,
+                                                 const glm::dvec3& way) noexcept {
+    const glm::dvec3 normal = glm::normalize(area_vector(facet));
+    const glm::dvec3 u = glm::normalize(way), v = glm::cross(normal, u);
+    BoxT<double> box; // of the corners, along u and v
+    for (int i = 0; i < facet.count; ++i) {
+        const glm::dvec3 p = facet.corners[std::size_t(i)] - facet.corners[0];
+        for (const glm::dvec3& at : {p, p + way})
+            box = box_union(box, glm::dvec3(glm::dot(at, u), glm::dot(at, v), 0));
+    }
+    const auto corner = [&](double x, double y) {
+        return facet.corners[0] + x * u + y * v;
+    };
+    return {.corners{corner(box.low.x, box.low.y), corner(box.high.x, box.low.y),
+                     corner(box.high.x, box.high.y), corner(box.low.x, box.high.y)},
+            .count = 4};
+}
+
+/// The part of a box that is close to a point where a sphere or a tube touches.
+[[nodiscard, gnu::cold]] inline BoxT<double>
+around_touch(const glm::dvec3& touch, double radius, double distance) noexcept {
+    const double half = std::sqrt(8 * radius * distance) + distance;
+    return {touch - half, touch + half};
+}
+
+/// What two polygons share; the first is the larger one.
+/// \param way  Of the other one, as the first one sees it.
+/// \return As shared_place(); the box may be as large as the other one.
+[[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
+shared_by_polygons(const SurfacePiece& one, SurfacePiece other, const glm::dvec3& way,
+                   double distance) noexcept {
+    const glm::dvec3 a = area_vector(one.facet), b = area_vector(other.facet);
+    if (glm::length(a) == 0 || !slides(a, way)) return std::nullopt;
+    const auto [low, high] = heights_of(other, one.facet.corners[0], glm::normalize(a));
+    if (!(std::abs(low) <= distance && std::abs(high) <= distance) ||
+        glm::dot(a, b) == 0)
+        return std::nullopt;
+    if (way != glm::dvec3(0)) other.facet = around_way(other.facet, way);
+    if (separated(one.facet, other, distance) || separated(other.facet, one, distance))
+        return std::nullopt;
+    return SharedPlace{.box = box_of(other),
+                       .over_area = true,
+                       .alike = (glm::dot(a, b) < 0) !=
+                                (one.inside_out == other.inside_out)};
+}
+
+/// What a polygon and a sphere or a tube share; as shared_by_polygons().
+[[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
+shared_with_polygon(const SurfacePiece& polygon, const SurfacePiece& round,
+                    const glm::dvec3& way, double distance) noexcept {
+    const glm::dvec3 a = area_vector(polygon.facet);
+    if (glm::length(a) == 0 || !slides(a, way)) return std::nullopt;
+    const glm::dvec3 normal = glm::normalize(a);
+    SharedPlace place;
+    bool touches = false;
+    for (int i = 0; i < round.facet.count; ++i) {
+        const glm::dvec3& center = round.facet.corners[std::size_t(i)];
+        const double height = glm::dot(normal, center - polygon.facet.corners[0]);
+        if (!(std::abs(std::abs(height) - round.radius) <= distance)) continue;
+        touches = true;
+        const glm::dvec3 touch = center - height * normal;
+        for (const double time : {0.0, 1.0})
+            place.box =
+                box_union(place.box, around_touch(touch + time * round.displacement,
+                                                  round.radius, distance));
+    }
+    return touches ? std::optional(place) : std::nullopt;
+}
+
+/// What spheres and tubes share; as shared_by_polygons().
+[[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
+shared_by_round(const SurfacePiece& one, const SurfacePiece& other,
+                const glm::dvec3& way, double distance) noexcept {
+    const auto axis_of = [](const SurfacePiece& piece) {
+        return piece.facet.count == 2 ? piece.facet.corners[1] - piece.facet.corners[0]
+                                      : glm::dvec3(0);
+    };
+    const glm::dvec3 a = axis_of(one), b = axis_of(other);
+    const bool tubes = a != glm::dvec3(0) && b != glm::dvec3(0);
+    const glm::dvec3 along = a != glm::dvec3(0) ? a : b;
+    // Otherwise they touch in one point, or for an instant.
+    if (!parallel(a, b) || !parallel(along, way) ||
+        (along == glm::dvec3(0) && way != glm::dvec3(0)))
+        return std::nullopt;
+    const glm::dvec3 u = along != glm::dvec3(0) ? glm::normalize(along) : glm::dvec3(0);
+    const glm::dvec3 from = other.facet.corners[0] - one.facet.corners[0];
+    const glm::dvec3 across = from - glm::dot(from, u) * u;
+    const double apart = glm::length(across);
+    const double low = apart - other.radius, high = apart + other.radius;
+    const bool at_low = std::abs(low + one.radius) <= distance;
+    const bool at_high = std::abs(high - one.radius) <= distance;
+    const bool outside = std::abs(low - one.radius) <= distance;
+    if (!at_low && !at_high && !outside) return std::nullopt;
+    // Where they are along the axis; a sphere is somewhere in it.
+    const auto interval = [&](const SurfacePiece& piece, const glm::dvec3& moved) {
+        std::array<double, 2> ends{std::numeric_limits<double>::infinity(),
+                                   -std::numeric_limits<double>::infinity()};
+        for (int i = 0; i < piece.facet.count; ++i)
+            for (const glm::dvec3& by : {glm::dvec3(0), moved}) {
+                const double at = glm::dot(
+                    piece.facet.corners[std::size_t(i)] + by - one.facet.corners[0], u);
+                ends = {std::min(ends[0], at), std::max(ends[1], at)};
+            }
+        return ends;
+    };
+    const auto mine = interval(one, glm::dvec3(0)), its = interval(other, way);
+    const double first = std::max(mine[0], its[0]), last = std::min(mine[1], its[1]);
+    // End to end, or beyond an end.
+    if (!(last - first > (tubes ? distance : -distance))) return std::nullopt;
+    SharedPlace place{.box = box_of(other),
+                      .over_area =
+                          at_low && at_high && one.facet.count == other.facet.count,
+                      .alike = one.inside_out == other.inside_out};
+    if (!outside || apart == 0) return place;
+    place.box = {};
+    for (const double at : {first, last})
+        for (const double time : {0.0, 1.0})
+            place.box = box_union(
+                place.box,
+                around_touch(one.facet.corners[0] + at * u +
+                                 one.radius / apart * across + time * one.displacement,
+                             std::min(one.radius, other.radius), distance));
+    return place;
+}
+
 } // namespace detail
 
-/// What two pieces of surfaces share.
+/// What two pieces of surfaces share, at any time.
 /// \param one, other  The pieces.
 /// \param distance    Surfaces within this distance count as in one place; scene units.
-/// \return The place; nothing if they cross, or only share an edge or a corner.
+/// \return The place; nothing if they cross, only share an edge or a corner, or meet
+///         for an instant.
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_place(const SurfacePiece& one, const SurfacePiece& other,
              double distance) noexcept {
-    const glm::dvec3 a = detail::area_vector(one.facet); // 0 for a sphere
-    const glm::dvec3 b = detail::area_vector(other.facet);
     // The larger polygon knows its plane better.
-    if (glm::length(a) < glm::length(b)) return shared_place(other, one, distance);
-    // Where `other` lies along the normal of `one`, or away from its centre.
-    const glm::dvec3& point = one.facet.corners[0];
-    const glm::dvec3 across = one.radius > 0 ? other.facet.corners[0] - point : a;
-    const double length = glm::length(across);
-    const glm::dvec3 normal = length > 0 ? across / length : glm::dvec3(0);
-    const auto [low, high] = detail::heights_of(other, point, normal);
-    const bool at_low = std::abs(low + one.radius) <= distance;
-    const bool at_high = std::abs(high - one.radius) <= distance;
-    const bool over_area = at_low && at_high;
-    const bool outside = std::abs(low - one.radius) <= distance;
-    const bool share = other.radius > 0
-                           ? at_low || at_high || outside
-                           : over_area && glm::dot(a, b) != 0 &&
-                                 !detail::separated(one.facet, other, distance) &&
-                                 !detail::separated(other.facet, one, distance);
-    if (!share) return std::nullopt;
+    if (one.radius > 0
+            ? other.radius == 0
+            : other.radius == 0 && glm::length(detail::area_vector(one.facet)) <
+                                       glm::length(detail::area_vector(other.facet)))
+        return shared_place(other, one, distance);
+    glm::dvec3 way = other.displacement - one.displacement;
+    if (glm::length(way) <= distance) way = glm::dvec3(0);
+    const auto shared =
+        one.radius > 0     ? detail::shared_by_round(one, other, way, distance)
+        : other.radius > 0 ? detail::shared_with_polygon(one, other, way, distance)
+                           : detail::shared_by_polygons(one, other, way, distance);
+    if (!shared) return std::nullopt;
     const BoxT<double> box = detail::box_of(one), other_box = detail::box_of(other);
-    glm::dvec3 least = glm::max(box.low, other_box.low) - distance;
-    glm::dvec3 most = glm::min(box.high, other_box.high) + distance;
-    if (!over_area && other.radius > 0 && (outside || one.radius == 0)) {
-        // Where a sphere is this close to a plane, or to a sphere outside of it.
-        const double radius =
-            one.radius > 0 ? std::min(one.radius, other.radius) : other.radius;
-        const double half = std::sqrt(8 * radius * distance) + distance;
-        const glm::dvec3 touch =
-            other.facet.corners[0] - ((low + high) / 2 - one.radius) * normal;
-        least = glm::max(least, touch - half);
-        most = glm::min(most, touch + half);
-    }
-    return SharedPlace{.box{least, most},
-                       .over_area = over_area,
-                       .alike = (glm::dot(a, b) < 0) !=
-                                (one.inside_out == other.inside_out)};
+    SharedPlace place = *shared;
+    place.box = {
+        glm::max(place.box.low, glm::max(box.low, other_box.low) - distance),
+        glm::min(place.box.high, glm::min(box.high, other_box.high) + distance)};
+    if (glm::any(glm::greaterThan(place.box.low, place.box.high))) return std::nullopt;
+    return place;
 }
 
 /// \}

@@ -4,6 +4,7 @@
 /// \brief The survey of a scene: which passes run for it, and why.
 
 #include <array>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -184,11 +185,39 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
 
 } // namespace detail
 
+namespace detail {
+
+// The longest side of the box around a scene, with three digits.
+template <AnyWorld W>
+[[gnu::cold]] std::string extent_of(const W& world) {
+    BoxT<typename W::Scalar> box;
+    for (ObjectId id; id.type < world.objects().size(); ++id.type)
+        for (id.index = 0; id.index < world.objects()[id.type].size(); ++id.index)
+            box = box_union(box, world.visit_shape(id, [](const auto& shape) {
+                return box_around(shape);
+            }));
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g",
+                  double(max_component(box.high - box.low)));
+    return text.data();
+}
+
+} // namespace detail
+
 /// Reports which passes a scene requires.
 /// \return The plan that a PhotonMapper follows.
 template <AnyWorld W>
 [[nodiscard]] Plan survey(const W& world, const PhotonMappingSettings& settings) {
     Plan plan = detail::make_plan(needs(world), settings);
+    // A length in another unit than the scene's is seen beside its size.
+    const auto add_radius = [&](PlanItem& item, float radius) {
+        if (item.on && radius > 0)
+            item.why += "; radius " + to_text(radius) + " in a scene " +
+                        detail::extent_of(world) + " across";
+    };
+    add_radius(plan.caustics_map, settings.caustics_estimate.radius);
+    if (!plan.irradiance.on)
+        add_radius(plan.general_map, settings.general_estimate.radius);
     plan.remarks = scene_remarks(world, settings);
     if constexpr (W::lists_fog)
         if (std::string why = detail::refused_in_fog(world, settings); !why.empty())

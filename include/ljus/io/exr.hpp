@@ -21,6 +21,7 @@
 
 #include "ljus/image/layer.hpp"
 #include "ljus/io/detail/picture_size.hpp"
+#include "ljus/io/detail/srgb_primaries.hpp"
 #include "ljus/io/file.hpp"
 
 namespace ljus {
@@ -139,13 +140,10 @@ public:
         if (exr_attr_get_chromaticities(file_.context, part, "chromaticities", &is) !=
             EXR_ERR_SUCCESS)
             return;
-        const std::array found{is.red_x,   is.red_y,  is.green_x,
-                               is.green_y, is.blue_x, is.blue_y};
-        constexpr std::array srgb{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f};
-        for (std::size_t i = 0; i < srgb.size(); ++i)
-            if (!(std::abs(found[i] - srgb[i]) < 0.02f))
-                refuse("has other primaries than those of sRGB, as its chromaticities "
-                       "say; convert it to them");
+        if (!are_srgb_primaries(std::array{is.red_x, is.red_y, is.green_x, is.green_y,
+                                           is.blue_x, is.blue_y}))
+            refuse("has other primaries than those of sRGB, as its chromaticities say; "
+                   "convert it to them");
     }
 
     // Decodes layers. All pixels together are at most `most`.

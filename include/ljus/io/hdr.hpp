@@ -14,6 +14,7 @@
 
 #include "ljus/image/image.hpp"
 #include "ljus/io/detail/byte_reader.hpp"
+#include "ljus/io/detail/srgb_primaries.hpp"
 #include "ljus/io/file.hpp"
 
 namespace ljus {
@@ -142,24 +143,15 @@ inline std::vector<double> header_numbers(const std::string& line, std::size_t n
     }
 }
 
-// Whether primaries are about those of sRGB, (x, y) of red, green and blue; the file
-// format's own differ by 0.01. White may be another one.
-inline bool are_srgb_primaries(const std::vector<double>& numbers) {
-    constexpr std::array<double, 6> srgb{0.64, 0.33, 0.3, 0.6, 0.15, 0.06};
-    return numbers.size() >= srgb.size() &&
-           std::equal(srgb.begin(), srgb.end(), numbers.begin(),
-                      [](double a, double b) { return std::abs(a - b) < 0.02; });
-}
-
 } // namespace detail
 
 /// Loads a Radiance file: RGBE, rows from the top, plain or run-length coded.
 /// \return Its image, divided by the EXPOSURE and COLORCORR lines of the header, which
 ///     gives radiance.
 /// \throws std::runtime_error  with path and reason, if it cannot be read, is of an
-///     unsupported kind (XYZE, other primaries than those of sRGB, another pixel order,
-///     the run-length coding from before 1991), or is shorter or longer than its header
-///     says.
+///     unsupported kind (XYZE, other primaries than those of sRGB, a gamma, another
+///     pixel order, the run-length coding from before 1991), or is shorter or longer
+///     than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_hdr(const std::string& path) {
     detail::ByteReader reader{path, load_file(path, 8 * std::size_t(max_pixels), "#?")};
@@ -174,6 +166,9 @@ template <std::floating_point T = float>
         if (line.starts_with("PRIMARIES=") &&
             !detail::are_srgb_primaries(detail::header_numbers(line, 10)))
             reader.fail(says + "; only the primaries of sRGB are supported");
+        if (line.starts_with("GAMMA=") &&
+            detail::header_numbers(line, 6) != std::vector<double>{1.0})
+            reader.fail(says + "; only radiance is supported, with a gamma of 1");
         const bool three = line.starts_with("COLORCORR=");
         if (!three && !line.starts_with("EXPOSURE=")) continue;
         const auto numbers = detail::header_numbers(line, three ? 10 : 9);

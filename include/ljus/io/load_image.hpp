@@ -93,6 +93,7 @@
 
 #include "ljus/image/color.hpp"
 #include "ljus/image/image.hpp"
+#include "ljus/io/detail/picture_colors.hpp"
 #include "ljus/io/detail/picture_damage.hpp"
 #include "ljus/io/detail/picture_size.hpp"
 #include "ljus/io/file.hpp"
@@ -130,10 +131,21 @@ struct DecodedBytes {
     std::unique_ptr<stbi_uc, void (*)(void*)> pixels{nullptr, stbi_image_free};
 };
 
+// A profile that is packed in a PNG file; empty if it is damaged or too large. Those of
+// three colours have up to a few hundred kilobytes.
+inline Bytes unpack_profile(const unsigned char* data, std::size_t size) {
+    Bytes profile(std::size_t(1) << 22);
+    const int length = stbi_zlib_decode_buffer(
+        reinterpret_cast<char*>(profile.data()), static_cast<int>(profile.size()),
+        reinterpret_cast<const char*>(data), static_cast<int>(size));
+    profile.resize(static_cast<std::size_t>(length > 0 ? length : 0));
+    return profile;
+}
+
 // Decodes the bytes of a picture; errors go to refuse(why). `wanted` is the number of
-// bytes per pixel. See decode_image() for `others`.
+// bytes per pixel, of which `colors` are in sRGB. See decode_image() for `others`.
 template <typename Refuse>
-DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted,
+DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool colors,
                           Refuse refuse) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                                 bytes.size());
@@ -150,9 +162,12 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted,
     if (png && png_number(bytes, 12) == 0x43674249u) // CgBI
         refuse("is a PNG file of Apple's own kind (CgBI), which has red and blue "
                "exchanged; save it as plain PNG");
-    if (png && png_is_not_srgb(bytes))
-        refuse("is a PNG file whose colours are not those of sRGB, as its cICP chunk "
-               "says; save it as sRGB");
+    const std::string says = png    ? png_other_colors(bytes, unpack_profile)
+                             : jpeg ? jpeg_other_colors(bytes)
+                                    : bmp_other_colors(bytes);
+    if (colors && !says.empty())
+        refuse(join({"has other colours than those of sRGB, as ", says,
+                     " says; save it as sRGB"}));
     const BmpHead bmp(bytes);
     const bool is_bmp = !png && !jpeg;
     if (is_bmp && bmp.compression != 0 && bmp.compression != 3)
@@ -216,11 +231,12 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted,
 ///                four kilobytes can have thirty million, so all together are limited.
 /// \param content What of it is wanted.
 /// \return Colours or numbers in [0, 1]. Colours of a PNG file with a gAMA chunk and
-///         neither an sRGB chunk nor a profile is decoded by its gamma; a picture is
+///         neither an sRGB chunk nor a profile are decoded by its gamma; a picture is
 ///         turned upright by its EXIF orientation. Pixels behind the end of a palette
 ///         are black.
 /// \throws std::runtime_error  with path and reason, if it is not a picture, or too
-///         large; std::bad_alloc if there is not enough memory.
+///         large, or if its colours are wanted and the file says that they are not
+///         those of sRGB; std::bad_alloc if there is not enough memory.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path,
                                      long long others = 0,
@@ -235,7 +251,7 @@ template <std::floating_point T = float>
         content == PictureContent::alpha || content == PictureContent::mask;
     const int bytes_each = opacity ? 4 : 3;
     const detail::DecodedBytes picture =
-        detail::decode_bytes(bytes, others, bytes_each, refuse);
+        detail::decode_bytes(bytes, others, bytes_each, colors, refuse);
     std::array<T, 256> linear{};
     for (std::size_t i = 0; i < 256; ++i) {
         const double byte = static_cast<double>(i) / 255.0;

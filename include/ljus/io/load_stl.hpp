@@ -38,7 +38,7 @@ struct StlText {
     [[nodiscard]] bool is_text() const {
         const std::string_view plain = plain_text(text, file);
         const std::size_t begin = plain.find_first_not_of(" \t\r\n");
-        return begin != plain.npos && plain.substr(begin).starts_with("solid") &&
+        return begin != plain.npos && same_word(plain.substr(begin, 5), "solid") &&
                text.substr(0, stl_head).find('\0') == text.npos;
     }
 };
@@ -56,6 +56,22 @@ struct StlReader {
     void add(const glm::dvec3& point) {
         constexpr double none = std::numeric_limits<double>::infinity();
         points.push_back(is_finite(point) ? point : glm::dvec3(none));
+    }
+    // A face whose points were added last. Its corners decide which side is its front.
+    void end_face(std::size_t count, const glm::dvec3& normal, std::size_t place) {
+        corners.push_back({count, place});
+        if (count < 3) return;
+        const auto* const p = points.data() + points.size() - count;
+        if (glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), normal) < 0)
+            report.add(MeshTrouble::turned, static_cast<long long>(place));
+    }
+    // A point, or the normal of a binary triangle.
+    [[nodiscard]] glm::dvec3 three_floats(std::size_t at) const {
+        glm::dvec3 three;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            three[static_cast<int>(axis)] =
+                double(std::bit_cast<float>(from.word(at + 4 * axis)));
+        return three;
     }
     void read_binary() {
         if (from.text.size() < stl_head)
@@ -77,14 +93,8 @@ struct StlReader {
         bool colors = false;
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t at = stl_head + stl_triangle * i;
-            for (std::size_t k = 1; k < 4; ++k) { // behind the normal
-                glm::dvec3 point;
-                for (std::size_t axis = 0; axis < 3; ++axis)
-                    point[static_cast<int>(axis)] =
-                        double(std::bit_cast<float>(from.word(at + 12 * k + 4 * axis)));
-                add(point);
-            }
-            corners.push_back({3, i + 1});
+            for (std::size_t k = 1; k < 4; ++k) add(three_floats(at + 12 * k));
+            end_face(3, three_floats(at), i + 1);
             colors = colors || (from.word(at + 46) >> 16) != 0;
         }
         if (colors)
@@ -94,23 +104,27 @@ struct StlReader {
     void read_text() {
         std::size_t first = 0; // of the face
         bool open = false;     // a solid that has not ended
-        LineReader{from.file}.read(
-            from.text, true, [&](std::string_view line, long long number) {
-                Words words{line};
-                const std::string_view keyword = words.next();
-                if (same_word(keyword, "vertex")) {
-                    add(three_numbers(words));
-                } else if (same_word(keyword, "endloop")) {
-                    corners.push_back(
-                        {points.size() - first, static_cast<std::size_t>(number)});
-                    first = points.size();
-                } else if (same_word(keyword, "solid")) {
-                    ++report.content.objects;
-                    open = true;
-                } else if (same_word(keyword, "endsolid")) {
-                    open = false;
-                }
-            });
+        glm::dvec3 normal(0);
+        LineReader{from.file}.read(from.text, true,
+                                   [&](std::string_view line, long long number) {
+                                       Words words{line};
+                                       const std::string_view keyword = words.next();
+                                       if (same_word(keyword, "vertex")) {
+                                           add(three_numbers(words));
+                                       } else if (same_word(keyword, "endloop")) {
+                                           end_face(points.size() - first, normal,
+                                                    static_cast<std::size_t>(number));
+                                           first = points.size();
+                                       } else if (same_word(keyword, "facet")) {
+                                           (void)words.next(); // "normal"
+                                           normal = three_numbers(words);
+                                       } else if (same_word(keyword, "solid")) {
+                                           ++report.content.objects;
+                                           open = true;
+                                       } else if (same_word(keyword, "endsolid")) {
+                                           open = false;
+                                       }
+                                   });
         if (first < points.size())
             from.refuse("the file ends within a triangle, before its 'endloop'");
         if (open)
@@ -122,7 +136,8 @@ struct StlReader {
 } // namespace detail
 
 /// Reads a mesh from the bytes of an STL file, text or binary. Corners at one place are
-/// one vertex. The normals of the file are not used: they are those of its triangles.
+/// one vertex. The normals of the file are not used: they are those of its triangles,
+/// and where they point to the other side, the report says so.
 /// \return One mesh without a material, and what is wrong with the file.
 /// \throws std::runtime_error  with one sentence: "gear.stl: its head says that it has
 ///         9000 triangles, but there are bytes for 12 only."; or as read_obj().

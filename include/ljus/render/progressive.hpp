@@ -221,26 +221,31 @@ void require_first_pass(const ProgressiveState& state, RenderPass&& pass) {
         "camera, settings, seed and program.");
 }
 
-/// Settings with all automatic choices made: radii of 0 are replaced, and a pilot pass
-/// sets the shares of a budget.
-/// \param world      The closed scene.
-/// \param settings   Photons of one pass.
-/// \param listed     As for a PhotonMapper.
+/// The settings of a mapper with all automatic choices made, for further passes: radii
+/// of 0 are replaced, and a pilot pass has set the shares of a budget.
+/// \param first  Has the photons of one pass; its remarks hold for all.
 /// \return The settings, the same in every run of the program.
+template <AnyWorld W, typename... X>
+[[nodiscard]] PhotonMappingSettings
+settings_for_passes(const PhotonMapper<W, X...>& first) {
+    PhotonMappingSettings chosen = first.settings();
+    if constexpr (W::lists_fog)
+        if (chosen.fog_estimate.radius == 0 && first.passes().volume_map)
+            chosen.fog_estimate.radius = float(
+                typical_radius(first.maps().fog.empty() ? first.maps().fog_caustics
+                                                        : first.maps().fog));
+    return chosen;
+}
+
+/// The same for a world and the settings of a first pass.
+/// \param world, settings, listed  As for a PhotonMapper.
 /// \throws std::invalid_argument  if a setting is out of range.
 /// \cost The photon maps of one pass.
 template <AnyWorld W, typename... X>
 [[nodiscard]] PhotonMappingSettings
 settings_for_passes(const W& world, const PhotonMappingSettings& settings,
                     Abilities<X...> listed = {}) {
-    const PhotonMapper mapper(world, settings, listed);
-    PhotonMappingSettings chosen = mapper.settings();
-    if constexpr (W::lists_fog)
-        if (chosen.fog_estimate.radius == 0 && mapper.passes().volume_map)
-            chosen.fog_estimate.radius = float(
-                typical_radius(mapper.maps().fog.empty() ? mapper.maps().fog_caustics
-                                                         : mapper.maps().fog));
-    return chosen;
+    return settings_for_passes(PhotonMapper(world, settings, listed));
 }
 
 /// One pass of the photon mapper, with its own photons and camera rays; the radii of

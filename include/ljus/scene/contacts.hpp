@@ -38,12 +38,14 @@ namespace ljus {
 /// | a thin surface and anything              | anything but the thin surface       |
 ///
 /// A World looks for contacts once, when it is made. They are found between flat
-/// shapes, also those that move in their plane, meshes and spheres at rest; other
-/// shapes are met in the order of addition.
+/// shapes, meshes, spheres and cylinders, also if they move together or along each
+/// other. Other shapes are met in the order of addition, as where two cylinders cross.
 /// \{
 
 template <std::floating_point T>
 struct DiscT;
+template <std::floating_point T>
+struct CylinderT;
 
 /// What a surface is in a contact. The first in this list is met.
 enum class ContactKind : std::uint8_t {
@@ -143,41 +145,9 @@ inline constexpr bool is_ball = std::is_same_v<G, SphereT<ScalarOf<G>>>;
 template <typename G>
 inline constexpr bool is_disc = std::is_same_v<G, DiscT<ScalarOf<G>>>;
 
-/// Whether a shape is one facet that moves.
+/// Whether a shape is a cylinder.
 template <typename G>
-inline constexpr bool is_moving_facet = requires(const G& moving) {
-    facet_of(moving.shape);
-    moving.displacement;
-};
-
-/// Whether a facet moves within its plane, and so can share it with others.
-[[nodiscard, gnu::cold]] inline bool slides(const Facet& facet,
-                                            const glm::dvec3& way) noexcept {
-    const glm::dvec3 area = area_vector(facet);
-    return std::abs(glm::dot(area, way)) <= 1e-6 * glm::length(area) * glm::length(way);
-}
-
-/// A rectangle around all places of a facet that slides. What is met is found by rays,
-/// so that it may be too large.
-[[nodiscard, gnu::cold]] inline Facet around_way(const Facet& facet,
-                                                 const glm::dvec3& way) noexcept {
-    const glm::dvec3 edge = facet.corners[1] - facet.corners[0];
-    const glm::dvec3 normal = glm::normalize(area_vector(facet));
-    const glm::dvec3 u = glm::normalize(way != glm::dvec3(0) ? way : edge);
-    const glm::dvec3 v = glm::cross(normal, u);
-    BoxT<double> box; // of the corners, along u and v
-    for (int i = 0; i < facet.count; ++i) {
-        const glm::dvec3 p = facet.corners[std::size_t(i)] - facet.corners[0];
-        for (const glm::dvec3& at : {p, p + way})
-            box = box_union(box, glm::dvec3(glm::dot(at, u), glm::dot(at, v), 0));
-    }
-    const auto corner = [&](double x, double y) {
-        return facet.corners[0] + x * u + y * v;
-    };
-    return {.corners{corner(box.low.x, box.low.y), corner(box.high.x, box.low.y),
-                     corner(box.high.x, box.high.y), corner(box.low.x, box.high.y)},
-            .count = 4};
-}
+inline constexpr bool is_tube = std::is_same_v<G, CylinderT<ScalarOf<G>>>;
 
 /// A square around a disc.
 template <typename G>
@@ -193,27 +163,33 @@ template <typename G>
 /// The number of pieces of a shape; 0 if it is not compared with others.
 template <Shape G>
 [[nodiscard]] std::uint32_t piece_count([[maybe_unused]] const G& shape) noexcept {
-    if constexpr (has_triangles<G>)
+    if constexpr (requires { shape.shape, shape.displacement; })
+        return piece_count(shape.shape);
+    else if constexpr (has_triangles<G>)
         return static_cast<std::uint32_t>(shape.size());
-    else if constexpr (is_moving_facet<G>)
-        return slides(facet_of(shape.shape), glm::dvec3(shape.displacement)) ? 1 : 0;
     else
-        return is_facet<G> || is_disc<G> || is_ball<G> ? 1 : 0;
+        return is_facet<G> || is_disc<G> || is_tube<G> || is_ball<G> ? 1 : 0;
 }
 
 /// A piece of a shape.
 template <Shape G>
 [[nodiscard]] SurfacePiece piece_of([[maybe_unused]] const G& shape,
                                     [[maybe_unused]] std::uint32_t number) {
-    if constexpr (has_triangles<G>)
+    if constexpr (requires { shape.shape, shape.displacement; }) {
+        SurfacePiece piece = piece_of(shape.shape, number);
+        piece.displacement = glm::dvec3(shape.displacement);
+        return piece;
+    } else if constexpr (has_triangles<G>)
         return {.facet = facet_of(shape.triangle(number))};
     else if constexpr (is_facet<G>)
         return {.facet = facet_of(shape)};
     else if constexpr (is_disc<G>)
         return {.facet = around_disc(shape)};
-    else if constexpr (is_moving_facet<G>)
-        return {.facet =
-                    around_way(facet_of(shape.shape), glm::dvec3(shape.displacement))};
+    else if constexpr (is_tube<G>)
+        return {.facet{.corners{glm::dvec3(shape.base),
+                                glm::dvec3(shape.base) + glm::dvec3(shape.axis)},
+                       .count = 2},
+                .radius = double(shape.radius)};
     else if constexpr (is_ball<G>)
         return {.facet{.corners{glm::dvec3(shape.center)}, .count = 1},
                 .radius = double(shape.radius)};

@@ -72,12 +72,14 @@ inline std::size_t byte_at(const Bytes& file, std::size_t at) {
     return at < file.size() ? std::size_t(file[at]) : std::size_t(0);
 }
 
-// The exponent 1/gamma of a PNG file with a gAMA chunk; 0 if it has none, or an sRGB or
-// iCCP chunk as well.
+// The exponent 1/gamma of a PNG file with a gAMA chunk; 0 if it has none, or a chunk of
+// colours that counts before it.
 inline double png_gamma(const Bytes& file) {
     double gamma = 0;
     find_png_chunk(file, [&](std::uint32_t name, std::size_t at, std::size_t size) {
-        const bool named = name == 0x73524742u || name == 0x69434350u; // sRGB, iCCP
+        // sRGB, iCCP, cICP
+        const bool named =
+            name == 0x73524742u || name == 0x69434350u || name == 0x63494350u;
         if (named)
             gamma = 0;
         else if (name == 0x67414d41u && size == 4) // gAMA
@@ -106,34 +108,53 @@ inline Bytes with_whole_palette(const Bytes& file) {
     return whole;
 }
 
-// Whether a PNG file has a cICP chunk by which its colours are not those of sRGB: they
-// may be brighter than white.
-inline bool png_is_not_srgb(const Bytes& file) {
-    bool other = false;
-    find_png_chunk(file, [&](std::uint32_t name, std::size_t at, std::size_t) {
-        if (name != 0x63494350u) return false; // cICP
-        other = byte_at(file, at) != 1 || byte_at(file, at + 1) != 13;
-        return true;
-    });
-    return other;
-}
+// EXIF data, which are a TIFF file within a file: byte order, offset of the first list
+// of fields, fields of 12 bytes.
+class Tiff {
+public:
+    Tiff(const Bytes& file, std::size_t at) : file_(file), at_(at) {}
 
-// The orientation, 1 to 8, in EXIF data, which are a TIFF file within a file: byte
-// order, offset of the first list of fields, fields of 12 bytes. 1 if it is not said.
-inline int tiff_orientation(const Bytes& file, std::size_t tiff) {
-    const bool low_first = byte_at(file, tiff) == 'I';
-    const auto number = [&](std::size_t i, std::size_t bytes) {
+    // The orientation, 1 to 8; 1 if it is not said.
+    [[nodiscard]] int orientation() const {
+        const std::size_t field = find(list(at_ + 4), 0x112);
+        return field != 0 ? static_cast<int>(number(field, 2)) : 1;
+    }
+
+    // Whether the colours are those of Adobe RGB: by a number, or, as cameras say it,
+    // by the rule that the file follows.
+    [[nodiscard]] bool is_adobe_rgb() const {
+        const std::size_t exif = find(list(at_ + 4), 0x8769);
+        if (exif == 0) return false;
+        const std::size_t space = find(list(exif), 0xa001);
+        const std::size_t rules = find(list(exif), 0xa005);
+        const std::size_t rule = rules != 0 ? find(list(rules), 1) : 0;
+        return (space != 0 && number(space, 2) == 2) ||
+               (rule != 0 && byte_at(file_, rule) == 'R' &&
+                byte_at(file_, rule + 1) == '0' && byte_at(file_, rule + 2) == '3');
+    }
+
+private:
+    [[nodiscard]] std::size_t number(std::size_t i, std::size_t bytes) const {
+        const bool low_first = byte_at(file_, at_) == 'I';
         std::size_t value = 0;
         for (std::size_t k = 0; k < bytes; ++k)
-            value = value * 256 + byte_at(file, i + (low_first ? bytes - 1 - k : k));
+            value = value * 256 + byte_at(file_, i + (low_first ? bytes - 1 - k : k));
         return value;
-    };
-    const std::size_t fields = tiff + number(tiff + 4, 4);
-    for (std::size_t i = 0; i < number(fields, 2); ++i)
-        if (const std::size_t field = fields + 2 + 12 * i; number(field, 2) == 0x112)
-            return static_cast<int>(number(field + 8, 2));
-    return 1;
-}
+    }
+    // The list of fields whose offset is at `i`.
+    [[nodiscard]] std::size_t list(std::size_t i) const { return at_ + number(i, 4); }
+
+    // Where the value of a field of a list is; 0 without it.
+    [[nodiscard]] std::size_t find(std::size_t fields, std::size_t name) const {
+        for (std::size_t i = 0; i < number(fields, 2); ++i)
+            if (const std::size_t field = fields + 2 + 12 * i; number(field, 2) == name)
+                return field + 8;
+        return 0;
+    }
+
+    const Bytes& file_;
+    std::size_t at_;
+};
 
 // The orientation in the eXIf chunk of a PNG file, which comes before its pixels; 1
 // without one.
@@ -141,7 +162,7 @@ inline int png_orientation(const Bytes& file) {
     int orientation = 1;
     find_png_chunk(file, [&](std::uint32_t name, std::size_t at, std::size_t) {
         const bool found = name == 0x65584966u; // eXIf
-        if (found) orientation = tiff_orientation(file, at);
+        if (found) orientation = Tiff(file, at).orientation();
         return found || name == 0x49444154u; // IDAT
     });
     return orientation;
@@ -227,7 +248,7 @@ inline int jpeg_orientation(const Bytes& file) {
     int orientation = 1;
     find_jpeg_segment(file, [&](unsigned char kind, std::size_t at) {
         const bool found = kind == 0xe1 && stands_at(file, at, {"Exif\0\0", 6});
-        if (found) orientation = tiff_orientation(file, at + 6);
+        if (found) orientation = Tiff(file, at + 6).orientation();
         return found;
     });
     return orientation;

@@ -1,0 +1,22 @@
+#pragma once
+
+/// \file ljus/io/detail/srgb_primaries.hpp
+/// \brief Whether a file's primaries are those of sRGB.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ljus::detail {
+
+// Whether primaries, (x, y) of red, green and blue, are about those of sRGB; those of
+// HDR files differ by 0.01. White may be another one.
+template <typename Numbers>
+[[nodiscard]] bool are_srgb_primaries(const Numbers& numbers) {
+    constexpr std::array<double, 6> srgb{0.64, 0.33, 0.3, 0.6, 0.15, 0.06};
+    return numbers.size() >= srgb.size() &&
+           std::equal(srgb.begin(), srgb.end(), numbers.begin(),
+                      [](double a, double b) { return std::abs(a - b) < 0.02; });
+}
+
+} // namespace ljus::detail
