@@ -78,4 +78,50 @@ struct Rings {
     }
 };
 
+/// What both figures show of the floor. The one of a figure is its `floor_shown()`.
+struct Floor {
+    ljus::World<Stage> world = ball_over_floor();
+    std::vector<float> dots; ///< x and z of photons.
+    Rings rings;
+
+    /// Adds photons to the dots.
+    void show(const std::vector<ljus::Photon>& photons) {
+        for (const ljus::Photon& photon : photons)
+            dots.insert(dots.end(), {photon.position.x, photon.position.z});
+    }
+};
+Floor& floor_shown();
+
 } // namespace live
+
+extern "C" {
+
+[[gnu::used]] inline double width() {
+    return 2 * double(live::half_width);
+}
+[[gnu::used]] inline int picture_size() {
+    return live::cells;
+}
+[[gnu::used]] inline const float* dots() {
+    return live::floor_shown().dots.data();
+}
+
+/// Counts more photons in rings, and returns how many so far.
+[[gnu::used]] inline double count_reference(int photons) {
+    live::Floor& floor = live::floor_shown();
+    if (photons > 0) floor.rings.count(floor.world, photons);
+    return double(floor.rings.sent);
+}
+[[gnu::used]] inline int reference_size() {
+    return live::rings;
+}
+[[gnu::used]] inline double reference(int ring) {
+    return live::floor_shown().rings.irradiance(ring);
+}
+
+/// Photons in float; a last digit of a sine moves each of them a little.
+[[gnu::used]] inline double tolerance() {
+    return 1e-4;
+}
+
+} // extern "C"

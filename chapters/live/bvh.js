@@ -11,6 +11,7 @@ ljusLive.define("bvh", figure => {
     steps = figure.slider("steps of the search", 1, 10, 1, 10,
         value => { all = value === Number(steps.input.max); },
         value => value + (steps ? " of " + steps.input.max : ""));
+    figure.play(steps, 6).begin();
     const balls = figure.slider("balls", 4, 64, 1, 24);
     const everyBox = figure.toggle("all boxes", false);
     const boxTests = figure.readout("box tests");
@@ -20,6 +21,7 @@ ljusLive.define("bvh", figure => {
 
     // The ends of the ray, in the units of the balls.
     const ends = [{ x: 2, y: 20 }, { x: 96, y: 90 }];
+    for (const end of ends) figure.keep(null, end, "x", "y");
     let held = 1;
     const px = v => 3.6 * v;
     figure.onDrag(plane, spot => {
@@ -33,8 +35,8 @@ ljusLive.define("bvh", figure => {
         const to = spot.key
             ? { x: ends[held].x + spot.dx / 3.6, y: ends[held].y + spot.dy / 3.6 }
             : { x: spot.x / 3.6, y: spot.y / 3.6 };
-        const one = ends[held] = { x: Math.max(1, Math.min(99, to.x)),
-                                   y: Math.max(1, Math.min(99, to.y)) };
+        const one = Object.assign(ends[held], { x: Math.max(1, Math.min(99, to.x)),
+                                                y: Math.max(1, Math.min(99, to.y)) });
         const other = ends[1 - held]; // a ray has a direction
         if (Math.hypot(one.x - other.x, one.y - other.y) < 2)
             one.x += one.x < 50 ? 2 : -2;

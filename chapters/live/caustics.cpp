@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "flatland/density_estimate.hpp"
+#include "live/photon_path.hpp"
 
 namespace {
 
@@ -18,8 +19,7 @@ constexpr double disc = 0.015;     // of an estimate
 struct Figure {
     fl::Scene scene;
     int sent = 0;
-    fl::PhotonMap floor;     // each photon as if it were the only one
-    std::vector<float> path; // of the last photon: x, y
+    fl::PhotonMap floor; // each photon as if it were the only one
     std::vector<float> curve;
 };
 Figure figure;
@@ -56,20 +56,11 @@ extern "C" {
     const fl::PathState photon{
         .ray{.origin = lamp, .direction{std::sin(angle), -std::cos(angle)}},
         .throughput = cone() / std::numbers::pi};
-    figure.path = {float(lamp.x), float(lamp.y)};
-    trace_photon(figure.scene, photon, stream, 10,
-                 [](const fl::PathState& path, const fl::Vertex& vertex) {
-                     store_photon(path, vertex, figure.floor);
-                     figure.path.push_back(float(vertex.point.position.x));
-                     figure.path.push_back(float(vertex.point.position.y));
-                 });
+    live::follow_photon(figure.scene, photon, stream, 10,
+                        [](const fl::PathState& state, const fl::Vertex& vertex) {
+                            store_photon(state, vertex, figure.floor);
+                        });
     return figure.sent;
-}
-[[gnu::used]] const float* path() {
-    return figure.path.data();
-}
-[[gnu::used]] int path_size() {
-    return int(figure.path.size() / 2);
 }
 
 /// The irradiance along the floor over that which the middle has without a ball.

@@ -9,13 +9,11 @@ namespace {
 constexpr int most = 1500; // photons
 
 struct Figure {
-    ljus::World<live::Stage> world = live::ball_over_floor();
+    live::Floor shown;
     std::vector<ljus::Photon> photons;
     ljus::PhotonMap map;
     int sent = 0;
-    std::vector<float> dots; // x and z of each photon
-    std::vector<float> picture, line, reference;
-    live::Rings rings;
+    std::vector<float> picture;
 };
 std::unique_ptr<Figure> figure;
 
@@ -26,16 +24,14 @@ double so_far() {
 
 } // namespace
 
+live::Floor& live::floor_shown() {
+    return figure->shown;
+}
+
 extern "C" {
 
 [[gnu::used]] void setup() {
     figure = std::make_unique<Figure>();
-}
-[[gnu::used]] double width() {
-    return 2 * double(live::half_width);
-}
-[[gnu::used]] int picture_size() {
-    return live::cells;
 }
 [[gnu::used]] int photons_in_all() {
     return most;
@@ -46,22 +42,17 @@ extern "C" {
 [[gnu::used]] int land(int photons) {
     const int last = std::min(most, figure->sent + photons);
     const auto traced =
-        trace_photons(figure->world, ljus::MapType::caustics,
+        trace_photons(figure->shown.world, ljus::MapType::caustics,
                       {.photons = most, .threads = 1}, figure->sent, last);
     figure->sent = last;
-    for (const ljus::Photon& photon : traced.photons) {
-        figure->photons.push_back(photon);
-        figure->dots.push_back(photon.position.x);
-        figure->dots.push_back(photon.position.z);
-    }
+    figure->photons.insert(figure->photons.end(), traced.photons.begin(),
+                           traced.photons.end());
+    figure->shown.show(traced.photons);
     figure->map = ljus::make_photon_map(figure->photons, 1);
     return int(figure->photons.size());
 }
 [[gnu::used]] int sent() {
     return figure->sent;
-}
-[[gnu::used]] const float* dots() {
-    return figure->dots.data();
 }
 
 /// The irradiance by discs of a radius, W/m^2, in the cells of the floor.
@@ -75,18 +66,6 @@ extern "C" {
 [[gnu::used]] double estimate(double x, double radius) {
     return so_far() * examples::irradiance_read(figure->map, {float(x), 0, 0},
                                                 {0, 1, 0}, {.radius = float(radius)});
-}
-
-/// Counts more photons in rings, and returns how many so far.
-[[gnu::used]] double count_reference(int photons) {
-    if (photons > 0) figure->rings.count(figure->world, photons);
-    return double(figure->rings.sent);
-}
-[[gnu::used]] int reference_size() {
-    return live::rings;
-}
-[[gnu::used]] double reference(int ring) {
-    return figure->rings.irradiance(ring);
 }
 
 [[gnu::used]] int checks() {
@@ -103,11 +82,6 @@ extern "C" {
                                   : (count_reference(3000), reference(20));
     figure = std::move(kept);
     return found;
-}
-
-/// Photons in float; a last digit of a sine moves each of them a little.
-[[gnu::used]] double tolerance() {
-    return 1e-4;
 }
 
 } // extern "C"

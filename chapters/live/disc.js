@@ -19,6 +19,7 @@ ljusLive.define("disc", figure => {
     const part = figure.readout("part of the disc on the floor");
 
     const at = { x: -0.93, z: 0.5 };
+    figure.keep(() => { again = true; }, at, "x", "z");
     let dots = [], again = true, maps = 0, sums = [];
     function send() {
         const number = wasm.trace(Math.round(10 ** photons.value), 1);

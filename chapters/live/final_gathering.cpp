@@ -7,6 +7,7 @@
 #include "flatland/density_estimate.hpp"
 #include "flatland/path_tracing.hpp"
 #include "flatland/room.hpp"
+#include "live/gather_rays.hpp"
 
 namespace {
 
@@ -29,7 +30,6 @@ struct Figure {
     std::vector<IrradiancePoint> points;
     std::vector<double> reference = std::vector<double>(places, 0.0); // sums
     int counted = 0;                                                  // rays in them
-    std::vector<double> out;                                          // for the page
 };
 Figure figure;
 
@@ -46,10 +46,6 @@ fl::Scene room() {
 
 double floor_place(int i) {
     return 0.98 * (2.0 * i / (places - 1) - 1);
-}
-
-fl::Ray gather_ray(double x, double u) {
-    return {.origin{x, 0}, .direction = fl::sample_cosine_half_circle(u)};
 }
 
 /// The nearest point of a wall that is turned like it.
@@ -125,32 +121,31 @@ extern "C" {
 
 /// All photons: x, y of each.
 [[gnu::used]] const double* dots() {
-    figure.out.clear();
+    std::vector<double> all;
     for (const fl::Photon& photon : figure.map)
-        figure.out.insert(figure.out.end(), {photon.position.x, photon.position.y});
-    return figure.out.data();
+        all.insert(all.end(), {photon.position.x, photon.position.y});
+    return live::for_page(all);
 }
 [[gnu::used]] int points_size() {
     return int(figure.points.size());
 }
 /// The irradiance points: place, normal, W/m.
 [[gnu::used]] const double* points() {
-    figure.out.clear();
+    std::vector<double> all;
     for (const auto& [at, irradiance] : figure.points)
-        figure.out.insert(figure.out.end(), {at.position.x, at.position.y, at.normal.x,
-                                             at.normal.y, irradiance});
-    return figure.out.data();
+        all.insert(all.end(), {at.position.x, at.position.y, at.normal.x, at.normal.y,
+                               irradiance});
+    return live::for_page(all);
 }
 
 /// Ray i of n from a place of the floor: its end, the place of the point that it reads,
 /// and the radiosity there; 0 at the lamp.
 [[gnu::used]] const double* ray(double x, int i, int n) {
     auto stream = stream_of(2 + i, 0);
-    const Read found = read(gather_ray(x, stratum(i, n, stream)));
+    const Read found = read(live::gather_ray(x, stratum(i, n, stream)));
     const fl::Vec2 from = found.from ? found.from->point.position : found.end;
-    figure.out = {found.end.x, found.end.y, from.x, from.y,
-                  found.from ? albedo * found.from->irradiance : 0};
-    return figure.out.data();
+    return live::for_page({found.end.x, found.end.y, from.x, from.y,
+                           found.from ? albedo * found.from->irradiance : 0});
 }
 
 [[gnu::used]] int curve_size() {
@@ -161,29 +156,24 @@ extern "C" {
 }
 /// The indirect irradiance along the floor by n gather rays at each place, W/m.
 [[gnu::used]] const double* gathered(int n) {
-    std::vector<double> sums(places, 0.0);
-    for (int place = 0; place < places; ++place) {
+    return live::for_page(places, [n](int place) {
         auto stream = stream_of(1, place);
+        double sum = 0;
         for (int i = 0; i < n; ++i) {
             const Read found =
-                read(gather_ray(floor_place(place), stratum(i, n, stream)));
+                read(live::gather_ray(floor_place(place), stratum(i, n, stream)));
             // The radiance is half the radiosity, and the integral of the cosine is 2.
-            if (found.from)
-                sums[std::size_t(place)] += albedo * found.from->irradiance / n;
+            if (found.from) sum += albedo * found.from->irradiance / n;
         }
-    }
-    figure.out = sums;
-    return figure.out.data();
+        return sum;
+    });
 }
 /// The same by the indirect photons on the floor itself.
 [[gnu::used]] const double* seen() {
-    figure.out.clear();
-    for (int place = 0; place < places; ++place)
-        figure.out.push_back(estimate_irradiance(figure.indirect,
-                                                 {.position{floor_place(place), 0}},
-                                                 {.radius = 0.1})
-                                 .irradiance);
-    return figure.out.data();
+    return live::for_page(places, [](int place) {
+        const fl::SurfacePoint at{.position{floor_place(place), 0}};
+        return estimate_irradiance(figure.indirect, at, {.radius = 0.1}).irradiance;
+    });
 }
 
 /// The same by paths: adds rays at each place.
@@ -192,7 +182,8 @@ extern "C" {
     for (int i = 0; i < rays; ++i, ++figure.counted)
         for (int place = 0; place < places; ++place) {
             auto stream = stream_of(1000 + figure.counted, place);
-            const fl::Ray ray = gather_ray(floor_place(place), next_1d<double>(stream));
+            const fl::Ray ray =
+                live::gather_ray(floor_place(place), next_1d<double>(stream));
             const auto hit = closest_hit(figure.scene, ray);
             if (figure.scene.objects[hit->id].emission > 0) continue;
             figure.reference[std::size_t(place)] +=
@@ -201,10 +192,9 @@ extern "C" {
     return figure.counted;
 }
 [[gnu::used]] const double* reference() {
-    figure.out.clear();
-    for (const double sum : figure.reference)
-        figure.out.push_back(sum / std::max(figure.counted, 1));
-    return figure.out.data();
+    return live::for_page(places, [](int place) {
+        return figure.reference[std::size_t(place)] / std::max(figure.counted, 1);
+    });
 }
 
 [[gnu::used]] int checks() {

@@ -14,7 +14,8 @@ ljusLive.define("flatland", figure => {
     const most = 300000; // photons of the reference
 
     const lamp = { x: -0.45, y: 0.95 };
-    let query = 0.5, picked = "query", trails = [], top = 0.5;
+    const query = { x: 0.5 };
+    let picked = "query", trails = [], top = 0.5;
     const begin = () => {
         wasm.setup(lamp.x, lamp.y, index.value);
         trails = [];
@@ -35,12 +36,14 @@ ljusLive.define("flatland", figure => {
                 "Blue: straight from the lamp; orange: by glass or mirror; green: " +
                 "after a diffuse wall.");
     begin();
+    figure.keep(begin, lamp, "x", "y");
+    figure.keep(null, query, "x");
 
     figure.onDrag(canvas, spot => {
         if (spot.first && !spot.key) picked = spot.y > floor - 45 ? "query" : "lamp";
         if (picked === "query") {
-            const x = spot.key ? query + spot.dx / scale : (spot.x - width / 2) / scale;
-            query = Math.max(-1, Math.min(1, x));
+            const x = spot.key ? query.x + spot.dx / scale : (spot.x - width / 2) / scale;
+            query.x = Math.max(-1, Math.min(1, x));
             return;
         }
         const x = lamp.x + spot.dx / scale, y = lamp.y - spot.dy / scale;
@@ -122,15 +125,15 @@ ljusLive.define("flatland", figure => {
         pen.fillText("W/m: counted in parts of 2 cm", X(-1) + 8, axis - high + 10);
         pen.fillStyle = colors.red;
         pen.fillText("by the k nearest", X(-1) + 8, axis - high + 27);
-        return truth[Math.min(bins - 1, Math.floor((query + 1) / 2 * bins))];
+        return truth[Math.min(bins - 1, Math.floor((query.x + 1) / 2 * bins))];
     }
 
     function drawQuery(colors) {
-        const estimate = wasm.estimate(query, nearest.value), r = wasm.disc();
-        disc(query, 0, r, colors.red, 0.2);
-        const low = X(query - r), high = X(query + r);
+        const estimate = wasm.estimate(query.x, nearest.value), r = wasm.disc();
+        disc(query.x, 0, r, colors.red, 0.2);
+        const low = X(query.x - r), high = X(query.x + r);
         line([[low, floor], [high, floor]], colors.red, 4);
-        line([[X(query), floor], [X(query), axis]], colors.red, 1, [3, 3]);
+        line([[X(query.x), floor], [X(query.x), axis]], colors.red, 1, [3, 3]);
         found.value = estimate.toFixed(3) + " W/m";
         radius.value = (100 * r).toFixed(1) + " cm";
     }

@@ -28,6 +28,7 @@ ljusLive.define("form_factors", figure => {
     const byRays = figure.readout("by rays");
     const byPairs = figure.readout("by pairs of points");
     Object.assign(at, presets[0]);
+    figure.keep(() => { changed = true; }, at, "x", "z");
     let changed = true, exact = 0, rows = [];
     figure.onDrag(room, spot => {
         at.x += spot.dx / (scale * Math.cos(turn));
@@ -127,7 +128,10 @@ ljusLive.define("form_factors", figure => {
         });
     }
 
-    const shown = k => wasm.mean(k).toFixed(5) + " ± " + wasm.error_of_mean(k).toFixed(5);
+    const shown = k => { // one sample has no error yet
+        const error = wasm.error_of_mean(k);
+        return wasm.mean(k).toFixed(5) + " ± " + (error < Infinity ? error.toFixed(5) : "…");
+    };
     figure.onFrame(() => {
         if (changed) moveOther();
         changed = false;

@@ -14,6 +14,7 @@ ljusLive.define("fresnel", figure => {
     const n2 = figure.slider("n₂, behind the boundary", 1, 2.5, 0.01, 1, null, index);
     const angle = figure.slider("angle", 0, 90, 0.5, 60, null,
                                 a => a.toFixed(1) + "°");
+    figure.play(angle, 12);
     const formula = figure.choice("the disc is by", names, 0);
     const shares = names.map(name => figure.readout(name));
     const critical = figure.readout("critical angle");

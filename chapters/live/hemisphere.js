@@ -18,7 +18,9 @@ ljusLive.define("hemisphere", figure => {
     const sum = figure.readout("chi-square");
     const chance = figure.readout("p");
 
-    let tilt = 0.6, turn = 0.4, seed = 1, total = 0, directions = [];
+    const view = { tilt: 0.6, turn: 0.4 };
+    figure.keep(null, view, "tilt", "turn");
+    let seed = 1, total = 0, directions = [];
     function begin() {
         wasm.restart(sampler.value, judge.value ? judge.value - 1 : sampler.value, seed++);
         total = 0;
@@ -26,13 +28,13 @@ ljusLive.define("hemisphere", figure => {
     }
     begin();
     figure.onDrag(dome, spot => {
-        turn += spot.dx / 120;
-        tilt = Math.max(0, Math.min(1.5, tilt - spot.dy / 120));
+        view.turn += spot.dx / 120;
+        view.tilt = Math.max(0, Math.min(1.5, view.tilt - spot.dy / 120));
     });
 
     function drawDome(colors) {
-        const cosine = Math.cos(tilt), sine = Math.sin(tilt);
-        const c = Math.cos(turn), s = Math.sin(turn), r = 140;
+        const cosine = Math.cos(view.tilt), sine = Math.sin(view.tilt);
+        const c = Math.cos(view.turn), s = Math.sin(view.turn), r = 140;
         const middle = 150 + 60 * sine; // seen from the side the dome is half as high
         figure.clear(dome);
         ball.strokeStyle = colors.line;

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <vector>
 
-#include "flatland/scene.hpp"
+#include "live/gather_rays.hpp"
 #include "ljus/math/random.hpp"
 #include "ljus/render/irradiance_cache.hpp"
 
@@ -26,20 +26,15 @@ struct Figure {
     std::vector<Vec3> positions;
     std::vector<ljus::GatheredT<double>> records;
     ljus::IrradianceCacheT<double> cache;
-    std::vector<double> out; // for the page
 };
 Figure figure;
-
-fl::Ray gather_ray(double x, int i, int n) {
-    return {.origin{x, 0}, .direction = fl::sample_cosine_half_circle((i + 0.5) / n)};
-}
 
 /// What n rays gather at a place of the floor: the light of the wall, and how far they
 /// reach in the harmonic mean.
 ljus::GatheredT<double> gather(double x, int n) {
     double light = 0, inverse = 0;
     for (int i = 0; i < n; ++i) {
-        const auto hit = closest_hit(room, gather_ray(x, i, n));
+        const auto hit = closest_hit(room, live::gather_ray(x, (i + 0.5) / n));
         if (!hit) continue; // it adds 0
         light += 2 * room.objects[hit->id].emission / n;
         inverse += 1 / hit->t / n;
@@ -82,14 +77,15 @@ extern "C" {
 }
 /// The ends of some gather rays of a point: x, y of each.
 [[gnu::used]] const double* ends(int i) {
-    figure.out.clear();
+    std::vector<double> all;
     for (int k = 0; k < rays; ++k) {
-        const fl::Ray ray = gather_ray(figure.positions[std::size_t(i)].x, k, rays);
+        const fl::Ray ray =
+            live::gather_ray(figure.positions[std::size_t(i)].x, (k + 0.5) / rays);
         const auto hit = closest_hit(room, ray);
         const fl::Vec2 end = ray.origin + (hit ? hit->t : 4.0) * ray.direction;
-        figure.out.insert(figure.out.end(), {end.x, end.y});
+        all.insert(all.end(), {end.x, end.y});
     }
-    return figure.out.data();
+    return live::for_page(all);
 }
 [[gnu::used]] int ends_size() {
     return rays;
@@ -103,20 +99,16 @@ extern "C" {
 }
 /// The irradiance along the floor, gathered everywhere.
 [[gnu::used]] const double* exact() {
-    figure.out.clear();
-    for (int i = 0; i < places; ++i)
-        figure.out.push_back(gather(place(i), many).irradiance.x);
-    return figure.out.data();
+    return live::for_page(places,
+                          [](int i) { return gather(place(i), many).irradiance.x; });
 }
 /// The same between the points; -1 where no point counts.
 [[gnu::used]] const double* interpolated(double reach) {
-    figure.out.clear();
-    for (int i = 0; i < places; ++i) {
+    return live::for_page(places, [reach](int i) {
         const auto found =
             interpolate(figure.cache, Vec3{place(i), 0, 0}, Vec3{0, 0, 1}, reach);
-        figure.out.push_back(found ? found->x : -1);
-    }
-    return figure.out.data();
+        return found ? found->x : -1;
+    });
 }
 
 [[gnu::used]] int checks() {

@@ -19,7 +19,8 @@ ljusLive.define("kd_tree", figure => {
     const reach = figure.readout("reach");
 
     const at = { x: 0.3, y: 0.62 };
-    let places = [], leaves = [], changed = true, step = Infinity;
+    figure.keep(() => { changed = true; }, at, "x", "y");
+    let places = [], leaves = [], changed = true, step = null;
     let order = [], reaches = [], leafOf = [];
     function boxes(depth) {
         const number = wasm.cut(depth);
@@ -51,7 +52,7 @@ ljusLive.define("kd_tree", figure => {
         const steps = wasm.search(at.x, at.y, wanted.value, radius);
         order = Array.from(figure.ints(wasm.search_order(), steps));
         reaches = Array.from(figure.floats(wasm.search_reach(), steps));
-        step = Infinity;
+        step = step === null ? 0 : Infinity; // the first one is seen step by step
     }
 
     function dots(indices, color, width) {

@@ -102,7 +102,11 @@ var ljusLive = (function () {
     //   figure.button(label, onClick)
     //       onChange and format may be left out. They return { input, value, enabled }:
     //       read and set; setting calls no onChange.
-    //   figure.play(slider, seconds)   a button that moves a slider to its end
+    //   figure.keep(onChange, object, name, ...)   object.name, which a drag changes, goes
+    //                                  into the address; returns one { value } for each
+    //   figure.play(one, seconds [, min, max])   a button that moves a slider or a kept
+    //                                  value to its end; .begin() does so from the start.
+    //                                  Without a call, it moves the first slider.
     //   figure.tell(value)             shows the first caption whose data-upto is not below
     //   figure.readout(label)          an <output>: set its .value
     //   figure.text(text)              a paragraph below the controls; set .textContent
@@ -124,7 +128,7 @@ var ljusLive = (function () {
     //   figure.onDispose(f)            called when the figure ends
     //
     // Every figure has a button that resets it, and an address with its controls' values,
-    // PAGE.html#NAME=1,0.5, which changes as they do.
+    // and what it keeps, PAGE.html#NAME=1,0.5, which changes as they do.
 
     function makeFigure(box, name, wasm, code) {
         const stage = element("div", "ljus-live-stage");
@@ -242,7 +246,10 @@ var ljusLive = (function () {
                 last = at = spot;
                 guarded(f, { x: spot.x, y: spot.y, dx: spot.x - from.x,
                              dy: spot.y - from.y, first, last: end, moved, key });
-                if (end) last = null;
+                if (end) {
+                    last = null;
+                    writeSettings();
+                }
                 figure.redraw();
             };
             canvas.tabIndex = 0;
@@ -305,6 +312,8 @@ var ljusLive = (function () {
             controls.append(row);
             const made = { input, get value() { return value(); }, set value(to) { set(to); },
                            get enabled() { return !input.disabled; },
+                           get min() { return Number(input.min); },
+                           get max() { return Number(input.max); },
                            set enabled(on) { input.disabled = !on; },
                            choose: to => { set(to); changed(onChange, value()); } };
             settings.push(made);
@@ -314,12 +323,19 @@ var ljusLive = (function () {
             if (onChange) guarded(onChange, value);
             figure.redraw();
         };
+        figure.keep = (onChange, object, ...names) => names.map(name => {
+            const kept = { get value() { return Number(object[name].toFixed(3)); },
+                           set value(to) { object[name] = to; },
+                           choose: to => { kept.value = to; changed(onChange); } };
+            settings.push(kept);
+            return kept;
+        });
 
         // --- The address
         const write = hash => history.replaceState(null, "",
             location.href.replace(/#.*/, "") + hash);
-        const writeSettings = () => write(
-            "#" + name + "=" + settings.map(one => Number(one.value)).join(","));
+        figure.state = () => settings.map(one => Number(one.value)).join(",");
+        const writeSettings = () => write("#" + name + "=" + figure.state());
         controls.addEventListener("change", writeSettings);
         figure.readAddress = () => addressed(name).forEach((value, i) => {
             if (settings[i] && Number.isFinite(value)) settings[i].choose(value);
@@ -370,29 +386,44 @@ var ljusLive = (function () {
             return { input, get enabled() { return !input.disabled; },
                      set enabled(on) { input.disabled = !on; } };
         };
-        figure.play = (slider, seconds) => {
-            const { input } = slider, min = Number(input.min), max = Number(input.max);
-            let at = null, last = null; // where it is; null: it stands still
-            const begin = from => {
-                if (at !== null && from === null) writeSettings();
-                at = from;
+        figure.play = (one, seconds, from, to) => {
+            const min = () => from ?? one.min, max = () => to ?? one.max;
+            let at = null, last = null, put = 0; // where it is; null: it stands still
+            let asked = false;                   // by a reader: the address follows
+            const go = start => {
+                if (asked && start === null) writeSettings();
+                at = start;
                 last = null;
+                put = one.value;
                 button.input.textContent = at === null ? "play" : "pause";
+                figure.redraw();
             };
-            const button = figure.button("play", () => begin(
-                at !== null ? null : slider.value < max ? slider.value : min));
-            input.addEventListener("input", () => begin(null));
+            const button = figure.button("play", () => {
+                asked = true;
+                go(at !== null ? null : one.value < max() ? one.value : min());
+            });
             players.push(time => {
                 if (at === null) return false;
+                if (one.value !== put) { // somebody has moved it
+                    go(null);
+                    return false;
+                }
                 const passed = Math.min(time - (last || time), 100) / 1000;
-                const before = slider.value;
                 last = time;
-                at = Math.min(max, at + (max - min) * passed / seconds);
-                slider.value = at;
-                if (slider.value !== before) slider.choose(slider.value);
-                if (at === max) begin(null);
+                at = Math.min(max(), at + (max() - min()) * passed / seconds);
+                one.value = at;
+                if (one.value !== put) one.choose(one.value);
+                put = one.value;
+                if (at === max()) go(null);
                 return true;
             });
+            return { begin: () => { asked = false; go(min()); } };
+        };
+        // What every figure has.
+        figure.finish = () => {
+            const first = settings.find(one => one.input && one.input.type === "range");
+            if (first && !players.length) figure.play(first, 12);
+            figure.resetButton = figure.button("reset", figure.reset).input;
         };
         figure.tell = value => {
             const all = Array.from(box.querySelectorAll("[data-upto]"));
@@ -441,7 +472,7 @@ var ljusLive = (function () {
             figures.push(figure);
             box.insertBefore(figure.stage, box.firstChild);
             makers[name](figure);
-            figure.resetButton = figure.button("reset", figure.reset).input;
+            figure.finish();
             box.classList.add("ljus-running");
             const sight = new IntersectionObserver(entries => {
                 figure.seen = entries[entries.length - 1].isIntersecting;

@@ -12,20 +12,19 @@ ljusLive.define("monte_carlo", figure => {
 
     const density = figure.choice("density", ways, 0, () => restart());
     const points = figure.choice("numbers", numbers, 0, () => restart());
-    const count = figure.slider("samples", 0, last, 1, 0, () => { playing = false; },
-                                k => samples(k));
+    const count = figure.slider("samples", 0, last, 1, 0, null, k => samples(k));
+    const play = figure.play(count, 2.6);
     figure.button("again, other numbers", () => { seed += runs; done = {}; restart(); });
     const blue = figure.readout("blue run");
     const truth = figure.readout("right");
     const off = figure.readout("rms error of 32 runs");
 
-    let playing = true, since = 0, seed = 1, chosen = 0, done = {};
+    let seed = 1, chosen = 0, done = {};
     function restart() {
-        playing = true;
-        count.value = 0;
+        play.begin();
     }
+    restart();
     figure.onDrag(means, spot => {
-        playing = false;
         if (spot.key) {
             count.value += Math.sign(spot.dx);
             chosen = (chosen + runs + Math.sign(spot.dy)) % runs;
@@ -170,12 +169,7 @@ ljusLive.define("monte_carlo", figure => {
         right.restore();
     }
 
-    figure.onFrame(time => {
-        if (playing && time - since > 110) {
-            since = time;
-            if (count.value < last) count.value = count.value + 1;
-            else playing = false;
-        }
+    figure.onFrame(() => {
         const k = count.value, key = name();
         for (let j = 0; j <= k; ++j) results(key, j);
         const colors = figure.colors, now = results(key, k);
@@ -185,6 +179,6 @@ ljusLive.define("monte_carlo", figure => {
             + (rightAnswer * now.bars[chosen]).toFixed(5);
         truth.value = rightAnswer.toFixed(5);
         off.value = (100 * now.rms).toPrecision(2) + " %";
-        return playing;
+        return false;
     });
 });

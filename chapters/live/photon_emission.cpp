@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "flatland/photon_map.hpp"
 #include "flatland/room.hpp"
+#include "live/photon_path.hpp"
 
 namespace {
 
@@ -30,7 +30,6 @@ struct Figure {
     fl::Scene scene = closed_room(0.5);
     int sent = 0;
     std::vector<int> arrived = std::vector<int>(1000, 0); // at the k-th surface
-    std::vector<float> path;                              // of the last photon: x, y
 };
 Figure figure;
 
@@ -57,21 +56,12 @@ extern "C" {
     for (int i = 0; i < photons; ++i) {
         ljus::RandomStream stream = fl::photon_stream({}, figure.sent++);
         const fl::PathState photon = emit_photon(figure.scene, 1, stream);
-        figure.path = {float(photon.ray.origin.x), float(photon.ray.origin.y)};
-        trace_photon(figure.scene, photon, stream, 1000,
-                     [](const fl::PathState& path, const fl::Vertex& vertex) {
-                         ++figure.arrived[std::size_t(path.depth - 1)];
-                         figure.path.push_back(float(vertex.point.position.x));
-                         figure.path.push_back(float(vertex.point.position.y));
-                     });
+        live::follow_photon(figure.scene, photon, stream, 1000,
+                            [](const fl::PathState& state, const fl::Vertex&) {
+                                ++figure.arrived[std::size_t(state.depth - 1)];
+                            });
     }
     return figure.sent;
-}
-[[gnu::used]] const float* path() {
-    return figure.path.data();
-}
-[[gnu::used]] int path_size() {
-    return int(figure.path.size() / 2);
 }
 
 /// How many photons have arrived at their k-th surface, k = 1, 2, ...
@@ -94,8 +84,8 @@ extern "C" {
     send(1000);
     const double number = i == 0   ? met()
                           : i == 1 ? arrived(5)
-                          : i == 2 ? double(figure.path[2])
-                                   : double(figure.path.back());
+                          : i == 2 ? double(path()[2])
+                                   : double(live::last_path.back());
     figure = shown;
     return number;
 }

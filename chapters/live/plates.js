@@ -17,6 +17,7 @@ ljusLive.define("plates", figure => {
     wasm.restart(1);
 
     const spot = { x: 124, y: 50 }; // the largest lamp in the smoothest plate
+    figure.keep(null, spot, "x", "y");
     const move = to => {
         if (to.key) {
             spot.x += Math.sign(to.dx);

@@ -13,19 +13,18 @@ constexpr double first_radius = 0.025;
 constexpr int places = 2 * live::rings; // of the middle line
 
 struct Figure {
-    ljus::World<live::Stage> world = live::ball_over_floor();
+    live::Floor shown;
     ljus::ProgressiveState floor;            // its cells
     ljus::ProgressiveState line;             // its middle line
     ljus::ProgressiveState same{.alpha = 1}; // the line, by discs that do not shrink
     std::vector<double> radii;               // of each pass
-    std::vector<float> dots, picture, values;
-    live::Rings rings;
+    std::vector<float> picture, values;
 };
 std::unique_ptr<Figure> figure;
 
 std::vector<ljus::Photon> photons_of(int pass) {
     return trace_photons(
-               figure->world, ljus::MapType::caustics,
+               figure->shown.world, ljus::MapType::caustics,
                {.photons = photons, .iteration = std::uint64_t(pass), .threads = 1}, 0,
                photons)
         .photons;
@@ -43,16 +42,14 @@ ljus::Image line_by(const ljus::PhotonMap& map, double radius) {
 
 } // namespace
 
+live::Floor& live::floor_shown() {
+    return figure->shown;
+}
+
 extern "C" {
 
 [[gnu::used]] void setup() {
     figure = std::make_unique<Figure>();
-}
-[[gnu::used]] double width() {
-    return 2 * double(live::half_width);
-}
-[[gnu::used]] int picture_size() {
-    return live::cells;
 }
 
 /// One pass more: its photons make a map, and the map light, which is added.
@@ -79,15 +76,9 @@ extern "C" {
 /// Where the photons of a pass land: x and z of each.
 /// \return How many there are.
 [[gnu::used]] int land(int pass) {
-    figure->dots.clear();
-    for (const ljus::Photon& photon : photons_of(pass)) {
-        figure->dots.push_back(photon.position.x);
-        figure->dots.push_back(photon.position.z);
-    }
-    return int(figure->dots.size() / 2);
-}
-[[gnu::used]] const float* dots() {
-    return figure->dots.data();
+    figure->shown.dots.clear();
+    figure->shown.show(photons_of(pass));
+    return int(figure->shown.dots.size() / 2);
 }
 
 /// The mean of the passes, W/m^2, in the cells of the floor.
@@ -106,18 +97,6 @@ extern "C" {
     return figure->values.data();
 }
 
-/// Counts more photons in rings, and returns how many so far.
-[[gnu::used]] double count_reference(int more) {
-    if (more > 0) figure->rings.count(figure->world, more);
-    return double(figure->rings.sent);
-}
-[[gnu::used]] int reference_size() {
-    return live::rings;
-}
-[[gnu::used]] double reference(int ring) {
-    return figure->rings.irradiance(ring);
-}
-
 [[gnu::used]] int checks() {
     return 4;
 }
@@ -132,11 +111,6 @@ extern "C" {
                                   : radius(2);
     figure = std::move(kept);
     return found;
-}
-
-/// Photons in float; a last digit of a sine moves each of them a little.
-[[gnu::used]] double tolerance() {
-    return 1e-4;
 }
 
 } // extern "C"

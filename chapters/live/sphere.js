@@ -14,18 +14,19 @@ ljusLive.define("sphere", figure => {
     const shares = labels.map(label => figure.readout("wrong, " + label));
     const apart = figure.readout("floats near L² are apart by");
 
-    let azimuth = 0.6, height = 0.5;
+    const eye = { azimuth: 0.6, height: 0.5 };
+    figure.keep(null, eye, "azimuth", "height");
     for (const canvas of pictures)
         figure.onDrag(canvas, spot => {
-            azimuth -= spot.dx / 100;
-            height = Math.max(-1.5, Math.min(1.5, height + spot.dy / 100));
+            eye.azimuth -= spot.dx / 100;
+            eye.height = Math.max(-1.5, Math.min(1.5, eye.height + spot.dy / 100));
         });
 
     figure.onFrame(() => {
         const colors = figure.colors;
         const distance = 10 ** far.value;
         pictures.forEach((canvas, robust) => {
-            const address = wasm.telescope(robust, distance, azimuth, height,
+            const address = wasm.telescope(robust, distance, eye.azimuth, eye.height,
                                            mark.value ? 1 : 0);
             figure.clear(canvas);
             figure.paint(canvas, figure.bytes(address, 4 * size * size), size, size,

@@ -17,6 +17,7 @@ ljusLive.define("triangle", figure => {
     const spots = [{ x: 190, y: 180 }, { x: 60, y: 260 }, { x: 360, y: 285 },
                    { x: 185, y: 45 }];
     const names = ["P", "V₁", "V₂", "V₃"];
+    for (const spot of spots) figure.keep(null, spot, "x", "y");
     let held = 0;
     figure.onDrag(plane, spot => {
         if (spot.key) { // Enter goes on to the next point
@@ -28,8 +29,8 @@ ljusLive.define("triangle", figure => {
         }
         const to = spot.key ? { x: spots[held].x + spot.dx, y: spots[held].y + spot.dy }
             : held === 0 || spot.moved ? spot : spots[held];
-        spots[held] = { x: Math.max(8, Math.min(412, to.x)),
-                        y: Math.max(8, Math.min(312, to.y)) };
+        Object.assign(spots[held], { x: Math.max(8, Math.min(412, to.x)),
+                                     y: Math.max(8, Math.min(312, to.y)) });
     });
 
     function line(a, b, color, width, dash) {

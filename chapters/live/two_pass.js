@@ -41,22 +41,14 @@ ljusLive.define("two_pass", figure => {
         .map(name => figure.toggle(name, true, rerender));
     const dots = figure.toggle("photons as dots", false);
     figure.button("another ray of the pixel", () => { ++asked.seed; explain(); });
-    figure.button("as at first", reset);
     const shownRays = figure.readout("rays per pixel");
     const shownSpeed = figure.readout("million rays per second");
     const shownPhotons = figure.readout("photons in the caustics map");
     const shownError = figure.readout("expected error (relMSE)");
 
     const turned = { yaw: 0, pitch: 0 };
-    function reset() {
-        [[photons, 5], [radius, -1], [depth, 13], [index, 1.47], [distance, 13],
-         [exposure, 0], [indirect, 0], [dots, false]]
-            .forEach(([control, value]) => { control.value = value; });
-        for (const one of classes) one.value = true;
-        indexChosen = false;
-        turned.yaw = turned.pitch = 0;
-        changed(true);
-    }
+    const [yaw] = figure.keep(rerender, turned, "yaw", "pitch");
+    figure.play(yaw, 12, -30, 30);
 
     // From outside one looks through the open side of the room, from inside all around.
     function keepInSight() {
