@@ -23,12 +23,12 @@ Point flat(const Vec3& v, double length = 1) {
     return {length * v.x, length * v.z};
 }
 
-/// A facet, w_o above it, w_i below, and the sum eta w_o + w_i along its normal.
+/// A facet, ω_o above it, ω_i below, and the sum η ω_o + ω_i along its normal.
 void draw_half_vector(const std::string& folder) {
     Drawing drawing{.name = "rough_glass-half-vector",
                     .description =
                         "A rough boundary between air and glass; one facet "
-                        "refracts w_i into w_o, and the sum of both, weighted "
+                        "refracts ω_i into ω_o, and the sum of both, weighted "
                         "by the indices, lies along its normal h",
                     .low{-2.4, -2.3},
                     .high{2.8, 2.3},

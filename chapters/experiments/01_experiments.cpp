@@ -92,8 +92,7 @@ double mean_of_pixel(const TestCard& card, double x, double y, double size) {
     return sum / (columns * rows);
 }
 
-/// Two plots: how the error of a pixel falls with the number of its rays; and a table
-/// of counts that are squares, products and primes.
+/// Two plots: how the error of a pixel falls with the number of its rays.
 void plot_errors(const std::string& folder, int pixels, int most) {
     std::array<Image, 2> truth;
     const double size = 2.0 / pixels;
@@ -123,35 +122,6 @@ void plot_errors(const std::string& folder, int pixels, int most) {
             std::printf("%s, %s: slope %.2f\n", plot.name.c_str(), names[k - 1],
                         std::log(last[k] / first[k]) / std::log(last[0] / first[0]));
     }
-    examples::Table table{
-        .name = "patterns-counts",
-        .columns = {"rays", "random", "jittered", "multi-jittered", "Sobol"}};
-    for (const int rays : {7, 8, 10, 16, 61, 64, 97, 100}) {
-        std::vector<std::string> row{std::to_string(rays)};
-        for (const Sampling sampling : patterns)
-            row.push_back(examples::text(
-                error({true}, sampling, rays, pixels, truth[1], 8), "%.4f"));
-        table.rows.push_back(row);
-    }
-    std::vector<std::string> row{"ns per point, of 64"};
-    for (const Sampling sampling : patterns) {
-        const auto pattern = make_pattern(sampling, 64);
-        double best = 1e9;
-        volatile float keep = 0;
-        for (int run = 0; run < 21; ++run) {
-            const examples::StopWatch watch;
-            Vec2 sum{0};
-            for (std::uint64_t key = 0; key < 500; ++key)
-                for (int i = 0; i < 64; ++i)
-                    sum +=
-                        ljus::spread(pattern, i, ljus::mix_bits(key), Vec2{0.3f, 0.6f});
-            keep = keep + sum.x + sum.y;
-            best = std::min(best, watch.seconds() * 1e9 / (500 * 64));
-        }
-        row.push_back(examples::text(best, "%.1f"));
-    }
-    table.rows.push_back(row);
-    save_table(folder, table);
 }
 
 /// A floor of tiles to the horizon, too fine for the pixels.

@@ -108,8 +108,6 @@ void near_the_lamp(const std::string& folder) {
         .y_label = "ratio",
         .log_x = true,
         .log_y = true};
-    examples::Table table{.name = "radiance-near-table",
-                          .columns = {"distance over side", "too bright by"}};
     for (int i = -8; i <= 12; ++i) {
         const double r = std::pow(10.0, i / 8.0);
         const Quad lamp{{-0.5, r, -0.5}, {1, 0, 0}, {0, 0, 1}};
@@ -117,15 +115,7 @@ void near_the_lamp(const std::string& folder) {
             pi * *form_factor_from(Vec{0, 0, 0}, Vec{0, 1, 0}, lamp, false);
         plot.rows.push_back({r, 1 / (r * r) / truth});
     }
-    for (const double r : {0.5, 1.0, 2.0, 5.0, 10.0}) {
-        const Quad lamp{{-0.5, r, -0.5}, {1, 0, 0}, {0, 0, 1}};
-        const double truth =
-            pi * *form_factor_from(Vec{0, 0, 0}, Vec{0, 1, 0}, lamp, false);
-        table.rows.push_back(
-            {text(r), text(100 * (1 / (r * r) / truth - 1), "%.3g %%")});
-    }
     save_plot(folder, plot);
-    save_table(folder, table);
 }
 
 // --- The trade: four ways to an irradiance --------------------------------------------

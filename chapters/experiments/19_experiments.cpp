@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 16 --rays 4 --most 4
 /// \file chapters/experiments/19_experiments.cpp
 /// \brief Chapter 19: the experiments behind its tables, plots and pictures: edges,
-/// soft shadows, gloss, a lens and motion, and the cost of evenly spread numbers.
+/// soft shadows, gloss, a lens and motion, and what evenly spread numbers bring.
 
 #include <algorithm>
 #include <array>
@@ -268,10 +268,10 @@ void jagged(const Shot& shot, const examples::Options& options) {
              options.path("distributed_rays-pixel-few.png"));
 }
 
-// The cost of evenly spread numbers.
+// What evenly spread numbers bring.
 
-using Balls = ljus::Scene<ljus::Shapes<Sphere, Quad>, ljus::Materials<ljus::Lambertian>,
-                          ljus::Lights<ljus::PointLight>>;
+using Balls =
+    ljus::Scene<ljus::Shapes<Sphere, Quad>, ljus::Materials<ljus::Lambertian>>;
 
 /// Nine balls on a floor, without a light.
 Balls nine_balls() {
@@ -309,33 +309,6 @@ Timed timed(const W& world, const AnyCamera& camera, ljus::Sampling sampling, in
                            .threads = 1,
                            .sampling = sampling});
     return {std::move(picture.image), examples::processor_seconds() - start};
-}
-
-/// Table: nanoseconds of a camera ray by each pattern.
-void tabulate_costs(const Size& size, const examples::Options& options) {
-    const ljus::PointLight light{.position{3, 6, 4}, .intensity = Rgb{100}};
-    auto scene = nine_balls();
-    scene.add(light);
-    const ljus::World world(std::move(scene));
-    const ljus::Camera pinhole =
-        look_at(ljus::View{.position{0, 5, 8}, .target{0, 0.4f, 0}});
-    std::array<double, patterns.size()> least;
-    least.fill(std::numeric_limits<double>::infinity());
-    for (int round = 0; round < options.pick(7, 15, 31); ++round) {
-        for (std::size_t i = 0; i < patterns.size(); ++i)
-            least[i] = std::min(least[i],
-                                timed(world, pinhole, patterns[i], 16, size).seconds);
-        examples::stop_if_asked();
-    }
-    const std::array names{"random", "jittered", "multi-jittered", "Sobol"};
-    examples::Table table{
-        .name = "distributed_rays-costs",
-        .columns = {"camera rays", "ns per camera ray", "over the first row"}};
-    const double rays = 16.0 * size.width * size.height;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        table.rows.push_back({names[i], examples::text(1e9 * least[i] / rays, "%.0f"),
-                              examples::text(least[i] / least[0], "%.2f")});
-    save_table(options.path(""), table);
 }
 
 /// Plot: the error of a picture with soft shadows against time.
@@ -411,7 +384,6 @@ int main(int argc, char** argv) {
         save_table(options.path(""), table);
         const int width = std::min(options.width, options.pick(48, 72, 96));
         const Size small{.width = width, .height = 2 * width / 3};
-        tabulate_costs(small, options);
         plot_trade(small, most, options);
     });
 }

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 16 --height 16 --rays 1 --most 4 --runs 3 --paths 50
 /// \file chapters/experiments/20_experiments.cpp
 /// \brief Chapter 20: the experiments behind its tables, plots and pictures: how paths find
-/// the lamp, roulette, and the light that a fixed depth leaves out.
+/// the lamp, and roulette.
 
 #include <algorithm>
 #include <array>
@@ -91,12 +91,6 @@ Noise noise_of(const Renderer& renderer, const ljus::Camera& camera,
             .image = a.image,
             .other = b.image};
 }
-double mean_of(const Image& image) {
-    double sum = 0;
-    for (const Rgb& c : image.pixels) sum += double(c.x + c.y + c.z) / 3;
-    return sum / double(image.pixels.size());
-}
-
 void print(const examples::Table& table, const examples::Options& options) {
     if (options.quiet) return;
     std::printf("\n%s\n", table.name.c_str());
@@ -306,60 +300,6 @@ Mean furnace_mean(float albedo, const PathTracingSettings& settings, int paths,
             1 + double(counts.bounce_rays) / paths};
 }
 
-/// Plot: the light that a fixed depth leaves out, in furnaces and in the room.
-void depths(const examples::Options& options, const Sizes& sizes) {
-    const std::array albedos{0.5f, 0.75f, 0.9f};
-    examples::Plot plot{.name = "path_tracing-depth",
-                        .columns = {"largest depth", "furnace of albedo 0.5",
-                                    "furnace of albedo 0.75", "furnace of albedo 0.9",
-                                    "the diffuse room"},
-                        .y_label = "share of the light that is missing",
-                        .log_y = true,
-                        .more = "set yrange [1e-5:1]\n"};
-    const auto room = matt_room();
-    const int side = options.pick(48, 100, 200);
-    const ljus::RenderSettings picture{side, side, std::max(4, options.samples),
-                                       options.seed};
-    const auto light_at = [&](int depth) {
-        return mean_of(rendered("depth",
-                                ljus::PathTracer(room.world, {.max_depth = depth,
-                                                              .roulette_depth = 1000}),
-                                room.camera, picture, options)
-                           .image);
-    };
-    const double all = light_at(60);
-    double worst = 0;
-    for (const int depth : {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20}) {
-        plot.rows.push_back({double(depth)});
-        for (const float albedo : albedos) {
-            const double rho = double(albedo);
-            const double seen =
-                furnace_mean(albedo, {.max_depth = depth, .roulette_depth = 1000}, 50,
-                             options.seed)
-                    .mean;
-            const double missing = 1 / (1 - rho) - seen;
-            const double right = std::pow(rho, depth + 1) / (1 - rho);
-            worst = std::max(worst, std::abs(missing - right) * (1 - rho));
-            plot.rows.back().push_back(missing * (1 - rho));
-        }
-        plot.rows.back().push_back(depth <= 12 ? 1 - light_at(depth) / all : nothing);
-    }
-    save_plot(options.path(""), plot);
-    if (options.quiet) return;
-    std::printf("\nlight missing at depth 4: furnace 0.75 %.3f, room %.3f; the closed "
-                "form rho^(d+1) is met within %.1e\n",
-                plot.rows[3][2], plot.rows[3][4], worst);
-    for (const float albedo : albedos) {
-        const Mean end =
-            furnace_mean(albedo, {.roulette_depth = 1, .sample_lights = false},
-                         100 * sizes.paths, options.seed);
-        const double error = std::sqrt(end.variance / (100 * sizes.paths));
-        std::printf("roulette, albedo %.2f: %.4f (%.0f), %.2f standard errors off\n",
-                    double(albedo), end.mean, 1 / (1 - double(albedo)),
-                    (end.mean - 1 / (1 - double(albedo))) / error);
-    }
-}
-
 /// The variance of a path in a furnace of emission 1, if it continues with a constant
 /// probability p.
 double furnace_variance(double rho, double p) {
@@ -524,7 +464,6 @@ int main(int argc, char** argv) {
         in_the_room(options, sizes);
         in_the_box(options);
         on_the_plates(options);
-        depths(options, sizes);
         constant_chances(options, sizes);
         roulette(options, sizes);
     });

@@ -253,73 +253,9 @@ void draw_rays(const examples::Options& options) {
     save_drawing(options.out, figure);
 }
 
-// --- Several lamps -------------------------------------------------------------------
-
-/// A glass ball under a lamp of 1 W/sr, and other lamps.
-/// \param sealed  Whether each of them is in a black ball of its own.
-World<Stage> ball_and_lamps(const std::vector<PointLight>& others, bool sealed) {
-    Stage stage;
-    stage.add(Quad{.corner{-50, -1, -50}, .edge_u{0, 0, 100}, .edge_v{100, 0, 0}},
-              stage.add(Lambertian{.albedo = Rgb{floor_albedo}}));
-    stage.add(Sphere{.radius = 0.5f}, stage.add(Glass{}));
-    const auto black = stage.add(Lambertian{.albedo = Rgb{0}});
-    stage.add(PointLight{.position{0, 2, 0}});
-    for (const PointLight& other : others) {
-        stage.add(other);
-        if (sealed) stage.add(Sphere{.center = other.position, .radius = 0.2f}, black);
-    }
-    return World(std::move(stage));
-}
-
-/// The caustic light on half of the floor, by many maps.
-Estimate half_of_floor(const World<Stage>& world, PhotonPassSettings pass, int seeds) {
-    Estimate flux;
-    for (int seed = 1; seed <= seeds; ++seed) {
-        pass.seed = static_cast<std::uint64_t>(seed);
-        double sum = 0;
-        for (const Photon& photon :
-             trace_photons(world, MapType::caustics, pass).photons)
-            if (photon.normal.y > 0 && photon.position.x > 0)
-                sum += double(photon.flux.x);
-        add(flux, sum);
-    }
-    return flux;
-}
-
-/// Lamps chosen by power, and by what a pilot of each brought.
-void several_lamps(const examples::Options& options, const Sizes& sizes) {
-    examples::Table table{.name = "budget-lamps",
-                          .columns = {"lamps beside the one above the ball",
-                                      "light by power, W", "standard error",
-                                      "by what arrives, W", "standard error",
-                                      "variance falls by"}};
-    const auto row = [&](const char* name, const std::vector<PointLight>& others,
-                         bool sealed) {
-        const World<Stage> world = ball_and_lamps(others, sealed);
-        PhotonPassSettings pass{.photons = sizes.photons, .threads = options.threads};
-        const auto by_power = half_of_floor(world, pass, 4 * sizes.seeds);
-        pass.light_shares = pilot_lights(world, pass);
-        const auto by_share = half_of_floor(world, pass, 4 * sizes.seeds);
-        table.rows.push_back({name, examples::text(by_power.mean),
-                              examples::text(standard_error(by_power), "%.2g"),
-                              examples::text(by_share.mean),
-                              examples::text(standard_error(by_share), "%.2g"),
-                              examples::text(variance(by_power) / variance(by_share))});
-    };
-    std::vector<PointLight> strong, alike;
-    for (int i = 0; i < 50; ++i) {
-        strong.push_back({.position{float(i - 25), 9, 0}, .intensity = Rgb{100}});
-        alike.push_back({.position{float(i - 25) / 25, 9, 0}});
-    }
-    row("50 sealed ones, 100 times as strong", strong, true);
-    row("50 of its strength, high above", alike, false);
-    row("one of its strength, beside it", {{.position{-1, 2, 0}}}, false);
-    save_table(options.out, table);
-}
-
 } // namespace
 
-/// Makes the plot and the table about the photons of each object, and a drawing.
+/// Makes the plot about the photons of each object, and a drawing.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
 /// \return 0; after an exception 2, with one sentence on stderr.
@@ -341,6 +277,5 @@ int main(int argc, char** argv) {
         draw_rays(options);
         by_share(known_balls(grid, radius, sizes, options), grid, radius, sizes,
                  options);
-        several_lamps(options, sizes);
     });
 }

@@ -94,24 +94,6 @@ void plot_density(const Options& options, int runs) {
     save_plot(options.path(""), plot);
 }
 
-/// Plot: the error over rays, in thin fog.
-void plot_rays(const Options& options, int runs) {
-    examples::Plot plot{.name = "fog-rays",
-                        .columns = {"rays per pixel"},
-                        .y_label = "relative error of a pixel",
-                        .log_x = true,
-                        .log_y = true};
-    plot.columns.insert(plot.columns.end(), names.begin(), names.end());
-    const auto world = yard(0.05f, 0.1f);
-    for (int rays = 1; rays <= 256; rays *= 4) {
-        examples::Row row{double(rays)};
-        for (const FogLight how : ways)
-            row.push_back(gather(world, how, rays, runs).error());
-        plot.rows.push_back(row);
-    }
-    save_plot(options.path(""), plot);
-}
-
 /// Table: error and time of one ray, for small and large lamps in thin and dense fog.
 void tabulate(const Options& options, int runs) {
     examples::Table table{.name = "fog-trade",
@@ -147,7 +129,6 @@ int main(int argc, char** argv) {
         const Options options = line.parse({});
         const int runs = options.pick(20, 1000, 10000);
         plot_density(options, runs);
-        plot_rays(options, options.pick(5, 100, 400));
         tabulate(options, runs);
     });
 }

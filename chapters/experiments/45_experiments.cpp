@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <ljus/ljus.hpp>
-#include <ljus/materials/cut_out.hpp>
+#include <ljus/materials/textured.hpp>
 #include <ljus/render/path_tracing.hpp>
 
 #include "common/example.hpp"
@@ -136,58 +136,13 @@ void tabulate_noise(const examples::Options& options, int reference) {
     examples::save_table(options.path(""), table);
 }
 
-/// Nanoseconds of a ray through a stack of 16 squares, by what they are made of.
-template <typename M>
-std::string stack_cost(const M& material) {
-    Scene<Shapes<Quad>, Materials<M>> scene;
-    const auto made = scene.add(material);
-    for (int i = 0; i < 16; ++i)
-        scene.add(Quad{{0, float(i), 0}, {1, 0, 0}, {0, 0, 1}}, made);
-    const World world(std::move(scene));
-    constexpr int rays = 300; // few, so that one run is not interrupted
-    const double cost = examples::nanoseconds_a_call(
-        rays,
-        [&] {
-            auto stream = random_stream(45, Pass::user, 0, 0);
-            double sum = 0;
-            for (int i = 0; i < rays; ++i) {
-                const Vec2 at = next_2d<float>(stream);
-                const auto hit = closest_hit(
-                    world, Ray{.origin{at.x, 20, at.y}, .direction{0.01f, -1, 0.01f}});
-                sum += hit ? double(hit->at.t) : 0;
-            }
-            return sum;
-        },
-        101);
-    return examples::text(cost, "%.0f");
-}
-
-/// Table: what holes cost.
-void tabulate_holes(const examples::Options& options) {
-    const auto cut = [](float odd) {
-        return CutOut<Lambertian, UvPicture>{
-            {}, {.mask{.image = make_image(64, 64, Rgb{odd})}}};
-    };
-    UvPicture half = fields();
-    half.filter = PictureFilter::nearest;
-    const CutOut<Lambertian, UvPicture> by_half{{}, {.mask = half}};
-    examples::Table table{.name = "textures-holes", .columns = {"squares", "ns a ray"}};
-    table.rows = {{"without a mask", stack_cost(Lambertian{})},
-                  {"a mask, solid", stack_cost(cut(1))},
-                  {"a mask, half open", stack_cost(by_half)},
-                  {"a mask, open", stack_cost(cut(0))}};
-    examples::print_table(table);
-    examples::save_table(options.path(""), table);
-}
-
 } // namespace
 
-/// Makes the chapter's tables.
+/// Makes the chapter's table.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
-        line.about("Chapter 45, textures: filters, and what holes cost.");
+        line.about("Chapter 45, textures: filters.");
         const examples::Options options = line.parse({});
         tabulate_noise(options, options.pick(64, 4096, 4096));
-        tabulate_holes(options);
     });
 }

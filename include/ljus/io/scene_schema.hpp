@@ -4,6 +4,7 @@
 /// \brief What a scene file may contain, as a JSON schema and as tables for people.
 
 #include <cmath>
+#include <map>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -228,7 +229,7 @@ struct JsonGroup {
     return code + "\n";
 }
 
-/// What a value may be, in words.
+/// What a value may be, in words; the page explains colour, point and direction.
 [[nodiscard]] inline std::string value_text(const JsonValue& value) {
     const auto with = [&](std::string_view kind) {
         return value.right.empty() ? std::string(kind) : join({kind, " ", value.right});
@@ -252,9 +253,11 @@ struct JsonGroup {
     case JsonKind::pair:
         return with("two numbers");
     case JsonKind::vector:
-        return with("three numbers");
+        return value.right == color_value.right   ? "colour"
+               : value.right == point_value.right ? "point"
+                                                  : with("three numbers");
     case JsonKind::direction:
-        return with("three numbers, not all 0,");
+        return "direction";
     case JsonKind::scale:
         return with("one or three numbers");
     case JsonKind::object:
@@ -304,7 +307,8 @@ struct JsonGroup {
     return whole.dump(1) + "\n";
 }
 
-/// The same tables in Markdown, each with an example.
+/// The same tables in Markdown, each with an example. A type that has the members of
+/// an earlier one refers to it.
 /// \return The reference part of the page \ref ch_scene_files.
 [[nodiscard]] inline std::string scene_tables() {
     std::string page;
@@ -312,13 +316,20 @@ struct JsonGroup {
         page += detail::join({"## ", group.heading, " {#ch_scene_files_", group.name,
                               "}\n\n", group.text, "\n\n"});
         if (!group.shared.empty()) page += detail::member_rows(group.shared) + "\n";
+        std::map<std::string, std::string_view> first; // of the types with these rows
         for (const detail::JsonTable& table : group.tables) {
             if (!table.name.empty())
-                page += detail::join({"### `", table.name, "`",
-                                      table.also.empty() ? "" : " or `", table.also,
-                                      table.also.empty() ? "" : "`", "\n\n", table.text,
-                                      "\n\n"});
-            page += detail::member_rows(table.members) + "\n";
+                page += detail::join(
+                    {"### `", table.name, "`", table.also.empty() ? "" : " or `",
+                     table.also, table.also.empty() ? "" : "`", "\n\n", table.text});
+            const std::string rows = detail::member_rows(table.members);
+            const auto [same, is_new] = first.emplace(rows, table.name);
+            if (!is_new) {
+                page += detail::join({"; members as of `", same->second, "`\n\n"});
+                continue;
+            }
+            if (!table.name.empty()) page += "\n\n";
+            page += rows + "\n";
             if (group.name != "scene")
                 page += detail::code_lines(detail::example_of(table, group.shared));
         }

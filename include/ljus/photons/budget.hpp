@@ -233,7 +233,6 @@ struct AllAlike {
 /// \param weight  Called with each photon; returns \f$ w_i \f$, at least 0.
 /// \return One fraction per light with the sum 1, as PhotonPassSettings::light_shares;
 ///         none for a single light, or if no photon was stored.
-// [pilot_lights]
 template <AnyWorld W, typename Weight = detail::AllAlike>
 [[nodiscard]] std::vector<double> pilot_lights(const W& world, PhotonPassSettings pass,
                                                MapType map = MapType::caustics,
@@ -261,7 +260,6 @@ template <AnyWorld W, typename Weight = detail::AllAlike>
                          0.9 * (scatter[k] / sum));
     return shares;
 }
-// [pilot_lights]
 
 /// Computes PhotonPassSettings::shares.
 /// \return One fraction per object; none for CausticBudget::as_seen.
