@@ -28,6 +28,7 @@
 #   cmake --build build --target break_it         # or break_it_TEST
 #   ctest --test-dir build -C BreakIt -L '^break_it$'
 
+include("${CMAKE_CURRENT_LIST_DIR}/LjusQuickCompilation.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/LjusWriteIfDifferent.cmake")
 set(LJUS_BREAK_IT_FOLDER "${CMAKE_CURRENT_LIST_DIR}")
 find_package(Python3 3.9 COMPONENTS Interpreter)
@@ -81,9 +82,7 @@ function(ljus_break_it_program target test cases how)
         target_link_libraries(${target} PRIVATE ljus_test_compilation)
         ljus_include_shown(${target})
     endif()
-    if(NOT MSVC) # most of the time goes into compiling the test
-        target_compile_options(${target} PRIVATE -O1)
-    endif()
+    ljus_compile_quickly(${target})
     set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${folder}")
     add_dependencies(break_it_${test} ${target})
 endfunction()

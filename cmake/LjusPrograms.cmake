@@ -1,10 +1,11 @@
 # The programs of the book: examples/NN_name.cpp are for readers to copy; only the book needs
 # chapters/experiments/NN_experiments.cpp and chapters/drawings/NN_drawings.cpp.
 #
-#   ljus_program(SOURCE [QUICK])   adds a program named like its file, and its test
+#   ljus_program(SOURCE [CORE])    adds a program named like its file, and its test
 #
-# QUICK: if LJUS_EXAMPLES_QUICK is set, it is compiled for the test run, whose task is small,
-# and not for speed. Lines at the top of the source say more:
+# If LJUS_EXAMPLES_QUICK is set, it is compiled for the test run, whose task is small, and not
+# for speed; with CORE also against ljus::core and a precompiled header, which an example does
+# without as its readers do. Lines at the top of the source say more:
 #
 #   // figures: fig-1 fig-15      the report's items that it makes (./scripts/figures fig-1)
 #   // smoke: --width 16 --rays 1 the test runs it with these arguments and --out
@@ -29,7 +30,7 @@ function(ljus_quick_headers)
 endfunction()
 
 function(ljus_program source)
-    cmake_parse_arguments(PARSE_ARGV 1 this "QUICK" "" "")
+    cmake_parse_arguments(PARSE_ARGV 1 this "CORE" "" "")
     get_filename_component(name "${source}" NAME_WE)
     # CMake runs again when these lines change.
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${source}")
@@ -58,17 +59,14 @@ function(ljus_program source)
     else()
         target_link_libraries(${name} PRIVATE ljus_warnings)
     endif()
-    if(this_QUICK AND LJUS_EXAMPLES_QUICK AND NOT broken)
-        ljus_quick_headers()
-        target_link_libraries(${name} PRIVATE ljus_core)
+    if(LJUS_EXAMPLES_QUICK)
         target_compile_options(${name} PRIVATE $<$<NOT:$<CXX_COMPILER_ID:MSVC>>:-O1>)
-        # At -O1, g++ 12 warns that moving a short string reads beyond its end, which it
-        # does not.
-        if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-            target_compile_options(${name} PRIVATE
-                -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+        ljus_hide_false_warnings(${name})
+        if(this_CORE AND NOT broken)
+            ljus_quick_headers()
+            target_link_libraries(${name} PRIVATE ljus_core)
+            ljus_use_precompiled_header(${name} ljus_example_headers)
         endif()
-        ljus_use_precompiled_header(${name} ljus_example_headers)
     endif()
 
     if(smoke AND LJUS_TESTS)

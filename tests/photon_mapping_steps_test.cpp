@@ -764,6 +764,24 @@ TEST_CASE("photon mapping: caustics photons that were traced elsewhere") {
           }).starts_with("The irradiance was already gathered"));
 }
 
+TEST_CASE("photon mapping: a caustic of few photons is said to be blurred") {
+    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    PhotonMappingSettings settings = few_photons(IndirectLight::rays);
+    const auto blurred = [&](long long photons, float radius) {
+        settings.caustics.photons = photons;
+        settings.caustics_estimate.radius = radius;
+        const PhotonMapper mapper(room, settings);
+        const bool said =
+            mapper.maps().remarks.find("the light of caustics is blurred "
+                                       "over a radius of ") != std::string::npos;
+        CHECK(said == (radius == 0 && mapper.maps().caustics.records.size() < 256));
+        return said;
+    };
+    CHECK(blurred(100, 0));
+    CHECK_FALSE(blurred(100, 0.1f)); // a radius of one's own
+    CHECK_FALSE(blurred(5000, 0));
+}
+
 TEST_CASE("photon mapping: a radius in another unit than the scene's is remarked on") {
     const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
     PhotonMappingSettings settings = few_photons(IndirectLight::photons);

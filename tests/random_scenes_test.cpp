@@ -135,12 +135,12 @@ PhotonMappingSettings map_settings(const DrawnScene& drawn, std::uint64_t seed) 
     return settings;
 }
 
-/// Whether a mapper says that its few indirect photons blur the light.
-bool says_blurred(const DrawnScene& drawn, std::uint64_t seed) {
+/// What a mapper says about few photons, which blur the light.
+std::string remarks_of(const DrawnScene& drawn, std::uint64_t seed) {
     PhotonMappingSettings settings = map_settings(drawn, seed);
     settings.indirect = IndirectLight::photons;
     const PhotonMapper mapper(drawn.world, settings, listed);
-    return mapper.maps().remarks.find("is blurred over") != std::string::npos;
+    return mapper.maps().remarks;
 }
 
 /// One picture by a carrier.
@@ -221,13 +221,19 @@ TEST_CASE("random scenes: every carrier of light agrees with path tracing") {
                            .image);
         if (show) std::printf("%lld %s\n", scene, drawn.what.c_str());
         std::uint64_t seed = key + 500;
-        const bool blurred = says_blurred(drawn, key);
+        const std::string said = remarks_of(drawn, key);
+        const auto says = [&](const char* what) {
+            return said.find(what) != said.npos;
+        };
+        const bool blurred = says("the light between surfaces is blurred over");
+        const bool blurred_caustics = says("the light of caustics is blurred over");
         for (const Carrier& carrier : carriers) {
-            if (blurred && carrier.blurs) {
+            const bool merges = carrier.name == std::string("merging");
+            if ((blurred && carrier.blurs) || (blurred_caustics && !merges)) {
                 ++all.said;
                 continue;
             }
-            if (carrier.name == std::string("merging") && !drawn.merges) continue;
+            if (merges && !drawn.merges) continue;
             Blocks blocks_of;
             for (int s = 0; s < carried_seeds; ++s)
                 blocks_of.add(carried(drawn, carrier.name, ++seed));

@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include <ljus/inspect/estimate.hpp>
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 #include <ljus/render/budgeting.hpp>

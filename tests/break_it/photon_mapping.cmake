@@ -103,3 +103,10 @@ ljus_break_it(NAME photon-mapping-unit HEADER render/photon_mapping.hpp TEST pho
     FROM "const bool few = found < 0.1;"
     TO   "const bool few = found < 0;"
     CASES "photon mapping: a radius in another unit*")
+
+# A caustic of a hundred photons is blurred without a word.
+ljus_break_it(NAME photon-mapping-few-caustics HEADER render/photon_mapping.hpp
+    TEST photon_mapping_steps
+    FROM "if (landed == 0 || landed >= 256) return {};"
+    TO   "if (landed == 0 || landed >= 64) return {};"
+    CASES "photon mapping: a caustic of few*")

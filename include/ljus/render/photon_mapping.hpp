@@ -252,6 +252,19 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     return maps;
 }
 
+/// A sentence about a caustics map of few photons, whose radius was chosen by them.
+/// \return Empty, or with a line feed.
+template <std::floating_point T>
+[[nodiscard, gnu::cold]] std::string few_caustics_remark(const PhotonMapT<T>& map,
+                                                         float radius) {
+    const std::size_t landed = map.records.size();
+    if (landed == 0 || landed >= 256) return {};
+    return join({"only ", to_text(static_cast<long long>(landed)),
+                 " caustic photons landed: the light of caustics is blurred over a "
+                 "radius of ",
+                 to_text(radius), "; trace more, or choose a caustic budget\n"});
+}
+
 /// A sentence about an estimate whose radius was given in another unit than that of the
 /// scene: hardly any place finds a photon, or each one all of them.
 /// \return Empty, or with a line feed.
@@ -413,16 +426,17 @@ private:
 
     [[gnu::cold]] void choose_radii() {
         radius_is_chosen_ = settings_.caustics_estimate.radius == 0;
-        if (radius_is_chosen_)
-            settings_.caustics_estimate.radius =
-                float(typical_radius(maps_.caustics, 32));
-        else
+        float& radius = settings_.caustics_estimate.radius;
+        if (radius_is_chosen_) {
+            radius = float(typical_radius(maps_.caustics, 32));
+            maps_.remarks += detail::few_caustics_remark(maps_.caustics, radius);
+        } else {
             maps_.remarks += detail::radius_remark(
                 "caustics_estimate", settings_.caustics_estimate, maps_.caustics);
+        }
         const bool widens =
             settings_.lone_radius > 1 && settings_.caustics_estimate.nearest == 0;
-        maps_.lone = widens ? lone_photons(maps_.caustics,
-                                           Scalar(settings_.caustics_estimate.radius))
+        maps_.lone = widens ? lone_photons(maps_.caustics, Scalar(radius))
                             : PhotonMapT<Scalar>{};
         if (settings_.general_estimate.radius == 0)
             settings_.general_estimate.radius =
