@@ -21,7 +21,7 @@ refused() {
     [ "$(wc -l <err.txt)" -eq 1 ] || wrong "render $*: not one line: $(cat err.txt)"
     grep -qF -- "$sentence" err.txt || wrong "render $*: no '$sentence' in: $(cat err.txt)"
 }
-few=(--width 20 --height 16 --rays 2 --caustic-photons 500)
+few=(--width 20 --height 16 --rays 2 --caustic-photons 1000)
 
 # Each kind of file, each renderer; the folder of --out is made.
 for file in a.png a.hdr a.pfm; do
