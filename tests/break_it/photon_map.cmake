@@ -178,4 +178,4 @@ ljus_break_it(NAME photon-map-file-copy HEADER accel/detail/stored_array.hpp
     TEST photon_map_file
     FROM "StoredArray(GrowingArray<Element>(other.elements_))"
     TO   "elements_(other.elements_)"
-    CASES "photon_map_file: it comes back*")
+    CASES "photon_map_file: it comes back*" COMPILED)

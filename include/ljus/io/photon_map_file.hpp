@@ -211,7 +211,9 @@ private:
 } // namespace detail
 
 /// Saves a photon map; see save_file().
-/// \param key  The caller's, to tell maps apart: a hash of the scene and the settings.
+/// \param path  The file.
+/// \param map   The map.
+/// \param key   The caller's, to tell maps apart: a hash of the scene and the settings.
 /// \throws std::runtime_error  as save_file().
 /// \cost 50 bytes per photon in the file; no memory.
 inline void save_photon_map(const std::string& path, const PhotonMap& map,
