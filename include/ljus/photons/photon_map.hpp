@@ -102,13 +102,14 @@ template <std::floating_point T>
 /// the photons of a map, between that of a caustic's focus and that of faint light.
 /// \param map    The photons.
 /// \param count  Number of photons, 1 to 511.
+/// \param most   The largest number of searches, above 0.
 /// \return In scene units; 1 if there are no photons, or if all lie at one point.
-/// \cost At most 255 searches.
 template <std::floating_point T>
-[[nodiscard, gnu::cold]] T typical_radius(const PhotonMapT<T>& map, std::size_t count) {
+[[nodiscard, gnu::cold]] T typical_radius(const PhotonMapT<T>& map, std::size_t count,
+                                          std::size_t most = 255) {
     std::array<Neighbor, 512> room;
     const std::span<Neighbor> found(room.data(), count + 1); // with the photon itself
-    const std::size_t step = map.records.size() / 255 + 1;
+    const std::size_t step = map.records.size() / most + 1;
     double logarithms = 0, photons = 0;
     for (std::size_t i = 0; i < map.records.size(); i += step) {
         const std::size_t near = map.tree.template nearest<512>(

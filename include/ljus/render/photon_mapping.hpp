@@ -273,7 +273,7 @@ template <std::floating_point T>
 radius_remark(std::string_view name, const DensityEstimateSettings& estimate,
               const PhotonMapT<T>& map) {
     constexpr std::size_t some = 32;
-    const double typical = double(typical_radius(map, some));
+    const double typical = double(typical_radius(map, some, 15)); // its order
     const double share = double(estimate.radius) / typical;
     const double found = double(some) * share * share;
     const bool few = found < 0.1;
