@@ -92,8 +92,8 @@ template <typename RenderPass>
         if (state.passes > how.passes) // it would be saved as one of fewer passes
             throw std::invalid_argument("--passes is " + std::to_string(how.passes) +
                                         "; it must be at least " +
-                                        std::to_string(state.passes) + ", as '" +
-                                        how.checkpoint + "' has so many already.");
+                                        std::to_string(state.passes) +
+                                        ", the passes in '" + how.checkpoint + "'.");
         require_first_pass(state, pass);
         say(state.passes);
     }

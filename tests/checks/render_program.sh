@@ -153,7 +153,7 @@ passes=("$scene" "${few[@]}" --caustic-radius 0 --caustic-budget brightness --al
     --resume --preview part.png --every 0
 cmp whole.pfm choice.pfm || wrong "a resumed picture is another"
 [ -s part.png ] || wrong "no preview"
-refused "--passes is 5; it must be at least 6, as 'part.check' has so many already." \
+refused "--passes is 5; it must be at least 6, the passes in 'part.check'." \
     "${passes[@]}" --passes 5 --out fewer.pfm --checkpoint part.check --resume
 [ ! -e fewer.pfm ] || wrong "six passes are saved as five"
 json_has '"passes": 6,'

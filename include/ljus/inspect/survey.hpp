@@ -183,14 +183,10 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
 }
 #endif
 
-} // namespace detail
-
-namespace detail {
-
 // The longest side of the box around a scene, with three digits.
 template <AnyWorld W>
 [[gnu::cold]] std::string extent_of(const W& world) {
-    BoxT<typename W::Scalar> box;
+    BoxT<typename W::Scalar> box; // world.box() is that of the bounding spheres
     for (ObjectId id; id.type < world.objects().size(); ++id.type)
         for (id.index = 0; id.index < world.objects()[id.type].size(); ++id.index)
             box = box_union(box, world.visit_shape(id, [](const auto& shape) {

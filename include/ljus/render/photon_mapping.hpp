@@ -252,7 +252,7 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     return maps;
 }
 
-/// A sentence about a caustics map of few photons, whose radius was chosen by them.
+/// A sentence about a caustics map of fewer than 256 photons, which chose its radius.
 /// \return Empty, or with a line feed.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string few_caustics_remark(const PhotonMapT<T>& map,
@@ -273,7 +273,7 @@ template <std::floating_point T>
 radius_remark(std::string_view name, const DensityEstimateSettings& estimate,
               const PhotonMapT<T>& map) {
     constexpr std::size_t some = 32;
-    const double typical = double(typical_radius(map, some, 15)); // its order
+    const double typical = double(typical_radius(map, some, 15)); // roughly
     const double share = double(estimate.radius) / typical;
     const double found = double(some) * share * share;
     const bool few = found < 0.1;
