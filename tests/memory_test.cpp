@@ -18,9 +18,12 @@
 #include <string>
 
 #include "ljus/io/load_obj.hpp"
+#include "ljus/io/load_stl.hpp"
 #include "ljus/photons/photon_map.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/render/adaptive.hpp"
+#include "ljus/scenes/mesh_formulas.hpp"
+#include "support/mesh_bytes.hpp"
 #include "support/rooms.hpp"
 
 namespace {
@@ -208,6 +211,14 @@ TEST_CASE("memory: a triangle takes at most 150 bytes while its file is read") {
     const Mesh& mesh = loaded.parts[0].mesh;
     REQUIRE(mesh.size() == 2 * side * side);
     CHECK(peak < 150.0 * mesh.size());
+    // Binary STL, where each triangle brings 50 bytes and its own corners.
+    const Bytes bytes = ljus_test::stl_bytes(icosphere(Sphere{}, 6), false);
+    LoadedMesh ball;
+    const double with_file = peak_of([&] {
+        ball = detail::read_stl_bytes<float>("ball.stl", {}, [&] { return bytes; });
+    });
+    CHECK(ball.parts.at(0).mesh.data().positions.size() == 40962);
+    CHECK(with_file < 150.0 * ball.parts.at(0).mesh.size());
 }
 
 #endif

@@ -21,3 +21,10 @@ ljus_break_it(NAME memory-triangles HEADER accel/detail/bvh_build.hpp TEST memor
     FROM "std::vector<BoxT<T>>().swap(boxes);"
     TO   ""
     CASES "memory: a triangle*")
+
+# An STL file, until its tree is there.
+ljus_break_it(NAME memory-stl HEADER io/load_stl.hpp TEST memory
+    FROM "const Bytes& bytes = bytes_of();"
+    TO   "static Bytes bytes;
+            bytes = bytes_of();"
+    CASES "memory: a triangle*")
