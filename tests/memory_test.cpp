@@ -25,6 +25,7 @@
 #include "ljus/scenes/mesh_formulas.hpp"
 #include "support/mesh_bytes.hpp"
 #include "support/rooms.hpp"
+#include "support/within.hpp"
 
 namespace {
 
@@ -141,6 +142,10 @@ TEST_CASE("memory: a photon takes at most 60 bytes while its map is made") {
     REQUIRE(map.records.size() > 3000000);
     // The heaps of the threads take some megabytes: 60 bytes for each of six million.
     if (peak) CHECK(*peak < 56.0 * double(map.records.size()) + 25e6);
+    // What is foretold.
+    const double mean = double(map.records.size()) / double(pass.photons);
+    const double foretold = detail::expected_bytes<float>(pass.photons, mean);
+    if (peak) CHECK(*peak == ljus_test::within(foretold, 0.2));
     // The tree of points that are kept by the caller.
     std::vector<Vec3> points(3000000);
     for (std::size_t i = 0; i < points.size(); ++i)

@@ -28,3 +28,9 @@ ljus_break_it(NAME memory-stl HEADER io/load_stl.hpp TEST memory
     TO   "static Bytes bytes;
             bytes = bytes_of();"
     CASES "memory: a triangle*")
+
+# Memory is foretold as before photons were freed while their map is made.
+ljus_break_it(NAME memory-foretold HEADER photons/photon_pass.hpp TEST memory
+    FROM "(sizeof(PhotonT<T>) + 4 * sizeof(T))"
+    TO   "2 * sizeof(PhotonT<T>)"
+    CASES "memory: a photon takes*")
