@@ -218,7 +218,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
                           both ? MisHeuristic::balance : MisHeuristic::shadow_rays,
                       .factor = T(rays),
                       .lobes = Lobes::non_specular};
-    // For one or two lamps the comparison would take longer than the rays that it saves.
+    // For one or two lamps the comparison takes longer than the rays that it saves.
     [[maybe_unused]] detail::SeenLampsT<T> seen;
     if constexpr (lambertian)
         if (how == DirectLight::analytic && rays > 1 && world.light_count() > 2)

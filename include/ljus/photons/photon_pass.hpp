@@ -100,8 +100,8 @@ inline constexpr long long photon_block = 512;
 /// Number of paths before the memory of the whole pass is predicted.
 inline constexpr long long pilot_paths = 4 * photon_block;
 
-/// Predicts the memory of a pass in bytes, and of the map that is made of its parts: its
-/// photons with four numbers each for the tree, and the blocks of a round.
+/// Predicts the memory of a pass in bytes, and of the map that is made of its parts:
+/// its photons with four numbers each for the tree, and the blocks of a round.
 /// \param mean     Stored photons per path so far.
 template <std::floating_point T>
 [[nodiscard]] double expected_bytes(long long photons, double mean) noexcept {

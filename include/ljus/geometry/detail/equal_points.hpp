@@ -21,8 +21,8 @@ namespace ljus::detail {
 template <std::floating_point T>
 class EqualPoints {
 public:
-    // The index of the point that was added first of those equal to `point`; if there is
-    // none, `next`, where the list has it when a point is looked for again.
+    // The index of the point that was added first of those equal to `point`; if there
+    // is none, `next`, where the list has it when a point is looked for again.
     std::uint32_t find_or_add(const std::vector<Vec3T<T>>& points,
                               const Vec3T<T>& point, std::uint32_t next) {
         if (2 * count_ >= slots_.size()) reserve(points, 2 * count_);
