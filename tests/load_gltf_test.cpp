@@ -485,9 +485,21 @@ TEST_CASE("load_gltf: a file that cannot be right is refused with a sentence") {
          "asset.version is \"1.0\"; it must be 2.0, the version of glTF that is "
          "known."},
         {"", R"({"extensionsRequired": ["KHR_draco_mesh_compression"]})",
-         "extensionsRequired[0] is \"KHR_draco_mesh_compression\"; it must be "
-         "KHR_lights_punctual, KHR_materials_emissive_strength, KHR_materials_ior, "
-         "KHR_materials_transmission, KHR_mesh_quantization or KHR_texture_transform."},
+         "extensionsRequired[0] is KHR_draco_mesh_compression, which is not known: "
+         "export the file again without compression of its meshes."},
+        {"", R"({"extensionsRequired": ["EXT_meshopt_compression"]})",
+         "extensionsRequired[0] is EXT_meshopt_compression, which is not known: "
+         "export the file again without compression of its meshes."},
+        {"",
+         R"({"extensionsRequired": ["KHR_texture_transform", "KHR_texture_basisu"]})",
+         "extensionsRequired[1] is KHR_texture_basisu, which is not known: export the "
+         "file again with pictures in PNG or JPEG."},
+        {"", R"({"extensionsRequired": ["EXT_texture_webp"]})",
+         "extensionsRequired[0] is EXT_texture_webp, which is not known: export the "
+         "file again with pictures in PNG or JPEG."},
+        {"", R"({"extensionsRequired": ["KHR_materials_volume"]})",
+         "extensionsRequired[0] is KHR_materials_volume, which is not known: export "
+         "the file again without it."},
         {"", R"({"asset": {"minVersion": "2.1"}})",
          "asset.minVersion is \"2.1\"; it must be 2.0, the version of glTF that is "
          "known."},

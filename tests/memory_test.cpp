@@ -18,10 +18,14 @@
 #include <string>
 
 #include "ljus/io/load_obj.hpp"
+#include "ljus/io/load_stl.hpp"
 #include "ljus/photons/photon_map.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/render/adaptive.hpp"
+#include "ljus/scenes/mesh_formulas.hpp"
+#include "support/mesh_bytes.hpp"
 #include "support/rooms.hpp"
+#include "support/within.hpp"
 
 namespace {
 
@@ -138,6 +142,10 @@ TEST_CASE("memory: a photon takes at most 60 bytes while its map is made") {
     REQUIRE(map.records.size() > 3000000);
     // The heaps of the threads take some megabytes: 60 bytes for each of six million.
     if (peak) CHECK(*peak < 56.0 * double(map.records.size()) + 25e6);
+    // What is foretold.
+    const double mean = double(map.records.size()) / double(pass.photons);
+    const double foretold = detail::expected_bytes<float>(pass.photons, mean);
+    if (peak) CHECK(*peak == ljus_test::within(foretold, 0.2));
     // The tree of points that are kept by the caller.
     std::vector<Vec3> points(3000000);
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -208,6 +216,14 @@ TEST_CASE("memory: a triangle takes at most 150 bytes while its file is read") {
     const Mesh& mesh = loaded.parts[0].mesh;
     REQUIRE(mesh.size() == 2 * side * side);
     CHECK(peak < 150.0 * mesh.size());
+    // Binary STL, where each triangle brings 50 bytes and its own corners.
+    const Bytes bytes = ljus_test::stl_bytes(icosphere(Sphere{}, 6), false);
+    LoadedMesh ball;
+    const double with_file = peak_of([&] {
+        ball = detail::read_stl_bytes<float>("ball.stl", {}, [&] { return bytes; });
+    });
+    CHECK(ball.parts.at(0).mesh.data().positions.size() == 40962);
+    CHECK(with_file < 150.0 * ball.parts.at(0).mesh.size());
 }
 
 #endif

@@ -360,8 +360,24 @@ TEST_CASE("own materials: what a glTF file has and we have not is said once") {
     lamp["alphaMode"] = "MASK";
     CHECK(notes(lamp) == unused("holes and normals of what glows"));
     json mirrored = pictured();
+    // The same on both axes; what is left out repeats.
+    const auto wraps = [&](const json& u, const json& v) {
+        return notes(mirrored, {{"samplers", {{{"wrapS", u}, {"wrapT", v}}, {}}}});
+    };
+    for (const auto& [kind, wrap] : {std::pair{10497, PictureWrap::repeat},
+                                     {33071, PictureWrap::clamp},
+                                     {33648, PictureWrap::mirror}}) {
+        CHECK(wraps(kind, kind) == open + gloss);
+        CHECK(load_gltf(folder.file("a.gltf")).parts.at(0).material.wrap == wrap);
+        CHECK(wraps(kind, kind == 33071 ? 33648 : 33071) ==
+              unused("a part of how baseColorTexture lies"));
+    }
     CHECK(notes(mirrored, {{"samplers", {{{"wrapS", 33648}}, {{"wrapS", 33071}}}}}) ==
           unused("a part of how baseColorTexture lies"));
+    json unlit = pictured();
+    unlit["extensions"]["KHR_materials_unlit"] = json::object();
+    CHECK(notes(unlit, {{"extensionsRequired", {"KHR_materials_unlit"}}}) ==
+          unused("KHR_materials_unlit (matt: it needs light)"));
     // Its lamps stay where they are.
     CHECK(notes(pictured(), json::parse(R"({"nodes": [{"mesh": 0, "extensions":
                                 {"KHR_lights_punctual": {"light": 0}}}],
@@ -391,6 +407,8 @@ TEST_CASE("own materials: pictures in scene files lie as they are told") {
     CHECK(seen(of_uv + R"(, "offset": [0.5, 0])") == Colors{green, red, white, blue});
     CHECK(seen(of_uv + R"(, "offset": [0.5, 0], "wrap": "clamp")") ==
           Colors{green, green, white, white});
+    CHECK(seen(of_uv + R"(, "offset": [1, 0], "wrap": "mirror")") ==
+          Colors{green, red, white, blue});
     // (u, v) goes to (-v, u), which repeats.
     CHECK(seen(of_uv + R"(, "rotate_deg": 90)") == Colors{green, white, red, blue});
     const std::string mapped = R"("type": "mapped", "file": "four.bmp")";

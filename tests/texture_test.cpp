@@ -302,6 +302,33 @@ TEST_CASE("texture: a picture ends at its border, and each pixel has an edge") {
           (1 - y) * ((1 - x) * red + x * green) + y * ((1 - x) * blue + x * white));
 }
 
+TEST_CASE("texture: a mirrored picture is one of twice the size that repeats") {
+    const Image once = four();
+    Image twice = make_image(4, 4);
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x) // its own tile is the lower left one
+            pixel(twice, x, y) = pixel(once, std::min(x, 3 - x), y < 2 ? 1 - y : y - 2);
+    for (const PictureFilter filter :
+         {PictureFilter::bilinear, PictureFilter::nearest}) {
+        const UvPicture mirrored{
+            .image = once, .wrap = PictureWrap::mirror, .filter = filter};
+        const UvPicture right{
+            .image = twice, .map{.scale{0.5f, 0.5f}}, .filter = filter};
+        // Steps of 1/16 meet each border, and each middle and edge of a pixel.
+        for (int i = -48; i <= 48; ++i)
+            for (int j = -48; j <= 48; ++j) {
+                const bool edge = i % 8 == 0 || j % 8 == 0; // between two pixels
+                if (filter == PictureFilter::nearest && edge) continue;
+                const Vec2 uv{float(i) / 16, float(j) / 16};
+                CAPTURE(uv);
+                CHECK(color_at(mirrored, Vec3{0}, uv) == color_at(right, Vec3{0}, uv));
+            }
+        for (const float far : {3e38f, -3e38f, INFINITY, NAN})
+            CHECK(is_finite(color_at(mirrored, Vec3{0}, Vec2{far, -far})));
+        CHECK(color_at(mirrored, Vec3{0}, Vec2{1e6f + 1.25f, 0.75f}) == Rgb{0, 1, 0});
+    }
+}
+
 TEST_CASE("texture: a UvMap scales, then turns, then displaces") {
     const UvMapT<double> map{.scale{2, -3}, .turn{0.6, 0.8}, .offset{0.25, -1}};
     const auto at = [&](double u, double v) {

@@ -700,8 +700,7 @@ TEST_CASE("tracing: memory is foretold, and refused in a sentence before it is t
     const double bytes = detail::expected_bytes<float>(20000, mean);
     PhotonPassSettings pass{.photons = 20000, .max_memory = 1.05 * bytes};
     const auto all = trace_photons(room, MapType::general, pass);
-    CHECK(double(all.photons.size()) * 2 * sizeof(Photon) ==
-          doctest::Approx(bytes).epsilon(0.05));
+    CHECK(double(all.photons.size()) * 60 == doctest::Approx(bytes).epsilon(0.05));
     pass.max_memory = 0.95 * bytes;
     CHECK_THROWS_AS((void)trace_photons(room, MapType::general, pass),
                     std::invalid_argument);
@@ -802,16 +801,16 @@ TEST_CASE("tracing: one photon, and numbers that make no sense") {
 
 TEST_CASE("tracing: the memory by hand, and what the sentences say") {
     CHECK(detail::photon_block == 512);
-    const double block = sizeof(detail::PhotonBlockT<float>);
+    const double block = sizeof(detail::PhotonBlockT<float>) / 16.0;
     CHECK(detail::expected_bytes<float>(1024, 1.5) ==
-          doctest::Approx(2 * 1024 * 1.5 * 44 + 2 * block));
+          doctest::Approx(1024 * 1.5 * 60 + 2 * block));
     CHECK(detail::expected_bytes<float>(1025, 0) == doctest::Approx(3 * block));
     CHECK(detail::expected_bytes<double>(100, 3) ==
-          doctest::Approx(2 * 100 * 3 * 80 +
-                          double(sizeof(detail::PhotonBlockT<double>))));
-    // 2 x 10^9 x 2 x 44 bytes, and 10^9 / 512 blocks besides, some hundred bytes each.
+          doctest::Approx(100 * 3 * 112 +
+                          double(sizeof(detail::PhotonBlockT<double>)) / 16));
+    // 10^9 x 2 x 60 bytes, and a sixteenth of 10^9 / 512 blocks of some hundred bytes.
     const PhotonPassSettings pass{.photons = 1000000000, .max_memory = 3e9};
-    const double gigabytes = (176e9 + 1953125 * block) * 1e-9;
+    const double gigabytes = (120e9 + 1953125 * block) * 1e-9;
     const auto words = [](MapType map, const PhotonPassSettings& of, double mean) {
         try {
             detail::require_memory<float>(map, of, mean);
@@ -824,7 +823,7 @@ TEST_CASE("tracing: the memory by hand, and what the sentences say") {
     std::snprintf(right, sizeof right,
                   "The 1000000000 photons for the caustics map would take %.3g GB, and "
                   "max_memory is 3 GB: %.0f photons would fit.",
-                  gigabytes, 512 * std::floor(3e9 / (2 * 512 * 2 * 44 + block)));
+                  gigabytes, 512 * std::floor(3e9 / (512 * 2 * 60 + block)));
     CHECK(words(MapType::caustics, pass, 2) == right);
     CHECK(words(MapType::general, {.photons = 1000, .max_memory = 1}, 0)
               .ends_with("max_memory is 1e-09 GB: at most 0 photons would fit."));

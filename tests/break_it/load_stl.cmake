@@ -12,12 +12,14 @@ ljus_break_it(NAME stl-count HEADER io/load_stl.hpp TEST load_stl
 
 # Each triangle has vertices of its own.
 ljus_break_it(NAME stl-merge HEADER io/load_stl.hpp TEST load_stl
-    FROM "mesh.add_corner(vertex[equal[next]], detail::no_number,"
-    TO   "mesh.add_corner(std::uint32_t(next % mesh.counts()[0]), detail::no_number,"
+    FROM "if (number == next) mesh.add_position(corner);
+            mesh.add_corner(number,"
+    TO   "if (number <= next) mesh.add_position(corner);
+            mesh.add_corner(next,"
     CASES "load_stl: a mesh is the same*")
 
 # A triangle that is turned over is not remarked on.
 ljus_break_it(NAME stl-turned HEADER io/load_stl.hpp TEST load_stl
-    FROM "report.add(MeshTrouble::turned, static_cast<long long>(place));"
+    FROM "report.add(MeshTrouble::turned, mesh.place);"
     TO   ";"
     CASES "load_stl: two solids*")

@@ -21,3 +21,16 @@ ljus_break_it(NAME memory-triangles HEADER accel/detail/bvh_build.hpp TEST memor
     FROM "std::vector<BoxT<T>>().swap(boxes);"
     TO   ""
     CASES "memory: a triangle*")
+
+# An STL file, until its tree is there.
+ljus_break_it(NAME memory-stl HEADER io/load_stl.hpp TEST memory
+    FROM "const Bytes& bytes = bytes_of();"
+    TO   "static Bytes bytes;
+            bytes = bytes_of();"
+    CASES "memory: a triangle*")
+
+# Memory is foretold as before photons were freed while their map is made.
+ljus_break_it(NAME memory-foretold HEADER photons/photon_pass.hpp TEST memory
+    FROM "(sizeof(PhotonT<T>) + 4 * sizeof(T))"
+    TO   "2 * sizeof(PhotonT<T>)"
+    CASES "memory: a photon takes*")

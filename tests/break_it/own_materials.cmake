@@ -44,3 +44,16 @@ ljus_break_it(NAME own_materials-painted-metal HEADER io/mesh_file.hpp
     FROM "(details || (picture && !lists_painted))"
     TO   "details"
     CASES "own materials: a glTF file's picture*")
+
+# A sampler that mirrors repeats.
+ljus_break_it(NAME own_materials-mirror HEADER io/detail/gltf_reader.hpp TEST own_materials
+    FROM "{33648, PictureWrap::mirror}"
+    TO   "{33648, PictureWrap::repeat}"
+    CASES "own materials: what a glTF*")
+
+# A scene file's mirrored picture repeats.
+ljus_break_it(NAME own_materials-mirror-word HEADER io/detail/json_textures.hpp
+    TEST own_materials
+    FROM [[wrap == "mirror" ?]]
+    TO   [[wrap == "mirrors" ?]]
+    CASES "own materials: pictures in scene*")

@@ -174,6 +174,12 @@ ljus_break_it(NAME texture-clamp HEADER image/texture.hpp TEST texture
     TO   "return (i + size) % size;"
     CASES "texture: a picture ends*")
 
+# A mirrored picture repeats.
+ljus_break_it(NAME texture-mirror HEADER image/texture.hpp TEST texture
+    FROM "x = std::abs(x - T(2) * std::round(x / T(2)));"
+    TO   "x = x - std::floor(x);"
+    CASES "texture: a mirrored*")
+
 # The nearest pixel is a row too low.
 ljus_break_it(NAME texture-nearest HEADER image/texture.hpp TEST texture
     FROM "std::ceil(high) - T(1)"

@@ -287,7 +287,7 @@ refused "--skip-radius" "$scene" --skip-radius -1
 refused "--caustic-budget" "$scene" --caustic-budget most
 refused "--photon-numbers" "$scene" --photon-numbers dice
 refused "--photon-bounces" "$scene" --photon-bounces 0
-refused "--photon-memory is 1e-06 GB: at most 3072 photons would fit" "$scene" --photon-memory 1e-6
+refused "--photon-memory is 1e-06 GB: at most 53760 photons would fit" "$scene" --photon-memory 1e-6
 refused "photons for the caustics map would take" "$scene" --photon-memory 1e-4
 refused "--path-lights" "$scene" --path-lights all
 refused "--roulette-max" "$scene" --roulette-max 0

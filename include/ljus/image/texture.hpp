@@ -23,7 +23,7 @@ namespace ljus {
 /// point in scene units, and `uv` are its coordinates on its own shape, see
 /// texture_coordinates(). A texture receives uv only if it declares
 /// `static constexpr bool uses_uv = true`, otherwise (0, 0). Both textures here repeat
-/// with period 1 in u and in v, unless a picture is told to end at its border.
+/// with period 1 in u and in v, unless a picture has another PictureWrap.
 /// \{
 
 /// Coordinates on a plane, projected orthogonally onto all surfaces: `origin` is
@@ -173,7 +173,8 @@ void check(const CheckerT<T, Map>& checker) {
 /// What a picture shows beyond its border.
 enum class PictureWrap : std::uint8_t {
     repeat, ///< Itself again.
-    clamp   ///< The pixels of its border.
+    clamp,  ///< The pixels of its border.
+    mirror  ///< Its mirror image, then itself again.
 };
 
 /// The colour between the centres of pixels.
@@ -204,6 +205,8 @@ template <std::floating_point T, typename Map>
     const Vec2T<T> at = map_coordinates(texture.map, place, uv);
     const bool repeats = texture.wrap == PictureWrap::repeat;
     const auto inside = [&](T x) {
+        if (texture.wrap == PictureWrap::mirror) // the distance to an even number
+            x = std::abs(x - T(2) * std::round(x / T(2)));
         if (!repeats) return x > T(0) ? std::min(x, T(1)) : T(0);
         // Below 1 even after rounding; 0 for NaN.
         const T rest = x - std::floor(x);

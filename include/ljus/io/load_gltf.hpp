@@ -38,7 +38,8 @@ LoadedMeshT<T> read_gltf_content(const GltfFile& content,
 /// A metal has the colour and roughness of the file, at least 0.01 or 0; a factor of
 /// 0.5 or more is a metal. A picture of metal and roughness counts at the middle of
 /// each triangle, in steps of 1/8, so that the faces of one metal become several
-/// meshes. All else is matt in its colour, or glass by KHR_materials_transmission.
+/// meshes. All else is matt in its colour, or glass by KHR_materials_transmission;
+/// KHR_materials_unlit is matt too, as a surface that glows would light the scene.
 /// Each mesh has copies of its pictures; all pictures are halved until the copies have
 /// at most 2^25 pixels together.
 /// What glows has its emissiveFactor for radiance, W/(m^2 sr), times the strength of

@@ -43,27 +43,34 @@ struct StlText {
     }
 };
 
-// Reads the faces of an STL file; `corners` takes the number of corners of each, with
-// the place where it ends.
+// Reads the faces of an STL file.
 template <std::floating_point T>
 struct StlReader {
     StlText from;
-    MeshReport& report;
-    std::vector<glm::dvec3> points{};
-    std::vector<std::array<std::size_t, 2>> corners{};
+    MeshBuilder<T>& mesh;
+    MeshReport& report = mesh.report;
+    std::vector<glm::dvec3> face{}; // the corners that are read
+    EqualPoints<double> numbers{};  // of the mesh's positions
 
-    // Points that are none are all alike, for first_equal_points().
+    // Points that are none are all alike, for EqualPoints.
     void add(const glm::dvec3& point) {
         constexpr double none = std::numeric_limits<double>::infinity();
-        points.push_back(is_finite(point) ? point : glm::dvec3(none));
+        face.push_back(is_finite(point) ? point : glm::dvec3(none));
     }
-    // A face whose points were added last. Its corners decide which side is its front.
-    void end_face(std::size_t count, const glm::dvec3& normal, std::size_t place) {
-        corners.push_back({count, place});
-        if (count < 3) return;
-        const auto* const p = points.data() + points.size() - count;
-        if (glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), normal) < 0)
-            report.add(MeshTrouble::turned, static_cast<long long>(place));
+    // The face of the corners so far, which decide which side is its front.
+    void end_face(const glm::dvec3& normal, std::size_t place) {
+        mesh.place = static_cast<long long>(place);
+        if (face.size() >= 3 &&
+            glm::dot(glm::cross(face[1] - face[0], face[2] - face[0]), normal) < 0)
+            report.add(MeshTrouble::turned, mesh.place);
+        for (const glm::dvec3& corner : face) {
+            const auto next = static_cast<std::uint32_t>(mesh.positions().size());
+            const auto number = numbers.find_or_add(mesh.positions(), corner, next);
+            if (number == next) mesh.add_position(corner);
+            mesh.add_corner(number, no_number, no_number);
+        }
+        mesh.end_face();
+        face.clear();
     }
     // A point, or the normal of a binary triangle.
     [[nodiscard]] glm::dvec3 three_floats(std::size_t at) const {
@@ -94,7 +101,7 @@ struct StlReader {
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t at = stl_head + stl_triangle * i;
             for (std::size_t k = 1; k < 4; ++k) add(three_floats(at + 12 * k));
-            end_face(3, three_floats(at), i + 1);
+            end_face(three_floats(at), i + 1);
             colors = colors || (from.word(at + 46) >> 16) != 0;
         }
         if (colors)
@@ -102,36 +109,56 @@ struct StlReader {
                 "the triangles have attributes, perhaps colours; they are not used.");
     }
     void read_text() {
-        std::size_t first = 0; // of the face
-        bool open = false;     // a solid that has not ended
+        bool open = false; // a solid that has not ended
         glm::dvec3 normal(0);
-        LineReader{from.file}.read(from.text, true,
-                                   [&](std::string_view line, long long number) {
-                                       Words words{line};
-                                       const std::string_view keyword = words.next();
-                                       if (same_word(keyword, "vertex")) {
-                                           add(three_numbers(words));
-                                       } else if (same_word(keyword, "endloop")) {
-                                           end_face(points.size() - first, normal,
-                                                    static_cast<std::size_t>(number));
-                                           first = points.size();
-                                       } else if (same_word(keyword, "facet")) {
-                                           (void)words.next(); // "normal"
-                                           normal = three_numbers(words);
-                                       } else if (same_word(keyword, "solid")) {
-                                           ++report.content.objects;
-                                           open = true;
-                                       } else if (same_word(keyword, "endsolid")) {
-                                           open = false;
-                                       }
-                                   });
-        if (first < points.size())
+        LineReader{from.file}.read(
+            from.text, true, [&](std::string_view line, long long number) {
+                Words words{line};
+                const std::string_view keyword = words.next();
+                if (same_word(keyword, "vertex")) {
+                    add(three_numbers(words));
+                } else if (same_word(keyword, "endloop")) {
+                    end_face(normal, static_cast<std::size_t>(number));
+                } else if (same_word(keyword, "facet")) {
+                    (void)words.next(); // "normal"
+                    normal = three_numbers(words);
+                } else if (same_word(keyword, "solid")) {
+                    ++report.content.objects;
+                    open = true;
+                } else if (same_word(keyword, "endsolid")) {
+                    open = false;
+                }
+            });
+        if (!face.empty())
             from.refuse("the file ends within a triangle, before its 'endloop'");
         if (open)
             report.notes.push_back(
                 "the file ends before 'endsolid': perhaps it is cut off.");
     }
 };
+
+// The mesh of a file; bytes_of() returns its bytes, as for read_ply_bytes().
+template <std::floating_point T, typename BytesOf>
+LoadedMeshT<T> read_stl_bytes(const std::string& file, const MeshFileSettings& settings,
+                              BytesOf bytes_of) {
+    const auto read = [&](LoadedMeshT<T>& loaded) {
+        MeshBuilder<T> mesh(settings);
+        {
+            const Bytes& bytes = bytes_of();
+            StlReader<T> reader{
+                {{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file},
+                mesh};
+            reader.from.is_text() ? reader.read_text() : reader.read_binary();
+        }
+        auto parts = mesh.take_faces({nullptr});
+        loaded.report = std::move(mesh.report);
+        return parts;
+    };
+    return make_meshes<T>(file, settings,
+                          "; a text has lines 'vertex 0 0 1' between 'outer loop' and "
+                          "'endloop'.",
+                          read, no_pictures);
+}
 
 } // namespace detail
 
@@ -146,36 +173,8 @@ struct StlReader {
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> read_stl(const Bytes& bytes, const std::string& file,
                                       const MeshFileSettings& settings = {}) {
-    const auto read = [&](LoadedMeshT<T>& loaded) {
-        detail::MeshBuilder<T> mesh(settings);
-        detail::StlReader<T> reader{
-            {{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file},
-            mesh.report};
-        reader.from.is_text() ? reader.read_text() : reader.read_binary();
-        const auto equal = detail::first_equal_points(reader.points);
-        std::vector<std::uint32_t> vertex(reader.points.size());
-        std::size_t next = 0;
-        for (const auto& [corners, place] : reader.corners) {
-            mesh.place = static_cast<long long>(place);
-            for (const std::size_t end = next + corners; next < end; ++next) {
-                if (equal[next] == next) {
-                    vertex[next] = static_cast<std::uint32_t>(mesh.counts()[0]);
-                    mesh.add_position(reader.points[next]);
-                }
-                mesh.add_corner(vertex[equal[next]], detail::no_number,
-                                detail::no_number);
-            }
-            mesh.end_face();
-        }
-        auto parts = mesh.take_faces({nullptr});
-        loaded.report = std::move(mesh.report);
-        return parts;
-    };
-    return detail::make_meshes<T>(
-        file, settings,
-        "; a text has lines 'vertex 0 0 1' between 'outer loop' and "
-        "'endloop'.",
-        read, detail::no_pictures);
+    return detail::read_stl_bytes<T>(file, settings,
+                                     [&]() -> const Bytes& { return bytes; });
 }
 
 /// Loads an STL file.
@@ -185,7 +184,8 @@ template <std::floating_point T = float>
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_stl(const std::string& path,
                                       const MeshFileSettings& settings = {}) {
-    return read_stl<T>(load_file(path, detail::max_mesh_file), path, settings);
+    return detail::read_stl_bytes<T>(
+        path, settings, [&] { return load_file(path, detail::max_mesh_file); });
 }
 
 /// \}

@@ -4,9 +4,9 @@
 /// \brief The direct light of all lights at a vertex, by one of three methods.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/math/sampling_pattern.hpp"
@@ -141,23 +141,22 @@ template <std::floating_point T>
     return lamp->form_factor * (lamp->radiance.x + lamp->radiance.y + lamp->radiance.z);
 }
 
-/// The lamps with a closed form at a vertex. Some are kept, because a closed form takes
+/// The lamps with a closed form at a vertex. They are kept, because a closed form takes
 /// as long as a shadow ray.
 template <std::floating_point T>
 struct SeenLampsT {
-    std::array<std::optional<SeenLampT<T>>, 16> kept{}; ///< The first ones.
-    T sent = T(0); ///< The sum of sent_by() all of them; 0: none was asked.
+    std::vector<std::optional<SeenLampT<T>>>
+        lamps{};   ///< By light; empty: none is asked.
+    T sent = T(0); ///< The sum of sent_by() all of them.
 };
 
-/// Asks all lamps, if there are more than two: for fewer, the comparison would take
-/// longer than the rays that it saves.
+/// Asks all lamps.
 template <AnyWorld W, std::floating_point T>
 void see_lamps(SeenLampsT<T>& seen, const W& world, const VertexT<T>& vertex) {
-    if (world.light_count() <= 2) return;
+    seen.lamps.resize(world.light_count());
     for (std::uint32_t light = 0; light < world.light_count(); ++light) {
-        const auto lamp = seen_lamp(world, light, vertex);
-        seen.sent += sent_by(lamp);
-        if (light < seen.kept.size()) seen.kept[light] = lamp;
+        seen.lamps[light] = seen_lamp(world, light, vertex);
+        seen.sent += sent_by(seen.lamps[light]);
     }
 }
 
@@ -219,9 +218,10 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
                           both ? MisHeuristic::balance : MisHeuristic::shadow_rays,
                       .factor = T(rays),
                       .lobes = Lobes::non_specular};
+    // For one or two lamps the comparison takes longer than the rays that it saves.
     [[maybe_unused]] detail::SeenLampsT<T> seen;
     if constexpr (lambertian)
-        if (how == DirectLight::analytic && rays > 1)
+        if (how == DirectLight::analytic && rays > 1 && world.light_count() > 2)
             detail::see_lamps(seen, world, vertex);
     RgbT<T> sum{T(0)};
     for (std::uint32_t light = 0; light < world.light_count(); ++light) {
@@ -238,9 +238,9 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
         };
         if constexpr (lambertian)
             if (how == DirectLight::analytic)
-                if (const auto lamp = seen.sent > T(0) && light < seen.kept.size()
-                                          ? seen.kept[light]
-                                          : detail::seen_lamp(world, light, vertex)) {
+                if (const auto lamp = seen.lamps.empty()
+                                          ? detail::seen_lamp(world, light, vertex)
+                                          : seen.lamps[light]) {
                     sum += detail::analytic_light(
                         world, light, *lamp, vertex, material,
                         detail::rays_to(rays, detail::sent_by(lamp), seen.sent), place,

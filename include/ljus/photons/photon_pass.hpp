@@ -59,9 +59,9 @@ struct PhotonPassSettings {
     /// Probabilities with which photons choose their lights, one per light, with the
     /// sum 1; empty: by power. See pilot_lights().
     std::vector<double> light_shares = {};
-    double max_memory = 4e9;         ///< Bytes for photons during the pass.
-    long long give_up = 1LL << 20;   ///< Ends after as many paths if none was stored.
-    int threads = 0;                 ///< 0: all processors.
+    double max_memory = 4e9;       ///< Bytes for the photons of the pass and their map.
+    long long give_up = 1LL << 20; ///< Ends after as many paths if none was stored.
+    int threads = 0;               ///< 0: all processors.
     Progress progress = no_progress; ///< Called with (done, total); false stops.
 };
 
@@ -100,14 +100,14 @@ inline constexpr long long photon_block = 512;
 /// Number of paths before the memory of the whole pass is predicted.
 inline constexpr long long pilot_paths = 4 * photon_block;
 
-/// Predicts the memory of a pass in bytes, and of the map that is made of it: at most
-/// twice its photons, plus the blocks.
+/// Predicts the memory of a pass in bytes, and of the map that is made of its parts:
+/// its photons with four numbers each for the tree, and the blocks of a round.
 /// \param mean     Stored photons per path so far.
 template <std::floating_point T>
 [[nodiscard]] double expected_bytes(long long photons, double mean) noexcept {
     const auto blocks = static_cast<double>(block_count(photons, photon_block));
-    return 2 * static_cast<double>(photons) * mean * sizeof(PhotonT<T>) +
-           blocks * sizeof(PhotonBlockT<T>);
+    return static_cast<double>(photons) * mean * (sizeof(PhotonT<T>) + 4 * sizeof(T)) +
+           blocks / 16 * sizeof(PhotonBlockT<T>);
 }
 
 /// Refuses a pass that would exceed its memory.

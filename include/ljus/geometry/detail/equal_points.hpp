@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "ljus/math/field_hash.hpp"
@@ -15,24 +16,57 @@
 
 namespace ljus::detail {
 
-// For each point the index of the first one that is equal to it. There are fewer than
-// 2^31 points, without NaN. Expected O(n): a hash table with linear probing.
+// Finds the points of a list by a hash table with linear probing, whose memory is at
+// most 16 bytes per different point. There are fewer than 2^31 points, without NaN.
+template <std::floating_point T>
+class EqualPoints {
+public:
+    // The index of the point that was added first of those equal to `point`; if there
+    // is none, `next`, where the list has it when a point is looked for again.
+    std::uint32_t find_or_add(const std::vector<Vec3T<T>>& points,
+                              const Vec3T<T>& point, std::uint32_t next) {
+        if (2 * count_ >= slots_.size()) reserve(points, 2 * count_);
+        std::uint32_t& slot = slot_of(points, point);
+        if (slot == empty) {
+            slot = next;
+            ++count_;
+        }
+        return slot;
+    }
+    // Makes room for some different points.
+    void reserve(const std::vector<Vec3T<T>>& points, std::size_t count) {
+        const auto before = std::exchange(
+            slots_, std::vector<std::uint32_t>(std::bit_ceil(2 * count + 1), empty));
+        for (const std::uint32_t number : before)
+            if (number != empty) slot_of(points, points[number]) = number;
+    }
+
+private:
+    static constexpr auto empty = std::numeric_limits<std::uint32_t>::max();
+
+    std::uint32_t& slot_of(const std::vector<Vec3T<T>>& points, const Vec3T<T>& point) {
+        std::uint64_t hash = 0;
+        for (int axis = 0; axis < 3; ++axis) // -0 + 0 is 0
+            hash = mix_bits(hash ^ std::bit_cast<BitsOf<T>>(point[axis] + T(0)));
+        std::size_t slot = hash & (slots_.size() - 1);
+        while (slots_[slot] != empty && points[slots_[slot]] != point)
+            slot = (slot + 1) & (slots_.size() - 1);
+        return slots_[slot];
+    }
+
+    std::vector<std::uint32_t> slots_{};
+    std::size_t count_ = 0;
+};
+
+// For each point the index of the first one that is equal to it. Expected O(n).
 template <std::floating_point T>
 [[nodiscard]] std::vector<std::uint32_t>
 first_equal_points(const std::vector<Vec3T<T>>& points) {
-    constexpr auto empty = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> slots(std::bit_ceil(2 * points.size() + 1), empty);
+    EqualPoints<T> equal;
+    equal.reserve(points, points.size());
     std::vector<std::uint32_t> first(points.size());
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        std::uint64_t hash = 0;
-        for (int axis = 0; axis < 3; ++axis) // -0 + 0 is 0
-            hash = mix_bits(hash ^ std::bit_cast<BitsOf<T>>(points[i][axis] + T(0)));
-        std::size_t slot = hash & (slots.size() - 1);
-        while (slots[slot] != empty && points[slots[slot]] != points[i])
-            slot = (slot + 1) & (slots.size() - 1);
-        if (slots[slot] == empty) slots[slot] = i;
-        first[i] = slots[slot];
-    }
+    for (std::uint32_t i = 0; i < points.size(); ++i)
+        first[i] = equal.find_or_add(points, points[i], i);
     return first;
 }
 

@@ -92,20 +92,32 @@ private:
                   "."}));
     }
 
+    // Nobody types the name of an extension: what helps is how to do without it.
+    void require_known(const JsonField& required, JsonNames known) {
+        const std::string& name = text(required);
+        if (std::find(known.begin(), known.end(), name) != known.end()) return;
+        const auto has = [&](const char* word) { return name.find(word) != name.npos; };
+        refuse(required,
+               join({"is ", shown(name), ", which is not known: export the file again ",
+                     has("_compression") ? "without compression of its meshes"
+                     : has("_texture_")  ? "with pictures in PNG or JPEG"
+                                         : "without it"}));
+    }
     void check_kind() {
         const JsonField version = member(member(file_.root(), "asset"), "version");
         if (!text(version).starts_with("2."))
             refuse_value(version, "2.0, the version of glTF that is known");
         static constexpr std::string_view known[]{
-            "KHR_lights_punctual",   "KHR_materials_emissive_strength",
-            "KHR_materials_ior",     "KHR_materials_transmission",
-            "KHR_mesh_quantization", "KHR_texture_transform"};
+            "KHR_lights_punctual",  "KHR_materials_emissive_strength",
+            "KHR_materials_ior",    "KHR_materials_transmission",
+            "KHR_materials_unlit",  "KHR_mesh_quantization",
+            "KHR_texture_transform"};
         const auto least = find(member(file_.root(), "asset"), "minVersion");
         if (least && text(*least) != "2.0")
             refuse_value(*least, "2.0, the version of glTF that is known");
         const auto required = find(file_.root(), "extensionsRequired");
         for (std::size_t i = 0; required && i < list_size(*required); ++i)
-            require_one_of(entry(*required, i), known);
+            require_known(entry(*required, i), known);
         // Those of materials are said there.
         const auto used = find(file_.root(), "extensionsUsed");
         for (std::size_t i = 0; used && i < list_size(*used); ++i) {
@@ -400,19 +412,21 @@ private:
         const JsonField is = file_.named(member(texture, "index"), "textures");
         if (const auto number = find(is, "sampler")) {
             const JsonField sampler = file_.named(*number, "samplers");
+            constexpr int nearest = 9728, repeat = 10497;
+            constexpr std::pair<int, PictureWrap> wraps[]{{repeat, PictureWrap::repeat},
+                                                          {33071, PictureWrap::clamp},
+                                                          {33648, PictureWrap::mirror}};
             const auto is_kind = [&](const char* name, int kind) {
                 const auto found = find(sampler, name);
-                return found && found->value == kind;
+                return found ? found->value == kind : kind == repeat;
             };
-            constexpr int nearest = 9728, clamp = 33071, repeat = 10497;
             if (is_kind("magFilter", nearest)) to.filter = PictureFilter::nearest;
-            int clamped = 0, repeated = 0;
-            for (const char* name : {"wrapS", "wrapT"}) {
-                clamped += is_kind(name, clamp) ? 1 : 0;
-                repeated += is_kind(name, repeat) || !find(sampler, name) ? 1 : 0;
-            }
-            if (clamped == 2) to.wrap = PictureWrap::clamp;
-            whole = clamped == 2 || repeated == 2;
+            whole = false;
+            for (const auto& [kind, wrap] : wraps)
+                if (is_kind("wrapS", kind) && is_kind("wrapT", kind)) {
+                    to.wrap = wrap;
+                    whole = true;
+                }
         }
         const auto extensions = find(texture, "extensions");
         if (!extensions) return whole;
@@ -592,6 +606,8 @@ private:
                     unused.push_back("colour and roughness of glass");
                 else if (material.dissolve < 1)
                     unused.push_back("a transmissionFactor of at most 0.5");
+            } else if (part.key() == "KHR_materials_unlit") {
+                unused.push_back("KHR_materials_unlit (matt: it needs light)");
             } else {
                 unused.push_back(part.key());
             }

@@ -51,10 +51,11 @@ inline constexpr JsonMember map_members[]{
            "of uv: how often the texture repeats along u and along v"),
     preset("rotate_deg", angle_value, 0, "of uv: how far u and v are turned then"),
     preset("offset", repetitions_value, 0, "of uv: added then, in repetitions")};
-inline constexpr std::string_view wrap_words[]{"repeat", "clamp"};
+inline constexpr std::string_view wrap_words[]{"repeat", "clamp", "mirror"};
 inline constexpr JsonMember wrap_row =
     preset("wrap", {.kind = JsonKind::word, .words = wrap_words}, 0,
-           "beyond the border: the picture again, or the pixels of its border");
+           "beyond the border: the picture again, the pixels of its border, or the "
+           "picture and its mirror image in turn");
 inline constexpr std::string_view filter_words[]{"bilinear", "nearest"};
 inline constexpr JsonMember filter_row =
     preset("filter", {.kind = JsonKind::word, .words = filter_words}, 0,
@@ -188,10 +189,12 @@ ImageT<T> take_picture(const JsonMembersOf& in, FilePicturesT<T>& pictures) {
 template <std::floating_point T, typename Map, typename Take>
 PictureTextureT<T, Map> picture_on(const Map& map, const JsonMembersOf& in,
                                    const JsonField& file, Take take) {
+    const std::string wrap = in.word("wrap");
     return {.image = picture_of(file, take),
             .map = map,
-            .wrap =
-                in.word("wrap") == "clamp" ? PictureWrap::clamp : PictureWrap::repeat,
+            .wrap = wrap == "clamp"    ? PictureWrap::clamp
+                    : wrap == "mirror" ? PictureWrap::mirror
+                                       : PictureWrap::repeat,
             .filter = in.word("filter") == "nearest" ? PictureFilter::nearest
                                                      : PictureFilter::bilinear};
 }

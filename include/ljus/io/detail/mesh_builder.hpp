@@ -124,6 +124,9 @@ public:
     [[nodiscard]] std::array<std::size_t, 3> counts() const {
         return {positions_.size(), uv_.size(), normals_.size()};
     }
+    [[nodiscard]] const std::vector<glm::dvec3>& positions() const {
+        return positions_;
+    }
 
     void add_position(const glm::dvec3& at) {
         positions_.push_back(at);

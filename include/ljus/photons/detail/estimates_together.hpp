@@ -52,11 +52,13 @@ void estimates_together(const PhotonMapT<T>& map,
                         std::uint64_t& gathered, BallBlocks& found, Give give) {
     const T radius = T(gather.radius);
     const double r2 = double(gather.radius) * double(gather.radius);
+    const std::span<const Lanes3T<T>> blocks = map.tree.blocks();
+    const std::span<const RecordBlockT<T>> records = map.records.blocks();
     map.tree.find_in_balls(
         places.size(),
         [&](std::size_t i) -> const Vec3T<T>& { return places[i].center; }, radius,
         [&](std::size_t block) {
-            prefetch<sizeof(RecordBlockT<T>) / 64>(&map.records.blocks()[block]);
+            prefetch<sizeof(RecordBlockT<T>) / 64>(&records[block]);
         },
         found);
     auto at = found.blocks.begin();
@@ -65,9 +67,9 @@ void estimates_together(const PhotonMapT<T>& map,
         const EstimatePlaceT<T>& place = places[ball];
         const FluxDiscT<T, K> disc =
             flux_disc(place.center, place.normal, place.from, gather, kinds);
-        DiscFluxT<T, K> flux(map.records, disc);
+        DiscFluxT<T, K> flux(records, disc);
         for (; at != found.blocks.end() && at->ball == ball; ++at) {
-            const Lanes3T<T>& points = map.tree.blocks()[at->block];
+            const Lanes3T<T>& points = blocks[at->block];
             flux.add({8 * std::size_t{at->block}, at->found, points,
                       distances2(points, place.center)});
         }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "ljus/accel/kd_tree8.hpp"
 #include "ljus/photons/detail/photon_records.hpp"
@@ -106,13 +107,14 @@ lanes_in_disc(const Lanes3T<T>& points, const RecordBlockT<T>& record,
 template <std::floating_point T, typename K>
 class DiscFluxT {
 public:
-    DiscFluxT(const PhotonRecordsT<T>& records, const FluxDiscT<T, K>& disc) noexcept
+    DiscFluxT(std::span<const RecordBlockT<T>> records,
+              const FluxDiscT<T, K>& disc) noexcept
         : records_(records), disc_(disc),
           per_radius2_(T(1) / (disc.radius * disc.radius)) {}
 
     /// Adds a block.
     void add(const FoundBlockT<T>& block) noexcept {
-        const RecordBlockT<T>& record = records_.blocks()[block.first / 8];
+        const RecordBlockT<T>& record = records_[block.first / 8];
         if (const std::uint32_t rest = block.found & (block.found - 1);
             (rest & (rest - 1)) == 0) {
             add_one(block, record, std::countr_zero(block.found));
@@ -190,7 +192,7 @@ private:
             [&](int i) { count_[i] += static_cast<std::int32_t>(inside.lane[i]); });
     }
 
-    const PhotonRecordsT<T>& records_;
+    std::span<const RecordBlockT<T>> records_;
     const FluxDiscT<T, K>& disc_;
     T per_radius2_;
     // The sum over some blocks: more terms would exceed the precision of float.
@@ -208,7 +210,7 @@ template <std::floating_point T, typename K>
 [[nodiscard]] LJUS_CORE_CLONES RgbT<double>
 flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
              const FluxDiscT<T, K>& disc, std::uint64_t& gathered) {
-    DiscFluxT<T, K> flux(records, disc);
+    DiscFluxT<T, K> flux(records.blocks(), disc);
     tree.visit_blocks(disc.center, disc.radius,
                       [&](const FoundBlockT<T>& block) { flux.add(block); });
     const RgbT<double> sum = flux.sum();

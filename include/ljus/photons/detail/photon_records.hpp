@@ -4,7 +4,6 @@
 /// \brief The data of a photon map besides the positions, eight photons side by side.
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstring>
@@ -151,14 +150,11 @@ public:
         const auto settle = [&](long long number) {
             const auto first = static_cast<std::size_t>(number) * group;
             const std::size_t end = std::min(first + group, size_);
-            for (std::size_t i = first; i < end; ++i)
-                while (to[i] != i) exchange(i, to[i]);
-            for (std::size_t i = first; i < end; i += 8) {
-                std::array<PhotonRecordT<T>, 8> records;
-                const std::size_t count = std::min<std::size_t>(8, end - i);
-                for (std::size_t k = 0; k < count; ++k) records[k] = get(i + k);
-                blocks_[i / 8] = {};
-                for (std::size_t k = 0; k < count; ++k) set(i + k, records[k]);
+            std::vector<PhotonRecordT<T>> records(end - first);
+            for (std::size_t i = first; i < end; ++i) records[to[i] - first] = get(i);
+            for (std::size_t i = first; i < end; ++i) {
+                if (i % 8 == 0) blocks_[i / 8] = {};
+                set(i, records[i - first]);
             }
         };
         parallel_blocks(static_cast<long long>(next.size()), settle,
