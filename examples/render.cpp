@@ -108,7 +108,7 @@ std::string in_options(std::string sentence) {
         {"caustics_estimate.radius", "--caustic-radius"},
         {"general_estimate.radius", "--general-radius"}};
     for (const auto& [name, option] : names)
-        if (const std::size_t at = sentence.find(name); at != sentence.npos)
+        for (std::size_t at = 0; (at = sentence.find(name, at)) != sentence.npos;)
             sentence.replace(at, name.size(), option);
     return sentence;
 }

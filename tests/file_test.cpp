@@ -122,10 +122,16 @@ TEST_CASE("file: a folder or a device in the place of the file is left alone") {
     CHECK(message_of_save(folder.path.string(), {}) ==
           "cannot write '" + folder.path.string() + "': Is a directory.");
 #if __has_include(<sys/resource.h>)
-    CHECK(message_of_save("/dev/null", {}) == "cannot write '/dev/null': File exists.");
+    const std::string pipe = folder.file("pipe");
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    for (const std::string& name : {pipe, std::string("/dev/null")})
+        CHECK(message_of_save(name, {}) ==
+              "cannot write '" + name +
+                  "': it is a pipe, a socket or a device, not a file.");
     CHECK(std::filesystem::is_character_file("/dev/null"));
+    CHECK(std::filesystem::is_fifo(pipe));
+    CHECK(folder.count() == 1);
 #endif
-    CHECK(folder.count() == 0);
 }
 
 #if __has_include(<sys/resource.h>)
@@ -138,6 +144,13 @@ TEST_CASE("file: behind a symbolic link its target is replaced, the link stays")
     CHECK(std::filesystem::is_symlink(folder.path / "link"));
     CHECK(ScratchFolder::read(folder.file("inner/target")) == "newer");
     CHECK(folder.count() == 2);
+    const std::string nowhere = folder.file("nowhere");
+    std::filesystem::create_symlink("missing", nowhere);
+    CHECK(message_of_save(nowhere, {}) ==
+          "cannot write '" + nowhere +
+              "': it is a link to a file that does not exist.");
+    CHECK(std::filesystem::is_symlink(nowhere));
+    CHECK(folder.count() == 3);
 }
 
 TEST_CASE(

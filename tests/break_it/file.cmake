@@ -57,3 +57,9 @@ ljus_break_it(NAME file-lock HEADER io/file_beside.hpp TEST file
     FROM "::flock(left, LOCK_EX | LOCK_NB) == 0 && "
     TO   ""
     CASES "file: what a killed program*")
+
+# A link whose target is missing is replaced by a file.
+ljus_break_it(NAME file-link-nowhere HEADER io/file_beside.hpp TEST file
+    FROM "S_ISLNK(status.st_mode)"
+    TO   "false"
+    CASES "file: behind a symbolic link*")

@@ -110,3 +110,21 @@ ljus_break_it(NAME photon-mapping-few-caustics HEADER render/photon_mapping.hpp
     FROM "if (landed == 0 || landed >= 256) return {};"
     TO   "if (landed == 0 || landed >= 64) return {};"
     CASES "photon mapping: a caustic of few*")
+
+# A disc that is wider than its object loses light: unseen, on the wrong side of a seam, and
+# unsaid.
+ljus_break_it(NAME photon-mapping-edge-loss HEADER photons/kernel_border.hpp
+    TEST photon_mapping_steps
+    FROM "cosine > T(0.5) && distance2 < T(1)"
+    TO   "cosine > T(0.5) && distance2 < T(4)"
+    CASES "photon mapping: what the edges*")
+ljus_break_it(NAME photon-mapping-few-of-each HEADER photons/kernel_border.hpp
+    TEST photon_mapping_steps
+    FROM "rest.photons += sum.photons;"
+    TO   "rest.photons += 0 * sum.photons;"
+    CASES "photon mapping: what the edges*")
+ljus_break_it(NAME photon-mapping-edges-said HEADER render/photon_mapping.hpp
+    TEST photon_mapping_steps
+    FROM "if (!(lost > 0.2)) return {};"
+    TO   "if (!(lost > 0.5)) return {};"
+    CASES "photon mapping: light that small*")

@@ -11,6 +11,7 @@
 #include "ljus/io/hdr.hpp"
 #include "ljus/io/light_map_file.hpp"
 #include "ljus/io/pfm.hpp"
+#include "ljus/io/photon_map_file.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/radiosity/radiosity.hpp"
 #include "ljus/scenes/cornell_box.hpp"
@@ -87,5 +88,22 @@ int main(int argc, char** argv) {
     LightMap light = make_radiosity(room.world, {.patches = {.size = 2}})->map;
     save_light_map(file("light_map", "room.light"), light);
     save_light_map(file("light_map", "none.light"), {});
+
+    // Without what is between the header and the arrays: see photon_map.cpp.
+    for (const int count : {0, 5, 40, 70}) {
+        std::vector<Photon> photons;
+        for (int i = 0; i < count; ++i)
+            photons.push_back({.position{float(i % 7), 0, float(i % 5)},
+                               .direction{0, i % 3 ? -1.0f : 1.0f, 0},
+                               .flux = Rgb{1},
+                               .kind = PhotonKind(i % 3),
+                               .normal = small_normal(Vec3{0, 1, 0})});
+        const PhotonMap map = make_photon_map(photons);
+        Bytes bytes = file_front(ljus::detail::photon_map_format,
+                                 static_cast<std::uint32_t>(count), std::uint64_t(0));
+        for (const auto& array : ljus::detail::arrays_of(map))
+            bytes.insert(bytes.end(), array.begin(), array.end());
+        save_file(file("photon_map", std::to_string(count)), bytes);
+    }
     return 0;
 }

@@ -72,20 +72,29 @@ using Bytes = std::vector<unsigned char>;
 
 namespace detail {
 
-[[noreturn, gnu::cold]] inline void fail_to_write(const std::string& path, int error) {
+[[noreturn, gnu::cold]] inline void fail_to_write(const std::string& path,
+                                                  std::string_view why) {
     throw std::runtime_error(
-        join({"cannot write '", shown_path(path), "': ", std::strerror(error), "."}));
+        join({"cannot write '", shown_path(path), "': ", why, "."}));
+}
+[[noreturn, gnu::cold]] inline void fail_to_write(const std::string& path, int error) {
+    fail_to_write(path, std::strerror(error));
 }
 
 // The file that a save replaces. For a symbolic link that is its target, so that the
-// link stays. Folders and devices (/dev/null), and files without write permission, are
-// not replaced.
+// link stays. Folders, pipes and devices (/dev/null), and files without write
+// permission, are not replaced.
 [[gnu::cold]] inline std::string file_to_replace(const std::string& path) {
 #if __has_include(<unistd.h>)
     struct ::stat status = {};
-    if (::stat(path.c_str(), &status) != 0) return path;
+    if (::stat(path.c_str(), &status) != 0) {
+        if (::lstat(path.c_str(), &status) == 0 && S_ISLNK(status.st_mode))
+            fail_to_write(path, "it is a link to a file that does not exist");
+        return path;
+    }
     if (S_ISDIR(status.st_mode)) fail_to_write(path, EISDIR);
-    if (!S_ISREG(status.st_mode)) fail_to_write(path, EEXIST);
+    if (!S_ISREG(status.st_mode))
+        fail_to_write(path, "it is a pipe, a socket or a device, not a file");
     if ((status.st_mode & 0222) == 0 || ::access(path.c_str(), W_OK) != 0)
         fail_to_write(path, EACCES);
     if (char* const resolved = ::realpath(path.c_str(), nullptr)) {
