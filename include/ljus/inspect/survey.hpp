@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "ljus/inspect/scene_remarks.hpp"
 #include "ljus/radiosity/patch_grid.hpp"
-#include "ljus/render/passes.hpp"
 
 namespace ljus {
 
@@ -78,6 +78,32 @@ namespace detail {
                                               const PhotonMappingSettings& settings);
 
 #ifndef LJUS_CORE // otherwise defined in ljus::core
+
+/// How a plan describes the choices for caustics: how photons are distributed, and
+/// where the radius comes from.
+/// \return The end of a clause; empty if nothing is chosen.
+[[nodiscard]] inline std::string
+caustics_clause(const PhotonMappingSettings& settings) {
+    const char* const radius = settings.caustics_estimate.radius == 0
+                                   ? ", the radius comes from the photons"
+                                   : "";
+    const auto clause = [&](const char* shares) {
+        return std::string(shares).append(radius);
+    };
+    if (!settings.caustics.shares.empty()) return clause(", photons in given shares");
+    switch (settings.caustic_budget) {
+    case CausticBudget::equal:
+        return clause(", each gets as many photons");
+    case CausticBudget::flux:
+        return clause(", photons are shared out by flux");
+    case CausticBudget::area:
+        return clause(", photons are shared out by caustic area");
+    case CausticBudget::brightness:
+        return clause(", photons are shared out by flux over brightness");
+    default:
+        return clause("");
+    }
+}
 // Such as "3 of 7 objects mirror or refract".
 inline std::string of_all(const SceneNeeds& found, std::size_t count,
                           const char* what) {

@@ -25,7 +25,7 @@ namespace ljus {
 /// \param world  The closed scene.
 /// \param gloss  Whether those that are nearly_specular() count as well.
 template <AnyWorld W>
-[[nodiscard]] std::vector<ObjectId> specular_objects(const W& world,
+[[nodiscard, gnu::cold]] std::vector<ObjectId> specular_objects(const W& world,
                                                      bool gloss = false) {
     std::vector<ObjectId> targets;
     for (std::uint32_t type = 0; type < world.objects().size(); ++type)

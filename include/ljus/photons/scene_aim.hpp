@@ -106,7 +106,7 @@ template <NearLight L, std::floating_point T>
 /// of the sphere, nor for a lamp that faces it from nearby.
 /// \param sphere  As of lit_sphere().
 template <AnyWorld W, NearLight L, std::floating_point T>
-[[nodiscard]] std::optional<double> part_of_flux_in(const W& world, const L& light,
+[[nodiscard, gnu::cold]] std::optional<double> part_of_flux_in(const W& world, const L& light,
                                                     const SphereT<T>& sphere) {
     constexpr int samples = 64;
     double sum = 0, squares = 0;

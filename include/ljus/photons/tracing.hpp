@@ -157,7 +157,7 @@ struct BlockTracerT {
 /// \return The photons in the order of emission.
 /// \throws std::invalid_argument  if the memory would not suffice.
 template <std::floating_point T>
-[[nodiscard]] TracedPartsT<T> run_pass(MapType map, const PhotonPassSettings& pass,
+[[nodiscard, gnu::cold]] TracedPartsT<T> run_pass(MapType map, const PhotonPassSettings& pass,
                                        BlockTracerT<T> trace) {
     TracedPartsT<T> traced;
     TracedPhotonsT<T>& result = traced.pass;

@@ -73,7 +73,8 @@ struct PhotonMapsT {
     bool starved = false;       ///< Whether the general map has fewer indirect photons
                                 ///< than IrradiancePointSettings::least.
     bool complete = true;       ///< False if the progress callback stopped the pass.
-    std::string remarks{};      ///< Remarks of survey and passes, one per line.
+    std::string remarks{};      ///< Of the passes, one per line; mapper_remarks()
+                                ///< adds those about the scene.
 };
 
 namespace detail {
@@ -191,8 +192,6 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
            const Judge& judge) {
     constexpr PhotonKinds fog = one_kind(PhotonKind::fog);
     PhotonMapsT<typename W::Scalar> maps;
-    for (const std::string& remark : scene_remarks(world, settings))
-        maps.remarks.append(remark).append("\n");
     const auto trace = [&](MapType type, const PhotonPassSettings& pass,
                            FluxAudit& audit, [[maybe_unused]] auto& in_fog) {
         auto [parts, stored, traced] = trace_parts(world, type, pass);
