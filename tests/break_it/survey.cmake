@@ -6,8 +6,8 @@ ljus_break_it(NAME survey-degrees HEADER inspect/scene_remarks.hpp TEST survey
 
 # The digits of the largest thing, and not of the one that has fewest.
 ljus_break_it(NAME survey-digits HEADER inspect/scene_remarks.hpp TEST survey
-    FROM "if (!(ratio > most)) continue;"
-    TO   "if (ratio > most) continue;"
+    FROM "if (!(ratio > most)) return;"
+    TO   "if (ratio > most) return;"
     CASES "survey: where float stops*")
 
 # Every gloss is called a mirror.

@@ -42,17 +42,16 @@ template <AnyWorld W>
         return SphereT<double>{Vec3T<double>(ball.center), double(ball.radius)};
     };
     double most = 1, radius = 0, reach = 0;
-    for (std::uint32_t type = 0; type < world.objects().size(); ++type)
-        for (std::uint32_t i = 0; i < world.objects()[type].size(); ++i) {
-            const SphereT<double> bound = world.visit_shape({type, i}, in_double);
-            // [digits]
-            const Vec3T<double> far = glm::abs(bound.center) + bound.radius;
-            reach = std::max(reach, max_component(far));
-            const double ratio = max_component(far) / bound.radius;
-            if (!(ratio > most)) continue;
-            most = ratio;
-            radius = bound.radius;
-        }
+    world.each_object([&](ObjectId id, const auto&) {
+        const SphereT<double> bound = world.visit_shape(id, in_double);
+        // [digits]
+        const Vec3T<double> far = glm::abs(bound.center) + bound.radius;
+        reach = std::max(reach, max_component(far));
+        const double ratio = max_component(far) / bound.radius;
+        if (!(ratio > most)) return;
+        most = ratio;
+        radius = bound.radius;
+    });
     constexpr double half = double(std::numeric_limits<T>::epsilon()) / 2;
     const int digits = int(std::max(0.0, std::floor(-std::log10(half * most))));
     // [digits]
@@ -94,9 +93,9 @@ template <AnyWorld W>
         return next && next->pdf > T(1000);
     };
     std::size_t count = 0;
-    for (const auto& objects : world.objects())
-        for (const auto& object : objects)
-            count += world.visit_material(object.material, narrow) ? 1 : 0;
+    world.each_object([&](ObjectId, const auto& object) {
+        count += world.visit_material(object.material, narrow) ? 1 : 0;
+    });
     return count;
 }
 
@@ -207,17 +206,15 @@ template <AnyWorld W>
         bool thin;
     };
     std::vector<Body> all;
-    for (ObjectId id; id.type < world.objects().size(); ++id.type)
-        for (id.index = 0; id.index < world.objects()[id.type].size(); ++id.index) {
-            const MaterialId material = world.object(id).material;
-            const bool thin = world.visit_material(
-                material, []<typename M>(const M&) { return ThinSurface<M>; });
-            if (thin || world.rank_of(material) != 0)
-                all.push_back(
-                    {world.visit_shape(
-                         id, [](const auto& shape) { return box_around(shape); }),
-                     thin});
-        }
+    world.each_object([&](ObjectId id, const auto& object) {
+        const MaterialId material = object.material;
+        const bool thin = world.visit_material(
+            material, []<typename M>(const M&) { return ThinSurface<M>; });
+        if (thin || world.rank_of(material) != 0)
+            all.push_back({world.visit_shape(
+                               id, [](const auto& shape) { return box_around(shape); }),
+                           thin});
+    });
     const auto priority_of = [&](std::uint8_t rank) {
         return world.visit_material(world.material_of_rank(rank),
                                     [](const auto& m) { return priority(m); });

@@ -213,11 +213,11 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
 template <AnyWorld W>
 [[gnu::cold]] std::string extent_of(const W& world) {
     BoxT<typename W::Scalar> box; // world.box() is that of the bounding spheres
-    for (ObjectId id; id.type < world.objects().size(); ++id.type)
-        for (id.index = 0; id.index < world.objects()[id.type].size(); ++id.index)
-            box = box_union(box, world.visit_shape(id, [](const auto& shape) {
-                return box_around(shape);
-            }));
+    world.each_object([&](ObjectId id, const auto&) {
+        box = box_union(box, world.visit_shape(id, [](const auto& shape) {
+            return box_around(shape);
+        }));
+    });
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.3g",
                   double(max_component(box.high - box.low)));

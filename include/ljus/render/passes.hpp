@@ -32,15 +32,14 @@ template <AnyWorld W>
     SceneNeeds found{.objects = world.size(),
                      .lights = world.light_count(),
                      .films = detail::has_thin_surfaces(world)};
-    for (const auto& objects : world.objects())
-        for (const auto& object : objects) {
-            const Lobes parts = world.visit_material(
-                object.material, [](const auto& m) { return lobes(m); });
-            found.diffuse += has(parts, Lobes::non_specular) ? 1 : 0;
-            found.specular += has(parts, Lobes::specular) ? 1 : 0;
-            const auto narrow = [](const auto& m) { return nearly_specular(m); };
-            found.narrow += world.visit_material(object.material, narrow) ? 1 : 0;
-        }
+    world.each_object([&](ObjectId, const auto& object) {
+        const Lobes parts = world.visit_material(
+            object.material, [](const auto& m) { return lobes(m); });
+        found.diffuse += has(parts, Lobes::non_specular) ? 1 : 0;
+        found.specular += has(parts, Lobes::specular) ? 1 : 0;
+        const auto narrow = [](const auto& m) { return nearly_specular(m); };
+        found.narrow += world.visit_material(object.material, narrow) ? 1 : 0;
+    });
     const auto count_fog = [&](const auto& list) {
         for (const auto& medium : list)
             found.fog += is_black(scattering(medium)) ? 0 : 1;

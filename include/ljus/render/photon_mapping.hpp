@@ -234,7 +234,7 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     }
     if (scatters) general.keep.bits = (run.general_map ? kept.bits : 0) | fog.bits;
     auto photons = trace(MapType::general, general, maps.general_audit, maps.fog);
-    if (verdicts) judge(joined(photons));
+    if (verdicts) judge(photons);
     const long long indirect = count_of(photons, PhotonKind::indirect);
     maps.starved = run.irradiance && indirect < settings.irradiance.least;
     if (maps.starved) maps.remarks.append(starved_remark(indirect, settings) + "\n");
@@ -336,10 +336,10 @@ public:
         maps_ = detail::trace_maps(
             world.get(), settings_, passes_, [&](const auto& photons) {
                 if constexpr (has<Skipping>)
-                    kept<Skipping>().verdicts =
-                        make_verdict_grid(photons, world.get().light_count(),
-                                          detail::skipping(passes_, settings_),
-                                          settings_.general.threads);
+                    kept<Skipping>().verdicts = make_verdict_grid(
+                        detail::joined(photons), world.get().light_count(),
+                        detail::skipping(passes_, settings_),
+                        settings_.general.threads);
             });
         choose_radii();
         if constexpr (has<Gathering>)

@@ -507,24 +507,22 @@ find_contacts(const W& world, const std::vector<BoxT<typename W::Scalar>>& boxes
     std::vector<detail::ContactObject> objects(world.size());
     auto next = objects.begin();
     auto box = boxes.begin();
-    for (ObjectId id; id.type < world.objects().size(); ++id.type)
-        for (id.index = 0; id.index < world.objects()[id.type].size(); ++id.index) {
-            const auto& object = world.object(id);
-            detail::ContactObject& one = *next++;
-            one.id = id;
-            one.material = object.material.index * types + object.material.type;
-            one.kind = !is_black(object.emission)
-                           ? ContactKind::lamp
-                           : world.visit_material(object.material, [](const auto& m) {
-                                 return detail::kind_of(m);
-                             });
-            one.box = {glm::dvec3(box->low), glm::dvec3(box->high)};
-            ++box;
-            world.visit_shape(id, [&]<typename G>(const G& shape) {
-                one.pieces = detail::piece_count(shape);
-                if constexpr (HasArea<G>) one.area = double(area(shape));
-            });
-        }
+    world.each_object([&](ObjectId id, const auto& object) {
+        detail::ContactObject& one = *next++;
+        one.id = id;
+        one.material = object.material.index * types + object.material.type;
+        one.kind = !is_black(object.emission)
+                       ? ContactKind::lamp
+                       : world.visit_material(object.material, [](const auto& m) {
+                             return detail::kind_of(m);
+                         });
+        one.box = {glm::dvec3(box->low), glm::dvec3(box->high)};
+        ++box;
+        world.visit_shape(id, [&]<typename G>(const G& shape) {
+            one.pieces = detail::piece_count(shape);
+            if constexpr (HasArea<G>) one.area = double(area(shape));
+        });
+    });
     const auto piece = [&](ObjectId id, std::uint32_t number) {
         SurfacePiece found = world.visit_shape(id, [number](const auto& shape) {
             return detail::piece_of(shape, number);

@@ -292,6 +292,13 @@ public:
     [[nodiscard]] const ObjectT<Scalar>& object(ObjectId id) const noexcept {
         return objects_[id.type][id.index];
     }
+    /// Calls f(id, object) for each object, in the order of shapes().
+    template <typename F>
+    void each_object(F&& f) const {
+        for (ObjectId id; id.type < objects_.size(); ++id.type)
+            for (id.index = 0; id.index < objects_[id.type].size(); ++id.index)
+                f(id, object(id));
+    }
     /// The frame around the normal of a flat shape.
     [[nodiscard]] const FrameT<Scalar>& frame(ObjectId id) const noexcept {
         return frames_[id.type][id.index];
@@ -419,9 +426,7 @@ private:
         if (!detail::needs_tree(size_)) return;
         std::vector<ObjectId> all;
         all.reserve(size_);
-        for (ObjectId id; id.type < objects_.size(); ++id.type)
-            for (id.index = 0; id.index < objects_[id.type].size(); ++id.index)
-                all.push_back(id);
+        each_object([&](ObjectId id, const auto&) { all.push_back(id); });
         tree_ = Tree(boxes, {.leaf_size = 1});
         ids_ = std::vector<ObjectId>(size_);
         for (std::size_t slot = 0; slot < size_; ++slot)
@@ -499,15 +504,14 @@ private:
         };
         std::vector<Body> bodies;
         auto next = boxes.begin();
-        for (const auto& list : objects_)
-            for (const ObjectT<Scalar>& object : list) {
-                visit_material(object.material, [&]<typename M>(const M& m) {
-                    if constexpr (Transparent<M>)
-                        bodies.push_back({*next, has_fog() || has_priorities() ||
-                                                     !is_black(absorption(m))});
-                });
-                ++next;
-            }
+        each_object([&](ObjectId, const auto& object) {
+            visit_material(object.material, [&]<typename M>(const M& m) {
+                if constexpr (Transparent<M>)
+                    bodies.push_back({*next, has_fog() || has_priorities() ||
+                                                 !is_black(absorption(m))});
+            });
+            ++next;
+        });
         for (std::size_t i = 0; i < bodies.size(); ++i) {
             const auto& [box, absorbs] = bodies[i];
             if (!absorbs) continue;
