@@ -113,7 +113,7 @@ std::string in_options(std::string sentence) {
     return sentence;
 }
 
-/// Prints the remarks of photon maps, and keeps them for the picture's JSON.
+/// Prints the remarks about a photon mapper, and keeps them for the picture's JSON.
 void tell_maps(const std::string& remarks, Request& r) {
     r.remarks = in_options(remarks);
     std::fputs(r.remarks.c_str(), stderr);
@@ -157,7 +157,7 @@ RenderedLayersT<typename S::Scalar> map_photons(const FileRoom<S>& room, Request
     examples::stop_if_asked();
     const Passes& passes = mapper.passes();
     const auto& maps = mapper.maps();
-    tell_maps(maps.remarks, r);
+    tell_maps(mapper_remarks(mapper), r);
     if (!r.quiet && (passes.caustics_map || passes.general_map || passes.volume_map)) {
         std::printf("  %-16s %8.2f s\n", "photons", watch.seconds());
         if (passes.caustics_map)
@@ -186,7 +186,7 @@ RenderedT<typename S::Scalar> render_passes(const FileRoom<S>& room, Request& r)
     {
         const PhotonMapper first(room.world, r.photon, abilities);
         examples::stop_if_asked();
-        tell_maps(first.maps().remarks, r);
+        tell_maps(mapper_remarks(first), r);
         r.photon = settings_for_passes(first);
     }
     RenderedT<typename S::Scalar> rendered;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "experiments/uniform_sky.hpp"
+#include "ljus/inspect/scene_remarks.hpp"
 #include "ljus/lights/environment.hpp"
 #include "ljus/lights/sun_light.hpp"
 #include "ljus/materials/glass.hpp"

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "ljus/geometry/moving.hpp"
+#include "ljus/inspect/scene_remarks.hpp"
 #include "ljus/lights/environment.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/materials/glass.hpp"
@@ -23,7 +24,6 @@
 #include "ljus/media/fog.hpp"
 #include "ljus/radiosity/patches.hpp"
 #include "ljus/render/first_hit.hpp"
-#include "ljus/render/passes.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/render.hpp"
 #include "ljus/render/whitted.hpp"

@@ -819,10 +819,11 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
             s.general.max_bounces = bounces;
         });
         CHECK(map.maps().remarks ==
-              (bounces == 1 ? "of 3000 general photons only 0 landed twice or more: the "
-                              "light between surfaces is blurred over a large radius; "
-                              "trace more, or let rays carry it\n"
-                            : ""));
+              (bounces == 1
+                   ? "of 3000 general photons only 0 landed twice or more: the "
+                     "light between surfaces is blurred over a large radius; "
+                     "trace more, or let rays carry it\n"
+                   : ""));
     }
     for (const bool shadows : {true, false}) {
         const auto kept = make([&](auto& s) {
@@ -920,7 +921,7 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
         s.caustics.photons = 100000;
         s.caustics.give_up = 3000;
     };
-    const auto said = maps_of(in_vain, world).maps().remarks;
+    const auto said = mapper_remarks(maps_of(in_vain, world));
     CHECK(said.find("float keeps") != std::string::npos);
     CHECK(said.find("\ngave up after") != std::string::npos);
     CHECK(std::count(said.begin(), said.end(), '\n') == 2);

@@ -6,7 +6,7 @@
 /// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
 /// none failed.
 
-#include "ljus/photons/detail/estimates_together.hpp"
+#include "ljus/photons/density_estimate.hpp"
 
 #include <doctest/doctest.h>
 

@@ -15,6 +15,7 @@
 #include "ljus/geometry/quad.hpp"
 #include "ljus/geometry/sphere.hpp"
 #include "ljus/inspect/explain.hpp"
+#include "ljus/inspect/scene_remarks.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "ljus/inspect/scene_remarks.hpp"
 #include "ljus/materials/eon.hpp"
 #include "ljus/materials/glossy.hpp"
 #include "ljus/render/path_tracing.hpp"
@@ -181,7 +182,7 @@ struct ExtremeSettings {
 template <std::floating_point T>
 struct ExtremePicture {
     ljus::RenderedT<T> rendered{}; ///< The picture and its counts.
-    std::string remarks{};         ///< Of the maps, lines.
+    std::string remarks{};         ///< Of mapper_remarks().
     std::size_t photons = 0;       ///< That the map has kept.
     std::size_t photon_bytes = 0;  ///< What they take.
 };
@@ -209,7 +210,7 @@ template <std::floating_point T>
                     .samples = settings.samples,
                     .seed = settings.seed,
                     .threads = settings.threads}),
-            mapper.maps().remarks, caustics.records.size(),
+            mapper_remarks(mapper), caustics.records.size(),
             caustics.tree.bytes() + caustics.records.bytes()};
 }
 

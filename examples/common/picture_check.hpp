@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "ljus/inspect/scene_remarks.hpp"
 #include "ljus/parallel.hpp"
-#include "ljus/render/passes.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "promise.hpp"
 

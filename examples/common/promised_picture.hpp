@@ -34,7 +34,7 @@ template <std::floating_point T>
 struct Shot {
     ljus::RenderedT<T> rendered{};          ///< The picture.
     ljus::PhotonMappingSettings settings{}; ///< With the radii that were chosen.
-    std::string remarks{};                  ///< Remarks on the photon pass, one a line.
+    std::string remarks{};                  ///< Of mapper_remarks().
     double bytes = 0;                       ///< Memory of the photon maps.
     double photons = 0;                     ///< Seconds of the photon maps.
     double rest = 0;                        ///< Seconds of everything else.
@@ -62,7 +62,7 @@ shoot(const W& world, const C& camera, const Recipe& recipe,
     const double begin = now();
     ljus::PhotonMapper mapper(world, shot.settings, recipe_abilities);
     const auto& maps = mapper.maps();
-    shot.remarks = maps.remarks;
+    shot.remarks = mapper_remarks(mapper);
     shot.bytes = double(maps.caustics.tree.bytes() + maps.caustics.records.bytes() +
                         maps.general.tree.bytes() + maps.general.records.bytes());
     const double middle = now();
@@ -257,7 +257,7 @@ struct Kept {
     std::vector<Forecast> found{}; ///< The pilot's forecasts.
     Choice choice{};               ///< What was chosen,
     std::string why{};             ///< and why, in sentences.
-    std::string remarks{};         ///< Remarks on its photon passes, one a line.
+    std::string remarks{};         ///< Of mapper_remarks().
     long long pictures = 0;        ///< The number of pictures.
     double seconds = 0;            ///< Time since the clock began, with the pilot.
     double noise = 0;              ///< Variance of the mean, from the scatter.

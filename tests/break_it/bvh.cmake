@@ -60,12 +60,8 @@ ljus_break_it(NAME triangle-bvh-start HEADER accel/triangle_bvh.hpp TEST bvh8
 
 # Of two types of shapes the second is numbered as the first.
 ljus_break_it(NAME world-type HEADER scene/world.hpp TEST world
-    FROM "all[next] = {type, i};
-            }
-            ++type;"
-    TO   "all[next] = {type, i};
-            }
-            type += 0;"
+    FROM "all.push_back(id);"
+    TO   "all.push_back({0, id.index});"
     CASES "world: in double*")
 
 # The first child of a wide node's two gets all places but one, whatever they cost.

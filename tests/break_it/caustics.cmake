@@ -35,15 +35,15 @@ ljus_break_it(NAME caustics-overlap HEADER photons/photon_path.hpp TEST caustics
     CASES "caustics: overlapping targets*")
 
 # The cosine at the lamp, which a point light does not have.
-ljus_break_it(NAME caustics-lamp-cosine HEADER lights/area_light.hpp TEST caustics
+ljus_break_it(NAME caustics-lamp-cosine HEADER lights/light.hpp TEST caustics
     FROM "cosine * std::numbers::inv_pi_v<T>"
     TO   "std::numbers::inv_pi_v<T>"
     CASES "caustics: overlapping targets*")
 
 # Points of a mirror as if they were directions.
 ljus_break_it(NAME caustics-area HEADER photons/aiming.hpp TEST caustics
-    FROM "return {glm::normalize(seen.point.position - from), seen.pdf};"
-    TO   "return {glm::normalize(seen.point.position - from), pdf_uniform_cone(aim.cone.one_minus_cos)};"
+    FROM "aimed.pdf = seen.pdf;"
+    TO   "aimed.pdf = pdf_uniform_cone(at.cone.one_minus_cos);"
     CASES "caustics: a mirror ball*")
 
 # The report's program: photons do not reflect from glass.

@@ -65,7 +65,7 @@ ljus_break_it(NAME contacts-medium HEADER path/next_vertex.hpp TEST contacts
     CASES "contacts: a path that begins in a stack*")
 
 # The survey is silent about contacts.
-ljus_break_it(NAME contacts-remark HEADER render/passes.hpp TEST contacts
+ljus_break_it(NAME contacts-remark HEADER inspect/scene_remarks.hpp TEST contacts
     FROM "    detail::add_contact_remarks(world.contacts(), type_of, remarks);"
     TO   ""
     CASES "contacts: the survey says*")

@@ -65,7 +65,7 @@ ljus_break_it(NAME environment-black HEADER image/image.hpp TEST environment
     CASES "environment: what is no sky*")
 
 # Nothing is said about a room with a window.
-ljus_break_it(NAME environment-window HEADER render/passes.hpp TEST environment
+ljus_break_it(NAME environment-window HEADER inspect/scene_remarks.hpp TEST environment
     FROM "sky > 0 && sky < 0.25"
     TO   "sky > 0.25"
     CASES "environment: it is said*")

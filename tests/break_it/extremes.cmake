@@ -11,13 +11,13 @@ ljus_break_it(NAME extremes-near-light HEADER lights/light.hpp TEST extremes
     CASES "extremes: lamps*")
 
 # Far from the origin, float keeps silent.
-ljus_break_it(NAME extremes-silence HEADER render/passes.hpp TEST extremes
+ljus_break_it(NAME extremes-silence HEADER inspect/scene_remarks.hpp TEST extremes
     FROM "if (digits >= 3) {"
     TO   "if (digits >= 0) {"
     CASES "extremes: far*")
 
 # A scene that is too large for float, and nobody says so.
-ljus_break_it(NAME extremes-too-large HEADER render/passes.hpp TEST extremes
+ljus_break_it(NAME extremes-too-large HEADER inspect/scene_remarks.hpp TEST extremes
     FROM "reach = std::max(reach, max_component(far));"
     TO   ""
     CASES "extremes: from a millionth*")

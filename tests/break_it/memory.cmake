@@ -5,7 +5,7 @@ ljus_break_it(NAME memory-photons HEADER photons/photon_map.hpp TEST memory
     CASES "memory: a photon*")
 
 # What was freed stays with the process, beside the arrays that are made of it.
-ljus_break_it(NAME memory-freed HEADER accel/detail/growing_array.hpp TEST memory
+ljus_break_it(NAME memory-freed HEADER accel/detail/stored_array.hpp TEST memory
     FROM "::malloc_trim(0);"
     TO   ""
     CASES "memory: a photon takes*")

@@ -63,7 +63,7 @@ ljus_break_it(NAME nested_bodies-list HEADER scene/body_list.hpp TEST nested_bod
     CASES "nested bodies: a list*")
 
 # Any two bodies that overlap are without an order.
-ljus_break_it(NAME nested_bodies-remark HEADER render/passes.hpp TEST nested_bodies
+ljus_break_it(NAME nested_bodies-remark HEADER inspect/scene_remarks.hpp TEST nested_bodies
     FROM "priority_of(around.ranks[n]) == priority_of(around.ranks[n - 1])"
     TO   "true"
     CASES "nested bodies: what cannot be*")

@@ -92,7 +92,7 @@ ljus_break_it(NAME photon-map-radius HEADER photons/irradiance_estimate.hpp TEST
 
 # Estimates that are answered together: all of them at the first place, photons of a
 # leaf's first block only, and a ball that gets those of the one before.
-ljus_break_it(NAME together-center HEADER photons/detail/estimates_together.hpp
+ljus_break_it(NAME together-center HEADER photons/density_estimate.hpp
     TEST photon_map
     FROM "{ return places[i].center; }"
     TO   "{ return places[0 * i].center; }"
@@ -105,7 +105,7 @@ ljus_break_it(NAME together-room HEADER accel/detail/kd_tree8_walk.hpp TEST phot
     FROM "found.blocks.clear();"
     TO   ""
     CASES "photon_map: estimates that are*")
-ljus_break_it(NAME together-side HEADER photons/detail/estimates_together.hpp
+ljus_break_it(NAME together-side HEADER photons/density_estimate.hpp
     TEST photon_map
     FROM "std::copysign(T(1), vertex.wo.z) * vertex.frame.normal"
     TO   "vertex.frame.normal"
@@ -119,7 +119,7 @@ ljus_break_it(NAME photon-map-k-height HEADER photons/irradiance_estimate.hpp
     CASES "photon_map: of the k nearest the disc*")
 
 # Places that are asked together by the normal of the frame.
-ljus_break_it(NAME photon-map-place HEADER photons/detail/estimates_together.hpp
+ljus_break_it(NAME photon-map-place HEADER photons/density_estimate.hpp
     TEST photon_map
     FROM "place.normal = vertex.point.normal;"
     TO   "place.normal = vertex.frame.normal;"

@@ -1,23 +1,23 @@
 # A roughness in degrees goes unnoticed.
-ljus_break_it(NAME survey-degrees HEADER render/passes.hpp TEST survey
+ljus_break_it(NAME survey-degrees HEADER inspect/scene_remarks.hpp TEST survey
     FROM "material.sigma > decltype(material.sigma)(1.6)"
     TO   "material.sigma > decltype(material.sigma)(100)"
     CASES "survey: a sigma*")
 
 # The digits of the largest thing, and not of the one that has fewest.
-ljus_break_it(NAME survey-digits HEADER render/passes.hpp TEST survey
-    FROM "if (!(ratio > most)) continue;"
-    TO   "if (ratio > most) continue;"
+ljus_break_it(NAME survey-digits HEADER inspect/scene_remarks.hpp TEST survey
+    FROM "if (!(ratio > most)) return;"
+    TO   "if (ratio > most) return;"
     CASES "survey: where float stops*")
 
 # Every gloss is called a mirror.
-ljus_break_it(NAME survey-narrow HEADER render/passes.hpp TEST survey
+ljus_break_it(NAME survey-narrow HEADER inspect/scene_remarks.hpp TEST survey
     FROM "next->pdf > T(1000)"
     TO   "next->pdf > T(0)"
     CASES "survey: a lobe that*")
 
 # Ten times as narrow before anybody is warned.
-ljus_break_it(NAME survey-narrower HEADER render/passes.hpp TEST survey
+ljus_break_it(NAME survey-narrower HEADER inspect/scene_remarks.hpp TEST survey
     FROM "> T(1000)"
     TO   "> T(10000)"
     CASES "survey: a lobe*")
@@ -30,7 +30,7 @@ ljus_break_it(NAME survey-skip-unchecked HEADER render/photon_mapping_settings.h
     CASES "survey: settings that give no picture*")
 
 # How far a scene reaches, along one axis alone.
-ljus_break_it(NAME survey-reach HEADER render/passes.hpp TEST survey
+ljus_break_it(NAME survey-reach HEADER inspect/scene_remarks.hpp TEST survey
     FROM "std::max(reach, max_component(far))"
     TO   "std::max(reach, far.x)"
     CASES "survey: lengths whose squares*")
@@ -42,7 +42,7 @@ ljus_break_it(NAME survey-gloss HEADER render/passes.hpp TEST survey
     CASES "survey: narrow gloss*")
 
 # Lamps are taken for lights that no path meets, and suns for lamps.
-ljus_break_it(NAME survey-never-met HEADER render/passes.hpp TEST survey
+ljus_break_it(NAME survey-never-met HEADER inspect/scene_remarks.hpp TEST survey
     FROM "never_met += world.visit_light(i, is_met) ? 0 : 1;"
     TO   "never_met += world.visit_light(i, is_met) ? 1 : 0;"
     CASES "survey: the light that no path carries*")

@@ -79,7 +79,7 @@ ljus_break_it(NAME load-image-size HEADER io/load_image.hpp TEST texture
     CASES "texture: a file of many pixels*")
 
 # Photons through a textured body as if they were radiance.
-ljus_break_it(NAME textured-transport HEADER materials/textured.hpp TEST texture
+ljus_break_it(NAME textured-transport HEADER materials/material.hpp TEST texture
     FROM "return sample(m.base, wo, u, transport, which);"
     TO   "return (void)transport, sample(m.base, wo, u, Transport::radiance, which);"
     CASES "texture: what its colour is*")

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "ljus/inspect/scene_remarks.hpp"
 #include "ljus/radiosity/patch_grid.hpp"
-#include "ljus/render/passes.hpp"
 
 namespace ljus {
 
@@ -78,6 +78,32 @@ namespace detail {
                                               const PhotonMappingSettings& settings);
 
 #ifndef LJUS_CORE // otherwise defined in ljus::core
+
+/// How a plan describes the choices for caustics: how photons are distributed, and
+/// where the radius comes from.
+/// \return The end of a clause; empty if nothing is chosen.
+[[nodiscard]] inline std::string
+caustics_clause(const PhotonMappingSettings& settings) {
+    const char* const radius = settings.caustics_estimate.radius == 0
+                                   ? ", the radius comes from the photons"
+                                   : "";
+    const auto clause = [&](const char* shares) {
+        return std::string(shares).append(radius);
+    };
+    if (!settings.caustics.shares.empty()) return clause(", photons in given shares");
+    switch (settings.caustic_budget) {
+    case CausticBudget::equal:
+        return clause(", each gets as many photons");
+    case CausticBudget::flux:
+        return clause(", photons are shared out by flux");
+    case CausticBudget::area:
+        return clause(", photons are shared out by caustic area");
+    case CausticBudget::brightness:
+        return clause(", photons are shared out by flux over brightness");
+    default:
+        return clause("");
+    }
+}
 // Such as "3 of 7 objects mirror or refract".
 inline std::string of_all(const SceneNeeds& found, std::size_t count,
                           const char* what) {
@@ -187,11 +213,11 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
 template <AnyWorld W>
 [[gnu::cold]] std::string extent_of(const W& world) {
     BoxT<typename W::Scalar> box; // world.box() is that of the bounding spheres
-    for (ObjectId id; id.type < world.objects().size(); ++id.type)
-        for (id.index = 0; id.index < world.objects()[id.type].size(); ++id.index)
-            box = box_union(box, world.visit_shape(id, [](const auto& shape) {
-                return box_around(shape);
-            }));
+    world.each_object([&](ObjectId id, const auto&) {
+        box = box_union(box, world.visit_shape(id, [](const auto& shape) {
+            return box_around(shape);
+        }));
+    });
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.3g",
                   double(max_component(box.high - box.low)));

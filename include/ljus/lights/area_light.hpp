@@ -34,6 +34,10 @@ struct AreaLightT {
 
 namespace detail {
 
+/// An AreaLightT is one.
+template <typename S>
+inline constexpr bool is_lamp<AreaLightT<S>> = true;
+
 /// Whether a lamp keeps the areas of the parts of its shape.
 template <typename S>
 inline constexpr bool has_area_sums = requires(const S& shape) {
@@ -123,30 +127,6 @@ template <typename S, std::floating_point T>
     }();
     if (light.lamp.inside_out) point.normal = -point.normal;
     return point;
-}
-
-/// Samples the unit direction of a photon from an emission_point(), with the density
-/// cos / pi.
-template <typename S, std::floating_point T>
-[[nodiscard]] Vec3T<T> sample_emission(const AreaLightT<S>&,
-                                       const SurfacePointT<T>& point,
-                                       const Vec2T<T>& u) noexcept {
-    return to_world(frame_around(point.normal), sample_cosine_hemisphere(u));
-}
-
-/// The density of sample_emission(): cos / pi per steradian; 0 behind the lamp.
-template <typename S, std::floating_point T>
-[[nodiscard]] T pdf_emission(const AreaLightT<S>&, const SurfacePointT<T>& point,
-                             const Vec3T<T>& wo) noexcept {
-    const T cosine = glm::dot(wo, point.normal);
-    return cosine > T(0) ? cosine * std::numbers::inv_pi_v<T> : T(0);
-}
-
-/// The hemisphere into which a point of the lamp emits.
-template <typename S, std::floating_point T>
-[[nodiscard]] detail::ConeT<T> emission_cone(const AreaLightT<S>&,
-                                             const SurfacePointT<T>& point) noexcept {
-    return {point.normal, T(1)};
 }
 
 /// The form factor from a point with a unit normal to the lamp, in [0, 1]; nothing if

@@ -36,6 +36,10 @@ struct PictureLightT {
 
 namespace detail {
 
+/// A PictureLightT is one.
+template <typename T>
+inline constexpr bool is_lamp<PictureLightT<T>> = true;
+
 /// The area of the part of the unit disc with 0 <= x <= a and 0 <= y <= b; negative if
 /// one of a and b is.
 [[nodiscard]] inline double quarter_area(double a, double b) noexcept {
@@ -234,30 +238,6 @@ template <std::floating_point T>
     return std::numbers::pi_v<T> / pdf_of_point(light, radiance) * radiance;
 }
 // [flux_from]
-
-/// Samples the unit direction of a photon from an emission_point(), with the density
-/// cos / pi.
-template <std::floating_point T>
-[[nodiscard]] Vec3T<T> sample_emission(const PictureLightT<T>&,
-                                       const SurfacePointT<T>& point,
-                                       const Vec2T<T>& u) noexcept {
-    return to_world(frame_around(point.normal), sample_cosine_hemisphere(u));
-}
-
-/// The density of sample_emission(): cos / pi per steradian; 0 behind the lamp.
-template <std::floating_point T>
-[[nodiscard]] T pdf_emission(const PictureLightT<T>&, const SurfacePointT<T>& point,
-                             const Vec3T<T>& wo) noexcept {
-    const T cosine = glm::dot(wo, point.normal);
-    return cosine > T(0) ? cosine * std::numbers::inv_pi_v<T> : T(0);
-}
-
-/// The hemisphere into which a point of the lamp emits.
-template <std::floating_point T>
-[[nodiscard]] detail::ConeT<T> emission_cone(const PictureLightT<T>&,
-                                             const SurfacePointT<T>& point) noexcept {
-    return {point.normal, T(1)};
-}
 
 /// \}
 /// \}

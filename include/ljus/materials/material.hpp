@@ -158,6 +158,49 @@ concept Material = std::floating_point<typename M::Scalar> &&
     check(m);
 };
 
+/// \name A material around another one
+/// It scatters as its base; it needs check() and its own functions only.
+/// \{
+
+/// A material with a member `base`, which is a material: Nested, Textured.
+template <typename M>
+concept MaterialWrapper = std::floating_point<typename M::Scalar> &&
+    requires(const M& m) {
+    requires Material<std::remove_cvref_t<decltype(m.base)>>;
+};
+
+/// The lobes of the base.
+template <MaterialWrapper M>
+[[nodiscard]] constexpr Lobes lobes(const M& m) noexcept {
+    return lobes(m.base);
+}
+
+/// The BSDF of the base.
+/// \return f in 1/sr, without the cosine.
+template <MaterialWrapper M, std::floating_point T>
+[[nodiscard]] RgbT<T> evaluate(const M& m, const Vec3T<T>& wo,
+                               const Vec3T<T>& wi) noexcept {
+    return evaluate(m.base, wo, wi);
+}
+
+/// The density of the base's sample().
+/// \return Per steradian.
+template <MaterialWrapper M, std::floating_point T>
+[[nodiscard]] T pdf(const M& m, const Vec3T<T>& wo, const Vec3T<T>& wi,
+                    Lobes which = Lobes::all) noexcept {
+    return pdf(m.base, wo, wi, which);
+}
+
+/// Samples the base.
+template <MaterialWrapper M, std::floating_point T>
+[[nodiscard]] std::optional<BsdfSampleT<T>>
+sample(const M& m, const Vec3T<T>& wo, const Vec3T<T>& u, Transport transport,
+       Lobes which = Lobes::all) noexcept {
+    return sample(m.base, wo, u, transport, which);
+}
+
+/// \}
+
 /// The default absorption inside: none.
 /// \return 0 per scene unit.
 template <typename M>

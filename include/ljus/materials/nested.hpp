@@ -11,7 +11,8 @@ namespace ljus {
 /// \{
 
 /// Glass, rough glass or another transparent material with a priority, for bodies that
-/// overlap others. A scene that lists no such type pays nothing for it.
+/// overlap others. As a MaterialWrapper it scatters as against air. A scene that lists
+/// no such type pays nothing for it.
 ///
 ///     const auto glass = scene.add(Nested<Glass>{{.index = 1.5f}, 2});
 ///     const auto water = scene.add(Nested<Glass>{{.index = 1.33f}, 1});
@@ -40,36 +41,6 @@ template <typename Base>
 
 /// \name Functions of the base
 /// \{
-
-/// The lobes of the base.
-template <typename Base>
-[[nodiscard]] constexpr Lobes lobes(const Nested<Base>& nested) noexcept {
-    return lobes(nested.base);
-}
-
-/// The BSDF of the base, against air.
-/// \return f in 1/sr, without the cosine.
-template <typename Base, std::floating_point T>
-[[nodiscard]] RgbT<T> evaluate(const Nested<Base>& nested, const Vec3T<T>& wo,
-                               const Vec3T<T>& wi) noexcept {
-    return evaluate(nested.base, wo, wi);
-}
-
-/// The density of the base's sample(), against air.
-/// \return Per steradian.
-template <typename Base, std::floating_point T>
-[[nodiscard]] T pdf(const Nested<Base>& nested, const Vec3T<T>& wo, const Vec3T<T>& wi,
-                    Lobes which = Lobes::all) noexcept {
-    return pdf(nested.base, wo, wi, which);
-}
-
-/// Samples the base, against air.
-template <typename Base, std::floating_point T>
-[[nodiscard]] std::optional<BsdfSampleT<T>>
-sample(const Nested<Base>& nested, const Vec3T<T>& wo, const Vec3T<T>& u,
-       Transport transport, Lobes which = Lobes::all) noexcept {
-    return sample(nested.base, wo, u, transport, which);
-}
 
 /// Both branches of the base, against air.
 template <typename Base, std::floating_point T>

@@ -18,7 +18,8 @@ namespace ljus {
 /// \{
 
 /// A material whose colour is multiplied by that of a texture; or with Holes or a
-/// NormalMap in place of the texture, which leave its colour.
+/// NormalMap in place of the texture, which leave its colour. As a MaterialWrapper it
+/// scatters in the colour that the base itself has; material_at() has the texture's.
 template <Material Base, typename Texture>
 struct Textured {
     using Scalar = typename Base::Scalar; ///< The precision of its numbers.
@@ -79,12 +80,6 @@ template <typename Base, typename Texture, std::floating_point T>
 /// They answer for the whole material: for a survey, or when a shape is added.
 /// \{
 
-/// The lobes of the base.
-template <typename Base, typename Texture>
-[[nodiscard]] constexpr Lobes lobes(const Textured<Base, Texture>& m) noexcept {
-    return lobes(m.base);
-}
-
 /// The base's absorption coefficient inside, if it has one: a matt base is no body.
 /// \return Per scene unit.
 template <MayAbsorb Base, typename Texture>
@@ -99,31 +94,6 @@ template <typename Base, typename Texture>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
 emission(const Textured<Base, Texture>& m) noexcept {
     return emission(m.base);
-}
-
-/// The BSDF of the base with the colour that the base itself has. With the texture's
-/// colour at a point: evaluate(material_at(m, ...), wo, wi).
-/// \return f in 1/sr, without the cosine.
-template <typename Base, typename Texture, std::floating_point T>
-[[nodiscard]] RgbT<T> evaluate(const Textured<Base, Texture>& m, const Vec3T<T>& wo,
-                               const Vec3T<T>& wi) noexcept {
-    return evaluate(m.base, wo, wi);
-}
-
-/// The density of the base's sample().
-/// \return Per steradian.
-template <typename Base, typename Texture, std::floating_point T>
-[[nodiscard]] T pdf(const Textured<Base, Texture>& m, const Vec3T<T>& wo,
-                    const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
-    return pdf(m.base, wo, wi, which);
-}
-
-/// Samples the base with the colour that the base itself has.
-template <typename Base, typename Texture, std::floating_point T>
-[[nodiscard]] std::optional<BsdfSampleT<T>>
-sample(const Textured<Base, Texture>& m, const Vec3T<T>& wo, const Vec3T<T>& u,
-       Transport transport, Lobes which = Lobes::all) noexcept {
-    return sample(m.base, wo, u, transport, which);
 }
 
 /// \}

@@ -25,17 +25,15 @@ namespace ljus {
 /// \param world  The closed scene.
 /// \param gloss  Whether those that are nearly_specular() count as well.
 template <AnyWorld W>
-[[nodiscard]] std::vector<ObjectId> specular_objects(const W& world,
-                                                     bool gloss = false) {
+[[nodiscard, gnu::cold]] std::vector<ObjectId> specular_objects(const W& world,
+                                                                bool gloss = false) {
     std::vector<ObjectId> targets;
-    for (std::uint32_t type = 0; type < world.objects().size(); ++type)
-        for (std::uint32_t i = 0; i < world.objects()[type].size(); ++i)
-            if (world.visit_material(world.objects()[type][i].material,
-                                     [gloss](const auto& m) {
-                                         return has(lobes(m), Lobes::specular) ||
-                                                (gloss && nearly_specular(m));
-                                     }))
-                targets.push_back({type, i});
+    const auto counts = [gloss](const auto& m) {
+        return has(lobes(m), Lobes::specular) || (gloss && nearly_specular(m));
+    };
+    world.each_object([&](ObjectId id, const auto& object) {
+        if (world.visit_material(object.material, counts)) targets.push_back(id);
+    });
     return targets;
 }
 
@@ -139,27 +137,9 @@ choose_target(std::span<const ObjectId> targets, SizeOf size_of, T u_target) {
 template <std::floating_point T>
 struct AimedDirectionT {
     Vec3T<T> direction{T(0)}; ///< Unit.
-    T pdf = T(0);             ///< Per steradian.
+    T pdf = T(0);             ///< Per steradian, with that of the choice of the object.
+    ObjectId target{};        ///< The object.
 };
-
-/// Samples a direction: uniformly in the cone, or by the area of a flat object.
-/// \param from    The point of the light.
-/// \return The direction. Its density may be 0 or infinite if the object is seen
-///         edge-on or contains `from`.
-template <AnyWorld W, std::floating_point T>
-[[nodiscard]] AimedDirectionT<T> sample_aim(const W& world, const AimT<T>& aim,
-                                            const Vec3T<T>& from, ObjectId target,
-                                            const Vec2T<T>& u, T time) {
-    if (aim.at_area) {
-        const auto seen = world.visit_shape(target, [&](const auto& shape) {
-            return sample_towards(at_time(shape, time), from, u);
-        });
-        return {glm::normalize(seen.point.position - from), seen.pdf};
-    }
-    const Vec3T<T> local = sample_uniform_cone(u, aim.cone.one_minus_cos);
-    return {to_world(frame_around(aim.cone.axis), local),
-            pdf_uniform_cone(aim.cone.one_minus_cos)};
-}
 
 /// The random numbers of an aimed photon, in the order in which they are drawn.
 template <std::floating_point T>
@@ -198,6 +178,43 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
                             aimed->target};
 }
 
+/// Samples a direction from a point of a near light to one of the targets: uniformly in
+/// its cone, or by the area of a flat object.
+/// \param emission  The cone of all directions of emission.
+/// \return Nothing if all targets have the radius 0, or if the chosen one is seen
+///         edge-on or contains `from`.
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] std::optional<AimedDirectionT<T>>
+sample_aim(const W& world, const ConeT<T>& emission, const Vec3T<T>& from,
+           std::span<const ObjectId> targets, const AimNumbersT<T>& u) {
+    const auto size_of = [&](ObjectId id) {
+        return aim_at(world, emission, from, id).size;
+    };
+    const auto chosen = choose_target(targets, size_of, u.u_target);
+    if (!chosen) return std::nullopt;
+    const AimT<T> at = aim_at(world, emission, from, chosen->target);
+    AimedDirectionT<T> aimed{.target = chosen->target};
+    if (at.at_area) {
+        const auto seen =
+            world.visit_shape(chosen->target, [&]<typename G>(const G& shape) {
+                if constexpr (FlatShape<G>) // which does not move
+                    return sample_towards(shape, from, u.u_direction);
+                else
+                    return SeenPointT<T>{};
+            });
+        aimed.direction = glm::normalize(seen.point.position - from);
+        aimed.pdf = seen.pdf;
+    } else {
+        aimed.direction =
+            to_world(frame_around(at.cone.axis),
+                     sample_uniform_cone(u.u_direction, at.cone.one_minus_cos));
+        aimed.pdf = pdf_uniform_cone(at.cone.one_minus_cos);
+    }
+    aimed.pdf *= at.size / chosen->sum;
+    if (!(aimed.pdf > T(0) && std::isfinite(aimed.pdf))) return std::nullopt;
+    return aimed;
+}
+
 /// Aims a photon of a near light. Returns nothing if the target lies behind the light,
 /// or if all targets have the radius 0.
 template <AnyWorld W, NearLight L, std::floating_point T>
@@ -205,25 +222,16 @@ template <AnyWorld W, NearLight L, std::floating_point T>
 aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
            const AimNumbersT<T>& u) {
     const auto point = emission_point(light, u.u_point, u.time);
-    const Vec3T<T>& from = position_of(point);
-    const ConeT<T> emission = cone_of_emission(light, point);
-    const auto size_of = [&](ObjectId id) {
-        return aim_at(world, emission, from, id).size;
-    };
-    const auto aimed = choose_target(targets, size_of, u.u_target);
+    const auto aimed = sample_aim(world, cone_of_emission(light, point),
+                                  position_of(point), targets, u);
     if (!aimed) return std::nullopt;
-
-    const AimT<T> at = aim_at(world, emission, from, aimed->target);
-    auto [direction, pdf] =
-        sample_aim(world, at, from, aimed->target, u.u_direction, u.time);
-    pdf *= at.size / aimed->sum;                                  // of the choice
-    if (!(pdf > T(0) && std::isfinite(pdf))) return std::nullopt; // edge-on, or at it
+    const auto& [direction, pdf, target] = *aimed;
     const T emitted = pdf_emission(light, point, direction);
     if (!(emitted > T(0))) return std::nullopt;
     return LeavingAimedT<T>{
         {leave(point, direction),
          flux_leaving(light, point) * (emitted / (pdf * u.probability))},
-        aimed->target};
+        target};
 }
 
 } // namespace detail

@@ -30,7 +30,7 @@ inline constexpr std::size_t lone_others = 3;
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] PhotonMapT<T> lone_photons(const PhotonMapT<T>& map,
                                                     T radius) {
-    std::vector<PhotonT<T>> lone;
+    detail::PhotonPartsT<T> lone(1);
     std::array<Neighbor, lone_others + 1> room; // with the photon itself
     for (std::size_t i = 0; i < map.records.size(); ++i) {
         const Vec3T<T> place = map.tree.point(i);
@@ -41,10 +41,10 @@ template <std::floating_point T>
             near = map.tree.template nearest<lone_others + 1>(place, radius, room);
         if (near >= room.size()) continue;
         const detail::PhotonRecordT<T> record = map.records[i];
-        lone.push_back({place, record.direction, record.flux, record.light, record.kind,
-                        record.normal});
+        lone[0].push_back({place, record.direction, record.flux, record.light,
+                           record.kind, record.normal});
     }
-    return make_photon_map(lone);
+    return detail::map_of_parts(std::move(lone));
 }
 // [lone_photons]
 

@@ -46,11 +46,11 @@ sphere_around(const std::vector<SphereT<T>>& others) {
 template <AnyWorld W, std::floating_point T = typename W::Scalar>
 [[nodiscard, gnu::cold]] std::optional<SphereT<T>> lit_sphere(const W& world) {
     std::vector<SphereT<T>> lit, lamps;
-    for (std::uint32_t type = 0; type < world.objects().size(); ++type)
-        for (std::uint32_t i = 0; i < world.objects()[type].size(); ++i)
-            (world.objects()[type][i].light == no_light ? lit : lamps)
-                .push_back(world.visit_shape(
-                    {type, i}, [](const auto& s) { return bounding_sphere(s); }));
+    world.each_object([&](ObjectId id, const auto& object) {
+        (object.light == no_light ? lit : lamps)
+            .push_back(world.visit_shape(
+                id, [](const auto& s) { return bounding_sphere(s); }));
+    });
     if (lit.empty()) return std::nullopt;
     const SphereT<T> matt = detail::sphere_around(lit);
     for (const SphereT<T>& lamp : lamps)
@@ -106,8 +106,8 @@ template <NearLight L, std::floating_point T>
 /// of the sphere, nor for a lamp that faces it from nearby.
 /// \param sphere  As of lit_sphere().
 template <AnyWorld W, NearLight L, std::floating_point T>
-[[nodiscard]] std::optional<double> part_of_flux_in(const W& world, const L& light,
-                                                    const SphereT<T>& sphere) {
+[[nodiscard, gnu::cold]] std::optional<double>
+part_of_flux_in(const W& world, const L& light, const SphereT<T>& sphere) {
     constexpr int samples = 64;
     double sum = 0, squares = 0;
     for (int i = 0; i < samples; ++i) {

@@ -157,8 +157,8 @@ struct BlockTracerT {
 /// \return The photons in the order of emission.
 /// \throws std::invalid_argument  if the memory would not suffice.
 template <std::floating_point T>
-[[nodiscard]] TracedPartsT<T> run_pass(MapType map, const PhotonPassSettings& pass,
-                                       BlockTracerT<T> trace) {
+[[nodiscard, gnu::cold]] TracedPartsT<T>
+run_pass(MapType map, const PhotonPassSettings& pass, BlockTracerT<T> trace) {
     TracedPartsT<T> traced;
     TracedPhotonsT<T>& result = traced.pass;
     result.emitted = pass.photons;

@@ -75,7 +75,8 @@ struct PhotonMapsT {
     bool starved = false;       ///< Whether the general map has fewer indirect photons
                                 ///< than IrradiancePointSettings::least.
     bool complete = true;       ///< False if the progress callback stopped the pass.
-    std::string remarks{};      ///< Remarks of survey and passes, one per line.
+    std::string remarks{};      ///< Of the passes, one per line; mapper_remarks()
+                                ///< adds those about the scene.
 };
 
 namespace detail {
@@ -193,8 +194,6 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
            const Judge& judge) {
     constexpr PhotonKinds fog = one_kind(PhotonKind::fog);
     PhotonMapsT<typename W::Scalar> maps;
-    for (const std::string& remark : scene_remarks(world, settings))
-        maps.remarks.append(remark).append("\n");
     const auto trace = [&](MapType type, const PhotonPassSettings& pass,
                            FluxAudit& audit, [[maybe_unused]] auto& in_fog) {
         auto [parts, stored, traced] = trace_parts(world, type, pass);
@@ -237,7 +236,7 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     }
     if (scatters) general.keep.bits = (run.general_map ? kept.bits : 0) | fog.bits;
     auto photons = trace(MapType::general, general, maps.general_audit, maps.fog);
-    if (verdicts) judge(joined(photons));
+    if (verdicts) judge(photons);
     const long long indirect = count_of(photons, PhotonKind::indirect);
     maps.starved = run.irradiance && indirect < settings.irradiance.least;
     if (maps.starved) maps.remarks.append(starved_remark(indirect, settings) + "\n");
@@ -351,10 +350,10 @@ public:
         maps_ = detail::trace_maps(
             world.get(), settings_, passes_, [&](const auto& photons) {
                 if constexpr (has<Skipping>)
-                    kept<Skipping>().verdicts =
-                        make_verdict_grid(photons, world.get().light_count(),
-                                          detail::skipping(passes_, settings_),
-                                          settings_.general.threads);
+                    kept<Skipping>().verdicts = make_verdict_grid(
+                        detail::joined(photons), world.get().light_count(),
+                        detail::skipping(passes_, settings_),
+                        settings_.general.threads);
             });
         choose_radii();
         if constexpr (has<Gathering>)

@@ -496,32 +496,33 @@ LJUS_CORE_INLINE Contacts contacts_of(const ContactSearch& search) {
 
 /// Finds the contacts of a scene.
 /// \param world  A World; of its members, shapes, objects and materials are used.
+/// \param boxes  The box of each object, in the order of types and indices.
 /// \return The contacts; only their own order depends on the order of addition.
 /// \cost O(n log n) boxes; less where neighbours are opaque and of one material.
 template <typename W>
-[[nodiscard, gnu::cold]] Contacts find_contacts(const W& world) {
+[[nodiscard, gnu::cold]] Contacts
+find_contacts(const W& world, const std::vector<BoxT<typename W::Scalar>>& boxes) {
     constexpr auto types = static_cast<std::uint32_t>(
         std::tuple_size_v<std::remove_cvref_t<decltype(world.materials())>>);
     std::vector<detail::ContactObject> objects(world.size());
     auto next = objects.begin();
-    for (ObjectId id; id.type < world.objects().size(); ++id.type)
-        for (id.index = 0; id.index < world.objects()[id.type].size(); ++id.index) {
-            const auto& object = world.object(id);
-            detail::ContactObject& one = *next++;
-            one.id = id;
-            one.material = object.material.index * types + object.material.type;
-            one.kind = !is_black(object.emission)
-                           ? ContactKind::lamp
-                           : world.visit_material(object.material, [](const auto& m) {
-                                 return detail::kind_of(m);
-                             });
-            world.visit_shape(id, [&]<typename G>(const G& shape) {
-                const auto box = detail::box_around(shape);
-                one.box = {glm::dvec3(box.low), glm::dvec3(box.high)};
-                one.pieces = detail::piece_count(shape);
-                if constexpr (HasArea<G>) one.area = double(area(shape));
-            });
-        }
+    auto box = boxes.begin();
+    world.each_object([&](ObjectId id, const auto& object) {
+        detail::ContactObject& one = *next++;
+        one.id = id;
+        one.material = object.material.index * types + object.material.type;
+        one.kind = !is_black(object.emission)
+                       ? ContactKind::lamp
+                       : world.visit_material(object.material, [](const auto& m) {
+                             return detail::kind_of(m);
+                         });
+        one.box = {glm::dvec3(box->low), glm::dvec3(box->high)};
+        ++box;
+        world.visit_shape(id, [&]<typename G>(const G& shape) {
+            one.pieces = detail::piece_count(shape);
+            if constexpr (HasArea<G>) one.area = double(area(shape));
+        });
+    });
     const auto piece = [&](ObjectId id, std::uint32_t number) {
         SurfacePiece found = world.visit_shape(id, [number](const auto& shape) {
             return detail::piece_of(shape, number);

@@ -268,9 +268,9 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     /// \throws std::invalid_argument  if a value is out of range, or the material
     ///                                unknown.
     template <Shape G>
-    requires lists<G> ObjectId add(G shape, MaterialId material,
-                                   RgbT<Scalar> radiance = {},
-                                   bool inside_out = false) {
+    requires lists<G>
+    [[gnu::cold]] ObjectId add(G shape, MaterialId material, RgbT<Scalar> radiance = {},
+                               bool inside_out = false) {
         check(shape);
         prototypes.require_kept(shape);
         const ObjectT<Scalar> object{material, radiance, inside_out};

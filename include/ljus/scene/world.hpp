@@ -200,12 +200,12 @@ public:
     /// \param scene  Moved in, or copied if it has no instances.
     /// \throws std::invalid_argument  if the scene contains data that add() would
     ///         refuse, or its arrays are inconsistent.
-    explicit World(S scene, std::type_identity<Compute> = {})
+    [[gnu::cold]] explicit World(S scene, std::type_identity<Compute> = {})
         : shapes_(std::move(scene.shapes)), objects_(std::move(scene.objects)),
           prototypes_(std::move(scene.prototypes)), fog_(std::move(scene.media)) {
-        find_bounds();
+        const std::vector<BoxT<Scalar>> boxes = find_bounds();
         make_frames();
-        make_tree();
+        make_tree(boxes);
         const auto check_all = [](const auto& list) {
             for (const auto& element : list) check(element);
         };
@@ -218,8 +218,8 @@ public:
         if constexpr (any_material([]<typename M>() { return NormalMapped<M>; }))
             check_normal_maps();
         if constexpr (any_material([]<typename M>() { return Transparent<M>; }))
-            find_media();
-        contacts_ = find_contacts(*this);
+            find_media(boxes);
+        contacts_ = find_contacts(*this, boxes);
         has_contacts_ = !contacts_.pairs.empty();
         contact_box_ = {Vec3T<Scalar>(contacts_.box.low),
                         Vec3T<Scalar>(contacts_.box.high)};
@@ -291,6 +291,13 @@ public:
     /// The properties of an object.
     [[nodiscard]] const ObjectT<Scalar>& object(ObjectId id) const noexcept {
         return objects_[id.type][id.index];
+    }
+    /// Calls f(id, object) for each object, in the order of shapes().
+    template <typename F>
+    void each_object(F&& f) const {
+        for (ObjectId id; id.type < objects_.size(); ++id.type)
+            for (id.index = 0; id.index < objects_[id.type].size(); ++id.index)
+                f(id, object(id));
     }
     /// The frame around the normal of a flat shape.
     [[nodiscard]] const FrameT<Scalar>& frame(ObjectId id) const noexcept {
@@ -374,7 +381,9 @@ private:
         LampT<Scalar> known;
     };
 
-    void find_bounds() {
+    // Returns the box of each object, in the order of types and indices.
+    [[nodiscard, gnu::cold]] std::vector<BoxT<Scalar>> find_bounds() {
+        std::vector<BoxT<Scalar>> boxes;
         std::size_t type = 0;
         const auto add = [&](const auto& list) {
             require(list.size() == objects_[type].size(), "the number of shapes",
@@ -386,17 +395,19 @@ private:
                 const SphereT<Scalar> bound = bounding_sphere(shape);
                 box_.low = glm::min(box_.low, bound.center - bound.radius);
                 box_.high = glm::max(box_.high, bound.center + bound.radius);
+                boxes.push_back(detail::box_around(shape));
             }
-            size_ += list.size();
             ++type;
         };
         detail::each_array(shapes_, add);
+        size_ = boxes.size();
         if (size_ == 0) box_ = {Vec3T<Scalar>{0}, Vec3T<Scalar>{0}};
+        return boxes;
     }
 
     // Computed once per flat shape: a normal costs a cross product in double and a
     // square root.
-    void make_frames() {
+    [[gnu::cold]] void make_frames() {
         std::size_t type = 0;
         const auto add = [&]<typename G>(const std::vector<G>& list) {
             if constexpr (detail::is_plane<G>) {
@@ -411,20 +422,11 @@ private:
         detail::each_array(shapes_, add);
     }
 
-    void make_tree() {
+    [[gnu::cold]] void make_tree(const std::vector<BoxT<Scalar>>& boxes) {
         if (!detail::needs_tree(size_)) return;
-        std::vector<BoxT<Scalar>> boxes(size_);
-        std::vector<ObjectId> all(size_);
-        std::size_t next = 0;
-        std::uint32_t type = 0;
-        const auto add = [&](const auto& list) {
-            for (std::uint32_t i = 0; i < list.size(); ++i, ++next) {
-                boxes[next] = detail::box_around(list[i]);
-                all[next] = {type, i};
-            }
-            ++type;
-        };
-        detail::each_array(shapes_, add);
+        std::vector<ObjectId> all;
+        all.reserve(size_);
+        each_object([&](ObjectId id, const auto&) { all.push_back(id); });
         tree_ = Tree(boxes, {.leaf_size = 1});
         ids_ = std::vector<ObjectId>(size_);
         for (std::size_t slot = 0; slot < size_; ++slot)
@@ -495,24 +497,21 @@ private:
         detail::each_array(shapes_, check_list);
     }
 
-    [[gnu::cold]] void find_media() {
+    [[gnu::cold]] void find_media(const std::vector<BoxT<Scalar>>& boxes) {
         struct Body {
             BoxT<Scalar> box;
             bool absorbs; // or keeps out fog, or may overlap
         };
         std::vector<Body> bodies;
-        std::uint32_t type = 0;
-        const auto add = [&](const auto& list) {
-            for (std::uint32_t i = 0; i < list.size(); ++i)
-                visit_material(objects_[type][i].material, [&]<typename M>(const M& m) {
-                    if constexpr (Transparent<M>)
-                        bodies.push_back({detail::box_around(list[i]),
-                                          has_fog() || has_priorities() ||
-                                              !is_black(absorption(m))});
-                });
-            ++type;
-        };
-        detail::each_array(shapes_, add);
+        auto next = boxes.begin();
+        each_object([&](ObjectId, const auto& object) {
+            visit_material(object.material, [&]<typename M>(const M& m) {
+                if constexpr (Transparent<M>)
+                    bodies.push_back({*next, has_fog() || has_priorities() ||
+                                                 !is_black(absorption(m))});
+            });
+            ++next;
+        });
         for (std::size_t i = 0; i < bodies.size(); ++i) {
             const auto& [box, absorbs] = bodies[i];
             if (!absorbs) continue;

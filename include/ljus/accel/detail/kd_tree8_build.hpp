@@ -15,6 +15,7 @@
 #include "ljus/accel/detail/lane_select.hpp"
 #include "ljus/accel/detail/stored_array.hpp"
 #include "ljus/accel/neighbor.hpp"
+#include "ljus/function_ref.hpp"
 #include "ljus/math/lanes.hpp"
 #include "ljus/math/require.hpp"
 #include "ljus/parallel.hpp"
@@ -143,8 +144,7 @@ public:
     }
     /// Calls use(items) for each piece, from the first one, or from the last one; frees
     /// it after that.
-    template <typename Use>
-    void drain(Use use, bool backwards = false) {
+    void drain(FunctionRef<void(std::span<const Item>)> use, bool backwards = false) {
         const std::size_t count = pieces_.size();
         for (std::size_t n = 0; n < count; ++n) {
             const std::size_t k = backwards ? count - 1 - n : n;
@@ -159,7 +159,10 @@ public:
     [[nodiscard]] std::vector<Item> joined() {
         std::vector<Item> all;
         all.reserve(size_);
-        drain([&](auto items) { all.insert(all.end(), items.begin(), items.end()); });
+        const auto add = [&](std::span<const Item> items) {
+            all.insert(all.end(), items.begin(), items.end());
+        };
+        drain(add);
         return all;
     }
 
@@ -281,7 +284,7 @@ private:
         typename Items::Spare spare;
         for (Items* const list : {&from, &low, &high, &above, &between})
             list->share(&spare);
-        from.drain([&](auto items) {
+        const auto split = [&](std::span<const Item> items) {
             for (std::size_t i = 0; i < items.size();) {
                 const auto to_low = low.room(), to_above = above.room(),
                            to_between = between.room();
@@ -305,7 +308,8 @@ private:
                 above.take(back);
                 between.take(band);
             }
-        });
+        };
+        from.drain(split);
         const std::uint64_t front = low.size();
         const auto push = [](Items& list, auto first, auto last) {
             for (; first != last; ++first) list.push(*first);
@@ -314,15 +318,14 @@ private:
         if (!inside || (least != most && between.size() > count / 2)) {
             std::vector<Item> all = low.joined();
             all.reserve(count);
-            const auto add = [&](auto items) {
+            const auto add = [&](std::span<const Item> items) {
                 all.insert(all.end(), items.begin(), items.end());
             };
+            const auto add_reversed = [&](std::span<const Item> items) {
+                all.insert(all.end(), items.rbegin(), items.rend());
+            };
             between.drain(add);
-            above.drain(
-                [&](auto items) {
-                    all.insert(all.end(), items.rbegin(), items.rend());
-                },
-                true);
+            above.drain(add_reversed, true);
             select(all.data(), count, rank, axis);
             push(low, all.data(), all.data() + rank);
             push(high, all.data() + rank, all.data() + count);
@@ -336,8 +339,10 @@ private:
         }
         push(low, band.data(), band.data() + (rank - front));
         push(high, band.data() + (rank - front), band.data() + band.size());
-        above.drain([&](auto items) { push(high, items.rbegin(), items.rend()); },
-                    true);
+        const auto push_reversed = [&](std::span<const Item> items) {
+            push(high, items.rbegin(), items.rend());
+        };
+        above.drain(push_reversed, true);
     }
     // Builds a subtree; `from` has its items, and `to` the room for as many.
     void finish(int depth, std::uint64_t number, Item* from, Item* to) {

@@ -4,7 +4,7 @@
 /// \brief Batched estimates of caustics, for 64 samples at a time.
 
 #include "ljus/path/renderer.hpp"
-#include "ljus/photons/detail/estimates_together.hpp"
+#include "ljus/photons/density_estimate.hpp"
 #include "ljus/render/photon_mapping_settings.hpp"
 
 namespace ljus::detail {

@@ -1,0 +1,363 @@
+#pragma once
+
+/// \file ljus/inspect/scene_remarks.hpp
+/// \brief Warnings about a scene: what a renderer shows badly, and a remedy.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ljus/hook.hpp"
+#include "ljus/path/next_vertex.hpp"
+#include "ljus/render/passes.hpp"
+
+namespace ljus {
+
+/// \addtogroup survey
+/// \{
+
+namespace detail {
+
+/// Warns if fewer than three digits of a shape remain, or if lengths are too large.
+///
+/// A number x of p bits has an error of up to 2^-p x. A ball of radius r with
+/// coordinates up to c then has a relative error of 2^-p c / r in its surface, which
+/// leaves log10(2^p r / c) digits. The direction of a shadow ray is as long as the ray,
+/// and chord() multiplies four lengths: above the fourth root of the largest number, a
+/// ball may cast no shadow.
+/// \return A sentence, or an empty string.
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] std::string digits_remark(const W& world) {
+    using T = typename W::Scalar;
+    constexpr bool single = std::is_same_v<T, float>;
+    constexpr double widest = single ? 1e9 : 1e75;
+    const auto in_double = [](const auto& shape) {
+        const SphereT<T> ball = bounding_sphere(shape);
+        return SphereT<double>{Vec3T<double>(ball.center), double(ball.radius)};
+    };
+    double most = 1, radius = 0, reach = 0;
+    world.each_object([&](ObjectId id, const auto&) {
+        const SphereT<double> bound = world.visit_shape(id, in_double);
+        // [digits]
+        const Vec3T<double> far = glm::abs(bound.center) + bound.radius;
+        reach = std::max(reach, max_component(far));
+        const double ratio = max_component(far) / bound.radius;
+        if (!(ratio > most)) return;
+        most = ratio;
+        radius = bound.radius;
+    });
+    constexpr double half = double(std::numeric_limits<T>::epsilon()) / 2;
+    const int digits = int(std::max(0.0, std::floor(-std::log10(half * most))));
+    // [digits]
+    char times[40], size[40];
+    if (digits >= 3) {
+        if (!(reach > widest)) return {};
+        std::snprintf(times, sizeof times, "%.0e", reach);
+        return join({"coordinates reach ", times,
+                     single ? ": above 1e9 the squares of areas leave the range of "
+                              "float; use double, or a larger unit of length"
+                            : ": above 1e75 the squares of areas leave the range of "
+                              "double; use a larger unit of length"});
+    }
+    if (!std::isfinite(most)) // all corners are one point
+        return join({"an object is so small or so far away that ",
+                     single ? "float" : "double", " keeps nothing of its size; ",
+                     single ? "use double, or move the scene towards the origin"
+                            : "move the scene towards the origin"});
+    std::snprintf(times, sizeof times, "%.0e", most);
+    std::snprintf(size, sizeof size, "%.3g", radius);
+    return join({"coordinates reach ", times, " times the smallest radius, ", size,
+                 single ? ": float keeps " : ": double keeps ", to_text(digits),
+                 digits == 1 ? " digit of it; " : " digits of it; ",
+                 single ? "use double, or move the scene towards the origin"
+                        : "move the scene towards the origin"});
+}
+
+/// The number of objects with a glossy lobe below a thousandth of a steradian: a shadow
+/// ray hardly ever lies in so narrow a lobe.
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] std::size_t narrow_lobes(const W& world) {
+    using T = typename W::Scalar;
+    // By a facet that lies almost flat.
+    const Vec3T<T> wo{T(0.6), T(0), T(0.8)}, u{T(0.5), T(0), T(0.5)};
+    const auto narrow = [&](const auto& material) {
+        const auto& here = material_at(material, Vec3T<T>{T(0)}, Vec2T<T>{T(0)});
+        if (!has(lobes(here), Lobes::glossy)) return false;
+        const auto next = sample(here, wo, u, Transport::radiance, Lobes::glossy);
+        return next && next->pdf > T(1000);
+    };
+    std::size_t count = 0;
+    world.each_object([&](ObjectId, const auto& object) {
+        count += world.visit_material(object.material, narrow) ? 1 : 0;
+    });
+    return count;
+}
+
+/// The number of materials whose facets have slopes beyond a right angle.
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] long long steep_materials(const W& world) {
+    long long steep = 0;
+    each_array(world.materials(), [&](const auto& array) {
+        for ([[maybe_unused]] const auto& material : array)
+            if constexpr (requires { material.sigma > 0; })
+                steep += material.sigma > decltype(material.sigma)(1.6);
+    });
+    return steep;
+}
+
+/// Adds a sentence for each rule that decides what is met where surfaces of different
+/// objects lie in one place.
+/// \param type_of  The name of an object's shape, such as "QuadT<float>".
+[[gnu::cold]] LJUS_CORE_INLINE void
+add_contact_remarks(const Contacts& contacts,
+                    FunctionRef<std::string(ObjectId)> type_of,
+                    std::vector<std::string>& remarks);
+
+#ifndef LJUS_CORE // otherwise defined in ljus::core
+
+/// The rule that decides a contact, as the end of a sentence.
+/// \param met    The kind of the surface that is met.
+/// \param other  The kind of the other one.
+/// \return Null if it is of no interest: surfaces that touch in points, and opaque ones
+///         back to back.
+[[nodiscard, gnu::cold]] inline const char*
+contact_rule(const Contact& contact, ContactKind met, ContactKind other) noexcept {
+    if (!contact.over_area) return nullptr;
+    if (other == ContactKind::sheet)
+        return "the thin surface has no effect there; move it away from the other one";
+    if (met == ContactKind::lamp)
+        return other == ContactKind::lamp ? "of two lamps paths meet the brighter one, "
+                                            "but shadow rays find both; "
+                                            "move or remove one"
+                                          : "the lamp is met there";
+    if (met == ContactKind::body)
+        return contact.opposed ? "light passes from one body into the other; for air "
+                                 "between them, move "
+                                 "them apart"
+                               : "the body of the higher index is met there; let one "
+                                 "end before the other";
+    if (other == ContactKind::body)
+        return "light passes from the body to what is opaque; for air between them, "
+               "move them apart";
+    return contact.alike ? "of two opaque surfaces that is met whose material covers "
+                           "less of the scene"
+                         : nullptr;
+}
+
+LJUS_CORE_INLINE void add_contact_remarks(const Contacts& contacts,
+                                          FunctionRef<std::string(ObjectId)> type_of,
+                                          std::vector<std::string>& remarks) {
+    struct Found {
+        const char* rule;
+        const Contact* first;
+        long long pairs;
+    };
+    std::vector<Found> all;
+    for (const Contact& contact : contacts.pairs) {
+        const TouchingObject* met = &contacts.objects[contact.pair[0]];
+        const TouchingObject* other = &contacts.objects[contact.pair[1]];
+        if (other->key < met->key) std::swap(met, other);
+        const char* const rule = contact_rule(contact, met->kind, other->kind);
+        if (rule == nullptr) continue;
+        std::size_t i = 0;
+        while (i < all.size() && all[i].rule != rule) ++i;
+        if (i == all.size()) all.push_back({rule, &contact, 0});
+        ++all[i].pairs;
+    }
+    const auto name = [&](std::uint32_t position) { // such as "Quad 3", "moving Quad 0"
+        const ObjectId id = contacts.objects[position].object;
+        const std::string whole = type_of(id);
+        constexpr std::string_view motion = "Moving<";
+        const bool moves = whole.starts_with(motion);
+        const std::string_view type =
+            std::string_view(whole).substr(moves ? motion.size() : 0);
+        return join({moves ? "moving " : "", type.substr(0, type.find("T<")), " ",
+                     to_text(static_cast<long long>(id.index))});
+    };
+    for (const auto& [rule, first, pairs] : all)
+        remarks.push_back(join(
+            {to_text(pairs), " pair(s) of objects have surfaces in one place, such as ",
+             name(first->pair[0]), " and ", name(first->pair[1]), " around ",
+             to_text(Vec3((first->box.low + first->box.high) / 2.0)), ": ", rule}));
+    if (!contacts.complete)
+        remarks.push_back("too many objects overlap to compare all of them: where "
+                          "surfaces lie in one place, their order may decide what is "
+                          "met");
+}
+
+#endif
+
+/// Warns of bodies that lie in each other without an order, and of thin surfaces in a
+/// body. A point in the middle of what two bounding boxes share tells; not each overlap
+/// is found, but what is found overlaps.
+/// \cost A ray per surface for each two bodies whose boxes overlap, up to 4096.
+template <AnyWorld W>
+[[gnu::cold]] void add_overlap_remarks(const W& world,
+                                       std::vector<std::string>& remarks) {
+    using T = typename W::Scalar;
+    struct Body {
+        BoxT<T> box;
+        bool thin;
+    };
+    std::vector<Body> all;
+    world.each_object([&](ObjectId id, const auto& object) {
+        const MaterialId material = object.material;
+        const bool thin = world.visit_material(
+            material, []<typename M>(const M&) { return ThinSurface<M>; });
+        if (thin || world.rank_of(material) != 0)
+            all.push_back({world.visit_shape(
+                               id, [](const auto& shape) { return box_around(shape); }),
+                           thin});
+    });
+    const auto priority_of = [&](std::uint8_t rank) {
+        return world.visit_material(world.material_of_rank(rank),
+                                    [](const auto& m) { return priority(m); });
+    };
+    bool tied = false, film = false;
+    int probes = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t k = 0; k < i && probes < 4096; ++k) {
+            const BoxT<T> shared{glm::max(all[i].box.low, all[k].box.low),
+                                 glm::min(all[i].box.high, all[k].box.high)};
+            if (!glm::all(glm::lessThanEqual(shared.low, shared.high))) continue;
+            ++probes;
+            const Vec3T<T> middle = shared.low + (shared.high - shared.low) / T(2);
+            const BodyList around = bodies_around(
+                world, RayT<T>{.origin = middle,
+                               .direction = glm::normalize(Vec3T<T>{1, 2, 3})});
+            const auto say = [&](bool& said, std::string_view what) {
+                if (!said) remarks.push_back(join({what, to_text(Vec3(middle))}));
+                said = true;
+            };
+            if ((all[i].thin || all[k].thin) && around.top() != 0)
+                say(film, "a thin surface lies in a transparent body, where it "
+                          "reflects as it does in air; around ");
+            for (std::size_t n = 1; n < around.ranks.size() && around.ranks[n] != 0;
+                 ++n)
+                if (around.ranks[n] != around.ranks[n - 1] &&
+                    priority_of(around.ranks[n]) == priority_of(around.ranks[n - 1]))
+                    say(tied, world.has_priorities()
+                                  ? "transparent bodies of equal priority overlap, "
+                                    "and that of the higher index holds: give them "
+                                    "different priorities; around "
+                                  : "transparent bodies overlap, and each surface "
+                                    "counts as one between its body and air: give "
+                                    "them priorities; around ");
+        }
+}
+
+/// The share of all directions in which the middle of a scene sees a sky: about half in
+/// the open, little in a room with a window, and 0 without a sky.
+/// \cost 256 rays in a scene that lists a light that fills the sky.
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] double share_of_sky([[maybe_unused]] const W& world) {
+    using T = typename W::Scalar;
+    int seen = 0;
+    if constexpr (W::any_light([]<typename L>() { return FillsSky<L>; })) {
+        bool sky = false;
+        for (std::uint32_t i = 0; i < world.light_count(); ++i)
+            sky = sky || world.visit_light(
+                             i, []<typename L>(const L&) { return FillsSky<L>; });
+        const Vec3T<T> middle =
+            world.box().low + (world.box().high - world.box().low) / T(2);
+        for (int i = 0; i < 256 && sky; ++i) {
+            const Vec2T<T> u{(T(i / 16) + T(0.5)) / T(16),
+                             (T(i % 16) + T(0.5)) / T(16)};
+            seen += occluded(world, RayT<T>{.origin = middle,
+                                            .direction = sample_uniform_sphere(u)})
+                        ? 0
+                        : 1;
+        }
+    }
+    return seen / 256.0;
+}
+
+} // namespace detail
+
+/// The warnings of a survey about a scene.
+/// \return Sentences without a full stop.
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] std::vector<std::string>
+scene_remarks(const W& world, const PhotonMappingSettings& settings) {
+    std::vector<std::string> remarks;
+    if (world.light_count() == 0)
+        remarks.push_back("the scene has no light, and the picture will be black: add "
+                          "an object with a radiance, or a point light");
+    if (std::string digits = detail::digits_remark(world); !digits.empty())
+        remarks.push_back(std::move(digits));
+    if (const long long steep = detail::steep_materials(world); steep > 0)
+        remarks.push_back(detail::join(
+            {to_text(steep), " material(s) have a sigma above 1.6 radians, where the "
+                             "models of rough surfaces hardly change: divide degrees "
+                             "by 57.3"}));
+    const std::size_t narrow =
+        settings.direct == DirectLight::sampled ? detail::narrow_lobes(world) : 0;
+    if (narrow > 0)
+        remarks.push_back(detail::join(
+            {to_text(static_cast<long long>(narrow)),
+             " object(s) are nearly mirrors, in whose lobe a shadow ray hardly ever "
+             "lies: their light is missing or in a few bright pixels; ask for "
+             "direct light by mis, or for a mirror, of roughness 0"}));
+    const double sky =
+        settings.direct == DirectLight::mis ? 0 : detail::share_of_sky(world);
+    if (sky > 0 && sky < 0.25)
+        remarks.push_back(
+            "from the middle of the scene only a small part of the sky is seen, as "
+            "through a window: most shadow rays to it miss, and the picture is noisy");
+    const auto type_of = [&](ObjectId id) {
+        return world.visit_shape(
+            id, []<typename G>(const G&) { return detail::type_name<G>(); });
+    };
+    detail::add_contact_remarks(world.contacts(), type_of, remarks);
+    if constexpr (W::lists_priorities) detail::add_overlap_remarks(world, remarks);
+    return remarks;
+}
+
+/// The warnings about a photon mapper: those of scene_remarks(), then those of its
+/// passes.
+/// \return One per line, each with a line feed.
+template <typename Mapper>
+[[nodiscard, gnu::cold]] std::string mapper_remarks(const Mapper& mapper) {
+    std::string lines;
+    for (const std::string& remark : scene_remarks(mapper.world(), mapper.settings()))
+        lines += remark + "\n";
+    return lines + mapper.maps().remarks;
+}
+
+/// The remarks for path tracing: those of scene_remarks(), and the light that no path
+/// carries. A path meets lamps and the sky, but no light without a size.
+/// \return As scene_remarks().
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] std::vector<std::string> path_remarks(const W& world) {
+    // Paths sample narrow lobes themselves, as with DirectLight::mis.
+    auto remarks = scene_remarks(world, {.direct = DirectLight::mis});
+    const auto is_met = []<typename L>(const L& light) {
+        using T = typename L::Scalar;
+        if constexpr (requires { emission_point(light, Vec2T<T>{T(0)}, T(0)); })
+            return !std::same_as<decltype(emission_point(light, Vec2T<T>{T(0)}, T(0))),
+                                 Vec3T<T>>;
+        else
+            return FillsSky<L>;
+    };
+    long long never_met = 0;
+    for (std::uint32_t i = 0; i < world.light_count(); ++i)
+        never_met += world.visit_light(i, is_met) ? 0 : 1;
+    const SceneNeeds found = needs(world);
+    if (never_met > 0 && found.specular > 0 && found.diffuse > 0)
+        remarks.push_back(detail::join(
+            {to_text(never_met),
+             " light(s) have no size, so that no path meets them: what mirrors and "
+             "glass "
+             "make of their light is missing; photon mapping carries it"}));
+    return remarks;
+}
+
+/// \}
+
+} // namespace ljus
