@@ -40,7 +40,6 @@ std::vector<Photon> trace_paths(const W& world, const PhotonPassSettings& pass,
 }
 
 /// The map of a rank's region: the photons in it, and those within a radius of it.
-// [map of region]
 PhotonMap map_of_region(const std::vector<Photon>& traced, const Regions& regions,
                         int ranks) {
     Lists<Photon> photons(std::size_t(ranks), std::vector<Photon>{});
@@ -49,7 +48,6 @@ PhotonMap map_of_region(const std::vector<Photon>& traced, const Regions& region
                       [&](int rank) { photons[std::size_t(rank)].push_back(photon); });
     return make_photon_map(all_to_all(photons), 1);
 }
-// [map of region]
 
 /// What a rank does with the answer to a query.
 struct Asked {
@@ -66,7 +64,6 @@ struct Queries {
 /// Follows a camera path by at most 32 mirrors and panes of glass, and asks at the first
 /// diffuse surface.
 /// \return The emission on the way, E S* L.
-// [ask]
 template <AnyWorld W>
 Rgb ask(const W& world, PathState path, RandomStream& stream, const Regions& regions,
         std::size_t pixel, Queries& queries) {
@@ -88,7 +85,6 @@ Rgb ask(const W& world, PathState path, RandomStream& stream, const Regions& reg
     }
     return emitted;
 }
-// [ask]
 
 /// The radiance that the photons around what a ray meets send back along it.
 template <AnyWorld W>
@@ -153,7 +149,6 @@ void body(examples::CommandLine& line, Rank& rank) {
                         std::size_t(y) * std::size_t(picture.width) + std::size_t(x),
                         queries);
             }
-    // [answer]
     std::vector<int> count;
     const std::vector<Ray> asked = all_to_all(queries.rays, &count);
     Lists<Rgb> answers(std::size_t(rank.count), std::vector<Rgb>{});
@@ -166,7 +161,6 @@ void body(examples::CommandLine& line, Rank& rank) {
     for (const auto& list : queries.asked)
         for (const Asked& query : list)
             image.pixels[query.pixel] += query.throughput * found[next++];
-    // [answer]
     for (Rgb& sum : image.pixels) sum /= float(picture.samples);
     Rgb* const pixels = image.pixels.data();
     MPI_Reduce(rank.number == 0 ? MPI_IN_PLACE : pixels, pixels,

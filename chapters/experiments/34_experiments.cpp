@@ -17,8 +17,7 @@
 
 #include "common/drawing.hpp"
 #include "common/oracle.hpp"
-#include "experiments/regions.hpp"
-#include "experiments/show_table.hpp"
+#include "common/plot.hpp"
 
 using namespace ljus;
 
@@ -434,76 +433,6 @@ bool same_bytes(const R& room, const examples::Options& options) {
     return same;
 }
 
-// --- A map in regions ----------------------------------------------------------------
-
-/// What the central ray of each pixel hits, on surfaces that are not specular.
-template <typename R>
-std::vector<Vec3> first_hits(const R& room, int size) {
-    std::vector<Vec3> found;
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) {
-            RandomStream stream;
-            const Vec2 middle{float(x) + 0.5f, float(y) + 0.5f};
-            PathState path = camera_path(
-                room.world, camera_ray(room.camera, middle, size, size, stream),
-                stream);
-            const auto vertex = next_vertex(room.world, path, stream);
-            if (!vertex) continue;
-            const bool diffuse =
-                visit_material_at(room.world, *vertex, [](const auto& material) {
-                    return has(lobes(material), Lobes::non_specular);
-                });
-            if (diffuse) found.push_back(vertex->point.position);
-        }
-    return found;
-}
-
-/// What a map in regions costs: the photons that more than one rank holds, and the bytes
-/// of all messages. A sample of the photons tells which fraction of them lies near the
-/// border of a region; with more photons, the radius is smaller.
-template <typename R>
-void regions_table(const R& room, const examples::Options& options) {
-    const PhotonPassSettings pass{.photons =
-                                      options.pick(200000LL, 1000000LL, 1000000LL),
-                                  .shadow_photons = false};
-    const auto photons = trace_photons(room.world, MapType::general, pass).photons;
-    const float sample_radius = typical_radius(make_photon_map(photons), 100);
-    std::vector<Vec3> positions;
-    for (const Photon& photon : photons) positions.push_back(photon.position);
-    const std::vector<Vec3> seen = first_hits(room, 400);
-    const double paths = 64.0 * 1920 * 1080;
-    constexpr double map_bytes = 49; // per photon; see "How fast trees are made"
-
-    examples::Table table{.name = "parallel-regions",
-                          .columns = {"ranks", "photons, millions", "copies",
-                                      "map of a rank, MB", "photons sent by a rank, MB",
-                                      "queries sent by a rank, MB",
-                                      "queries of the busiest rank over the mean"}};
-    struct Row {
-        int ranks = 1;
-        double photons = 0;
-    };
-    for (const Row& row : {Row{8, 1e8}, Row{64, 1e8}, Row{512, 1e9}, Row{4096, 1e10}}) {
-        const double fewer = double(positions.size()) / row.photons;
-        const examples::Regions regions(positions, row.ranks,
-                                        sample_radius * float(std::sqrt(fewer)));
-        double held = 0;
-        for (const Vec3& at : positions) regions.visit(at, [&](int) { ++held; });
-        std::vector<int> queries(std::size_t(row.ranks), 0);
-        for (const Vec3& at : seen) ++queries[std::size_t(regions.owner(at))];
-        const double most = *std::max_element(queries.begin(), queries.end());
-        const double a_rank = held / fewer / row.ranks;
-        table.rows.push_back(
-            {text(row.ranks, "%.0f"), text(row.photons / 1e6, "%.0f"),
-             text(100 * (held / double(positions.size()) - 1), "%.1f %%"),
-             text(a_rank * map_bytes / 1e6, "%.0f"),
-             text(a_rank * double(sizeof(Photon)) / 1e6, "%.0f"),
-             text(paths / row.ranks * double(sizeof(Ray)) / 1e6, "%.1f"),
-             text(most * row.ranks / double(seen.size()), "%.1f")});
-    }
-    show_table(options, table);
-}
-
 } // namespace
 
 /// Makes the tables and figures of chapter 34.
@@ -540,7 +469,6 @@ int main(int argc, char** argv) {
                                 .image;
         schedules(costs, options);
         amdahl(first, loop, options);
-        regions_table(room, options);
         const bool same = same_bytes(room, options);
         if (!options.quiet)
             std::printf("1, 2, 3 and 8 threads: %s\n",

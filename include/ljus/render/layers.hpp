@@ -98,7 +98,6 @@ struct GuideT {
     RgbT<T> albedo{T(0)};
 };
 
-// [guide]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] GuideT<T> guide(const W& world, const RayT<T>& ray, Stream& stream) {
     auto path = camera_path(world, ray, stream);
@@ -119,7 +118,6 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     }
     return {};
 }
-// [guide]
 
 /// A stream of the middle of every range: of a lens, of an exposure.
 struct MiddleStream {};
