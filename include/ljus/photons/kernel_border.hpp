@@ -153,7 +153,6 @@ template <AnyWorld W, std::floating_point T, typename K>
 /// \param seed    Of the places in the discs.
 /// \return In [0, 1]; 0 if fewer than 16 photons landed on each object.
 /// \cost Five rays for each of at most 4096 photons.
-// [edge_loss]
 template <AnyWorld W, std::floating_point T, typename K>
 [[nodiscard, gnu::cold]] double edge_loss(const W& world, const PhotonMapT<T>& map,
                                           const DensityEstimateOf<K>& gather,
@@ -217,7 +216,6 @@ template <AnyWorld W, std::floating_point T, typename K>
     judge(rest);
     return most;
 }
-// [edge_loss]
 
 /// \}
 
