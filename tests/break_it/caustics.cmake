@@ -35,7 +35,7 @@ ljus_break_it(NAME caustics-overlap HEADER photons/photon_path.hpp TEST caustics
     CASES "caustics: overlapping targets*")
 
 # The cosine at the lamp, which a point light does not have.
-ljus_break_it(NAME caustics-lamp-cosine HEADER lights/light.hpp TEST caustics
+ljus_break_it(NAME caustics-lamp-cosine HEADER lights/area_light.hpp TEST caustics
     FROM "cosine * std::numbers::inv_pi_v<T>"
     TO   "std::numbers::inv_pi_v<T>"
     CASES "caustics: overlapping targets*")

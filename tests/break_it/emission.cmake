@@ -6,7 +6,7 @@ ljus_break_it(NAME emission-cosine HEADER photons/photon_path.hpp TEST emission
     CASES "emission: photons of a quad*")
 
 # Directions uniform over the hemisphere, at unchanged flux.
-ljus_break_it(NAME emission-uniform HEADER lights/light.hpp TEST emission
+ljus_break_it(NAME emission-uniform HEADER lights/area_light.hpp TEST emission
     FROM "sample_cosine_hemisphere(u)"
     TO   "sample_uniform_hemisphere(u)"
     CASES "emission: photons of a quad*")
@@ -37,13 +37,13 @@ ljus_break_it(NAME aim-choice HEADER photons/aiming.hpp TEST emission
     CASES "emission: where cones overlap*")
 
 # The cosine at the lamp, forgotten: right for a point light only.
-ljus_break_it(NAME aim-cosine HEADER lights/light.hpp TEST emission
+ljus_break_it(NAME aim-cosine HEADER lights/area_light.hpp TEST emission
     FROM "cosine * std::numbers::inv_pi_v<T>"
     TO   "std::numbers::inv_pi_v<T>"
     CASES "emission: aimed at a sphere*")
 
 # Within the bound of its target a lamp needs its whole hemisphere.
-ljus_break_it(NAME aim-inside HEADER lights/light.hpp TEST emission
+ljus_break_it(NAME aim-inside HEADER lights/area_light.hpp TEST emission
     FROM "return {point.normal, T(1)};"
     TO   "return {point.normal, T(0.5)};"
     CASES "emission: a lamp within*")

@@ -37,7 +37,7 @@ ljus_break_it(NAME tracing-light-choice HEADER photons/photon_path.hpp TEST trac
     CASES "tracing: all the lights' flux*")
 
 # Directions uniform over the hemisphere, with the flux of Lambert's.
-ljus_break_it(NAME tracing-cosine HEADER lights/light.hpp TEST tracing
+ljus_break_it(NAME tracing-cosine HEADER lights/area_light.hpp TEST tracing
     FROM "sample_cosine_hemisphere(u)"
     TO   "sample_uniform_hemisphere(u)"
     CASES "tracing: the first hits*")

@@ -72,13 +72,6 @@ struct Plan {
 
 namespace detail {
 
-/// Makes the plan: choose_passes() with reasons. Thin films and the tree are decided by
-/// the same tests as during rendering.
-[[nodiscard]] LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
-                                              const PhotonMappingSettings& settings);
-
-#ifndef LJUS_CORE // otherwise defined in ljus::core
-
 /// How a plan describes the choices for caustics: how photons are distributed, and
 /// where the radius comes from.
 /// \return The end of a clause; empty if nothing is chosen.
@@ -104,6 +97,13 @@ caustics_clause(const PhotonMappingSettings& settings) {
         return clause("");
     }
 }
+
+/// Makes the plan: choose_passes() with reasons. Thin films and the tree are decided by
+/// the same tests as during rendering.
+[[nodiscard]] LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
+                                              const PhotonMappingSettings& settings);
+
+#ifndef LJUS_CORE // otherwise defined in ljus::core
 // Such as "3 of 7 objects mirror or refract".
 inline std::string of_all(const SceneNeeds& found, std::size_t count,
                           const char* what) {

@@ -34,7 +34,11 @@ struct AreaLightT {
 
 namespace detail {
 
-/// An AreaLightT is one.
+/// Whether a type of light is a lamp: a surface that emits the same radiance into all
+/// directions of the side of its normal.
+template <typename L>
+inline constexpr bool is_lamp = false;
+/// \copydoc is_lamp
 template <typename S>
 inline constexpr bool is_lamp<AreaLightT<S>> = true;
 
@@ -127,6 +131,32 @@ template <typename S, std::floating_point T>
     }();
     if (light.lamp.inside_out) point.normal = -point.normal;
     return point;
+}
+
+/// Samples the unit direction of a photon from an emission_point(), with the density
+/// cos / pi.
+template <typename L, std::floating_point T>
+requires detail::is_lamp<L>
+[[nodiscard]] Vec3T<T> sample_emission(const L&, const SurfacePointT<T>& point,
+                                       const Vec2T<T>& u) noexcept {
+    return to_world(frame_around(point.normal), sample_cosine_hemisphere(u));
+}
+
+/// The density of sample_emission(): cos / pi per steradian; 0 behind the lamp.
+template <typename L, std::floating_point T>
+requires detail::is_lamp<L>
+[[nodiscard]] T pdf_emission(const L&, const SurfacePointT<T>& point,
+                             const Vec3T<T>& wo) noexcept {
+    const T cosine = glm::dot(wo, point.normal);
+    return cosine > T(0) ? cosine * std::numbers::inv_pi_v<T> : T(0);
+}
+
+/// The hemisphere into which a point of the lamp emits.
+template <typename L, std::floating_point T>
+requires detail::is_lamp<L>
+[[nodiscard]] detail::ConeT<T> emission_cone(const L&,
+                                             const SurfacePointT<T>& point) noexcept {
+    return {point.normal, T(1)};
 }
 
 /// The form factor from a point with a unit normal to the lamp, in [0, 1]; nothing if

@@ -127,46 +127,6 @@ template <typename L>
 using InSceneT = std::remove_cvref_t<decltype(in_scene(
     std::declval<const L&>(), std::declval<const SphereT<typename L::Scalar>&>()))>;
 
-namespace detail {
-
-/// Whether a type of light is a lamp: a surface that emits the same radiance into all
-/// directions of the side of its normal.
-template <typename L>
-inline constexpr bool is_lamp = false;
-
-} // namespace detail
-
-/// \name The directions of a lamp's photons
-/// \{
-
-/// Samples the unit direction of a photon from an emission_point(), with the density
-/// cos / pi.
-template <typename L, std::floating_point T>
-requires detail::is_lamp<L>
-[[nodiscard]] Vec3T<T> sample_emission(const L&, const SurfacePointT<T>& point,
-                                       const Vec2T<T>& u) noexcept {
-    return to_world(frame_around(point.normal), sample_cosine_hemisphere(u));
-}
-
-/// The density of sample_emission(): cos / pi per steradian; 0 behind the lamp.
-template <typename L, std::floating_point T>
-requires detail::is_lamp<L>
-[[nodiscard]] T pdf_emission(const L&, const SurfacePointT<T>& point,
-                             const Vec3T<T>& wo) noexcept {
-    const T cosine = glm::dot(wo, point.normal);
-    return cosine > T(0) ? cosine * std::numbers::inv_pi_v<T> : T(0);
-}
-
-/// The hemisphere into which a point of the lamp emits.
-template <typename L, std::floating_point T>
-requires detail::is_lamp<L>
-[[nodiscard]] detail::ConeT<T> emission_cone(const L&,
-                                             const SurfacePointT<T>& point) noexcept {
-    return {point.normal, T(1)};
-}
-
-/// \}
-
 /// A light that emits photons from its points.
 template <typename L>
 concept NearLight = requires(const L& light, const Vec2T<typename L::Scalar>& u,

@@ -12,7 +12,7 @@
 #include "ljus/geometry/disc.hpp"
 #include "ljus/geometry/quad.hpp"
 #include "ljus/image/image.hpp"
-#include "ljus/lights/light.hpp"
+#include "ljus/lights/area_light.hpp"
 #include "ljus/math/piecewise_constant.hpp"
 
 namespace ljus {
@@ -36,7 +36,7 @@ struct PictureLightT {
 
 namespace detail {
 
-/// A PictureLightT is one.
+/// \copydoc is_lamp
 template <typename T>
 inline constexpr bool is_lamp<PictureLightT<T>> = true;
 
