@@ -119,3 +119,13 @@ ljus_break_it(NAME stratified-stream-last HEADER math/stratified_stream.hpp
     FROM "return detail::below_one((cell + u) / T(stream.pattern.points));"
     TO   "return (cell + u) / T(stream.pattern.points);"
     CASES "stratified stream: the largest*")
+
+# Glass that moves is not remarked on, or glass that rests is.
+ljus_break_it(NAME moving-caustics-said HEADER render/passes.hpp TEST moving
+    FROM "if (moves && world.visit_material("
+    TO   "if (moves && type > 99 && world.visit_material("
+    CASES "moving: caustics*")
+ljus_break_it(NAME moving-caustics-matt HEADER render/passes.hpp TEST moving
+    FROM "const bool moves = world"
+    TO   "const bool moves = true || world"
+    CASES "moving: caustics*")

@@ -230,6 +230,27 @@ template <AnyWorld W>
     return count;
 }
 
+/// A sentence about mirrors and glass that move: photons of all times lie in one map.
+/// \return Empty if none of them moves.
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] std::string moving_caustics([[maybe_unused]] const W& world) {
+    if constexpr (lists_moving<W>)
+        for (std::uint32_t type = 0; type < world.objects().size(); ++type)
+            for (std::uint32_t i = 0; i < world.objects()[type].size(); ++i) {
+                const bool moves = world.visit_shape(
+                    {type, i}, []<typename G>(const G&) { return is_moving<G>; });
+                const auto is_specular = [](const auto& material) {
+                    return has(lobes(material), Lobes::specular);
+                };
+                if (moves && world.visit_material(world.objects()[type][i].material,
+                                                  is_specular))
+                    return "mirrors or glass move: caustics are the mean over all "
+                           "times, too bright or too dark where something that moves "
+                           "stands before them";
+            }
+    return {};
+}
+
 /// The number of materials whose facets have slopes beyond a right angle.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] long long steep_materials(const W& world) {

@@ -215,6 +215,8 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
         return std::move(parts);
     };
     if (run.caustics_map) {
+        if (const std::string moving = moving_caustics(world); !moving.empty())
+            maps.remarks.append(moving).append("\n");
         PhotonPassSettings caustics = settings.caustics;
         if (run.volume_map) caustics.keep.bits |= fog.bits;
         maps.caustics = map_of_parts(
