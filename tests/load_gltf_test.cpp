@@ -549,6 +549,16 @@ TEST_CASE("load_gltf: a file that cannot be right is refused with a sentence") {
         CHECK(refusal_of([&] { return read(file); }) == "x.gltf: " + why);
     }
 
+    // A mesh that is there compressed only; and one that is there in full as well.
+    File draco = triangle();
+    draco.primitive()["extensions"]["KHR_draco_mesh_compression"] = json::object();
+    CHECK(read(draco).parts.size() == 1);
+    draco.all["accessors"][0].erase("bufferView");
+    CHECK(refusal_of([&] { return read(draco); }) ==
+          "x.gltf: meshes[0].primitives[0] is compressed by "
+          "KHR_draco_mesh_compression, which is not known: export the file again "
+          "without it.");
+
     const auto refused = [](const Bytes& bytes) {
         return refusal_of([&] { return read_gltf(bytes, "x.glb"); });
     };

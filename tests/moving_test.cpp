@@ -142,6 +142,31 @@ TEST_CASE("moving: a time is drawn only for a scene in which something moves") {
     CHECK(camera_path(moves, Ray{}, drawn).ray.time == next_1d<float>(untouched));
 }
 
+TEST_CASE("moving: caustics of all times are one, which is said") {
+    using Moved = Moving<Sphere>;
+    const auto remarks = [](bool glass_moves, bool matt_moves) {
+        Scene<Shapes<Sphere, Quad, Moved>, Materials<Lambertian, Glass>> scene;
+        const auto grey = scene.add(Lambertian{});
+        const auto glass = scene.add(Glass{});
+        scene.add(Quad{.corner{-3, 0, 3}, .edge_u{6, 0, 0}, .edge_v{0, 0, -6}}, grey);
+        scene.add(Quad{.corner{-1, 6, -1}, .edge_u{2, 0, 0}, .edge_v{0, 0, 2}}, grey,
+                  Rgb{10});
+        const Sphere left{.center{-2, 2, 0}}, right{.center{2, 2, 0}};
+        glass_moves ? scene.add(Moved{left, {0, 1, 0}}, glass) : scene.add(left, glass);
+        matt_moves ? scene.add(Moved{right, {0, 1, 0}}, grey) : scene.add(right, grey);
+        const World world(std::move(scene));
+        const PhotonMapper mapper(world, {.caustics{.photons = 20000}});
+        std::string planned;
+        for (const std::string& text : survey(world, {}).remarks)
+            planned += text + "\n";
+        CHECK(mapper_remarks(mapper) == planned);
+        return planned;
+    };
+    CHECK(remarks(true, false).find("mirrors or glass move: ") == 0);
+    CHECK(remarks(false, true).empty());
+    CHECK(remarks(false, false).empty());
+}
+
 TEST_CASE("moving: photons see what moves as paths do, by whatever carries them") {
     // The middle of a matt ball that crosses a room. Photons that lay where they had
     // landed would be spread over all of its way: a quarter of its light would be lost,

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "ljus/inspect/scene_remarks.hpp"
 #include "ljus/materials/glossy.hpp"
 #include "ljus/math/sampling.hpp"
 #include "ljus/math/stratified_stream.hpp"
@@ -902,7 +903,7 @@ TEST_CASE("photon mapping: light that small objects lose is said") {
                  white);
         room.add(Quad{{-0.2f, 0.9f, -0.2f}, {0.4f, 0, 0}, {0, 0, 0.4f}}, white, Rgb{5});
         const World world(std::move(room));
-        return PhotonMapper(world, settings).maps().remarks;
+        return mapper_remarks(PhotonMapper(world, settings));
     };
     const auto said = [&](float size, const PhotonMappingSettings& settings) {
         return remarks(size, settings).find("its edges lose about ") !=

@@ -31,6 +31,7 @@
 #include <string>
 #include <vector>
 
+#include "ljus/inspect/scene_remarks.hpp"
 #include "ljus/math/stratified_stream.hpp"
 #include "ljus/render/gathering.hpp"
 #include "ljus/render/path_tracing.hpp"
@@ -144,7 +145,7 @@ std::string remarks_of(const DrawnScene& drawn, std::uint64_t seed, long long ph
     settings.caustics.photons = settings.general.photons = photons;
     settings.indirect = IndirectLight::photons;
     const PhotonMapper mapper(drawn.world, settings, listed);
-    return mapper.maps().remarks;
+    return mapper_remarks(mapper);
 }
 
 /// The part of the light that small objects lose, by what a mapper says.

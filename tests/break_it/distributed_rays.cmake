@@ -119,3 +119,13 @@ ljus_break_it(NAME stratified-stream-last HEADER math/stratified_stream.hpp
     FROM "return detail::below_one((cell + u) / T(stream.pattern.points));"
     TO   "return (cell + u) / T(stream.pattern.points);"
     CASES "stratified stream: the largest*")
+
+# Glass that moves is not remarked on, or glass that rests is.
+ljus_break_it(NAME moving-caustics-said HEADER inspect/scene_remarks.hpp TEST moving
+    FROM "found = found || (world.visit_shape(id,"
+    TO   "found = found && (world.visit_shape(id,"
+    CASES "moving: caustics*")
+ljus_break_it(NAME moving-caustics-matt HEADER inspect/scene_remarks.hpp TEST moving
+    FROM "return has(lobes(m), Lobes::specular);"
+    TO   "return !has(lobes(m), Lobes::none);"
+    CASES "moving: caustics*")

@@ -15,6 +15,7 @@
 
 #include "ljus/hook.hpp"
 #include "ljus/path/next_vertex.hpp"
+#include "ljus/photons/kernel_border.hpp"
 #include "ljus/render/passes.hpp"
 
 namespace ljus {
@@ -97,6 +98,36 @@ template <AnyWorld W>
         count += world.visit_material(object.material, narrow) ? 1 : 0;
     });
     return count;
+}
+
+/// A sentence about mirrors and glass that move: photons of all times lie in one map.
+/// \return Empty if none of them moves.
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] std::string moving_caustics([[maybe_unused]] const W& world) {
+    bool found = false;
+    if constexpr (lists_moving<W>)
+        world.each_object([&](ObjectId id, const auto& object) {
+            found = found || (world.visit_shape(id, []<typename G>(const G&) {
+                        return is_moving<G>;
+                    }) && world.visit_material(object.material, [](const auto& m) {
+                        return has(lobes(m), Lobes::specular);
+                    }));
+        });
+    if (!found) return {};
+    return "mirrors or glass move: caustics are the mean over all times, too bright or "
+           "too dark where something that moves stands before them";
+}
+
+/// A sentence about objects whose light is lost at their edges.
+/// \param lost  As edge_loss().
+/// \return Empty if little is lost, or with a line feed.
+[[nodiscard, gnu::cold]] inline std::string edge_remark(double lost, float radius) {
+    if (!(lost > 0.2)) return {};
+    return join(
+        {"some object is so small for general_estimate.radius = ", to_text(radius),
+         " that its edges lose about ", to_text(std::llround(100 * lost)),
+         " % of the light between surfaces; trace more photons, or let rays "
+         "carry it\n"});
 }
 
 /// The number of materials whose facets have slopes beyond a right angle.
@@ -327,7 +358,19 @@ template <typename Mapper>
     std::string lines;
     for (const std::string& remark : scene_remarks(mapper.world(), mapper.settings()))
         lines += remark + "\n";
-    return lines + mapper.maps().remarks;
+    lines += mapper.maps().remarks;
+    if (mapper.passes().caustics_map)
+        if (const auto moving = detail::moving_caustics(mapper.world());
+            !moving.empty())
+            lines += moving + "\n";
+    const PhotonMappingSettings& settings = mapper.settings();
+    if (mapper.passes().general_map && settings.indirect == IndirectLight::photons &&
+        settings.general_estimate.nearest == 0)
+        lines += detail::edge_remark(
+            edge_loss(mapper.world(), mapper.maps().general, settings.general_estimate,
+                      one_kind(PhotonKind::indirect), settings.general.seed),
+            settings.general_estimate.radius);
+    return lines;
 }
 
 /// The remarks for path tracing: those of scene_remarks(), and the light that no path

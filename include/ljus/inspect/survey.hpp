@@ -241,6 +241,9 @@ template <AnyWorld W>
     if (!plan.irradiance.on)
         add_radius(plan.general_map, settings.general_estimate.radius);
     plan.remarks = scene_remarks(world, settings);
+    if (plan.caustics_map.on)
+        if (std::string moving = detail::moving_caustics(world); !moving.empty())
+            plan.remarks.push_back(std::move(moving));
     if constexpr (W::lists_fog)
         if (std::string why = detail::refused_in_fog(world, settings); !why.empty())
             plan.remarks.push_back(std::move(why));

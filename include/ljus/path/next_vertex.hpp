@@ -348,7 +348,8 @@ inline constexpr bool lists_moving = W::any_shape([]<typename G>() {
 
 /// A vertex of a moving shape, moved back to its position at time 0. Photons of all
 /// times are stored and looked up there, so that each point of the shape receives its
-/// mean irradiance while the shutter is open.
+/// mean irradiance while the shutter is open. What a path sees at one time only, as
+/// through glass that moves, has that mean too.
 /// \return The vertex at time 0; unchanged on a shape at rest.
 // [at_rest]
 template <AnyWorld W, std::floating_point T>

@@ -288,18 +288,6 @@ radius_remark(std::string_view name, const DensityEstimateSettings& estimate,
                  "; 0 chooses a radius by the photons\n"});
 }
 
-/// A sentence about objects whose light is lost at their edges.
-/// \param lost  As edge_loss().
-/// \return Empty if little is lost, or with a line feed.
-[[nodiscard, gnu::cold]] inline std::string edge_remark(double lost, float radius) {
-    if (!(lost > 0.2)) return {};
-    return join(
-        {"some object is so small for general_estimate.radius = ", to_text(radius),
-         " that its edges lose about ", to_text(std::llround(100 * lost)),
-         " % of the light between surfaces; trace more photons, or let rays "
-         "carry it\n"});
-}
-
 } // namespace detail
 
 /// The report's renderer: photon maps of a world, and the settings that they were made
@@ -457,13 +445,6 @@ private:
         else if (passes_.general_map && !passes_.irradiance)
             maps_.remarks += detail::radius_remark(
                 "general_estimate", settings_.general_estimate, maps_.general);
-        // Later passes have smaller radii, and nobody reads their remarks.
-        if (passes_.general_map && settings_.indirect == IndirectLight::photons &&
-            settings_.general_estimate.nearest == 0 && settings_.general.iteration == 0)
-            maps_.remarks += detail::edge_remark(
-                edge_loss(world(), maps_.general, settings_.general_estimate,
-                          one_kind(PhotonKind::indirect), settings_.general.seed),
-                settings_.general_estimate.radius);
     }
 
     [[gnu::cold]] static const PhotonMappingSettings&

@@ -258,6 +258,13 @@ private:
         const JsonField attributes = member(field, "attributes");
         if (!find(attributes, "POSITION"))
             return note(field, "has no POSITION; it is left out");
+        // Where a file offers both, the accessors have a bufferView.
+        if (const auto all = find(field, "extensions");
+            all && find(*all, "KHR_draco_mesh_compression") &&
+            !find(file_.named(member(attributes, "POSITION"), "accessors"),
+                  "bufferView"))
+            refuse(field, "is compressed by KHR_draco_mesh_compression, which is not "
+                          "known: export the file again without it");
         const auto base = mesh_.counts();
         mesh_.place = triangles_ + 1;
         const std::size_t vertices = add_vertices(attributes, place);
