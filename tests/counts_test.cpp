@@ -47,7 +47,7 @@ TEST_CASE("counts: sums, member by member") {
 TEST_CASE("counts: one shadow ray a light and surface, one ray a bounce") {
     // An open floor under two point lights: each path is camera ray, two shadow rays,
     // and one indirect ray that meets nothing.
-    ljus_test::Room room;
+    ljus_test::BallRoom room;
     const auto white = room.add(Lambertian{.albedo = Rgb{0.5f}});
     room.add(Quad{.corner{-90, 0, -90}, .edge_u{0, 0, 180}, .edge_v{180, 0, 0}}, white);
     room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{1}});

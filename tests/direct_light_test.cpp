@@ -23,8 +23,8 @@ constexpr double pi = std::numbers::pi;
 
 /// A floor at y = 0 and what is added to it.
 template <typename T>
-RoomT<T> floor_room() {
-    RoomT<T> room;
+BallRoomT<T> floor_room() {
+    BallRoomT<T> room;
     const auto white = room.add(LambertianT<T>{.albedo = RgbT<T>{T(0.5)}});
     room.add(QuadT<T>{.corner{T(-50), T(0), T(-50)},
                       .edge_u{T(0), T(0), T(100)},
@@ -36,8 +36,9 @@ RoomT<T> floor_room() {
 /// The mean of the direct light of all lights, without any weight, where a ray meets
 /// the closed room, the material made brighter or darker by the albedo.
 template <typename T>
-Mean direct(const RoomT<T>& room, const RayT<T>& ray, const LambertianT<T>& material,
-            int samples, Counts& counts, RgbT<T> medium = RgbT<T>{T(0)}) {
+Mean direct(const BallRoomT<T>& room, const RayT<T>& ray,
+            const LambertianT<T>& material, int samples, Counts& counts,
+            RgbT<T> medium = RgbT<T>{T(0)}) {
     const World world(room);
     const auto hit = closest_hit(world, ray);
     REQUIRE(hit);
@@ -107,7 +108,7 @@ TEST_CASE_TEMPLATE("direct light: lamps give their closed forms", T, float, doub
 }
 
 TEST_CASE("direct light: two lamps are added, not averaged") {
-    Room room = floor_room<float>();
+    BallRoom room = floor_room<float>();
     const Ray ray{.origin{0, 0.01f, 0}, .direction{0, -1, 0}};
     Counts counts;
     room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{1}});
@@ -120,7 +121,7 @@ TEST_CASE("direct light: two lamps are added, not averaged") {
 TEST_CASE("direct light: what stands between hides the light, glass and mirrors too") {
     const Ray ray{.origin{0, 0.01f, 0}, .direction{0, -1, 0}};
     for (const Ball ball : {Ball::lambertian, Ball::glass, Ball::mirror}) {
-        Room room = floor_room<float>();
+        BallRoom room = floor_room<float>();
         add_ball(room,
                  ball); // around (0.1, -0.4, -0.1): put the floor's point below it
         room.add(PointLight{.position{0, 5, 0}, .intensity = Rgb{1}});
@@ -141,7 +142,7 @@ TEST_CASE("direct light: no ray where nothing can come") {
     Counts counts;
     const Ray ray{.origin{0, 0.01f, 0}, .direction{0, -1, 0}};
     { // a lamp that turns its back
-        Room room = floor_room<float>();
+        BallRoom room = floor_room<float>();
         const auto black = room.add(Lambertian{.albedo = Rgb{0}});
         room.add(Quad{.corner{-1, 2, -1}, .edge_u{0, 0, 2}, .edge_v{2, 0, 0}}, black,
                  Rgb{3});
@@ -149,19 +150,19 @@ TEST_CASE("direct light: no ray where nothing can come") {
         CHECK(counts.shadow_rays == 0);
     }
     { // a light below the floor: opaque
-        Room room = floor_room<float>();
+        BallRoom room = floor_room<float>();
         room.add(PointLight{.position{0, -2, 0}, .intensity = Rgb{1}});
         CHECK(direct(room, ray, Lambertian{}, 10, counts).mean == 0);
         CHECK(counts.shadow_rays == 0);
     }
     { // a black surface
-        Room room = floor_room<float>();
+        BallRoom room = floor_room<float>();
         room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{1}});
         CHECK(direct(room, ray, Lambertian{.albedo = Rgb{0}}, 10, counts).mean == 0);
         CHECK(counts.shadow_rays == 0);
     }
     { // the light is on the surface itself
-        Room room = floor_room<float>();
+        BallRoom room = floor_room<float>();
         room.add(PointLight{.position{0, 0, 0}, .intensity = Rgb{1}});
         const Mean seen = direct(room, ray, Lambertian{}, 10, counts);
         CHECK(seen.mean == 0);
@@ -169,7 +170,7 @@ TEST_CASE("direct light: no ray where nothing can come") {
 }
 
 TEST_CASE("direct light: within a medium it is absorbed along the way") {
-    Room room = floor_room<float>();
+    BallRoom room = floor_room<float>();
     room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{1}});
     const Ray ray{.origin{0, 0.01f, 0}, .direction{0, -1, 0}};
     Counts counts;

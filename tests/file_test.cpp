@@ -1,3 +1,4 @@
+// alone: its fsync() takes the place of the system's
 #include <doctest/doctest.h>
 
 #include <cstring>

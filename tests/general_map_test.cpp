@@ -133,7 +133,7 @@ std::vector<double> radiosity(int n, bool direct_only) {
 /// The same box as a closed scene of the library; `turned` turns the quads' normals
 /// outwards.
 ClosedRoom box_scene(bool turned) {
-    RoomT<float> scene;
+    BallRoomT<float> scene;
     for (const Rectangle& wall : box_walls()) {
         const auto matt = scene.add(Lambertian{.albedo = Rgb{float(wall.albedo)}});
         const bool swap = turned && wall.emitted == 0;
@@ -306,7 +306,7 @@ TEST_CASE("general map: direct + shadow = the light that nothing hides, for each
 
     // The normals of the quads point where they like: it is the sides that count.
     for (const bool floor_up : {true, false}) {
-        RoomT<float> scene;
+        BallRoomT<float> scene;
         const auto grey = scene.add(Lambertian{.albedo = Rgb{0.5f}});
         const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
         scene.add(quad_of(floor_plate, floor_up), grey);
@@ -373,7 +373,7 @@ TEST_CASE("general map: photons lie on matt surfaces only, and each knows its li
     // colour says whose it is, after any number of bounces.
     for (const Ball ball :
          {Ball::mirror, Ball::glass, Ball::mixture, Ball::oren_nayar}) {
-        Room room;
+        BallRoom room;
         add_walls(room);
         if (ball == Ball::mixture) // a type that can be matt; this one is all clear
             room.add(Sphere{.center{0.1f, -0.4f, -0.1f}, .radius = 0.45f},
@@ -618,7 +618,7 @@ TEST_CASE(
 // --- At the extremes -----------------------------------------------------------------
 
 TEST_CASE("general map: no light, no photons, one photon, a scene of glass") {
-    Room dark;
+    BallRoom dark;
     add_walls(dark);
     const World world(std::move(dark));
     CHECK_FALSE(survey(world, {.keep_general_map = true}).general_map.on);
@@ -635,7 +635,7 @@ TEST_CASE("general map: no light, no photons, one photon, a scene of glass") {
     CHECK(one.general_audit.emitted.x ==
           doctest::Approx(double(census(one.general)[PhotonKind::direct].flux.x)));
 
-    Room glass;
+    BallRoom glass;
     add_ball(glass, Ball::glass);
     add_lamps(glass, Lamp::point, 1); // no object of its own
     const World glass_world(std::move(glass));
@@ -648,7 +648,7 @@ TEST_CASE("general map: no light, no photons, one photon, a scene of glass") {
 
 TEST_CASE("general map: a lamp in a closed box lights the box, and all else is in its "
           "shadow") {
-    Room room;
+    BallRoom room;
     add_walls(room);
     add_ball(room, Ball::lambertian);
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
@@ -680,7 +680,7 @@ namespace {
 /// The box above, `scale` times as large and moved.
 template <typename T>
 PhotonCensus census_of_box(double scale, double offset) {
-    RoomT<T> scene;
+    BallRoomT<T> scene;
     for (const Rectangle& wall : box_walls())
         scene.add(QuadT<T>{.corner = Vec3T<T>(scale * (wall.corner + offset)),
                            .edge_u = Vec3T<T>(scale * wall.u),
@@ -912,7 +912,7 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
         CHECK(mapper.state<Gathering>().cache.empty() == !cache);
     }
     // What there is to say of scene and passes, a line each.
-    Room far;
+    BallRoom far;
     add_walls(far);
     add_lamps(far, Lamp::quad, 1);
     far.add(Sphere{.center{4e5f, 0, 0}, .radius = 0.01f}, far.add(Glass{}));
@@ -992,7 +992,7 @@ TEST_CASE("general map: who is asked of what, with the seed of which pass") {
 TEST_CASE("general map: for shadow rays alone each lamp sends as many photons") {
     // A lamp and a candle of a millionth of its power: by power it would send none of
     // 3000 photons, and no verdict would know it.
-    Room room;
+    BallRoom room;
     add_walls(room);
     add_ball(room, Ball::lambertian);
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
@@ -1038,7 +1038,7 @@ TEST_CASE("general map: for shadow rays alone each lamp sends as many photons") 
 }
 
 TEST_CASE("general map: how caustic photons are shared out, by which light") {
-    Room open;
+    BallRoom open;
     add_walls(open);
     add_ball(open, Ball::glass);
     add_lamps(open, Lamp::quad, 1);

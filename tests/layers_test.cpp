@@ -104,7 +104,7 @@ TEST_CASE("layers: normal and albedo are seen in a mirror, the others are its ow
 TEST_CASE("layers: glass passes the albedo of what lies behind it, without n^2") {
     // Every path ends at a surface of albedo 1/2. One in a million is
     // reflected inside the ball until it is not followed further.
-    Room room;
+    BallRoom room;
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
     room.add(Sphere{.center{0, 0, 0}, .radius = 20}, grey);
     room.add(Sphere{.center{0, 0, -5}, .radius = 1}, room.add(Glass{.index = 1.5f}));

@@ -1,4 +1,5 @@
 // concept: photon_map
+// alone: counts what operator new gives
 /// \file memory_test.cpp
 /// \brief The most memory that photons, pixels and triangles take at a time.
 

@@ -13,12 +13,12 @@
 #include "ljus/render/path_tracing.hpp"
 #include "support/bsdf_checks.hpp"
 
-using ljus::Rgb, ljus::Vec3;
+using ljus::Lobes, ljus::Rgb, ljus::Vec3;
 using reader::Moon;
 
 static_assert(ljus::Material<Moon>);
 
-namespace reader {
+namespace {
 
 /// A mirror that reflects only red; it says nothing of what OnlySpecular spares it.
 struct RedMirror {
@@ -32,9 +32,9 @@ std::optional<ljus::BsdfSample> sample(const RedMirror&, const Vec3& wo, const V
 }
 void check(const RedMirror&) {}
 
-} // namespace reader
+} // namespace
 
-static_assert(ljus::Material<reader::RedMirror>);
+static_assert(ljus::Material<RedMirror>);
 
 TEST_CASE("own material: f is the same with its directions exchanged") {
     for (const float k : {1.0f, 1.5f, 4.0f})
@@ -73,7 +73,7 @@ TEST_CASE("own material: what would make light is refused by name") {
 }
 
 TEST_CASE("own material: one that is only specular need not say that it has no f") {
-    const reader::RedMirror mirror;
+    const RedMirror mirror;
     CHECK(ljus::lobes(mirror) == ljus::Lobes::specular);
     ljus_test::check_sampling(mirror, {0.6f, 0, -0.8f});
     ljus_test::check_extremes(mirror, 1);
@@ -84,7 +84,7 @@ TEST_CASE("own material: one that is only specular need not say that it has no f
 
     // A ball of it inside a white lamp is red with every renderer.
     using namespace ljus;
-    Scene<Shapes<Sphere>, Materials<Lambertian, reader::RedMirror>> scene;
+    Scene<Shapes<Sphere>, Materials<Lambertian, RedMirror>> scene;
     const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
     scene.add(Sphere{{0, 0, 0}, 3}, black, Rgb{1}, true);
     scene.add(Sphere{{0, 0, 0}, 1}, scene.add(mirror));

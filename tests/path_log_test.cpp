@@ -26,7 +26,7 @@ const double limit = ljus_test::limit_of(20); ///< In standard errors.
 
 /// Matt walls, a ball of glass, a mirror on the back wall, a mixed ball, a quad lamp.
 ClosedRoom mixed_room() {
-    Room room;
+    BallRoom room;
     add_walls(room);
     const auto glass = room.add(Glass{.index = 1.5f});
     const auto mirror = room.add(Mirror{.reflectance = Rgb{0.9f}});
@@ -96,7 +96,7 @@ bool owned(const std::string& owner, const std::string& path, IndirectLight indi
 
 TEST_CASE("path log: the letters of a path that is known") {
     // A mirror over a matt floor: E S D L by the shadow ray, nothing else.
-    Room room;
+    BallRoom room;
     const auto white = room.add(Lambertian{.albedo = Rgb{0.5f}});
     const auto mirror = room.add(Mirror{});
     room.add(Quad{.corner{-9, 0, -9}, .edge_u{0, 0, 18}, .edge_v{18, 0, 0}}, white);
@@ -257,7 +257,7 @@ TEST_CASE("path log: the two renderers bring the same light, class of paths by c
 
 TEST_CASE("path log: a mirror and a ball of glass cast no shadow ray") {
     // Mirrors all around, and glass: nothing to light.
-    Room room;
+    BallRoom room;
     const auto mirror = room.add(Mirror{.reflectance = Rgb{0.5f}});
     const auto glass = room.add(Glass{});
     room.add(Sphere{.radius = 5}, mirror, Rgb{0}, true);
@@ -281,7 +281,7 @@ TEST_CASE("path log: a mirror and a ball of glass cast no shadow ray") {
 TEST_CASE("path log: a gather ray that reaches a lamp adds nothing") {
     // A matt floor under a lamp that covers half of its sky: half of the indirect rays
     // meet the lamp, straight or by a mirror. Direct light is the shadow rays' alone.
-    Room room;
+    BallRoom room;
     const auto white = room.add(Lambertian{.albedo = Rgb{1}});
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
     const auto mirror = room.add(Mirror{});
@@ -384,7 +384,7 @@ TEST_CASE("path log: a term has the place that its path has come to") {
 TEST_CASE("path log: at glass that splits both ways are told from the eye") {
     // Above a pane of glass: what it mirrors is ESDL by the shadow ray on the ceiling,
     // what it lets through ESDL by that on the floor; each has its own vertex.
-    Room room;
+    BallRoom room;
     const auto white = room.add(Lambertian{.albedo = Rgb{0.5f}});
     room.add(Quad{.corner{-9, 0, -9}, .edge_u{0, 0, 18}, .edge_v{18, 0, 0}}, white);
     room.add(Quad{.corner{-9, 4, -9}, .edge_u{18, 0, 0}, .edge_v{0, 0, 18}}, white);

@@ -614,7 +614,7 @@ TEST_CASE("path tracing: the plain one finds the same light") {
                 CHECK(std::abs(apart(mean_of(plain, 1), mean_of(fast, 2))) < 4);
             }
         }
-    const ClosedRoom empty(RoomT<float>{});
+    const ClosedRoom empty(BallRoomT<float>{});
     CHECK_THROWS_WITH_AS((void)PlainPathTracer(empty, 0),
                          "max_depth is 0; it must be at least 1.",
                          std::invalid_argument);
@@ -747,7 +747,7 @@ TEST_CASE("path tracing: a path whose light is gone is not cut by the depth") {
     for (const auto& second :
          {RgbT<double>{0, 1, 0}, RgbT<double>{0.5}, RgbT<double>{0}})
         for (const int depth : {1, 2, 3}) {
-            ljus_test::RoomT<double> room;
+            ljus_test::BallRoomT<double> room;
             const auto wall = [&](double z, const RgbT<double>& color) {
                 room.add(QuadT<double>{{-9, -9, z}, {18, 0, 0}, {0, 18, 0}},
                          room.add(MirrorT<double>{.reflectance = color}));

@@ -36,8 +36,8 @@ double sum_of(const Image& image) {
 }
 
 /// A wall [-2, 2]^2 at z = 0, its normal towards the camera or away from it.
-Room wall(bool towards) {
-    Room room;
+BallRoom wall(bool towards) {
+    BallRoom room;
     const Vec3 x{4, 0, 0}, y{0, 4, 0};
     room.add(
         Quad{.corner{-2, -2, 0}, .edge_u = towards ? x : y, .edge_v = towards ? y : x},
@@ -66,7 +66,7 @@ TEST_CASE("photon dots: a photon is seen on the side that it has come to, wherev
 
 TEST_CASE("photon dots: what stands in front hides a photon, glass too") {
     for (const Ball ball : {Ball::lambertian, Ball::glass}) {
-        Room room = wall(true);
+        BallRoom room = wall(true);
         room.add(Sphere{.center{0.5f, 0.5f, 2.5f}, .radius = 0.1f},
                  ball == Ball::glass ? room.add(Glass{})
                                      : room.add(Lambertian{.albedo = Rgb{0.5f}}));
@@ -156,7 +156,7 @@ TEST_CASE("photon dots: the colour is that of the flux, shadow photons are yello
 }
 
 TEST_CASE("photon dots: the drawing shows each surface in its colour, lamps bright") {
-    Room room = wall(true);
+    BallRoom room = wall(true);
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
     const auto lamp = [](float x, bool towards) {
         const Vec3 a{1, 0, 0}, b{0, 1, 0};
@@ -190,7 +190,7 @@ TEST_CASE("photon dots: the drawing shows each surface in its colour, lamps brig
 
 TEST_CASE("photon dots: in the corners of a picture too, and just outside of none") {
     // A wall as large as the picture: its corners are those of the picture.
-    Room room;
+    BallRoom room;
     room.add(Quad{.corner{-50, -50, 0}, .edge_u{100, 0, 0}, .edge_v{0, 100, 0}},
              room.add(Lambertian{.albedo = Rgb{0.5f}}));
     const World world(std::move(room));
@@ -223,7 +223,7 @@ TEST_CASE("photon dots: in the corners of a picture too, and just outside of non
 }
 
 TEST_CASE("photon dots: in pictures that are wider than high, and higher than wide") {
-    Room room;
+    BallRoom room;
     room.add(Quad{.corner{-50, -50, 0}, .edge_u{100, 0, 0}, .edge_v{0, 100, 0}},
              room.add(Lambertian{.albedo = Rgb{0.5f}}));
     const World world(std::move(room));
@@ -276,7 +276,7 @@ TEST_CASE("photon dots: the drawing darkens by the cosine, as it says") {
 }
 
 TEST_CASE("photon dots: two at one place add up, and the picture ends at its size") {
-    Room room;
+    BallRoom room;
     room.add(Quad{.corner{-50, -50, 0}, .edge_u{100, 0, 0}, .edge_v{0, 100, 0}},
              room.add(Lambertian{.albedo = Rgb{0.5f}}));
     const World world(std::move(room));
@@ -305,7 +305,7 @@ TEST_CASE("photon dots: two at one place add up, and the picture ends at its siz
 
 TEST_CASE("photon dots: what mirrors or refracts is drawn grey") {
     for (const Ball ball : {Ball::mirror, Ball::glass, Ball::mixture}) {
-        Room room;
+        BallRoom room;
         const Quad all{.corner{-50, -50, 0}, .edge_u{100, 0, 0}, .edge_v{0, 100, 0}};
         if (ball == Ball::mirror)
             room.add(all, room.add(Mirror{.reflectance{1, 0, 0}}));

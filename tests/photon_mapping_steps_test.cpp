@@ -213,7 +213,7 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
 TEST_CASE("photon mapping: a path goes both ways eight times, and loses nothing") {
     // A pane of thick clear glass in light of radiance 1 from all around: whatever ways
     // the path takes, together they bring 1, and each way out is one term.
-    Room room;
+    BallRoom room;
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
     room.add(Sphere{.radius = 100}, black, Rgb{1}, true);
     const auto glass = room.add(Glass{.index = 2.4f});
@@ -280,7 +280,7 @@ TEST_CASE("photon mapping: a path goes both ways eight times, and loses nothing"
 TEST_CASE("photon mapping: behind a matt surface a path goes one way at glass") {
     // A matt floor below a pane of glass, seen from between them: both ways at the pane
     // would be a ray more.
-    Room room;
+    BallRoom room;
     room.add(Sphere{.radius = 100}, room.add(Lambertian{.albedo = Rgb{0}}), Rgb{1},
              true);
     room.add(Quad{{-50, -50, -3}, {100, 0, 0}, {0, 100, 0}}, room.add(Lambertian{}));
@@ -315,7 +315,7 @@ TEST_CASE("photon mapping: behind a matt surface no branch is spared by roulette
     constexpr int paths = 4000;
     std::vector<std::uint64_t> rays[2];
     for (const int bright : {0, 1}) {
-        Room room;
+        BallRoom room;
         room.add(Quad{{-5e3f, -5e3f, -50}, {1e4f, 0, 0}, {0, 1e4f, 0}},
                  room.add(Lambertian{.albedo = Rgb{float(albedo) * float(bright)}}));
         const auto glass = room.add(Glass{.index = 1.5f});
@@ -453,7 +453,7 @@ TEST_CASE("photon mapping: what the depth cuts off is counted, what is black is 
     for (const IndirectLight indirect :
          {IndirectLight::rays, IndirectLight::map, IndirectLight::none})
         for (const int kind : {0, 1, 2}) {
-            Room room;
+            BallRoom room;
             const Quad floor{{-1e3f, -1, -1e3f}, {0, 0, 2e3f}, {2e3f, 0, 0}};
             if (kind == 1)
                 room.add(floor, room.add(Mirror{.reflectance = Rgb{0.5f}}));
@@ -494,7 +494,7 @@ TEST_CASE("photon mapping: what the depth cuts off is counted, what is black is 
 }
 
 TEST_CASE("photon mapping: what a red mirror and a green one leave goes no farther") {
-    Room room;
+    BallRoom room;
     room.add(Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}},
              room.add(Mirror{.reflectance{0, 1, 0}}));
     room.add(Quad{{-1, -1, 1}, {0, 2, 0}, {2, 0, 0}},
@@ -512,7 +512,7 @@ TEST_CASE("photon mapping: what a red mirror and a green one leave goes no farth
 
 TEST_CASE("photon mapping: roulette begins at the surface that is named") {
     // In a hall of mirrors that are all but black a path ends where it first may.
-    Room room;
+    BallRoom room;
     room.add(Sphere{.radius = 1}, room.add(Mirror{.reflectance = Rgb{1e-3f}}));
     const World world(std::move(room));
     for (const int depth : {1, 2, 4}) {
@@ -544,7 +544,7 @@ TEST_CASE("photon mapping: by which lobes a path goes on until it is gathered") 
     }
     // Where no photon says that light comes by an indirect ray, none is sent, but a
     // mirror below the matt part still mirrors: one ray in two.
-    Room half;
+    BallRoom half;
     half.add(Quad{{-9, -1, -9}, {0, 0, 18}, {18, 0, 0}},
              half.add(Mixture{.color = Rgb{0.5f}, .reflectivity = 0.5f}));
     half.add(PointLight{.position{0, 1, 0}, .intensity = Rgb{1}});
@@ -663,7 +663,7 @@ TEST_CASE("photon mapping: an ability that nobody asks for changes no byte") {
 }
 
 TEST_CASE("photon mapping: a mapper has the settings that it has chosen") {
-    Room open;
+    BallRoom open;
     add_walls(open);
     add_ball(open, Ball::glass);
     open.add(Sphere{.center{-0.5f, 0.3f, 0}, .radius = 0.2f}, open.add(Mirror{}));

@@ -30,7 +30,7 @@ constexpr int size = 80; // pixels on a side
 /// A point light under a small mirror that throws a disc of light on the floor: from
 /// the floor it is a second point light, 1.5 above it, of 0.8 of the intensity.
 ClosedRoom mirror_over_floor() {
-    Room room;
+    BallRoom room;
     const auto white = room.add(Lambertian{.albedo = Rgb{0.5f}});
     const auto mirror = room.add(Mirror{.reflectance = Rgb{0.8f}});
     room.add(Quad{.corner{-5, 0, -5}, .edge_u{0, 0, 10}, .edge_v{10, 0, 0}}, white);
@@ -196,7 +196,7 @@ TEST_CASE("photon mapping: a matt ball embedded in glass in a furnace") {
     for (const Way& way : {Way{"in lanes", false, {.radius = 0.1f}},
                            Way{"one by one", true, {.radius = 0.1f}},
                            Way{"k nearest", false, {.radius = 0.2f, .nearest = 40}}}) {
-        Room room;
+        BallRoom room;
         const auto black = room.add(Lambertian{.albedo = Rgb{0}});
         const auto glass = room.add(Glass{.index = float(n)});
         const Rgb grey{float(albedo)};
@@ -240,7 +240,7 @@ TEST_CASE("photon mapping: lamps and matt balls within clear and coloured glass"
     for (const Within within :
          {Within::ball_lamp, Within::quad_lamp, Within::matt_ball})
         for (const float alpha : {0.0f, 1.5f}) {
-            Room room;
+            BallRoom room;
             const auto white = room.add(Lambertian{.albedo = Rgb{0.5f}});
             const auto black = room.add(Lambertian{.albedo = Rgb{0}});
             const auto glass = room.add(Glass{.absorption = Rgb{alpha}});

@@ -1,3 +1,4 @@
+// alone: compiles stb_image for itself
 #include <doctest/doctest.h>
 
 #include <cstring>

@@ -360,7 +360,7 @@ TEST_CASE("progressive: variance and squared bias fall with the predicted slopes
 
 TEST_CASE("progressive: both radii shrink, and no pass repeats another") {
     // In a room with a glass ball, with the general map and with rays.
-    ljus_test::Room room;
+    ljus_test::BallRoom room;
     ljus_test::add_walls(room);
     ljus_test::add_ball(room, ljus_test::Ball::glass);
     ljus_test::add_lamps(room, ljus_test::Lamp::quad, 1);
@@ -452,7 +452,7 @@ TEST_CASE("progressive: both radii shrink, and no pass repeats another") {
 }
 
 TEST_CASE("progressive: radii and shares are chosen once, for all passes") {
-    ljus_test::Room room;
+    ljus_test::BallRoom room;
     ljus_test::add_walls(room);
     ljus_test::add_ball(room, ljus_test::Ball::glass);
     ljus_test::add_lamps(room, ljus_test::Lamp::quad, 1);

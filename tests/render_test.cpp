@@ -465,7 +465,7 @@ TEST_CASE("render: sums of samples and of their squares, each by its weight") {
 
 TEST_CASE("render: of a caustics map only light is seen, asked together or not") {
     // A map may be made by hand, and may have shadow photons in it: they are no light.
-    Room room;
+    BallRoom room;
     room.add(Quad{{-9, -9, -3}, {18, 0, 0}, {0, 18, 0}},
              room.add(Lambertian{.albedo = Rgb{0.5f}}));
     room.add(PointLight{.position{0, 0, 9}, .intensity = Rgb{1}});

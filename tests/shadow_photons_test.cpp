@@ -54,7 +54,7 @@ std::vector<Photon> photons_of(const ClosedRoom& room, long long count,
 /// A floor, a lamp 2 above it, and between them a plate that ends at x = 0: from the
 /// point (x, 0, z) of the floor the part 1/2 + x of the lamp is seen.
 ClosedRoom half_plane(bool floor_up = true, bool second_lamp = false) {
-    Room room;
+    BallRoom room;
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
     const Vec3 x{4, 0, 0}, z{0, 0, 4};
@@ -180,7 +180,7 @@ Verdict counted(const std::vector<Photon>& photons, const VerdictGrid& grid,
 } // namespace
 
 TEST_CASE("shadow photons: the grid says what its photons say, counted one by one") {
-    Room room;
+    BallRoom room;
     add_walls(room);
     add_ball(room, Ball::lambertian);
     add_lamps(room, Lamp::quad, 2);
@@ -249,7 +249,7 @@ TEST_CASE("shadow photons: in one place each light has its own photons") {
 }
 
 TEST_CASE("shadow photons: the grid has the same bytes for any number of threads") {
-    Room room;
+    BallRoom room;
     add_walls(room);
     add_ball(room, Ball::glass);
     add_lamps(room, Lamp::sphere, 2);
@@ -302,7 +302,7 @@ TEST_CASE("shadow photons: the penumbra of a square lamp behind a straight edge"
 }
 
 TEST_CASE("shadow photons: the round shadow of a ball under a point light") {
-    Room room;
+    BallRoom room;
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
     room.add(Quad{.corner{-2, 0, -2}, .edge_u{0, 0, 4}, .edge_v{4, 0, 0}}, grey);
     room.add(Sphere{.center{0, 1, 0}, .radius = 0.3f}, grey);
@@ -378,7 +378,7 @@ constexpr RenderSettings small{.width = 24, .height = 24, .samples = 4, .threads
 } // namespace
 
 TEST_CASE("shadow photons: what is known to be lit has the same bytes without rays") {
-    Room room; // nothing hides anything
+    BallRoom room; // nothing hides anything
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
     room.add(Quad{.corner{-1, 0, -1}, .edge_u{0, 0, 2}, .edge_v{2, 0, 0}}, grey);
@@ -411,7 +411,7 @@ TEST_CASE("shadow photons: what is known to be lit has the same bytes without ra
 }
 
 TEST_CASE("shadow photons: fewer rays, the same picture, for any number of threads") {
-    Room room;
+    BallRoom room;
     add_walls(room);
     add_ball(room, Ball::mixture);
     add_lamps(room, Lamp::quad, 2);
@@ -499,7 +499,7 @@ TEST_CASE(
 }
 
 TEST_CASE("shadow photons: the survey says why") {
-    Room room;
+    BallRoom room;
     add_walls(room);
     add_lamps(room, Lamp::quad, 1);
     const World world(std::move(room));
@@ -525,7 +525,7 @@ TEST_CASE("shadow photons: the survey says why") {
     settings.general.photons = 0;
     CHECK_FALSE(survey(world, settings).skipped_rays.on);
     CHECK_FALSE(survey(world, settings).skipped_bounces.on);
-    Room dark;
+    BallRoom dark;
     add_walls(dark);
     const World dark_world(std::move(dark));
     settings.general.photons = 1000;
@@ -537,7 +537,7 @@ TEST_CASE("shadow photons: the survey says why") {
 
 TEST_CASE("shadow photons: no indirect ray where no indirect photon is near") {
     // Two rooms, one of them closed and dark.
-    Room room;
+    BallRoom room;
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
     for (const float x : {-2.0f, 0.0f, 2.0f})
@@ -664,7 +664,7 @@ TEST_CASE("shadow photons: extremes") {
         CHECK(verdict_of(tiny, floor_point(1.5f, 0), 1) == Verdict::unknown);
     }
     SUBCASE("a lamp that cannot be reached") {
-        Room room;
+        BallRoom room;
         add_walls(room);
         const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
         room.add(PointLight{.position{0, 0.9f, 0}, .intensity = Rgb{1}});
@@ -683,7 +683,7 @@ TEST_CASE("shadow photons: extremes") {
         CHECK(verdict_of(more, floor, 1, 2) == Verdict::unknown);
     }
     SUBCASE("the two sides of a thin wall, and the floor at its foot") {
-        Room room;
+        BallRoom room;
         const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
         room.add(Quad{.corner{-1, 0, -1}, .edge_u{0, 0, 2}, .edge_v{2, 0, 0}}, grey);
         room.add(Quad{.corner{0, 0, -1}, .edge_u{0, 2, 0}, .edge_v{0, 0, 2}}, grey);
@@ -699,7 +699,7 @@ TEST_CASE("shadow photons: extremes") {
         CHECK(verdict_of(grid, floor_point(1e-4f, 0), 1) == Verdict::unknown);
     }
     SUBCASE("in double") {
-        RoomT<double> room;
+        BallRoomT<double> room;
         add_walls(room);
         add_ball(room, Ball::lambertian);
         add_lamps(room, Lamp::quad, 1);

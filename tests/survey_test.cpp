@@ -106,7 +106,7 @@ TEST_CASE("survey: counts what a scene is made of") {
 TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     const ClosedRoom matt = make_room<float>(Ball::oren_nayar, Lamp::sphere, 1);
     const ClosedRoom glass = make_room<float>(Ball::glass, Lamp::sphere, 1);
-    Room dark;
+    BallRoom dark;
     add_walls(dark);
     add_ball(dark, Ball::mirror);
     const World world(std::move(dark));
@@ -133,7 +133,7 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     plan = survey(glass, settings = {});
     CHECK(plan.tree.on);
     CHECK(plan.tree.why == "8 objects, a tree finds the first on a ray");
-    Room one;
+    BallRoom one;
     one.add(Sphere{}, one.add(Lambertian{}));
     one.add(Sphere{}, one.add(Lambertian{}));
     plan = survey(World(one), settings); // of two
@@ -203,7 +203,7 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
 }
 
 TEST_CASE("survey: without a diffuse surface nothing is lit, whatever shines") {
-    Room hall;
+    BallRoom hall;
     hall.add(Sphere{}, hall.add(Mirror{}));
     hall.add(PointLight{.position{0, 5, 0}, .intensity = Rgb{1}});
     const World world(std::move(hall));
@@ -253,7 +253,7 @@ TEST_CASE("survey: the lines as they are printed, and one photon is enough") {
 }
 
 TEST_CASE("survey: what the plan leaves out is not done") {
-    Room dark;
+    BallRoom dark;
     add_walls(dark);
     const World world(std::move(dark)); // nothing is lit, so no ray looks for light
     const PhotonMapper mapper(world);
@@ -261,7 +261,7 @@ TEST_CASE("survey: what the plan leaves out is not done") {
     const auto picture =
         render(mapper, room_camera<float>(), {.width = 4, .height = 4, .samples = 2});
     CHECK(picture.counts.rays() == picture.counts.camera_rays);
-    Room lit;
+    BallRoom lit;
     add_walls(lit);
     add_lamps(lit, Lamp::quad, 1);
     const World lit_world(std::move(lit));
@@ -269,7 +269,7 @@ TEST_CASE("survey: what the plan leaves out is not done") {
 }
 
 TEST_CASE("survey: settings that give no picture are refused") {
-    const ClosedRoom empty{Room{}};
+    const ClosedRoom empty{BallRoom{}};
     const auto refused = [&](auto change) {
         PhotonMappingSettings settings;
         change(settings);
@@ -708,18 +708,10 @@ TEST_CASE("survey: every reason, in the order in which they are printed") {
         return detail::make_plan(found, settings);
     };
     const Plan plan = plan_of(lit, [](auto&) {});
-    const char* const names[] = {"shadow rays",
-                                 "indirect rays",
-                                 "caustics map",
-                                 "general map",
-                                 "volume map",
-                                 "shadow photons",
-                                 "skipped rays",
-                                 "skipped bounces",
-                                 "irradiance",
-                                 "irradiance cache",
-                                 "thin film",
-                                 "tree"};
+    const char* const names[] = {
+        "shadow rays", "indirect rays",    "caustics map", "general map",
+        "volume map",  "shadow photons",   "skipped rays", "skipped bounces",
+        "irradiance",  "irradiance cache", "thin film",    "tree"};
     REQUIRE(plan.items().size() == std::size(names));
     for (std::size_t i = 0; i < std::size(names); ++i)
         CHECK(std::string(plan.items()[i]->pass) == names[i]);

@@ -94,7 +94,7 @@ TEST_CASE("tracing: absorbed + escaped + cut + roulette = emitted") {
                     CHECK(traced.audit.escaped == glm::dvec3(0)); // the room is closed
                 }
     // An open scene, in double.
-    RoomT<double> open;
+    BallRoomT<double> open;
     add_ball(open, Ball::mixture);
     add_lamps(open, Lamp::quad, 2);
     const auto traced =
@@ -142,7 +142,7 @@ TEST_CASE("tracing: the first hits of a lamp's photons share its flux by the for
           "factors") {
     // The whole ceiling of a 2 x 1.5 x 1 box shines, radiance 1.
     const double a = 2, b = 1.5, c = 1;
-    RoomT<float> box;
+    BallRoomT<float> box;
     const auto black = box.add(Lambertian{.albedo = Rgb{0}});
     const Vec3 x{float(a), 0, 0}, z{0, 0, float(b)}, y{0, float(c), 0};
     box.add(Quad{.corner{0, float(c), 0}, .edge_u = x, .edge_v = z}, black, Rgb{1});
@@ -217,7 +217,7 @@ TEST_CASE("tracing: a caustic has the power that the glass was given") {
     // photon. What meets the ball is the lamp's intensity times the ball's solid angle;
     // all of it leaves the ball, for nothing is absorbed.
     for (const bool point_light : {true, false}) {
-        Room scene;
+        BallRoom scene;
         const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
         const auto glass = scene.add(Glass{.index = 1.5f});
         scene.add(Sphere{.center{0, 0, 0}, .radius = 20}, black, Rgb{0}, true);
@@ -269,7 +269,7 @@ TEST_CASE("tracing: a caustic has the power that the glass was given") {
         CHECK(std::abs(apart(caustic, found)) < limit);
     }
     // And what goes straight through a ball in parallel light.
-    Room scene;
+    BallRoom scene;
     const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
     const auto glass = scene.add(Glass{.index = 1.5f});
     scene.add(Sphere{.center{0, 0, 0}, .radius = 1}, glass);
@@ -301,7 +301,7 @@ TEST_CASE("tracing: aimed photons equal blind ones, whatever their targets") {
     // Targets that hide each other, a light within the bounding sphere of a target (a
     // large mirror), mirrors and mixtures as targets, all kinds of lights.
     for (const Lamp lamp : {Lamp::quad, Lamp::sphere, Lamp::point}) {
-        Room scene;
+        BallRoom scene;
         add_walls(scene);
         const auto glass = scene.add(Glass{.index = 1.5f});
         const auto mirror = scene.add(Mirror{.reflectance = Rgb{0.9f}});
@@ -502,7 +502,7 @@ TEST_CASE("tracing: no photons, no light, no target") {
                          std::invalid_argument);
     CHECK(trace_photons(room, MapType::general, {.photons = 10, .shares = {0.5, 0.5}})
               .emitted == 10);
-    Room dark;
+    BallRoom dark;
     add_walls(dark);
     CHECK_THROWS_AS((void)trace_photons(World(dark), MapType::general, {}),
                     std::invalid_argument);
@@ -650,7 +650,7 @@ TEST_CASE("tracing: through a ball of glass a sun sends what parallel light does
 TEST_CASE("tracing: roulette leaves the flux in a furnace as it is, over 100 seeds") {
     // Walls that reflect rho: the power that arrives is 1/(1 - rho) of the lamp's.
     for (const float rho : {0.3f, 0.75f, 0.9f}) {
-        RoomT<float> room;
+        BallRoomT<float> room;
         const auto wall = room.add(Lambertian{.albedo = Rgb{rho}});
         room.add(Sphere{.radius = 1}, wall, Rgb{0}, true);
         room.add(PointLight{.position{0.3f, 0, 0},
@@ -707,7 +707,7 @@ TEST_CASE("tracing: memory is foretold, and refused in a sentence before it is t
 }
 
 TEST_CASE("tracing: a pass that stores nothing gives up and says why") {
-    const auto sentence = [](const Room& open, MapType law) {
+    const auto sentence = [](const BallRoom& open, MapType law) {
         const World room(open);
         const PhotonPassSettings pass{.photons = 1000000, .give_up = 4096};
         const auto traced = trace_photons(room, law, pass);
@@ -720,7 +720,7 @@ TEST_CASE("tracing: a pass that stores nothing gives up and says why") {
             CHECK(traced.audit.emitted.x == within(double(room.powers()[0].x), 1e-4));
         return traced.remark;
     };
-    Room hidden; // a wall between the lamp and the glass
+    BallRoom hidden; // a wall between the lamp and the glass
     const auto grey = hidden.add(Lambertian{});
     hidden.add(Sphere{.center{0, 0, 0}, .radius = 0.2f}, hidden.add(Glass{}));
     hidden.add(Quad{.corner{-2, 1, -2}, .edge_u{4, 0, 0}, .edge_v{0, 0, 4}}, grey);
@@ -728,14 +728,14 @@ TEST_CASE("tracing: a pass that stores nothing gives up and says why") {
     CHECK(sentence(hidden, MapType::caustics).find("100 % met something else") !=
           std::string::npos);
 
-    Room away; // a lamp that turns its back to the glass
+    BallRoom away; // a lamp that turns its back to the glass
     away.add(Sphere{.center{0, 0, 0}, .radius = 0.2f}, away.add(Glass{}));
     away.add(Quad{.corner{-2, 1, -2}, .edge_u{0, 0, 4}, .edge_v{4, 0, 0}},
              away.add(Lambertian{}), Rgb{1});
     CHECK(sentence(away, MapType::caustics).find("100 % could not be sent") !=
           std::string::npos);
 
-    Room nowhere; // a lamp that looks at nothing
+    BallRoom nowhere; // a lamp that looks at nothing
     nowhere.add(Quad{.corner{-2, 1, -2}, .edge_u{0, 0, 4}, .edge_v{4, 0, 0}},
                 nowhere.add(Lambertian{}), Rgb{1});
     CHECK(sentence(nowhere, MapType::general).find("100 % left the scene") !=
@@ -755,7 +755,7 @@ TEST_CASE("tracing: lamps and scenes of any size") {
     for (const double scale : {1.0, 1e-6, 1e-3, 1e3, 1e6})
         for (const double lamp : {1.0, 1e-4}) {
             const auto s = static_cast<float>(scale), r = static_cast<float>(lamp);
-            Room room;
+            BallRoom room;
             const auto grey = room.add(Lambertian{});
             room.add(Quad{.corner = s * Vec3{-1, 0, -1},
                           .edge_u{0, 0, 2 * s},
@@ -942,7 +942,7 @@ TEST_CASE("tracing: only kinds that are kept, and nothing without flux") {
                         {.photons = 500, .keep = one_kind(PhotonKind::direct)})
               .photons.empty());
     // Glass that lets nothing through: a photon that has lost all of its flux ends.
-    Room dark;
+    BallRoom dark;
     add_walls(dark);
     dark.add(Sphere{.radius = 0.4f}, dark.add(Glass{.absorption = Rgb{1e9f}}));
     dark.add(PointLight{.position{0, 0.9f, 0}});
@@ -955,7 +955,7 @@ TEST_CASE("tracing: only kinds that are kept, and nothing without flux") {
 
 TEST_CASE("tracing: in a disc below a point light lies the flux of its cone") {
     // A point light over a black floor.
-    Room room;
+    BallRoom room;
     room.add(Quad{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}},
              room.add(Lambertian{.albedo = Rgb{0}}));
     room.add(PointLight{.position{0, 3, 0}, .intensity{2, 4, 8}});
@@ -1025,7 +1025,7 @@ TEST_CASE("tracing: what is stored where, by both normals, for its own map") {
     vertex.wo = to_local(vertex.frame, -path.ray.direction);
     const auto stored = [&](MapType map, const auto& material) {
         std::vector<PhotonT<double>> out;
-        detail::store_photon(World(RoomT<double>{}), path, vertex, material, 7, map,
+        detail::store_photon(World(BallRoomT<double>{}), path, vertex, material, 7, map,
                              light_kinds, out);
         return out;
     };
@@ -1087,7 +1087,7 @@ TEST_CASE("tracing: what is stored where, by both normals, for its own map") {
 TEST_CASE("tracing: one photon's way, step by step") {
     using D3 = glm::dvec3;
     // A slab of tinted glass lies on a black floor; straight down, 0.96 goes in.
-    RoomT<double> room;
+    BallRoomT<double> room;
     const auto glass =
         room.add(GlassT<double>{.index = 1.5, .absorption{0.1, 0.2, 0.3}});
     const auto black = room.add(LambertianT<double>{.albedo = D3{0}});
@@ -1137,7 +1137,7 @@ TEST_CASE("tracing: one photon's way, step by step") {
     CHECK(missed.audit.cut == D3{4, 2, 1});
     CHECK(missed.photons.empty());
     // Shadow photons: one for each matt surface behind the first, at the photon's time.
-    RoomT<double> stack;
+    BallRoomT<double> stack;
     for (const double y : {3.0, 2.0, 1.0, 0.0})
         stack.add(QuadT<double>{{-9, y, 9}, {18, 0, 0}, {0, 0, -18}},
                   y == 2 ? stack.add(MirrorT<double>{})
@@ -1159,7 +1159,7 @@ TEST_CASE("tracing: one photon's way, step by step") {
 TEST_CASE("tracing: lights get photons by their power, or as many each") {
     // Two points of 1 and 9 W under a dome that all photons meet: 4000 paths, 5
     // standard errors.
-    RoomT<float> room;
+    BallRoomT<float> room;
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
     room.add(Sphere{.radius = 9}, black, Rgb{0}, true);
     const float unit = float(0.25 / std::numbers::pi);
@@ -1255,7 +1255,7 @@ TEST_CASE("tracing: progress ascends through all stages of a pass") {
     CHECK(stopped.remark.empty());
     // Nor does it give up, though nothing was stored: it does not know of the rest, and
     // the account is that of the one block.
-    Room empty;
+    BallRoom empty;
     empty.add(PointLight{.intensity = Rgb{1}});
     calls = 0;
     const auto nothing = trace_photons(

@@ -23,7 +23,7 @@ using namespace ljus;
 using namespace ljus_test;
 
 TEST_CASE("vertex: a lamp emits along its normal, and to no other side") {
-    Room room;
+    BallRoom room;
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
     room.add(Quad{.corner{-1, -1, 0}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}}, black,
              Rgb{3});                                                      // normal +z
@@ -125,7 +125,7 @@ const D3 fog{0.1, 0.2, 0.3}; ///< What the glass of the tests below absorbs.
 
 /// A slab of glass between z = -2 and z = 0, its normals outwards.
 ClosedRoomT<double> slab() {
-    RoomT<double> room;
+    BallRoomT<double> room;
     const auto glass = room.add(GlassT<double>{.index = 1.5, .absorption = fog});
     room.add(QuadT<double>{{-1e5, -1e5, 0}, {2e5, 0, 0}, {0, 2e5, 0}}, glass);
     room.add(QuadT<double>{{-1e5, -1e5, -2}, {0, 2e5, 0}, {2e5, 0, 0}}, glass);
@@ -233,7 +233,7 @@ TEST_CASE("vertex: a path that begins in glass is in it, and outside it is not")
     for (const bool behind : {false, true}) {
         PathStateT<double> path{
             .ray{.origin{0, 0, -1}, .direction{0, 0, 1}}, .medium = fog, .depth = 1};
-        RoomT<double> room;
+        BallRoomT<double> room;
         const D3 u{0, 18, 0}, v{18, 0, 0}; // u x v = -z
         room.add(QuadT<double>{{-9, -9, 0}, behind ? v : u, behind ? u : v},
                  room.add(LambertianT<double>{}));
@@ -355,7 +355,7 @@ TEST_CASE("vertex: light from behind a surface comes through what is behind it")
 }
 
 TEST_CASE("vertex: a matt surface sends a path on by the cosine, times its albedo") {
-    RoomT<double> room;
+    BallRoomT<double> room;
     const LambertianT<double> matt{.albedo{0.8, 0.5, 0.2}};
     room.add(QuadT<double>{{-9, -9, 0}, {18, 0, 0}, {0, 18, 0}}, room.add(matt));
     const World world(std::move(room));
@@ -643,7 +643,7 @@ TEST_CASE("vertex: a path has a time if something moves, and draws it once") {
     with_ball.add(Moving<Sphere>{{{0, 0, 0}, 1}, {1, 0, 0}},
                   with_ball.add(Lambertian{}));
     const World moving(std::move(with_ball));
-    const World still(Room{});
+    const World still(BallRoom{});
     double sum = 0;
     for (std::uint64_t i = 0; i < 1000; ++i) {
         auto stream = random_stream(test_seed(5), Pass::user, 0, i), twin = stream,

@@ -19,21 +19,21 @@ namespace ljus_test {
 
 /// All shapes and materials that a room may be made of.
 template <typename T>
-using RoomT =
+using BallRoomT =
     ljus::Scene<ljus::Shapes<ljus::SphereT<T>, ljus::QuadT<T>>,
                 ljus::Materials<ljus::LambertianT<T>, ljus::OrenNayarT<T>,
                                 ljus::MirrorT<T>, ljus::GlassT<T>, ljus::MixtureT<T>>,
                 ljus::Lights<ljus::PointLightT<T>>>;
-using Room = RoomT<float>;
+using BallRoom = BallRoomT<float>;
 /// The world of such a scene.
 template <typename T>
-using ClosedRoomT = ljus::World<RoomT<T>>;
+using ClosedRoomT = ljus::World<BallRoomT<T>>;
 using ClosedRoom = ClosedRoomT<float>;
 
 /// The six walls of [-1, 1]^3, both sides matt; the left one is red, the right one
 /// green.
 template <typename T>
-void add_walls(RoomT<T>& room, T albedo = T(0.5)) {
+void add_walls(BallRoomT<T>& room, T albedo = T(0.5)) {
     using V = ljus::Vec3T<T>;
     const auto grey = room.add(ljus::LambertianT<T>{.albedo = ljus::RgbT<T>{albedo}});
     const auto red = room.add(
@@ -76,7 +76,7 @@ inline const char* name(Lamp lamp) {
 
 /// A ball near the middle of the room, above the floor.
 template <typename T>
-void add_ball(RoomT<T>& room, Ball ball) {
+void add_ball(BallRoomT<T>& room, Ball ball) {
     using C = ljus::RgbT<T>;
     ljus::MaterialId material;
     switch (ball) {
@@ -111,7 +111,7 @@ void add_ball(RoomT<T>& room, Ball ball) {
 /// One light, or two of different size, colour and position; none is in view of
 /// room_camera().
 template <typename T>
-void add_lamps(RoomT<T>& room, Lamp lamp, int count) {
+void add_lamps(BallRoomT<T>& room, Lamp lamp, int count) {
     using V = ljus::Vec3T<T>;
     using C = ljus::RgbT<T>;
     const auto black = room.add(ljus::LambertianT<T>{.albedo = C{T(0)}});
@@ -136,7 +136,7 @@ void add_lamps(RoomT<T>& room, Lamp lamp, int count) {
 /// A room of the matrix, closed.
 template <typename T>
 ClosedRoomT<T> make_room(Ball ball, Lamp lamp, int lamps) {
-    RoomT<T> room;
+    BallRoomT<T> room;
     add_walls(room);
     add_ball(room, ball);
     add_lamps(room, lamp, lamps);

@@ -13,7 +13,7 @@
 #define LJUS_TEST_ROOMS_EXTERN extern
 #endif
 
-LJUS_TEST_ROOMS_EXTERN template class ljus::World<ljus_test::Room>;
+LJUS_TEST_ROOMS_EXTERN template class ljus::World<ljus_test::BallRoom>;
 LJUS_TEST_ROOMS_EXTERN template ljus_test::ClosedRoom
 ljus_test::make_room<float>(Ball, Lamp, int);
 
