@@ -48,6 +48,12 @@ for script in book figures install-packages measure new-concept plot test trades
     help=$(cd "$LJUS_ROOT" && CDPATH=$LJUS_ROOT/tests:$LJUS_ROOT bash scripts/$script --help 2>&1) &&
         [ -n "$help" ] || { echo "WRONG: $script --help with CDPATH: $help"; wrong=1; }
 done
+# A new concept gets its five files.
+mkdir -p "$scratch/new/chapters"
+cp -r "$LJUS_ROOT/scripts" "$scratch/new/"
+echo '| 49 | \anchor ch_new_idea "New idea" | |' >"$scratch/new/chapters/contents.md"
+said=$(bash "$scratch/new/scripts/new-concept" new_idea geometry 2>&1) || true
+[ "$(grep -c '^created ' <<<"$said")" -eq 5 ] || { echo "WRONG: new-concept: $said"; wrong=1; }
 # CMake's own words would not say what is wrong.
 odd="$scratch/a\"b"
 mkdir -p "$odd"
