@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "support/form_factor_facing.hpp"
@@ -280,6 +282,30 @@ TEST_CASE("form_factor: from a point, by Lambert") {
             mean +=
                 form_factor_at({(i + 0.5) / 100, (k + 0.5) / 100, 0}, up, side) / 1e4;
     CHECK(mean == doctest::Approx(exchange_area(floor, side)).epsilon(1e-4));
+}
+
+TEST_CASE("form_factor: the fast twin agrees with the plain one") {
+    for (int i = 0; i <= 100; ++i) {
+        const double angle = std::numbers::pi / 3 * i / 100;
+        const double ratio = i == 0 ? 1 : angle / std::sin(angle);
+        CHECK(ljus::detail::angle_over_sine(std::cos(angle)) ==
+              doctest::Approx(ratio).epsilon(1e-9));
+    }
+    // Near and far, in front and behind, above the horizon and cut by it.
+    Numbers numbers;
+    int seen = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const V u = numbers.point(1), v = numbers.point(1);
+        const V corner = numbers.power(-1, 2) * numbers.direction();
+        Facet facet = rectangle(corner, u, v);
+        if (i % 2 == 0) facet.count = 3;
+        const V normal = numbers.direction();
+        const double plain = ljus::form_factor_at(V(0), normal, facet);
+        seen += plain > 0;
+        CHECK(std::abs(ljus::detail::form_factor_fast(V(0), normal, facet) - plain) <
+              1e-9);
+    }
+    CHECK(seen > 3000);
 }
 
 TEST_CASE("facet: a plane cuts it into two parts that are all of it") {

@@ -76,6 +76,20 @@ ljus_break_it(NAME all-lights-branch HEADER path/all_lights.hpp TEST all_lights
 
 # A faint lamp among many takes as many rays as a bright one alone.
 ljus_break_it(NAME all-lights-faint HEADER path/all_lights.hpp TEST all_lights
-    FROM "if (!(T(2) * sent < all)) return rays;"
-    TO   "if (!(T(0) * sent < T(0) * all)) return rays;"
+    FROM "std::min(T(1), T(2) * by_it / sent) * T(rays)"
+    TO   "T(rays)"
+    CASES "all lights: faint lamps*")
+
+# A lamp that is chosen more often counts more as well.
+ljus_break_it(NAME all-lights-faint-weight HEADER path/all_lights.hpp TEST all_lights
+    FROM "T(rays) / (by_it * scale_)"
+    TO   "T(rays)"
+    CASES "all lights: faint lamps*")
+
+# Lamps without a ray send nothing.
+ljus_break_it(NAME all-lights-faint-rest HEADER path/all_lights.hpp TEST all_lights
+    FROM "        all_ += all;
+        if (rays == 0) return;"
+    TO   "        if (rays == 0) return;
+        all_ += all;"
     CASES "all lights: faint lamps*")

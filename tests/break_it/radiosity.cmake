@@ -28,6 +28,18 @@ ljus_break_it(NAME form-factor-horizon HEADER geometry/facet.hpp TEST form_facto
     TO   "const Facet seen = facet;"
     CASES "form_factor: from a point*")
 
+# The series of the fast twin with another ratio of its terms.
+ljus_break_it(NAME form-factor-series HEADER geometry/facet.hpp TEST form_factor
+    FROM "(double(n) + 1.5)"
+    TO   "(double(n) + 1.6)"
+    CASES "form_factor: the fast twin*")
+
+# It does not see the horizon.
+ljus_break_it(NAME form-factor-fast-horizon HEADER geometry/facet.hpp TEST form_factor
+    FROM "!(high[i] >= 0 && cosine[i] >= 0.5)"
+    TO   "!(cosine[i] >= 0.5)"
+    CASES "form_factor: the fast twin*")
+
 # Emission on both sides.
 ljus_break_it(NAME patches-emission HEADER radiosity/patches.hpp TEST radiosity
     FROM "back ? 0 : std::numbers::pi"

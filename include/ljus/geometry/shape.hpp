@@ -169,8 +169,9 @@ template <Shape Flat, std::floating_point T>
                                     const Flat& lamp, bool inside_out) noexcept
     -> decltype(facet_of(lamp), std::optional<T>{}) {
     const Facet facet = facet_of(lamp);
-    return static_cast<T>(form_factor_at(glm::dvec3(from), glm::dvec3(normal),
-                                         inside_out ? detail::turned(facet) : facet));
+    return static_cast<T>(
+        detail::form_factor_fast(glm::dvec3(from), glm::dvec3(normal),
+                                 inside_out ? detail::turned(facet) : facet));
 }
 /// \}
 

@@ -71,12 +71,12 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 /// \param dimension  Which coordinate, below sobol_dimensions.
 /// \return The coordinate times 2^32. The first 2^m points are a (t,m,s)-net: t is 0
 ///         in each dimension alone and in dimensions 0 and 1 together.
-/// \cost One exclusive or per set bit of the index.
+/// \cost 32 exclusive ors, eight or four at a time.
 [[nodiscard]] constexpr std::uint32_t sobol(std::uint32_t index,
                                             std::uint32_t dimension) noexcept {
     std::uint32_t bits = 0;
-    for (std::size_t i = 0; index != 0; ++i, index >>= 1)
-        if (index & 1u) bits ^= detail::sobol_table[dimension][i];
+    for (std::size_t i = 0; i < 32; ++i) // without branches: bits are unpredictable
+        bits ^= detail::sobol_table[dimension][i] & (0u - ((index >> i) & 1u));
     return bits;
 }
 

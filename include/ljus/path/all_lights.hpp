@@ -54,6 +54,14 @@ template <AnyWorld W, std::floating_point T>
         });
 }
 
+/// The light of a lamp at a Lambertian surface if nothing occludes it.
+/// \return Radiance towards wo.
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> unoccluded(const SeenLampT<T>& lamp,
+                                 const LambertianT<T>& material) noexcept {
+    return lamp.form_factor * material.albedo * lamp.radiance;
+}
+
 /// The light of one lamp at a Lambertian surface: its unoccluded light in closed form,
 /// times the fraction of it that shadow rays find visible,
 ///
@@ -73,6 +81,7 @@ analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
                const Place& place, Counts& counts, Verdict verdict) {
     RgbT<T> arrived{T(0)}, sent{T(0)}, result{T(0)};
     if (!(lamp.form_factor > T(0))) return result;
+    const RgbT<T> all = unoccluded(lamp, material);
     const Strata cells = strata_for(rays);
     for (int i = 0; i < rays; ++i) {
         const LightShareT<T> share = light_share(world, light, vertex, material,
@@ -80,7 +89,6 @@ analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
         arrived += share.arrived;
         sent += share.sent;
     }
-    const RgbT<T> all = lamp.form_factor * material.albedo * lamp.radiance;
     for (int c = 0; c < 3; ++c)
         if (sent[c] > T(0)) result[c] = all[c] * arrived[c] / sent[c];
     return result;
@@ -141,37 +149,98 @@ template <std::floating_point T>
     return lamp->form_factor * (lamp->radiance.x + lamp->radiance.y + lamp->radiance.z);
 }
 
-/// The lamps with a closed form at a vertex. They are kept, because a closed form takes
-/// as long as a shadow ray.
+/// The lamps with a closed form at a vertex, if there are more than two: for fewer, the
+/// comparison would take longer than the rays that it saves.
 template <std::floating_point T>
 struct SeenLampsT {
-    std::vector<std::optional<SeenLampT<T>>>
-        lamps{};   ///< By light; empty: none is asked.
-    T sent = T(0); ///< The sum of sent_by() all of them.
+    std::vector<std::optional<SeenLampT<T>>> kept{}; ///< By light.
+    T sent = T(0);  ///< The sum of sent_by() all of them; 0: none was asked.
+    T faint = T(0); ///< The sum of sent_by() the faint ones.
+
+    /// The rays to a lamp that sends light, on average: `rays` if it sends half of all
+    /// or more, and in proportion if it sends less. A lamp with the share s of the
+    /// light then adds s times the variance of half of it, so that many lamps are no
+    /// noisier than one.
+    [[nodiscard]] T rays_to(int rays, T by_it) const noexcept {
+        return std::min(T(1), T(2) * by_it / sent) * T(rays);
+    }
+    /// Whether a lamp gets less than one ray: such lamps share their rays.
+    [[nodiscard]] bool is_faint(int rays, T by_it) const noexcept {
+        return rays_to(rays, by_it) < T(1);
+    }
 };
 
-/// Asks all lamps.
+/// The lamp with a number, as it is kept.
 template <AnyWorld W, std::floating_point T>
-void see_lamps(SeenLampsT<T>& seen, const W& world, const VertexT<T>& vertex) {
-    seen.lamps.resize(world.light_count());
-    for (std::uint32_t light = 0; light < world.light_count(); ++light) {
-        seen.lamps[light] = seen_lamp(world, light, vertex);
-        seen.sent += sent_by(seen.lamps[light]);
+[[nodiscard]] std::optional<SeenLampT<T>> lamp_of(const SeenLampsT<T>& seen,
+                                                  const W& world, std::uint32_t light,
+                                                  const VertexT<T>& vertex) {
+    return seen.kept.empty() ? seen_lamp(world, light, vertex) : seen.kept[light];
+}
+
+/// Asks all lamps that are not known to be hidden.
+template <AnyWorld W, std::floating_point T, typename Verdicts>
+void see_lamps(SeenLampsT<T>& seen, const W& world, const VertexT<T>& vertex, int rays,
+               const Verdicts& verdicts) {
+    const std::size_t count = world.light_count();
+    if (count <= 2) return;
+    seen.kept.resize(count);
+    for (std::uint32_t light = 0; light < count; ++light) {
+        if (verdicts(light) == Verdict::shadow) continue;
+        seen.kept[light] = seen_lamp(world, light, vertex);
+        seen.sent += sent_by(seen.kept[light]);
+    }
+    for (std::uint32_t light = 0; light < count; ++light) {
+        if (verdicts(light) == Verdict::shadow) continue;
+        const T by_it = sent_by(seen.kept[light]);
+        if (seen.is_faint(rays, by_it)) seen.faint += by_it;
     }
 }
 
-/// The shadow rays to a lamp: `rays` if it sends half of the light or more, and in
-/// proportion if it sends less. A lamp with the share s of the light then adds s times
-/// the variance of half of it, so that many lamps are no noisier than one.
-/// \param rays  Shadow rays per light, at least 1.
-/// \param sent  sent_by() the lamp.
-/// \param all   SeenLampsT::sent.
-/// \return From 1 to `rays`.
+/// The light of the faint lamps, as if they were the pieces of one lamp: in closed
+/// form, times the fraction that shadow rays to some of the pieces find visible. A
+/// piece is chosen in proportion to the light that it sends. The fraction is a ratio of
+/// two random sums, as in analytic_light().
 template <std::floating_point T>
-[[nodiscard]] int rays_to(int rays, T sent, T all) noexcept {
-    if (!(T(2) * sent < all)) return rays;
-    return std::max(1, static_cast<int>(std::ceil(T(2) * T(rays) * sent / all)));
-}
+class FaintLampsT {
+public:
+    /// \param u  In [0, 1); chooses the lamps.
+    FaintLampsT(const SeenLampsT<T>& seen, int rays, T u) noexcept : next_(u) {
+        if (seen.faint > T(0))
+            scale_ = std::ceil(T(2 * rays) * (seen.faint / seen.sent)) / seen.faint;
+    }
+
+    /// The rays to the next lamp. Their sum over all lamps is that of the mean numbers
+    /// of SeenLampsT::rays_to(), rounded up.
+    [[nodiscard]] int rays_to(T by_it) noexcept {
+        next_ += by_it * scale_;
+        const T whole = std::floor(next_);
+        next_ -= whole;
+        return int(whole);
+    }
+    /// Adds a lamp.
+    /// \param all      Its unoccluded light.
+    /// \param arrived  The part of it that its rays find.
+    /// \param rays     Rays to it; if 0, `arrived` does not matter.
+    void add(const RgbT<T>& all, const RgbT<T>& arrived, int rays, T by_it) noexcept {
+        all_ += all;
+        if (rays == 0) return;
+        const T weight = T(rays) / (by_it * scale_);
+        sent_ += weight * all;
+        arrived_ += weight * arrived;
+    }
+    /// The light of all that were added.
+    [[nodiscard]] RgbT<T> light() const noexcept {
+        RgbT<T> result{T(0)};
+        for (int c = 0; c < 3; ++c)
+            if (sent_[c] > T(0)) result[c] = all_[c] * arrived_[c] / sent_[c];
+        return result;
+    }
+
+private:
+    T scale_ = T(0), next_;
+    RgbT<T> all_{T(0)}, sent_{T(0)}, arrived_{T(0)};
+};
 
 /// Unknown visibility of all lights: every shadow ray is cast.
 struct NoVerdicts {
@@ -187,7 +256,7 @@ struct NoVerdicts {
 struct DirectLightSettings {
     DirectLight how = DirectLight::sampled; ///< The method.
     int rays = 1; ///< Shadow rays per light, at least 1; fewer to faint lamps in closed
-                  ///< form.
+                  ///< form, or none, if others stand for them.
 };
 
 /// The light of all lights at a surface.
@@ -196,7 +265,8 @@ struct DirectLightSettings {
 /// \param material  Its material.
 /// \param settings  Method and rays. n rays divide each light into n cells.
 /// \param context   Draws two numbers per light: the position in its cells, the same in
-///                  all of them; the rays of a pixel stratify a cell. Rays are counted.
+///                  all of them; the rays of a pixel stratify a cell. Among faint lamps
+///                  one more chooses those that get rays. Rays are counted.
 ///                  In shadow as many are counted as for a surface that faces the whole
 ///                  light.
 /// \param verdicts  Called with a light's index; returns its known visibility.
@@ -218,15 +288,33 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
                           both ? MisHeuristic::balance : MisHeuristic::shadow_rays,
                       .factor = T(rays),
                       .lobes = Lobes::non_specular};
-    // For one or two lamps the comparison takes longer than the rays that it saves.
     [[maybe_unused]] detail::SeenLampsT<T> seen;
     if constexpr (lambertian)
-        if (how == DirectLight::analytic && rays > 1 && world.light_count() > 2)
-            detail::see_lamps(seen, world, vertex);
+        if (how == DirectLight::analytic && rays > 1)
+            detail::see_lamps(seen, world, vertex, rays, verdicts);
+    [[maybe_unused]] detail::FaintLampsT<T> faint(
+        seen, rays, seen.sent > T(0) ? next_1d<T>(context.stream) : T(0));
     RgbT<T> sum{T(0)};
     for (std::uint32_t light = 0; light < world.light_count(); ++light) {
-        const Vec2T<T> u = next_2d<T>(context.stream);
         const Verdict verdict = verdicts(light);
+        [[maybe_unused]] std::optional<detail::SeenLampT<T>> lamp;
+        int lamp_rays = rays;
+        [[maybe_unused]] bool is_faint = false;
+        if constexpr (lambertian)
+            if (how == DirectLight::analytic && verdict != Verdict::shadow) {
+                lamp = detail::lamp_of(seen, world, light, vertex);
+                const T by_it = detail::sent_by(lamp);
+                if (seen.sent > T(0) && lamp) {
+                    is_faint = seen.is_faint(rays, by_it);
+                    lamp_rays = is_faint ? faint.rays_to(by_it)
+                                         : int(std::ceil(seen.rays_to(rays, by_it)));
+                    if (lamp_rays == 0) {
+                        faint.add(detail::unoccluded(*lamp, material), {}, 0, by_it);
+                        continue;
+                    }
+                }
+            }
+        const Vec2T<T> u = next_2d<T>(context.stream);
         if (verdict == Verdict::shadow) {
             context.counts.skipped_rays += std::uint64_t(rays);
             continue;
@@ -237,16 +325,17 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
             return detail::stratified(cells, i, key, u);
         };
         if constexpr (lambertian)
-            if (how == DirectLight::analytic)
-                if (const auto lamp = seen.lamps.empty()
-                                          ? detail::seen_lamp(world, light, vertex)
-                                          : seen.lamps[light]) {
-                    sum += detail::analytic_light(
-                        world, light, *lamp, vertex, material,
-                        detail::rays_to(rays, detail::sent_by(lamp), seen.sent), place,
-                        context.counts, verdict);
-                    continue;
-                }
+            if (lamp) {
+                const RgbT<T> arrived =
+                    detail::analytic_light(world, light, *lamp, vertex, material,
+                                           lamp_rays, place, context.counts, verdict);
+                if (is_faint)
+                    faint.add(detail::unoccluded(*lamp, material), arrived, lamp_rays,
+                              detail::sent_by(lamp));
+                else
+                    sum += arrived;
+                continue;
+            }
         for (int i = 0; i < rays; ++i) {
             const Vec2T<T> at = rays == 1 ? u : place(i, strata); // one needs no cells
             const RgbT<T> found = direct_light(world, light, vertex, material, at, mis,
@@ -254,6 +343,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
             sum += rays == 1 ? found : found / T(rays);
         }
     }
+    if constexpr (lambertian) sum += faint.light();
     if (both) sum += detail::found_light(world, vertex, material, rays, context);
     return sum;
 }
