@@ -205,3 +205,25 @@ TEST_CASE("moving: photons see what moves as paths do, by whatever carries them"
         CHECK(photons.error() < 0.007 * paths.mean);
     }
 }
+
+TEST_CASE("moving: a lamp that passes by lights both ends of its way alike") {
+    // Where gather rays end, the light of time 0 would be known, at the left.
+    Scene<Shapes<Quad, Moving<Sphere>>, Materials<Lambertian>> scene;
+    scene.add(Quad{.corner{-2, 0, 2}, .edge_u{4, 0, 0}, .edge_v{0, 0, -4}},
+              scene.add(Lambertian{.albedo = Rgb{0.5f}}));
+    scene.add(Moving<Sphere>{{.center{-1, 0.7f, 0}, .radius = 0.3f}, {2, 0, 0}},
+              scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{5});
+    const World world(std::move(scene));
+    PhotonMappingSettings settings{.indirect = IndirectLight::gather};
+    settings.general.photons = 40'000;
+    const PhotonMapper mapper(world, settings, abilities<Gathering>);
+    const auto& points = mapper.state<Gathering>().points;
+    Mean left, right;
+    for (std::size_t i = 0; i < points.records.size(); ++i)
+        (points.tree.point(i).x < 0 ? left : right)
+            .add(double(points.records[i].irradiance.x));
+    CHECK(left.count > 500);
+    // Bounds are 5 standard errors or more.
+    CHECK(right.mean / left.mean == doctest::Approx(1).epsilon(0.15));
+    CHECK(left.error() < 0.021 * left.mean);
+}

@@ -236,3 +236,9 @@ ljus_break_it(NAME final-gathering-wall HEADER photons/irradiance_points.hpp
     FROM "return T(4) * height * height > radius2;"
     TO   "return height * height > 4 * radius2;"
     CASES "final gathering: a strong lamp*")
+
+# Where gather rays end, what moves stays where it was.
+ljus_break_it(NAME final-gathering-moving HEADER photons/irradiance_points.hpp TEST moving
+    FROM "if (has_moving(world))"
+    TO   "if (false)"
+    CASES "moving: a lamp that passes by*")

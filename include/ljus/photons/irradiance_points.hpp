@@ -132,12 +132,44 @@ estimate_irradiance(const W& world, const PhotonMapT<T>& map, const VertexT<T>& 
 
 namespace detail {
 
+/// The irradiance from all lights at a lookup point, its mean while the shutter is
+/// open: if something moves, each shadow ray has a time of its own.
+/// \param resting  The point at time 0.
+/// \param rays     Shadow rays per light.
+/// \param context  The random stream of the point; counts the shadow rays.
+/// \return W/m^2.
+template <AnyWorld W, std::floating_point T, typename Context>
+[[nodiscard]] RgbT<T> direct_at_point(const W& world, const VertexT<T>& resting,
+                                      int rays, Context& context) {
+    const LambertianT<T> white{.albedo = RgbT<T>{T(1)}};
+    const auto direct = [&](const VertexT<T>& vertex, int count) {
+        return std::numbers::pi_v<T> * sample_all_lights(world, vertex, white,
+                                                         {DirectLight::analytic, count},
+                                                         context);
+    };
+    if constexpr (lists_moving<W>)
+        if (has_moving(world)) {
+            RgbT<T> sum{T(0)};
+            for (int i = 0; i < rays; ++i) {
+                VertexT<T> vertex = resting;
+                vertex.time = (T(i) + next_1d<T>(context.stream)) / T(rays);
+                world.visit_shape(resting.id, [&]<typename G>(const G& shape) {
+                    if constexpr (is_moving<G>)
+                        vertex.point.position += vertex.time * shape.displacement;
+                });
+                sum += direct(vertex, 1) / T(rays);
+            }
+            return sum;
+        }
+    return direct(resting, rays);
+}
+
 /// The irradiance at a lookup point: direct light by shadow rays, which give sharp
 /// shadows; caustics and indirect light from the maps.
 /// \param general   The general map; its indirect photons count, unless they are lookup
 ///                  points.
 /// \param caustics  The caustics map; may be empty.
-/// \param vertex    The point, seen from the side of the irradiance.
+/// \param vertex    The point at time 0, seen from the side of the irradiance.
 /// \param radius    Maximum radius of an estimate, in scene units.
 /// \param context   The random stream of the point; counts the shadow rays.
 /// \return W/m^2.
@@ -151,11 +183,7 @@ template <AnyWorld W, std::floating_point T, typename Context>
         vertex.wo.z < T(0) ? -vertex.point.normal : vertex.point.normal;
     const T every = T(settings.every);
     // [at_point]
-    const LambertianT<T> white{.albedo = RgbT<T>{T(1)}};
-    RgbT<T> sum =
-        std::numbers::pi_v<T> *
-        sample_all_lights(world, vertex, white,
-                          {DirectLight::analytic, settings.shadow_rays}, context);
+    RgbT<T> sum = direct_at_point(world, vertex, settings.shadow_rays, context);
     const auto indirect = [&](std::uint32_t k) {
         return is_of_kind(general, k, PhotonKind::indirect) &&
                !is_point(general, k, settings.every);
