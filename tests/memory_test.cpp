@@ -147,13 +147,14 @@ TEST_CASE("memory: a photon takes at most 60 bytes while its map is made") {
     const double mean = double(map.records.size()) / double(pass.photons);
     const double foretold = detail::expected_bytes<float>(pass.photons, mean);
     if (peak) CHECK(*peak == ljus_test::within(foretold, 0.2));
-    // The tree of points that are kept by the caller.
+    // The tree of points that are kept by the caller. By one thread: what two keep at a
+    // time depends on the load.
     std::vector<Vec3> points(3000000);
     for (std::size_t i = 0; i < points.size(); ++i)
         points[i] = {float(i % 1000), float(i % 777), float(i % 13)};
     KdTree8 tree;
     const auto most =
-        resident_peak_of([&] { tree = KdTree8(std::span<const Vec3>(points), 2); });
+        resident_peak_of([&] { tree = KdTree8(std::span<const Vec3>(points), 1); });
     if (most) CHECK(*most < 20 * 3e6 + 25e6);
 }
 

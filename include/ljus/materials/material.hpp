@@ -162,10 +162,12 @@ concept Material = std::floating_point<typename M::Scalar> &&
 /// It scatters as its base; it needs check() and its own functions only.
 /// \{
 
-/// A material with a member `base`, which is a material: Nested, Textured.
+/// A material that declares `static constexpr bool scatters_as_base = true` and has a
+/// member `base`, which is a material: Nested, Textured.
 template <typename M>
 concept MaterialWrapper = std::floating_point<typename M::Scalar> &&
     requires(const M& m) {
+    requires M::scatters_as_base;
     requires Material<std::remove_cvref_t<decltype(m.base)>>;
 };
 

@@ -20,8 +20,9 @@ namespace ljus {
 template <Material Base>
 requires Transparent<Base>
 struct Nested {
-    using Scalar = typename Base::Scalar; ///< The precision of its numbers.
-    Base base{};                          ///< The material.
+    using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
+    static constexpr bool scatters_as_base = true; ///< A MaterialWrapper.
+    Base base{};                                   ///< The material.
     int priority = 0; ///< Where bodies overlap, the highest holds; others have 0.
 };
 

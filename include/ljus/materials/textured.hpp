@@ -22,7 +22,8 @@ namespace ljus {
 /// scatters in the colour that the base itself has; material_at() has the texture's.
 template <Material Base, typename Texture>
 struct Textured {
-    using Scalar = typename Base::Scalar; ///< The precision of its numbers.
+    using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
+    static constexpr bool scatters_as_base = true; ///< A MaterialWrapper.
     /// As the texture or the base declares it.
     static constexpr bool uses_uv = UsesUv<Texture> || UsesUv<Base>;
     Base base{};       ///< White, if the texture's colour is to be kept.
