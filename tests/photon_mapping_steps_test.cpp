@@ -896,7 +896,7 @@ TEST_CASE("photon mapping: what the edges of a small object lose") {
 
 TEST_CASE("photon mapping: light that small objects lose is said") {
     const auto remarks = [](float size, const PhotonMappingSettings& settings) {
-        RoomT<float> room;
+        BallRoomT<float> room;
         add_walls(room, 0.7f);
         const auto white = room.add(Lambertian{.albedo = Rgb{0.7f}});
         room.add(Quad{{-size / 2, -0.5f, -size / 2}, {0, 0, size}, {size, 0, 0}},
@@ -919,7 +919,4 @@ TEST_CASE("photon mapping: light that small objects lose is said") {
     CHECK(said(0.5f, settings));
     settings.indirect = IndirectLight::rays;
     CHECK_FALSE(said(0.5f, settings)); // nobody asks the map
-    settings.indirect = IndirectLight::photons;
-    settings.general.iteration = 1;
-    CHECK_FALSE(said(0.5f, settings)); // a later pass
 }
