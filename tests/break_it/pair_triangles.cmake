@@ -8,6 +8,6 @@ ljus_break_it(NAME pair-triangles-twice HEADER geometry/detail/pair_triangles.hp
 # 0 and -0 are two places.
 ljus_break_it(NAME equal-points-zero HEADER geometry/detail/equal_points.hpp
     TEST pair_triangles
-    FROM "points[i][axis] + T(0)"
-    TO   "points[i][axis]"
+    FROM "point[axis] + T(0)"
+    TO   "point[axis]"
     CASES "pair_triangles: equal points*")

@@ -123,7 +123,7 @@ ljus_break_it(NAME photon-mapping-few-of-each HEADER photons/kernel_border.hpp
     FROM "rest.photons += sum.photons;"
     TO   "rest.photons += 0 * sum.photons;"
     CASES "photon mapping: what the edges*")
-ljus_break_it(NAME photon-mapping-edges-said HEADER render/photon_mapping.hpp
+ljus_break_it(NAME photon-mapping-edges-said HEADER inspect/scene_remarks.hpp
     TEST photon_mapping_steps
     FROM "if (!(lost > 0.2)) return {};"
     TO   "if (!(lost > 0.5)) return {};"
