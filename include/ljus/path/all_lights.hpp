@@ -149,76 +149,58 @@ template <std::floating_point T>
     return lamp->form_factor * (lamp->radiance.x + lamp->radiance.y + lamp->radiance.z);
 }
 
-/// The lamps with a closed form at a vertex, if there are more than two: for fewer, the
-/// comparison would take longer than the rays that it saves.
+/// How more than two lamps with a closed form share shadow rays at a vertex; with fewer,
+/// the comparison would take longer than the rays that it saves.
+///
+/// A lamp gets `rays` if it sends half of the light of all or more, and in proportion if
+/// it sends less. One with the share s of the light then adds s times the variance of
+/// half of it, so that many lamps are no noisier than one. Those that would get less than
+/// one ray are faint: together they are as one lamp in pieces, and rays go to some of the
+/// pieces, chosen in proportion to the light that they send. The light of the faint lamps
+/// is all that they send, times the fraction that these rays find visible: a ratio of two
+/// random sums, as in analytic_light().
 template <std::floating_point T>
-struct SeenLampsT {
-    std::vector<std::optional<SeenLampT<T>>> kept{}; ///< By light.
-    T sent = T(0);  ///< The sum of sent_by() all of them; 0: none was asked.
-    T faint = T(0); ///< The sum of sent_by() the faint ones.
-
-    /// The rays to a lamp that sends light, on average: `rays` if it sends half of all
-    /// or more, and in proportion if it sends less. A lamp with the share s of the
-    /// light then adds s times the variance of half of it, so that many lamps are no
-    /// noisier than one.
-    [[nodiscard]] T rays_to(int rays, T by_it) const noexcept {
-        return std::min(T(1), T(2) * by_it / sent) * T(rays);
-    }
-    /// Whether a lamp gets less than one ray: such lamps share their rays.
-    [[nodiscard]] bool is_faint(int rays, T by_it) const noexcept {
-        return rays_to(rays, by_it) < T(1);
-    }
-};
-
-/// The lamp with a number, as it is kept.
-template <AnyWorld W, std::floating_point T>
-[[nodiscard]] std::optional<SeenLampT<T>> lamp_of(const SeenLampsT<T>& seen,
-                                                  const W& world, std::uint32_t light,
-                                                  const VertexT<T>& vertex) {
-    return seen.kept.empty() ? seen_lamp(world, light, vertex) : seen.kept[light];
-}
-
-/// Asks all lamps that are not known to be hidden.
-template <AnyWorld W, std::floating_point T, typename Verdicts>
-void see_lamps(SeenLampsT<T>& seen, const W& world, const VertexT<T>& vertex, int rays,
-               const Verdicts& verdicts) {
-    const std::size_t count = world.light_count();
-    if (count <= 2) return;
-    seen.kept.resize(count);
-    for (std::uint32_t light = 0; light < count; ++light) {
-        if (verdicts(light) == Verdict::shadow) continue;
-        seen.kept[light] = seen_lamp(world, light, vertex);
-        seen.sent += sent_by(seen.kept[light]);
-    }
-    for (std::uint32_t light = 0; light < count; ++light) {
-        if (verdicts(light) == Verdict::shadow) continue;
-        const T by_it = sent_by(seen.kept[light]);
-        if (seen.is_faint(rays, by_it)) seen.faint += by_it;
-    }
-}
-
-/// The light of the faint lamps, as if they were the pieces of one lamp: in closed
-/// form, times the fraction that shadow rays to some of the pieces find visible. A
-/// piece is chosen in proportion to the light that it sends. The fraction is a ratio of
-/// two random sums, as in analytic_light().
-template <std::floating_point T>
-class FaintLampsT {
+class SharedRaysT {
 public:
-    /// \param u  In [0, 1); chooses the lamps.
-    FaintLampsT(const SeenLampsT<T>& seen, int rays, T u) noexcept : next_(u) {
-        if (seen.faint > T(0))
-            scale_ = std::ceil(T(2 * rays) * (seen.faint / seen.sent)) / seen.faint;
+    /// Asks all lamps that are not known to be hidden.
+    /// \param rays  To a lamp, at most.
+    template <AnyWorld W, typename Stream, typename Verdicts>
+    SharedRaysT(const W& world, const VertexT<T>& vertex, int rays,
+                const Verdicts& verdicts, Stream& stream)
+        : lamps_(world.light_count()), rays_(rays) {
+        for (std::uint32_t light = 0; light < lamps_.size(); ++light)
+            if (verdicts(light) != Verdict::shadow) {
+                lamps_[light] = seen_lamp(world, light, vertex);
+                sent_by_all_ += sent_by(lamps_[light]);
+            }
+        if (!(sent_by_all_ > T(0))) return;
+        T faint = T(0); // what the faint ones send
+        for (const auto& lamp : lamps_)
+            if (is_faint(sent_by(lamp))) faint += sent_by(lamp);
+        next_ = next_1d<T>(stream);
+        if (faint > T(0))
+            scale_ = std::ceil(T(2 * rays) * (faint / sent_by_all_)) / faint;
     }
 
-    /// The rays to the next lamp. Their sum over all lamps is that of the mean numbers
-    /// of SeenLampsT::rays_to(), rounded up.
+    /// A lamp that is not known to be hidden; nothing if it has no closed form.
+    [[nodiscard]] const std::optional<SeenLampT<T>>& lamp(std::uint32_t light) const {
+        return lamps_[light];
+    }
+    /// Whether a lamp shares its rays.
+    /// \param by_it  sent_by() it.
+    [[nodiscard]] bool is_faint(T by_it) const noexcept {
+        return mean_rays(by_it) < T(1);
+    }
+    /// The rays to the next lamp. The sum over the faint ones is that of their mean
+    /// numbers, rounded up.
     [[nodiscard]] int rays_to(T by_it) noexcept {
+        if (!is_faint(by_it)) return int(std::ceil(mean_rays(by_it)));
         next_ += by_it * scale_;
         const T whole = std::floor(next_);
         next_ -= whole;
         return int(whole);
     }
-    /// Adds a lamp.
+    /// Adds a faint lamp.
     /// \param all      Its unoccluded light.
     /// \param arrived  The part of it that its rays find.
     /// \param rays     Rays to it; if 0, `arrived` does not matter.
@@ -229,7 +211,7 @@ public:
         sent_ += weight * all;
         arrived_ += weight * arrived;
     }
-    /// The light of all that were added.
+    /// The light of all faint lamps.
     [[nodiscard]] RgbT<T> light() const noexcept {
         RgbT<T> result{T(0)};
         for (int c = 0; c < 3; ++c)
@@ -238,7 +220,14 @@ public:
     }
 
 private:
-    T scale_ = T(0), next_;
+    // 0/0 where nothing is sent: a ray to each.
+    [[nodiscard]] T mean_rays(T by_it) const noexcept {
+        return std::min(T(1), T(2) * by_it / sent_by_all_) * T(rays_);
+    }
+
+    std::vector<std::optional<SeenLampT<T>>> lamps_; // by light
+    int rays_;
+    T sent_by_all_ = T(0), scale_ = T(0), next_ = T(0);
     RgbT<T> all_{T(0)}, sent_{T(0)}, arrived_{T(0)};
 };
 
@@ -249,6 +238,77 @@ struct NoVerdicts {
         return Verdict::unknown;
     }
 };
+
+/// The place of the i-th ray in the cells of a light: the rays of a pixel share `u`.
+template <std::floating_point T, typename Context>
+[[nodiscard]] Vec2T<T> place_of_ray(int i, const Strata& cells, const Vec2T<T>& u,
+                                    const Context& context) noexcept {
+    const std::uint64_t key = context.stream.key + std::uint32_t(u.x * T(0x1p24));
+    return stratified(cells, i, key, u);
+}
+
+/// Adds the light of one light, by shadow rays alone.
+/// \param u  The position in its cells.
+template <AnyWorld W, std::floating_point T, Material M, typename Context>
+[[gnu::always_inline]] inline void
+add_sampled_light(RgbT<T>& sum, const W& world, std::uint32_t light,
+                  const VertexT<T>& vertex, const M& material, const Vec2T<T>& u,
+                  int rays, const MisT<T>& mis, Context& context, Verdict verdict) {
+    const Strata cells = rays > 1 ? strata_for(rays) : Strata{};
+    for (int i = 0; i < rays; ++i) {
+        const Vec2T<T> at = rays == 1 ? u : place_of_ray(i, cells, u, context);
+        const RgbT<T> found = direct_light(world, light, vertex, material, at, mis,
+                                           context.counts, verdict);
+        sum += rays == 1 ? found : found / T(rays);
+    }
+}
+
+/// The light of all lights at a Lambertian surface, of those with a closed form by it.
+template <AnyWorld W, std::floating_point T, typename Context, typename Verdicts>
+[[nodiscard]] RgbT<T> analytic_lights(const W& world, const VertexT<T>& vertex,
+                                      const LambertianT<T>& material, int rays,
+                                      Context& context, const Verdicts& verdicts) {
+    std::optional<SharedRaysT<T>> shared;
+    if (rays > 1 && world.light_count() > 2)
+        shared.emplace(world, vertex, rays, verdicts, context.stream);
+    RgbT<T> sum{T(0)};
+    for (std::uint32_t light = 0; light < world.light_count(); ++light) {
+        const Verdict verdict = verdicts(light);
+        std::optional<SeenLampT<T>> lamp;
+        int lamp_rays = rays;
+        bool is_faint = false;
+        if (verdict != Verdict::shadow)
+            lamp = shared ? shared->lamp(light) : seen_lamp(world, light, vertex);
+        if (shared && lamp) {
+            is_faint = shared->is_faint(sent_by(lamp));
+            lamp_rays = shared->rays_to(sent_by(lamp));
+            if (lamp_rays == 0) {
+                shared->add(unoccluded(*lamp, material), {}, 0, sent_by(lamp));
+                continue;
+            }
+        }
+        const Vec2T<T> u = next_2d<T>(context.stream);
+        if (verdict == Verdict::shadow) {
+            context.counts.skipped_rays += std::uint64_t(rays);
+        } else if (!lamp) {
+            add_sampled_light(sum, world, light, vertex, material, u, rays, {}, context,
+                              verdict);
+        } else {
+            const auto place = [&](int i, const Strata& cells) {
+                return place_of_ray(i, cells, u, context);
+            };
+            const RgbT<T> arrived =
+                analytic_light(world, light, *lamp, vertex, material, lamp_rays, place,
+                               context.counts, verdict);
+            if (is_faint)
+                shared->add(unoccluded(*lamp, material), arrived, lamp_rays,
+                            sent_by(lamp));
+            else
+                sum += arrived;
+        }
+    }
+    return shared ? sum + shared->light() : sum;
+}
 
 } // namespace detail
 
@@ -278,72 +338,26 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
                                         const M& material,
                                         const DirectLightSettings& settings,
                                         Context& context, Verdicts verdicts = {}) {
-    constexpr bool lambertian = std::same_as<M, LambertianT<T>>;
     const auto [how, rays] = settings;
-    const bool both =
-        how == DirectLight::mis || (how == DirectLight::analytic && !lambertian);
-    const detail::Strata strata =
-        rays > 1 ? detail::strata_for(rays) : detail::Strata{};
+    if constexpr (std::same_as<M, LambertianT<T>>)
+        if (how == DirectLight::analytic)
+            return detail::analytic_lights(world, vertex, material, rays, context,
+                                           verdicts);
+    const bool both = how != DirectLight::sampled;
     const MisT<T> mis{.heuristic =
                           both ? MisHeuristic::balance : MisHeuristic::shadow_rays,
                       .factor = T(rays),
                       .lobes = Lobes::non_specular};
-    [[maybe_unused]] detail::SeenLampsT<T> seen;
-    if constexpr (lambertian)
-        if (how == DirectLight::analytic && rays > 1)
-            detail::see_lamps(seen, world, vertex, rays, verdicts);
-    [[maybe_unused]] detail::FaintLampsT<T> faint(
-        seen, rays, seen.sent > T(0) ? next_1d<T>(context.stream) : T(0));
     RgbT<T> sum{T(0)};
     for (std::uint32_t light = 0; light < world.light_count(); ++light) {
-        const Verdict verdict = verdicts(light);
-        [[maybe_unused]] std::optional<detail::SeenLampT<T>> lamp;
-        int lamp_rays = rays;
-        [[maybe_unused]] bool is_faint = false;
-        if constexpr (lambertian)
-            if (how == DirectLight::analytic && verdict != Verdict::shadow) {
-                lamp = detail::lamp_of(seen, world, light, vertex);
-                const T by_it = detail::sent_by(lamp);
-                if (seen.sent > T(0) && lamp) {
-                    is_faint = seen.is_faint(rays, by_it);
-                    lamp_rays = is_faint ? faint.rays_to(by_it)
-                                         : int(std::ceil(seen.rays_to(rays, by_it)));
-                    if (lamp_rays == 0) {
-                        faint.add(detail::unoccluded(*lamp, material), {}, 0, by_it);
-                        continue;
-                    }
-                }
-            }
         const Vec2T<T> u = next_2d<T>(context.stream);
-        if (verdict == Verdict::shadow) {
+        const Verdict verdict = verdicts(light);
+        if (verdict == Verdict::shadow)
             context.counts.skipped_rays += std::uint64_t(rays);
-            continue;
-        }
-        const auto place = [&](int i, const detail::Strata& cells) {
-            const std::uint64_t key =
-                context.stream.key + std::uint32_t(u.x * T(0x1p24));
-            return detail::stratified(cells, i, key, u);
-        };
-        if constexpr (lambertian)
-            if (lamp) {
-                const RgbT<T> arrived =
-                    detail::analytic_light(world, light, *lamp, vertex, material,
-                                           lamp_rays, place, context.counts, verdict);
-                if (is_faint)
-                    faint.add(detail::unoccluded(*lamp, material), arrived, lamp_rays,
-                              detail::sent_by(lamp));
-                else
-                    sum += arrived;
-                continue;
-            }
-        for (int i = 0; i < rays; ++i) {
-            const Vec2T<T> at = rays == 1 ? u : place(i, strata); // one needs no cells
-            const RgbT<T> found = direct_light(world, light, vertex, material, at, mis,
-                                               context.counts, verdict);
-            sum += rays == 1 ? found : found / T(rays);
-        }
+        else
+            detail::add_sampled_light(sum, world, light, vertex, material, u, rays, mis,
+                                      context, verdict);
     }
-    if constexpr (lambertian) sum += faint.light();
     if (both) sum += detail::found_light(world, vertex, material, rays, context);
     return sum;
 }
