@@ -77,7 +77,7 @@ ljus_break_it(NAME all-lights-branch HEADER path/all_lights.hpp TEST all_lights
 # A faint lamp among many takes as many rays as a bright one alone.
 ljus_break_it(NAME all-lights-faint HEADER path/all_lights.hpp TEST all_lights
     FROM "std::min(T(1), T(2) * by_it / sent_by_all_) * T(rays_)"
-    TO   "T(rays)"
+    TO   "T(rays_)"
     CASES "all lights: faint lamps*")
 
 # A lamp that is chosen more often counts more as well.
