@@ -30,7 +30,7 @@ ln -s ../tx.png linked/soft.png
 ln tx.png linked/hard.png
 ln -s . here
 cp view.png.json named.json
-ln -s nowhere.png to-nowhere.png # the picture goes there; then it is one file
+ln -s nowhere.png to-nowhere.png # one file by two names
 
 # refused SENTENCE COMMAND...: exit code 2, one line on stderr that has SENTENCE, and every
 # file is as it was.
@@ -128,7 +128,11 @@ refused "r.png.json': Permission denied" "$render" "$scene" "${few[@]}" --out r.
 long=$(printf 'x%.0s' $(seq 245)) # of its settings' file the name is too long
 refused "File name too long" "$render" "$scene" "${few[@]}" --out "$long.png"
 
-# What is no other file is no obstacle: the same picture once more, also behind a link.
+# What is no other file is no obstacle: the same picture once more, also behind a link, whose
+# target must be there.
+refused "it is a link to a file that does not exist" "$render" named.json "${few[@]}" \
+    --out to-nowhere.png
+touch nowhere.png
 for _ in 1 2; do
     "$render" named.json "${few[@]}" --passes 1 --out to-nowhere.png --preview p.png ||
         wrong "a second picture is refused"
