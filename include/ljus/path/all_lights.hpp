@@ -149,16 +149,16 @@ template <std::floating_point T>
     return lamp->form_factor * (lamp->radiance.x + lamp->radiance.y + lamp->radiance.z);
 }
 
-/// How more than two lamps with a closed form share shadow rays at a vertex; with fewer,
-/// the comparison would take longer than the rays that it saves.
+/// How more than two lamps with a closed form share shadow rays at a vertex; with
+/// fewer, the comparison would take longer than the rays that it saves.
 ///
-/// A lamp gets `rays` if it sends half of the light of all or more, and in proportion if
-/// it sends less. One with the share s of the light then adds s times the variance of
-/// half of it, so that many lamps are no noisier than one. Those that would get less than
-/// one ray are faint: together they are as one lamp in pieces, and rays go to some of the
-/// pieces, chosen in proportion to the light that they send. The light of the faint lamps
-/// is all that they send, times the fraction that these rays find visible: a ratio of two
-/// random sums, as in analytic_light().
+/// A lamp gets `rays` if it sends half of the light of all or more, and in proportion
+/// if it sends less. One with the share s of the light then adds s times the variance
+/// of half of it, so that many lamps are no noisier than one. Those that would get
+/// less than one ray are faint: together they are as one lamp in pieces, and rays go
+/// to some of the pieces, chosen in proportion to the light that they send. The light
+/// of the faint lamps is all that they send, times the fraction that these rays find
+/// visible: a ratio of two random sums, as in analytic_light().
 template <std::floating_point T>
 class SharedRaysT {
 public:
