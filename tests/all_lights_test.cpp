@@ -102,12 +102,6 @@ TEST_CASE("all lights: the closed form has no noise where all of a lamp is seen"
 }
 
 TEST_CASE("all lights: faint lamps among others share rays, and lose no light") {
-    const detail::SeenLampsT<float> seen{.sent = 2};
-    CHECK(seen.rays_to(4, 1.5f) == 4);
-    CHECK(seen.rays_to(4, 1.0f) == 4);
-    CHECK(seen.rays_to(4, 0.5f) == 2);
-    CHECK(!seen.is_faint(4, 0.25f));
-    CHECK(seen.is_faint(4, 0.24f));
     const Lambertian white{.albedo = Rgb{0.5f}};
     // Lamps of side 0.2 in a row, the first of them 9 times as bright: it sends half of
     // the light to a far point, each other one an eighteenth. Those from `hidden` on
