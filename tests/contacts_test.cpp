@@ -616,8 +616,8 @@ TEST_CASE("contacts: cylinders and moving balls that touch in a line or a point"
     const auto shape = [](const auto& of) -> Add {
         return [of](Rolling& scene, MaterialId material) { scene.add(of, material); };
     };
-    const auto moving = [&](const auto& of, const Vec3& way) -> Add {
-        return shape(Moving{of, way});
+    const auto moving = [&]<typename G>(const G& of, const Vec3& way) -> Add {
+        return shape(Moving<G>{of, way});
     };
     const auto tube = [](float x, float y, float z) {
         return Cylinder{{x, y, z}, {3, 0, 0}, 1};

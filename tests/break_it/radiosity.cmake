@@ -32,7 +32,7 @@ ljus_break_it(NAME form-factor-horizon HEADER geometry/facet.hpp TEST form_facto
 ljus_break_it(NAME form-factor-series HEADER geometry/facet.hpp TEST form_factor
     FROM "(double(n) + 1.5)"
     TO   "(double(n) + 1.6)"
-    CASES "form_factor: the fast twin*")
+    CASES "form_factor: the fast twin*" COMPILED)
 
 # It does not see the horizon.
 ljus_break_it(NAME form-factor-fast-horizon HEADER geometry/facet.hpp TEST form_factor
