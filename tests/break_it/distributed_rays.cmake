@@ -122,8 +122,8 @@ ljus_break_it(NAME stratified-stream-last HEADER math/stratified_stream.hpp
 
 # Glass that moves is not remarked on, or glass that rests is.
 ljus_break_it(NAME moving-caustics-said HEADER inspect/scene_remarks.hpp TEST moving
-    FROM "found = found || (world.visit_shape(id,"
-    TO   "found = found && (world.visit_shape(id,"
+    FROM "found |= moves && world"
+    TO   "found &= moves && world"
     CASES "moving: caustics*")
 ljus_break_it(NAME moving-caustics-matt HEADER inspect/scene_remarks.hpp TEST moving
     FROM "return has(lobes(m), Lobes::specular);"

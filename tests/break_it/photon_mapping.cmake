@@ -113,12 +113,12 @@ ljus_break_it(NAME photon-mapping-few-caustics HEADER render/photon_mapping.hpp
 
 # A disc that is wider than its object loses light: on a ball, on small objects together, and
 # unsaid.
-ljus_break_it(NAME photon-mapping-edge-loss HEADER photons/kernel_border.hpp
+ljus_break_it(NAME photon-mapping-edge-loss HEADER inspect/scene_remarks.hpp
     TEST photon_mapping_steps
     FROM "found += double(kernel_weight(gather.kernel, distance2) / cosine);"
     TO   "found += double(kernel_weight(gather.kernel, distance2) * cosine);"
     CASES "photon mapping: what the edges*")
-ljus_break_it(NAME photon-mapping-few-of-each HEADER photons/kernel_border.hpp
+ljus_break_it(NAME photon-mapping-few-of-each HEADER inspect/scene_remarks.hpp
     TEST photon_mapping_steps
     FROM "rest.photons += sum.photons;"
     TO   "rest.photons += 0 * sum.photons;"

@@ -16,6 +16,7 @@
 
 #include "ljus/accel/detail/bvh_build.hpp"
 #include "ljus/function_ref.hpp"
+#include "ljus/geometry/moving.hpp"
 #include "ljus/geometry/touching.hpp"
 #include "ljus/scene/scene.hpp"
 
@@ -145,13 +146,6 @@ inline constexpr bool is_ball = std::is_same_v<G, SphereT<ScalarOf<G>>>;
 template <typename G>
 inline constexpr bool is_disc = std::is_same_v<G, DiscT<ScalarOf<G>>>;
 
-/// Whether a shape moves, as in Moving, which need not be included.
-template <typename G>
-inline constexpr bool moves = requires(const G& shape) {
-    shape.shape;
-    shape.displacement;
-};
-
 /// Whether a shape is a cylinder.
 template <typename G>
 inline constexpr bool is_tube = std::is_same_v<G, CylinderT<ScalarOf<G>>>;
@@ -170,7 +164,7 @@ template <typename G>
 /// The number of pieces of a shape; 0 if it is not compared with others.
 template <Shape G>
 [[nodiscard]] std::uint32_t piece_count([[maybe_unused]] const G& shape) noexcept {
-    if constexpr (moves<G>)
+    if constexpr (is_moving<G>)
         return piece_count(shape.shape);
     else if constexpr (has_triangles<G>)
         return static_cast<std::uint32_t>(shape.size());
@@ -182,7 +176,7 @@ template <Shape G>
 template <Shape G>
 [[nodiscard]] SurfacePiece piece_of([[maybe_unused]] const G& shape,
                                     [[maybe_unused]] std::uint32_t number) {
-    if constexpr (moves<G>) {
+    if constexpr (is_moving<G>) {
         SurfacePiece piece = piece_of(shape.shape, number);
         piece.displacement = glm::dvec3(shape.displacement);
         return piece;
