@@ -51,6 +51,21 @@ const edition = (function () {
         });
     }
 
+    // Two headings in a box, which Chromium never breaks if it could scroll, and the number of
+    // a work, which floats, in its text.
+    function join() {
+        for (const first of document.querySelectorAll(".textblock :is(h1, h2):has(+ :is(h2, h3))")) {
+            const both = make("div", "edition-headings");
+            first.before(both);
+            both.append(first, both.nextElementSibling);
+            both.style.height = both.offsetHeight + "px";
+        }
+        for (const number of document.querySelectorAll("dl.citelist dt")) {
+            number.nextElementSibling.prepend(make("span", "edition-number", ...number.childNodes));
+            number.remove();
+        }
+    }
+
     // Tables with a head that is repeated on each page, as wide as the paper at most.
     function fit() {
         for (const table of document.querySelectorAll(".contents table")) {
@@ -61,10 +76,15 @@ const edition = (function () {
             const wide = () => table.getBoundingClientRect().width > room;
             for (let size = 8.2; wide() && size >= 6; size -= 0.4)
                 table.style.setProperty("font-size", size + "pt", "important");
-            if (wide()) table.classList.add("edition-wide"); // its lines are broken
+            if (wide()) { // its lines are broken
+                table.classList.add("edition-wide");
+                table.style.setProperty("font-size", "7pt", "important");
+            }
         }
         for (const one of document.querySelectorAll("pre"))
             if (one.textContent.split("\n").length > 40) one.classList.add("edition-long");
+        for (const one of document.querySelectorAll("details, .ljus-table-frame")) // over a third of a page
+            if (one.offsetHeight > 360) one.classList.add("edition-tall");
     }
 
     const heading = (element, level) => {
@@ -162,6 +182,7 @@ const edition = (function () {
         head("answers", "Answers", ++at);
         document.head.append(style);
         index.after(list);
+        join();
         fit();
     }
 
