@@ -156,8 +156,8 @@ concept Light = requires(const L& light, const Vec3T<typename L::Scalar>& from,
     {
         sample_light(light, from, u, time)
         } -> std::same_as<std::optional<LightSampleT<typename L::Scalar>>>;
-    requires NearLight<L> || FarLight<L>;
-};
+}
+&&(NearLight<L> || FarLight<L>);
 
 /// A light as a program adds it to a scene: it has check(), and in_scene() makes it a
 /// Light.
@@ -165,8 +165,8 @@ template <typename L>
 concept LightSource = requires(const L& light) {
     typename L::Scalar;
     check(light);
-    requires Light<InSceneT<L>>;
-};
+}
+&&Light<InSceneT<L>>;
 
 /// A light that a ray sees when it leaves the scene: it has escaped_radiance().
 template <typename L>
