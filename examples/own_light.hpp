@@ -56,4 +56,5 @@ inline Vec3 sample_emission(const StageLamp& lamp, const Vec3&, const Vec2& u) {
     return to_world(ljus::frame_around(lamp.axis),
                     Vec3{r * std::cos(phi), r * std::sin(phi), z});
 }
+static_assert(ljus::NearLight<StageLamp> && ljus::LightSource<StageLamp>);
 } // namespace reader

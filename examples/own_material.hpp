@@ -55,5 +55,6 @@ inline void check(const Moon& m) {
     ljus::require_unit("moon.color", m.color);
     ljus::require(m.k >= 1 && m.k <= 100, "moon.k", m.k, "within [1, 100]");
 }
+static_assert(ljus::Material<Moon>);
 
 } // namespace reader

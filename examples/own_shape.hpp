@@ -55,5 +55,6 @@ inline void check(const Crate& box) {
     const float least = -ljus::max_component(box.low - box.high);
     ljus::require_positive("crate.high - crate.low", least);
 }
+static_assert(ljus::Shape<Crate>);
 
 } // namespace reader

@@ -1076,18 +1076,23 @@ TEST_CASE("emission: a sun's photons start beside the scene, wherever they are a
 TEST_CASE("emission: what has no size is no target, first or last") {
     const std::vector<ObjectId> targets{{0, 0}, {0, 1}, {0, 2}, {0, 3}};
     const double sizes[] = {0, 3, 1, 0};
-    const auto size_of = [&](ObjectId id) { return sizes[id.index]; };
+    struct Aim {
+        double size = 0;
+        std::uint32_t of = 0;
+    };
+    const auto aim_of = [&](ObjectId id) { return Aim{sizes[id.index], id.index}; };
     int second = 0;
     for (int i = 0; i < 1000; ++i) {
-        const auto chosen = detail::choose_target<double>(targets, size_of, i / 1000.0);
+        const auto chosen = detail::choose_target(targets, aim_of, i / 1000.0);
         REQUIRE(chosen);
         CHECK(chosen->sum == 4);
+        CHECK(chosen->at.of == chosen->target.index);
         CHECK((chosen->target.index == 1 || chosen->target.index == 2));
         second += chosen->target.index == 1;
     }
     CHECK(second == doctest::Approx(750).epsilon(2e-3));
-    const auto none = [](ObjectId) { return 0.0; };
-    CHECK_FALSE(detail::choose_target<double>(targets, none, 0.5));
+    const auto none = [](ObjectId) { return Aim{}; };
+    CHECK_FALSE(detail::choose_target(targets, none, 0.5));
 }
 
 TEST_CASE("emission: what is matt and a mirror at once is aimed at, too") {

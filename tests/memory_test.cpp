@@ -222,9 +222,7 @@ TEST_CASE("memory: a triangle takes at most 150 bytes while its file is read") {
     // Binary STL, where each triangle brings 50 bytes and its own corners.
     const Bytes bytes = ljus_test::stl_bytes(icosphere(Sphere{}, 6), false);
     LoadedMesh ball;
-    const double with_file = peak_of([&] {
-        ball = detail::read_stl_bytes<float>("ball.stl", {}, [&] { return bytes; });
-    });
+    const double with_file = peak_of([&] { ball = read_stl(bytes, "ball.stl"); });
     CHECK(ball.parts.at(0).mesh.data().positions.size() == 40962);
     CHECK(with_file < 150.0 * ball.parts.at(0).mesh.size());
 }

@@ -17,6 +17,7 @@
 #include "ljus/io/scene_schema.hpp"
 #include "scratch_folder.hpp"
 #include "support/json_schema.hpp"
+#include "support/scene_page.hpp"
 
 using namespace ljus;
 using nlohmann::json;
@@ -120,7 +121,7 @@ void for_each_member(Use use) {
             for (const detail::JsonMembers members : {group.shared, table.members})
                 for (const detail::JsonMember& row : members) {
                     const json example =
-                        json::parse(detail::example_of(table, group.shared));
+                        json::parse(ljus_test::example_of(table, group.shared));
                     CAPTURE(group.name);
                     CAPTURE(table.name);
                     CAPTURE(row.name);
@@ -135,9 +136,10 @@ TEST_CASE("scene schema: the examples of all objects are read") {
     int examples = 0;
     for (const detail::JsonGroup& group : detail::scene_groups())
         for (const detail::JsonTable& table : group.tables) {
-            agree(in_scene(group, json::parse(detail::example_of(table, group.shared)))
-                      .scene,
-                  true);
+            agree(
+                in_scene(group, json::parse(ljus_test::example_of(table, group.shared)))
+                    .scene,
+                true);
             ++examples;
         }
     CHECK(examples == 7 + 24 + 8 + 5 + 2);
@@ -161,8 +163,8 @@ TEST_CASE("scene schema: what is needed must be there, and nothing unknown may b
     });
     for (const detail::JsonGroup& group : detail::scene_groups())
         for (const detail::JsonTable& table : group.tables) {
-            Example all =
-                in_scene(group, json::parse(detail::example_of(table, group.shared)));
+            Example all = in_scene(
+                group, json::parse(ljus_test::example_of(table, group.shared)));
             all.object()["zzz"] = 1;
             agree(all.scene, false);
         }
@@ -270,7 +272,7 @@ TEST_CASE("scene schema: every scene file in the tree is valid by it") {
 TEST_CASE("scene schema: the page has its tables") {
     const std::string path = LJUS_TEST_INPUTS "/../../chapters/scene_files.md";
     const std::string page = detail::load_text(path, 1 << 20);
-    const std::string tables = scene_tables();
+    const std::string tables = ljus_test::scene_tables();
     const bool there = page.find(tables) != page.npos;
     const ScratchFolder folder;
     if (!there) {

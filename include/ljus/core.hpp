@@ -79,7 +79,8 @@ namespace detail {
 LJUS_CORE_EXTERN template LightChoice
 start_pass<float>(MapType, const PhotonPassSettings&, LightChoice);
 LJUS_CORE_EXTERN template TracedPartsT<float>
-run_pass(MapType, const PhotonPassSettings&, BlockTracerT<float>);
+run_pass(MapType, const PhotonPassSettings&,
+         FunctionRef<void(const BlockRange&, PhotonBlockT<float>&)>);
 LJUS_CORE_EXTERN template bool scatter_photon(PathStateT<float>&, const VertexT<float>&,
                                               const Lambertian&, MapType, SobolStream&,
                                               FluxAudit&, bool);

@@ -69,8 +69,8 @@ ljus_break_it(NAME emission-spot-rim HEADER lights/spot_light.hpp TEST emission
 
 # Aimed at by a sun, a disc is paid for its own area only.
 ljus_break_it(NAME aim-sun HEADER photons/aiming.hpp TEST emission
-    FROM "return disc_area(bound_of(id).radius);"
-    TO   "return bound_of(id).radius * bound_of(id).radius;"
+    FROM "disc_area(bound.radius)}"
+    TO   "bound.radius * bound.radius}"
     CASES "emission: aimed photons bring*")
 
 # The plain way to aim: as if the light sent all of its flux into half of the sphere.
@@ -87,7 +87,7 @@ ljus_break_it(NAME emission-sun-start HEADER lights/light.hpp TEST emission
 
 # A target without a size comes first: 0/0.
 ljus_break_it(NAME emission-no-size HEADER photons/aiming.hpp TEST emission
-    FROM "if (!(size > T(0))) continue;"
+    FROM "if (!(at.size > T(0))) continue;"
     TO   ""
     CASES "emission: what has no size*")
 

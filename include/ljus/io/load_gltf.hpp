@@ -3,6 +3,8 @@
 /// \file ljus/io/load_gltf.hpp
 /// \brief Meshes, cameras and lights from glTF 2.0 files.
 
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 #include "ljus/io/detail/gltf_reader.hpp"
@@ -11,25 +13,6 @@ namespace ljus {
 
 /// \addtogroup load_obj
 /// \{
-
-namespace detail {
-
-// What is in a file whose bytes are no longer needed.
-template <std::floating_point T>
-LoadedMeshT<T> read_gltf_content(const GltfFile& content,
-                                 const MeshFileSettings& settings) {
-    GltfReader<T> reader(content, settings);
-    return make_meshes<T>(
-        content.name, settings, "; its scene must have nodes with meshes of triangles.",
-        [&](LoadedMeshT<T>& loaded) { return reader.take_faces(loaded); },
-        [&](MeshMaterial& material, LoadedMeshT<T>& loaded, long long& pixels) {
-            load_pictures(material, loaded, pixels, [&](const std::string& name) {
-                return reader.picture(name);
-            });
-        });
-}
-
-} // namespace detail
 
 /// Reads the meshes of a glTF 2.0 file, .gltf or .glb, and its cameras and lights.
 /// Optional (nlohmann-json). The meshes stand as the nodes of the file's scene place
@@ -62,22 +45,28 @@ LoadedMeshT<T> read_gltf_content(const GltfFile& content,
 /// \throws std::invalid_argument  for a scale that is not finite and above 0.
 /// \cost Linear in the size of the files and the number of triangles, at most 2^23.
 template <std::floating_point T = float>
-[[nodiscard]] LoadedMeshT<T> read_gltf(const Bytes& bytes, const std::string& file,
+[[nodiscard]] LoadedMeshT<T> read_gltf(Bytes bytes, const std::string& file,
                                        const MeshFileSettings& settings = {}) {
-    return detail::read_gltf_content<T>(detail::GltfFile(bytes, file), settings);
+    const detail::GltfFile content(std::exchange(bytes, {}), file); // frees the bytes
+    detail::GltfReader<T> reader(content, settings);
+    return detail::make_meshes<T>(
+        file, settings, "; its scene must have nodes with meshes of triangles.",
+        [&](LoadedMeshT<T>& loaded) { return reader.take_faces(loaded); },
+        [&](MeshMaterial& material, LoadedMeshT<T>& loaded, long long& pixels) {
+            detail::load_pictures(
+                material, loaded, pixels,
+                [&](const std::string& name) { return reader.picture(name); });
+        });
 }
 
 /// Loads a glTF file.
-/// \param path      The file.
-/// \param settings  Scale and normals.
 /// \return As read_gltf().
 /// \throws std::runtime_error  as read_gltf(); or, if the file cannot be read, with its
 ///         name and the reason.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_gltf(const std::string& path,
                                        const MeshFileSettings& settings = {}) {
-    const detail::GltfFile content(load_file(path, detail::max_mesh_file), path);
-    return detail::read_gltf_content<T>(content, settings); // without the file's bytes
+    return read_gltf<T>(load_file(path, detail::max_mesh_file), path, settings);
 }
 
 /// \}

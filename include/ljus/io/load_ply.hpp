@@ -4,8 +4,8 @@
 /// \brief Meshes from PLY files.
 
 #include <array>
-#include <bit>
 #include <optional>
+#include <utility>
 
 #include "ljus/image/color.hpp"
 #include "ljus/io/detail/mesh_builder.hpp"
@@ -171,20 +171,9 @@ private:
             return number_of(text);
         }
         if (rest_.size() < type.size) end_early(element, i);
-        std::uint64_t bits = 0;
-        for (std::size_t k = 0; k < type.size; ++k) {
-            const std::size_t from = big_endian_ ? k : type.size - 1 - k;
-            bits = bits << 8 | static_cast<unsigned char>(rest_[from]);
-        }
+        const std::string_view bytes = rest_.substr(0, type.size);
         rest_.remove_prefix(type.size);
-        if (type.kind == 'f')
-            return type.size == 4
-                       ? double(std::bit_cast<float>(static_cast<std::uint32_t>(bits)))
-                       : std::bit_cast<double>(bits);
-        const double unsigned_value = static_cast<double>(bits);
-        const double range = std::ldexp(1, 8 * static_cast<int>(type.size));
-        return type.kind == 'i' && unsigned_value >= range / 2 ? unsigned_value - range
-                                                               : unsigned_value;
+        return binary_number(bytes, type.kind, big_endian_);
     }
     std::size_t list_length(const PlyProperty& list, const PlyElement& element,
                             std::size_t i) {
@@ -339,20 +328,6 @@ private:
     bool normals_ = false, uv_ = false; // of the vertices
 };
 
-// The meshes of a file; bytes_of() returns its bytes, which are freed before the meshes
-// are made if they are a value.
-template <std::floating_point T, typename BytesOf>
-LoadedMeshT<T> read_ply_bytes(const std::string& file, const MeshFileSettings& settings,
-                              BytesOf bytes_of) {
-    return make_meshes<T>(
-        file, settings, "; a mesh has elements 'face' with a list 'vertex_indices'.",
-        [&](LoadedMeshT<T>& loaded) {
-            const Bytes& bytes = bytes_of();
-            return PlyReader<T>(bytes, file, settings).take_faces(loaded);
-        },
-        no_pictures);
-}
-
 } // namespace detail
 
 /// Reads a mesh from the bytes of a PLY file: text or binary of either byte order.
@@ -367,10 +342,15 @@ LoadedMeshT<T> read_ply_bytes(const std::string& file, const MeshFileSettings& s
 /// \throws std::invalid_argument  for a scale that is not finite and above 0.
 /// \cost Linear in the size of the file, which bounds its memory.
 template <std::floating_point T = float>
-[[nodiscard]] LoadedMeshT<T> read_ply(const Bytes& bytes, const std::string& file,
+[[nodiscard]] LoadedMeshT<T> read_ply(Bytes bytes, const std::string& file,
                                       const MeshFileSettings& settings = {}) {
-    return detail::read_ply_bytes<T>(file, settings,
-                                     [&]() -> const Bytes& { return bytes; });
+    const auto read = [&](LoadedMeshT<T>& loaded) {
+        const Bytes own = std::move(bytes); // freed before the meshes are made
+        return detail::PlyReader<T>(own, file, settings).take_faces(loaded);
+    };
+    return detail::make_meshes<T>(
+        file, settings, "; a mesh has elements 'face' with a list 'vertex_indices'.",
+        read, detail::no_pictures);
 }
 
 /// Loads a PLY file.
@@ -380,8 +360,7 @@ template <std::floating_point T = float>
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_ply(const std::string& path,
                                       const MeshFileSettings& settings = {}) {
-    return detail::read_ply_bytes<T>(
-        path, settings, [&] { return load_file(path, detail::max_mesh_file); });
+    return read_ply<T>(load_file(path, detail::max_mesh_file), path, settings);
 }
 
 /// \}

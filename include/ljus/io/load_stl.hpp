@@ -3,7 +3,7 @@
 /// \file ljus/io/load_stl.hpp
 /// \brief Meshes from STL files.
 
-#include <bit>
+#include <utility>
 
 #include "ljus/geometry/detail/equal_points.hpp"
 #include "ljus/io/detail/mesh_builder.hpp"
@@ -28,10 +28,7 @@ struct StlText {
         throw std::runtime_error(join({shown_path(file), ": ", why, "."}));
     }
     [[nodiscard]] std::uint32_t word(std::size_t at) const {
-        std::uint32_t bits = 0;
-        for (std::size_t k = 4; k > 0; --k)
-            bits = bits << 8 | static_cast<unsigned char>(text[at + k - 1]);
-        return bits;
+        return static_cast<std::uint32_t>(unsigned_value(text.substr(at, 4)));
     }
     // Whether it is text: programs write binary files that begin with "solid" too, but
     // in these a byte of the head is 0, if only one of the number of triangles.
@@ -77,7 +74,7 @@ struct StlReader {
         glm::dvec3 three;
         for (std::size_t axis = 0; axis < 3; ++axis)
             three[static_cast<int>(axis)] =
-                double(std::bit_cast<float>(from.word(at + 4 * axis)));
+                binary_number(from.text.substr(at + 4 * axis, 4), 'f');
         return three;
     }
     void read_binary() {
@@ -137,29 +134,6 @@ struct StlReader {
     }
 };
 
-// The mesh of a file; bytes_of() returns its bytes, as for read_ply_bytes().
-template <std::floating_point T, typename BytesOf>
-LoadedMeshT<T> read_stl_bytes(const std::string& file, const MeshFileSettings& settings,
-                              BytesOf bytes_of) {
-    const auto read = [&](LoadedMeshT<T>& loaded) {
-        MeshBuilder<T> mesh(settings);
-        {
-            const Bytes& bytes = bytes_of();
-            StlReader<T> reader{
-                {{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file},
-                mesh};
-            reader.from.is_text() ? reader.read_text() : reader.read_binary();
-        }
-        auto parts = mesh.take_faces({nullptr});
-        loaded.report = std::move(mesh.report);
-        return parts;
-    };
-    return make_meshes<T>(file, settings,
-                          "; a text has lines 'vertex 0 0 1' between 'outer loop' and "
-                          "'endloop'.",
-                          read, no_pictures);
-}
-
 } // namespace detail
 
 /// Reads a mesh from the bytes of an STL file, text or binary. Corners at one place are
@@ -171,10 +145,24 @@ LoadedMeshT<T> read_stl_bytes(const std::string& file, const MeshFileSettings& s
 /// \throws std::invalid_argument  for a scale that is not finite and above 0.
 /// \cost Linear in the size of the file, which bounds its memory.
 template <std::floating_point T = float>
-[[nodiscard]] LoadedMeshT<T> read_stl(const Bytes& bytes, const std::string& file,
+[[nodiscard]] LoadedMeshT<T> read_stl(Bytes bytes, const std::string& file,
                                       const MeshFileSettings& settings = {}) {
-    return detail::read_stl_bytes<T>(file, settings,
-                                     [&]() -> const Bytes& { return bytes; });
+    const auto read = [&](LoadedMeshT<T>& loaded) {
+        detail::MeshBuilder<T> mesh(settings);
+        {
+            const Bytes own = std::move(bytes); // freed before the meshes are made
+            detail::StlReader<T> reader{
+                {{reinterpret_cast<const char*>(own.data()), own.size()}, file}, mesh};
+            reader.from.is_text() ? reader.read_text() : reader.read_binary();
+        }
+        auto parts = mesh.take_faces({nullptr});
+        loaded.report = std::move(mesh.report);
+        return parts;
+    };
+    return detail::make_meshes<T>(
+        file, settings,
+        "; a text has lines 'vertex 0 0 1' between 'outer loop' and 'endloop'.", read,
+        detail::no_pictures);
 }
 
 /// Loads an STL file.
@@ -184,8 +172,7 @@ template <std::floating_point T = float>
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_stl(const std::string& path,
                                       const MeshFileSettings& settings = {}) {
-    return detail::read_stl_bytes<T>(
-        path, settings, [&] { return load_file(path, detail::max_mesh_file); });
+    return read_stl<T>(load_file(path, detail::max_mesh_file), path, settings);
 }
 
 /// \}

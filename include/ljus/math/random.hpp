@@ -102,7 +102,8 @@ template <std::floating_point T = float>
 /// |                              | depend on what was drawn before                   |
 ///
 /// Copies of a stream draw the same numbers. The `Stream` of a renderer also has a
-/// member `key`, which tells the rays of a picture apart, and a start_ray().
+/// member `key`, which tells the rays of a picture apart, and a function
+/// `start_ray(stream, seed, pixel, ray, pattern)`, as a StratifiedStream has.
 template <typename S>
 concept StreamLike = std::copyable<S> && requires(S& stream, std::uint64_t bounce) {
     { next_1d<float>(stream) } -> std::same_as<float>;

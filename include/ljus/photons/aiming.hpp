@@ -100,40 +100,41 @@ template <AnyWorld W, std::floating_point T>
 }
 // [aim_at]
 
-/// A chosen target.
-template <std::floating_point T>
+/// \tparam Aim  How one aims at it, as AimT: its `size` is the weight.
+template <typename Aim>
 struct ChosenTargetT {
-    ObjectId target; ///< The object.
-    T sum = T(0);    ///< Sum of the weights of all targets.
+    ObjectId target;            ///< The object.
+    Aim at;                     ///< How one aims at it.
+    decltype(Aim::size) sum{0}; ///< Sum of the weights of all targets.
 };
 
 /// Chooses a target in proportion to its weight.
-/// \param size_of   Called with each; returns its weight, or 0 to exclude it.
-/// \param u_target  In [0, 1).
+/// \param aim_of  Called once with each; returns how one aims at it, with the size 0
+///                to exclude it.
 /// \return The target; nothing if all weights are 0.
-template <std::floating_point T, typename SizeOf>
-[[nodiscard]] std::optional<ChosenTargetT<T>>
-choose_target(std::span<const ObjectId> targets, SizeOf size_of, T u_target) {
-    ChosenTargetT<T> chosen;
+template <std::floating_point T, typename AimOf>
+[[nodiscard]] auto choose_target(std::span<const ObjectId> targets, AimOf aim_of,
+                                 T u_target) {
+    using Chosen = ChosenTargetT<decltype(aim_of(ObjectId{}))>;
+    Chosen chosen;
     // Reservoir sampling: each target replaces the previous one with a probability of
     // its weight over the sum so far, and u is remapped to [0, 1).
     for (const ObjectId candidate : targets) {
-        const T size = size_of(candidate);
-        if (!(size > T(0))) continue;
-        chosen.sum += size;
-        const T share = size / chosen.sum;
+        const auto at = aim_of(candidate);
+        if (!(at.size > T(0))) continue;
+        chosen.sum += at.size;
+        const T share = at.size / chosen.sum;
         if (u_target < share) {
             chosen.target = candidate;
+            chosen.at = at;
             u_target /= share;
         } else {
             u_target = (u_target - share) / (T(1) - share);
         }
     }
-    if (!(chosen.sum > T(0))) return std::nullopt;
-    return chosen;
+    return chosen.sum > T(0) ? std::optional<Chosen>(chosen) : std::nullopt;
 }
 
-/// A direction towards an object, with its density.
 template <std::floating_point T>
 struct AimedDirectionT {
     Vec3T<T> direction{T(0)}; ///< Unit.
@@ -151,7 +152,6 @@ struct AimNumbersT {
     T time;               ///< Time of the photon.
 };
 
-/// A photon that leaves a light for an object.
 template <std::floating_point T>
 struct LeavingAimedT {
     LeavingPhotonT<T> photon{}; ///< Its flux is over the light's probability.
@@ -164,13 +164,18 @@ template <AnyWorld W, FarLight L, std::floating_point T>
 [[nodiscard]] std::optional<LeavingAimedT<T>>
 aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
            const AimNumbersT<T>& u) {
-    const auto bound_of = [&](ObjectId id) {
-        return world.visit_shape(id, [](const auto& s) { return bounding_sphere(s); });
+    struct Disc {
+        SphereT<T> bound;
+        T size = T(0); // its area
     };
-    const auto disc_of = [&](ObjectId id) { return disc_area(bound_of(id).radius); };
+    const auto disc_of = [&](ObjectId id) {
+        const SphereT<T> bound = world.visit_shape(
+            id, [](const auto& shape) { return bounding_sphere(shape); });
+        return Disc{bound, disc_area(bound.radius)};
+    };
     const auto aimed = choose_target(targets, disc_of, u.u_target);
     if (!aimed) return std::nullopt;
-    const SphereT<T> bound = bound_of(aimed->target);
+    const SphereT<T>& bound = aimed->at.bound;
     const ArrivalT<T> arrival = sample_arrival(light, u.u_direction);
     return LeavingAimedT<T>{{ray_from_afar(SphereT<T>(light.around), arrival.direction,
                                            bound.center, bound.radius, u.u_point),
@@ -187,12 +192,10 @@ template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<AimedDirectionT<T>>
 sample_aim(const W& world, const ConeT<T>& emission, const Vec3T<T>& from,
            std::span<const ObjectId> targets, const AimNumbersT<T>& u) {
-    const auto size_of = [&](ObjectId id) {
-        return aim_at(world, emission, from, id).size;
-    };
-    const auto chosen = choose_target(targets, size_of, u.u_target);
+    const auto aim_of = [&](ObjectId id) { return aim_at(world, emission, from, id); };
+    const auto chosen = choose_target(targets, aim_of, u.u_target);
     if (!chosen) return std::nullopt;
-    const AimT<T> at = aim_at(world, emission, from, chosen->target);
+    const AimT<T>& at = chosen->at;
     AimedDirectionT<T> aimed{.target = chosen->target};
     if (at.at_area) {
         const auto seen =
@@ -246,10 +249,7 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 /// \f$ (1/4\pi) / p(\omega) \f$. A sun aims at the discs that the bounding spheres cast
 /// as shadows. Where objects overlap, a ray belongs to the first one that it hits; the
 /// caller drops photons that were aimed at another.
-/// \param world    The closed scene.
-/// \param choice   The distribution of its lights; at least one.
-/// \param targets  The objects; at least one.
-/// \param stream   Six numbers are drawn.
+/// There are at least one light and one object; six numbers are drawn.
 /// \return The photon; nothing if the target lies behind the light, or if all targets
 ///         have the radius 0.
 /// \cost One cone per target.
@@ -300,12 +300,9 @@ inline void check_shares(std::span<const double> shares, std::size_t count,
 }
 
 /// Aims a photon at one of several objects, chosen with the given probabilities. The
-/// flux is divided by the probability, so that the mean does not depend on it.
-/// \param world    The closed scene.
-/// \param choice   The distribution of its lights.
-/// \param targets  The objects.
-/// \param shares   Probabilities, as check_shares() accepts; if empty, as aim().
-/// \param stream   One number more is drawn than by aim().
+/// flux is divided by the probability, so that the mean does not depend on it. The
+/// shares are as check_shares() accepts; without any it does as aim(). One number more
+/// is drawn than by aim().
 /// \return As aim().
 template <AnyWorld W, StreamLike Stream>
 [[nodiscard]] std::optional<AimedPhotonT<typename W::Scalar>>

@@ -21,7 +21,6 @@ namespace ljus {
 
 namespace detail {
 
-/// Emits and traces the paths of a block.
 template <AnyWorld W, std::floating_point T>
 void trace_block(const W& world, MapType map, const SceneAimT<T>& aim,
                  const std::vector<ObjectId>& targets, const PhotonPassSettings& pass,
@@ -101,7 +100,6 @@ template <std::floating_point T>
 
 /// Checks the settings and the lights of a pass.
 /// \return The distribution for the pass.
-/// \throws std::invalid_argument  as trace_photons().
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] LightChoice
 start_pass(MapType map, const PhotonPassSettings& pass, LightChoice choice) {
@@ -124,7 +122,6 @@ start_pass(MapType map, const PhotonPassSettings& pass, LightChoice choice) {
 
 /// Where the photons of a pass leave their lights to; those of the caustics map are
 /// aimed at single objects instead.
-/// \param choice  The distribution of the lights for the pass.
 template <AnyWorld W>
 [[nodiscard]] SceneAimT<typename W::Scalar> scene_aim_of(const W& world, MapType map,
                                                          const PhotonPassSettings& pass,
@@ -135,7 +132,6 @@ template <AnyWorld W>
 }
 
 /// The objects at which the photons of a pass are aimed: none for the general map.
-/// \throws std::invalid_argument  if the shares do not suit them.
 template <AnyWorld W>
 [[nodiscard]] std::vector<ObjectId> targets_of(const W& world, MapType map,
                                                const PhotonPassSettings& pass) {
@@ -145,20 +141,14 @@ template <AnyWorld W>
     return targets;
 }
 
-/// A type-erased trace_block(), so that run_pass() is compiled only once for all types
-/// of scenes.
-template <std::floating_point T>
-struct BlockTracerT {
-    const void* tracer; ///< An object whose type `call` knows.
-    void (*call)(const void* tracer, const BlockRange& paths, PhotonBlockT<T>& block);
-};
-
-/// Traces the blocks of a pass by several threads.
+/// Traces the blocks of a pass by several threads; compiled once for all types of
+/// scenes.
+/// \param trace  As trace_block().
 /// \return The photons in the order of emission.
-/// \throws std::invalid_argument  if the memory would not suffice.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] TracedPartsT<T>
-run_pass(MapType map, const PhotonPassSettings& pass, BlockTracerT<T> trace) {
+run_pass(MapType map, const PhotonPassSettings& pass,
+         FunctionRef<void(const BlockRange&, PhotonBlockT<T>&)> trace) {
     TracedPartsT<T> traced;
     TracedPhotonsT<T>& result = traced.pass;
     result.emitted = pass.photons;
@@ -176,9 +166,8 @@ run_pass(MapType map, const PhotonPassSettings& pass, BlockTracerT<T> trace) {
                 std::min(done + std::max(16 * threads, done / 16), stop);
             blocks.resize(static_cast<std::size_t>(last - done));
             const auto body = [&](long long i) {
-                trace.call(trace.tracer,
-                           block_range(done + i, photon_block, pass.photons),
-                           blocks[static_cast<std::size_t>(i)]);
+                trace(block_range(done + i, photon_block, pass.photons),
+                      blocks[static_cast<std::size_t>(i)]);
             };
             const auto progress = [&](long long now, long long) {
                 return pass.progress(done + now, count);
@@ -215,11 +204,7 @@ trace_parts(const W& world, MapType map, const PhotonPassSettings& pass) {
     const auto trace = [&](const BlockRange& paths, PhotonBlockT<T>& block) {
         trace_block(world, map, aim, targets, pass, paths, block);
     };
-    const auto call = [](const void* tracer, const BlockRange& paths,
-                         PhotonBlockT<T>& block) {
-        (*static_cast<const decltype(trace)*>(tracer))(paths, block);
-    };
-    return run_pass<T>(map, pass, {&trace, call});
+    return run_pass<T>(map, pass, trace);
 }
 
 } // namespace detail
@@ -229,9 +214,6 @@ trace_parts(const W& world, MapType map, const PhotonPassSettings& pass) {
 /// The first 2000 paths or so predict the memory; a pass that would need more than
 /// PhotonPassSettings::max_memory is refused at that point. A pass that has stored
 /// nothing after PhotonPassSettings::give_up paths ends with a remark.
-/// \param world  The closed scene, with at least one light.
-/// \param map    The kind of map.
-/// \param pass   The settings.
 /// \return The photons in the order of emission, the same for any number of threads.
 /// \throws std::invalid_argument  if the scene has no light or more than 65536, a
 ///         setting is out of range, the memory would not suffice, or there are thin

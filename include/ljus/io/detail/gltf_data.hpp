@@ -3,7 +3,7 @@
 /// \file ljus/io/detail/gltf_data.hpp
 /// \brief The numbers of a glTF file: buffers, views of them, and accessors.
 
-#include <bit>
+#include <cmath>
 #include <map>
 
 #include <nlohmann/json.hpp>
@@ -85,9 +85,7 @@ struct GltfFile {
             return;
         }
         const auto word = [&](std::size_t at) {
-            std::uint32_t bits = 0;
-            for (std::size_t k = 4; k > 0; --k) bits = bits << 8 | bytes[at + k - 1];
-            return std::size_t(bits);
+            return std::size_t(unsigned_value(all.substr(at, 4)));
         };
         if (bytes.size() < 20) refuse("it ends within its head of 20 bytes");
         if (word(4) != 2)
@@ -232,14 +230,9 @@ private:
         }
     }
     static double number(std::string_view bytes, const Component& is) {
-        std::uint32_t bits = 0;
-        for (std::size_t k = is.size; k > 0; --k)
-            bits = bits << 8 | static_cast<unsigned char>(bytes[k - 1]);
-        if (is.kind == 'f') return double(std::bit_cast<float>(bits));
-        double value = bits;
-        const double range = std::ldexp(1, 8 * static_cast<int>(is.size));
-        if (is.kind == 'i' && value >= range / 2) value -= range;
+        const double value = binary_number(bytes.substr(0, is.size), is.kind);
         if (!is.normalized) return value;
+        const double range = std::ldexp(1, 8 * static_cast<int>(is.size));
         return is.kind == 'i' ? std::max(value / (range / 2 - 1), -1.0)
                               : value / (range - 1);
     }

@@ -1,10 +1,12 @@
 #pragma once
 
 /// \file ljus/io/detail/obj_text.hpp
-/// \brief The lines, words and numbers of a text file.
+/// \brief The lines, words and numbers of a mesh file.
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
@@ -20,6 +22,28 @@
 #include "ljus/io/file.hpp"
 
 namespace ljus::detail {
+
+// The unsigned number in at most 8 bytes; the last one is the highest, or the first.
+inline std::uint64_t unsigned_value(std::string_view bytes, bool high_first = false) {
+    std::uint64_t bits = 0;
+    for (std::size_t k = 0; k < bytes.size(); ++k)
+        bits = bits << 8 |
+               static_cast<unsigned char>(bytes[high_first ? k : bytes.size() - 1 - k]);
+    return bits;
+}
+
+// The number in all the bytes. Its kind is i: signed, u: unsigned, f: floating point.
+inline double binary_number(std::string_view bytes, char kind,
+                            bool high_first = false) {
+    const std::uint64_t bits = unsigned_value(bytes, high_first);
+    if (kind == 'f')
+        return bytes.size() == 4
+                   ? double(std::bit_cast<float>(static_cast<std::uint32_t>(bits)))
+                   : std::bit_cast<double>(bits);
+    const double value = static_cast<double>(bits);
+    const double range = std::ldexp(1, 8 * static_cast<int>(bytes.size()));
+    return kind == 'i' && value >= range / 2 ? value - range : value;
+}
 
 // Takes a line from the front of a text; it ends in LF, CR or CR LF.
 inline std::string_view take_line(std::string_view& text) {

@@ -57,10 +57,7 @@ public:
 
 private:
     [[nodiscard]] std::uint32_t number(std::size_t at, std::size_t bytes) const {
-        std::size_t value = 0;
-        for (std::size_t k = 0; k < bytes; ++k)
-            value = value * 256 + byte_at(bytes_, at + k);
-        return static_cast<std::uint32_t>(value);
+        return static_cast<std::uint32_t>(number_in(bytes_, at, bytes));
     }
 
     // A signed number of 16 binary places.

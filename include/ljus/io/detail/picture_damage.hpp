@@ -14,10 +14,22 @@
 
 namespace ljus::detail {
 
-// A big-endian number of four bytes in a PNG file.
-inline std::uint32_t png_number(const Bytes& file, std::size_t at) noexcept {
-    return std::uint32_t(file[at]) << 24 | std::uint32_t(file[at + 1]) << 16 |
-           std::uint32_t(file[at + 2]) << 8 | std::uint32_t(file[at + 3]);
+// A byte of a file; 0 behind its end, as in stb_image.
+inline std::size_t byte_at(const Bytes& file, std::size_t at) {
+    return at < file.size() ? std::size_t(file[at]) : std::size_t(0);
+}
+
+// The number in some bytes of a file, whose first one is the highest, or the lowest.
+inline std::size_t number_in(const Bytes& file, std::size_t at, std::size_t bytes,
+                             bool low_first = false) {
+    std::size_t value = 0;
+    for (std::size_t k = 0; k < bytes; ++k)
+        value = value * 256 + byte_at(file, at + (low_first ? bytes - 1 - k : k));
+    return value;
+}
+
+inline std::uint32_t png_number(const Bytes& file, std::size_t at) {
+    return static_cast<std::uint32_t>(number_in(file, at, 4));
 }
 
 // The CRC-32 at the end of each PNG chunk, over its name and its bytes.
@@ -65,11 +77,6 @@ inline const char* png_trouble(const Bytes& file) {
         return !right;
     });
     return trouble;
-}
-
-// A byte of a file; 0 behind its end, as in stb_image.
-inline std::size_t byte_at(const Bytes& file, std::size_t at) {
-    return at < file.size() ? std::size_t(file[at]) : std::size_t(0);
 }
 
 // The exponent 1/gamma of a PNG file with a gAMA chunk; 0 if it has none, or a chunk of
@@ -135,11 +142,7 @@ public:
 
 private:
     [[nodiscard]] std::size_t number(std::size_t i, std::size_t bytes) const {
-        const bool low_first = byte_at(file_, at_) == 'I';
-        std::size_t value = 0;
-        for (std::size_t k = 0; k < bytes; ++k)
-            value = value * 256 + byte_at(file_, i + (low_first ? bytes - 1 - k : k));
-        return value;
+        return number_in(file_, i, bytes, byte_at(file_, at_) == 'I');
     }
     // The list of fields whose offset is at `i`.
     [[nodiscard]] std::size_t list(std::size_t i) const { return at_ + number(i, 4); }
@@ -304,12 +307,8 @@ inline const char* jpeg_trouble(const Bytes& file) {
     return nullptr;
 }
 
-// A little-endian number in a BMP file; 0 behind its end.
 inline std::size_t bmp_number(const Bytes& file, std::size_t at, std::size_t bytes) {
-    std::size_t value = 0;
-    for (std::size_t k = bytes; k > 0; --k)
-        value = value * 256 + byte_at(file, at + k - 1);
-    return value;
+    return number_in(file, at, bytes, true);
 }
 
 // The header of a BMP file.

@@ -1,0 +1,130 @@
+#pragma once
+
+/// \file support/scene_page.hpp
+/// \brief The tables by which load_json() reads, in the form that people read: the
+/// reference part of chapters/scene_files.md.
+
+#include <map>
+#include <string>
+
+#include "ljus/io/scene_schema.hpp"
+
+namespace ljus_test {
+
+using namespace ljus::detail;
+
+/// An object with its needed members and those of an example, as JSON on one line.
+inline std::string example_of(const JsonTable& table, JsonMembers shared) {
+    std::string text =
+        table.name.empty() ? "" : join({"\"type\": \"", table.name, "\""});
+    for (const JsonMembers members : {shared, table.members})
+        for (const JsonMember& row : members)
+            if (!row.example.empty())
+                text +=
+                    join({text.empty() ? "\"" : ", \"", row.name, "\": ", row.example});
+    return join({"{", text, "}"});
+}
+
+/// An example as code in Markdown, in lines of at most 80 columns.
+inline std::string code_lines(std::string_view example) {
+    std::string code;
+    while (!example.empty()) {
+        std::size_t end = example.size();
+        const std::size_t comma = example.rfind(", \"", 76);
+        if (end > 76 && comma != example.npos) end = comma + 2;
+        code += join({code.empty() ? "    " : "     ", example.substr(0, end)});
+        if (code.back() == ' ') code.pop_back();
+        code += "\n";
+        example.remove_prefix(end);
+    }
+    return code + "\n";
+}
+
+/// What a value may be, in words; the page explains colour, point and direction.
+inline std::string value_text(const JsonValue& value) {
+    const auto with = [&](std::string_view kind) {
+        return value.right.empty() ? std::string(kind) : join({kind, " ", value.right});
+    };
+    switch (value.kind) {
+    case JsonKind::text:
+        return "text";
+    case JsonKind::remark:
+        return "text or null";
+    case JsonKind::word:
+        return in_a_row({value.words.begin(), value.words.end()}, "or",
+                        value.words.size());
+    case JsonKind::number:
+        return value.or_zero ? std::string(value.right) : with("number");
+    case JsonKind::length:
+        return "number above 0, " + std::string(value.right);
+    case JsonKind::whole:
+        return join({"whole number within [",
+                     std::to_string(static_cast<long long>(value.low)), ", ",
+                     std::to_string(static_cast<long long>(value.high)), "]"});
+    case JsonKind::pair:
+        return with("two numbers");
+    case JsonKind::vector:
+        return value.right == color_value.right   ? "colour"
+               : value.right == point_value.right ? "point"
+                                                  : with("three numbers");
+    case JsonKind::direction:
+        return "direction";
+    case JsonKind::scale:
+        return with("one or three numbers");
+    case JsonKind::object:
+        return "object";
+    case JsonKind::list:
+        return "list";
+    case JsonKind::named:
+        break;
+    }
+    return "object";
+}
+
+/// The rows of a table for people.
+inline std::string member_rows(JsonMembers members) {
+    std::string text = "| member | value | default | what it is |\n|---|---|---|---|\n";
+    for (const JsonMember& row : members) {
+        const auto preset = default_of(row);
+        const std::string names = row.also.empty()
+                                      ? join({"`", row.name, "`"})
+                                      : join({"`", row.name, "` or `", row.also, "`"});
+        text += join({"| ", names, " | ", value_text(row.value), " | ",
+                      !row.optional      ? "needed"
+                      : preset.is_null() ? "none"
+                                         : preset.dump(),
+                      " | ", row.text, " |\n"});
+    }
+    return text;
+}
+
+/// The same tables in Markdown, each with an example. A type that has the members of
+/// an earlier one refers to it.
+inline std::string scene_tables() {
+    std::string page;
+    for (const JsonGroup& group : scene_groups()) {
+        page += join({"## ", group.heading, " {#ch_scene_files_", group.name, "}\n\n",
+                      group.text, "\n\n"});
+        if (!group.shared.empty()) page += member_rows(group.shared) + "\n";
+        std::map<std::string, std::string_view> first; // of the types with these rows
+        for (const JsonTable& table : group.tables) {
+            if (!table.name.empty())
+                page += join({"### `", table.name, "`",
+                              table.also.empty() ? "" : " or `", table.also,
+                              table.also.empty() ? "" : "`", "\n\n", table.text});
+            const std::string rows = member_rows(table.members);
+            const auto [same, is_new] = first.emplace(rows, table.name);
+            if (!is_new) {
+                page += join({"; members as of `", same->second, "`\n\n"});
+                continue;
+            }
+            if (!table.name.empty()) page += "\n\n";
+            page += rows + "\n";
+            if (group.name != "scene")
+                page += code_lines(example_of(table, group.shared));
+        }
+    }
+    return page;
+}
+
+} // namespace ljus_test
