@@ -25,7 +25,7 @@ inline constexpr std::size_t max_nearest = 512;
 
 namespace detail {
 
-/// The default kernel of a type of kernels.
+/// The kernel of settings that name none: a K without arguments.
 template <typename K>
 inline constexpr K default_kernel{};
 /// The library's kernel of least variance.

@@ -46,7 +46,7 @@ using IrradiancePoints = IrradiancePointsT<float>; ///< IrradiancePointsT in flo
 
 namespace detail {
 
-/// Whether a photon of a map has a kind.
+/// Whether a photon of a map is of this kind.
 template <std::floating_point T>
 [[nodiscard]] bool is_of_kind(const PhotonMapT<T>& map, std::uint32_t index,
                               PhotonKind kind) {
@@ -84,9 +84,9 @@ template <std::floating_point T>
 
 /// The irradiance on one side of a surface from the nearest photons, with
 /// Epanechnikov's kernel. Unlike the overload without a scene, it can correct for edges
-/// of the surface. It counts the photons of a disc half as high as it is wide, which
-/// leaves out those of a parallel wall nearby, and of these only the ones that arrived
-/// on the side in question: without the latter, the light in a hollow ball would shine
+/// of the surface. It counts the photons in a disc that is half as high as it is wide,
+/// which leaves out those of a parallel wall nearby. Among them, only those count that
+/// arrived on the side in question. Otherwise the light in a hollow ball would shine
 /// through its wall, because some of it grazes the wall within the disc.
 /// \param world     The closed scene.
 /// \param map       The photons.

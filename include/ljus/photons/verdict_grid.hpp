@@ -17,7 +17,6 @@ namespace ljus {
 /// every photon within a cell's length of any point in the cell. If these are too few,
 /// cells of twice and then of four times the length are used. Where the grid says lit,
 /// verdict_at() with the length of the smallest cells finds no shadow photon either.
-/// no shadow photon either.
 template <std::floating_point T>
 struct VerdictGridT {
     detail::VerdictBitsT<T> known{}; ///< By brick.
