@@ -38,9 +38,7 @@ using Progress = FunctionRef<bool(long long done, long long total)>;
 
 namespace detail {
 
-/// Reports nothing and never stops.
 struct NoProgress {
-    /// \return True.
     constexpr bool operator()(long long, long long) const noexcept { return true; }
 };
 

@@ -34,21 +34,9 @@ struct FoundBlockT {
 /// Distances are computed in T, eight at a time. If one is too close to the limit of a
 /// search for the precision of T, it is computed again in double; see detail::ReachT.
 ///
-/// The tree stores the positions only. The caller sorts their payload into the tree's
-/// order, so that a search reads contiguous memory:
-///
-///     std::vector<Vec3> positions;
-///     for (const MyPhoton& photon : photons) positions.push_back(photon.position);
-///     const KdTree8 tree{std::span<const Vec3>(positions)};
-///     std::vector<MyPhoton> sorted; // sorted[i] belongs to tree.point(i)
-///     for (const std::uint32_t id : tree.point_ids()) sorted.push_back(photons[id]);
-///     tree.visit_within(x, radius, [&](std::uint32_t i, double distance2) {
-///         flux += sorted[i].flux;
-///     });
-///
-/// It has the searches of KdTreeT, and visit_blocks() for callers that process eight
-/// points at a time. Every search is the traversal detail::walk() with its own result
-/// set. Searches are const, allocate nothing, and may run in parallel.
+/// It is used as KdTreeT, has its searches, and visit_blocks() for callers that process
+/// eight points at a time. Every search is the traversal detail::walk() with its own
+/// result set. Searches are const, allocate nothing, and may run in parallel.
 template <std::floating_point T>
 class KdTree8T {
 public:

@@ -210,7 +210,6 @@ struct ChosenPartT {
 
 /// Chooses a triangle.
 /// \param sums  Prefix sums of the areas, of which the last is above 0.
-/// \param u     In [0, 1).
 template <std::floating_point T>
 [[nodiscard]] ChosenPartT<T> choose_part(const std::vector<double>& sums,
                                          T u) noexcept {

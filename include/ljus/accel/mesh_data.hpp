@@ -29,7 +29,6 @@ using MeshData = MeshDataT<float>; ///< MeshDataT in float.
 
 namespace detail {
 
-/// The triangle `part` of the data.
 template <std::floating_point T>
 [[nodiscard]] TriangleT<T> triangle_of(const MeshDataT<T>& data,
                                        std::size_t part) noexcept {

@@ -56,7 +56,6 @@ namespace detail {
 
 /// The squared distance from a point to a box, rounded so that no point of the box is
 /// nearer: 0 within the box; NaN if the point has a NaN.
-/// \param low, high  The corners with the least and the greatest coordinates.
 template <std::floating_point T>
 [[nodiscard]] double box_distance2(const Vec3T<T>& low, const Vec3T<T>& high,
                                    const Vec3T<T>& point) noexcept {
@@ -113,7 +112,6 @@ namespace detail {
 
 /// The default filter of a search: accepts every point.
 struct AnyPoint {
-    /// Always true.
     constexpr bool operator()(std::uint32_t) const noexcept { return true; }
 };
 

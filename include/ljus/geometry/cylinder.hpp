@@ -94,8 +94,6 @@ template <std::floating_point T>
 namespace detail {
 
 /// The point of a cylinder at a height and a normal across the axis.
-/// \param v       In [0, 1], along the axis.
-/// \param normal  Unit, across the axis.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> point_of(const CylinderT<T>& cylinder, T v,
                                         const Vec3T<T>& normal) noexcept {

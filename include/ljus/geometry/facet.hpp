@@ -51,8 +51,6 @@ namespace detail {
 }
 
 /// Clips a facet by a plane.
-/// \param facet   Convex.
-/// \param point   A point of the plane.
 /// \param normal  Unit normal; points to the side that is kept.
 /// \param width   Corners within this distance count as on the plane.
 /// \return The facet in front of the plane, with at most one corner more; no corners if

@@ -63,11 +63,8 @@ struct LipschitzLine {
 
 } // namespace detail
 
-/// The distance at which a ray first hits an isosurface.
+/// The distance within the ray's [t_min, t_max] at which it first hits an isosurface.
 /// \tparam Solver  SphereTracing or Bisection.
-/// \param ray      Hits lie within its [t_min, t_max].
-/// \param surface  The isosurface.
-/// \param solver   The solver's limits.
 /// \return As first_meeting(), computed in double.
 template <typename Solver = SphereTracing, std::floating_point T, LipschitzField Field>
 [[nodiscard]] std::optional<T> intersect(const RayT<T>& ray,
@@ -89,11 +86,7 @@ namespace detail {
 /// Projects the hit of a field onto the surface: one Newton step along the gradient,
 /// bounded by the error of t that stems from its rounding and the solver's tolerance.
 /// If the gradient vanishes, the normal faces the ray.
-/// \param value     f, in double.
-/// \param gradient  Its gradient, in double.
-/// \param t         Result of intersect().
 /// \param rounding  Error bound of the values of f, including the solver's tolerance.
-/// \return Position, error bound, outward normal.
 template <std::floating_point T, typename Value, typename Gradient>
 [[nodiscard]] SurfacePointT<T> refined(const Value& value, const Gradient& gradient,
                                        const RayT<T>& ray, T t, double rounding) {

@@ -73,12 +73,10 @@ template <std::floating_point T>
     return sum * detail::steepest_blob<WideT<T>>;
 }
 
-/// The distance at which a ray first hits metaballs, from outside or inside.
+/// The distance within the ray's [t_min, t_max] at which it first hits metaballs, from
+/// outside or inside.
 /// \tparam Solver  QuarticPieces, the default, is the fastest and most accurate of the
 ///                 four; the others are Bisection, SphereTracing and Radicals.
-/// \param ray      Hits lie within its [t_min, t_max].
-/// \param balls    The metaballs.
-/// \param solver   The solver's limits.
 /// \return The smallest t at which f crosses 0, in units of the direction's length,
 ///         computed in double and rounded to T once; nothing for a miss, a NaN, an
 ///         infinity, or a zero direction. The inside is where f >= 0.
@@ -117,8 +115,6 @@ surface_point(const MetaballsT<T>& balls, const RayT<T>& ray, const ShapeHitT<T>
 namespace detail {
 
 /// The radius within which a blob's field reaches a value.
-/// \param blob   A blob of positive weight.
-/// \param share  The value s.
 /// \return R sqrt(1 - sqrt(s/w)); negative if the field is below s everywhere.
 template <std::floating_point T>
 [[nodiscard]] WideT<T> reach_of(const BlobT<T>& blob, WideT<T> share) {

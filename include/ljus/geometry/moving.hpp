@@ -32,11 +32,9 @@ struct Moving {
 
 namespace detail {
 
-/// Whether a type of shape moves.
 template <typename S>
 inline constexpr bool is_moving = false;
 
-/// \copydoc is_moving
 template <typename S>
 inline constexpr bool is_moving<Moving<S>> = true;
 

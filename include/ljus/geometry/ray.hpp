@@ -85,7 +85,6 @@ requires(!std::same_as<T, Other>) std::optional<T> intersect(const RayT<T>&,
 
 namespace detail {
 
-/// The empty preparation.
 struct Unprepared {};
 
 } // namespace detail

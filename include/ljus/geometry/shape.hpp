@@ -177,7 +177,6 @@ template <Shape Flat, std::floating_point T>
 
 namespace detail {
 
-/// The optional functions of a type of shape.
 template <Shape S>
 [[nodiscard]] constexpr auto shape_hooks() noexcept {
     using T = ScalarOf<S>;

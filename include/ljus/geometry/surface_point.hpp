@@ -58,8 +58,6 @@ inline void set_point(SurfacePointT<T>& to, const SurfacePointT<T>& from) noexce
 /// The quotient is the tilt: 1 to 3 for a square, and 1 over the sine of the angle for
 /// two nearly parallel edges. If the arithmetic is wider than the data, as for float,
 /// the error is negligible and the point stays as it is.
-/// \param point   Point of the shape; receives the tilt and a larger error.
-/// \param e1, e2  The edges; for parallel ones, which no ray hits, nothing is added.
 // [add_tilt]
 template <std::floating_point T>
 void add_tilt(SurfacePointT<T>& point, const Vec3T<T>& e1,
@@ -173,9 +171,6 @@ namespace detail {
 /// Their numerators are sums of products with at most 8 roundings, and no term exceeds
 /// \f$ |D|\,|E|\,|T| \f$ with \f$ |X| = |X_x| + |X_y| + |X_z| \f$; u + v has both
 /// errors.
-/// \param d, to, e1, e2  D, T, \f$E_1\f$ and \f$E_2\f$.
-/// \param inverse  1 over the determinant.
-/// \param most     Largest useful bound.
 /// \return The bound, dimensionless; 0 if it would exceed `most`.
 // [border]
 template <std::floating_point C>

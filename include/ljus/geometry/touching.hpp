@@ -36,7 +36,6 @@ struct SharedPlace {
 
 namespace detail {
 
-/// The box around all places of a piece.
 [[nodiscard, gnu::cold]] inline BoxT<double>
 box_of(const SurfacePiece& piece) noexcept {
     BoxT<double> box;
@@ -48,7 +47,6 @@ box_of(const SurfacePiece& piece) noexcept {
 }
 
 /// The least and the greatest height of a piece above a plane.
-/// \param normal  Of unit length.
 [[nodiscard, gnu::cold]] inline std::array<double, 2>
 heights_of(const SurfacePiece& piece, const glm::dvec3& point,
            const glm::dvec3& normal) noexcept {
@@ -77,7 +75,6 @@ separated(const Facet& facet, const SurfacePiece& other, double distance) noexce
 }
 
 /// Whether a way is within a plane.
-/// \param normal  Of the plane, with any length.
 [[nodiscard, gnu::cold]] inline bool slides(const glm::dvec3& normal,
                                             const glm::dvec3& way) noexcept {
     return std::abs(glm::dot(normal, way)) <=

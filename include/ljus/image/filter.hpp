@@ -73,7 +73,6 @@ namespace detail {
 /// at equal steps.
 using FilterTable = std::array<double, 65>;
 
-/// Makes the table of a filter, which rises from 0 to 1.
 [[nodiscard]] inline FilterTable make_filter_table(Filter filter) noexcept {
     constexpr std::size_t cells = std::tuple_size_v<FilterTable> - 1;
     FilterTable cdf{};

@@ -30,14 +30,12 @@ inline constexpr Vec3T<double> xyz_weights[3] = {
     Vec3T<double>{1425312, 8788810, 70074185} / 80288307.0};
 
 /// XYZ of a linear sRGB colour, in units of the white point D65.
-/// \return X/Xn, Y/Yn, Z/Zn; white is (1, 1, 1).
 [[nodiscard]] inline Vec3T<double> xyz_over_white(const RgbT<double>& c) noexcept {
     return {glm::dot(xyz_weights[0], c), glm::dot(xyz_weights[1], c),
             glm::dot(xyz_weights[2], c)};
 }
 
 /// The linear sRGB colour of XYZ: the inverse of xyz_over_white().
-/// \return Linear sRGB, not always within [0, 1].
 [[nodiscard]] inline RgbT<double> rgb_of(const Vec3T<double>& xyz) noexcept {
     // Cramer's rule: cross products of two rows over the determinant.
     const auto& [x, y, z] = xyz_weights;
@@ -49,14 +47,12 @@ inline constexpr Vec3T<double> xyz_weights[3] = {
 /// YCxCz, which separates lightness, red-green and blue-yellow. Each is linear in
 /// light, so that it can be blurred.
 /// \return 116 Y - 16; 500 (X - Y); 200 (Y - Z), in units of white.
-/// \cite andersson2020
 [[nodiscard]] inline Vec3T<double> opponent(const RgbT<double>& c) noexcept {
     const Vec3T<double> white = xyz_over_white(c);
     return {116 * white.y - 16, 500 * (white.x - white.y), 200 * (white.y - white.z)};
 }
 
 /// The linear sRGB colour of YCxCz.
-/// \return Linear sRGB, not always within [0, 1].
 [[nodiscard]] inline RgbT<double> rgb_of_opponent(const Vec3T<double>& c) noexcept {
     const double y = (c.x + 16) / 116;
     return rgb_of({y + c.y / 500, y, y - c.z / 200});
@@ -64,7 +60,6 @@ inline constexpr Vec3T<double> xyz_weights[3] = {
 
 /// L*a*b* of a colour with the Hunt effect: dark colours are less colourful.
 /// \return L*, and a* and b* times L*/100.
-/// \cite andersson2020
 [[nodiscard]] inline Vec3T<double> hunt_lab(const RgbT<double>& c) noexcept {
     const auto root = [](double t) {
         constexpr double d = 6.0 / 29;
@@ -79,8 +74,6 @@ inline constexpr Vec3T<double> xyz_weights[3] = {
 
 /// The HyAB distance, made for large differences: city-block in lightness, Euclidean in
 /// a* and b*.
-/// \return |L1 - L2| + |(a1, b1) - (a2, b2)|.
-/// \cite andersson2020
 [[nodiscard]] inline double hyab(const Vec3T<double>& a,
                                  const Vec3T<double>& b) noexcept {
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
@@ -164,7 +157,6 @@ template <std::floating_point T>
         std::ceil(3 * std::sqrt(0.04 / 2) / std::numbers::pi * ppd));
 }
 
-/// Copies a rectangle of one image into another image.
 template <std::floating_point T>
 void copy_part(const ImageT<T>& from, int x, int y, int width, int height,
                ImageT<T>& to, int to_x, int to_y) {
@@ -204,8 +196,6 @@ template <std::floating_point T, std::floating_point U, typename Make>
 
 /// A picture as a distant viewer sees it: each channel is blurred by the eye's contrast
 /// sensitivity.
-/// \return Linear sRGB within [0, 1].
-/// \cite andersson2020
 [[nodiscard]] inline ImageT<double> eye_filtered(const ImageT<double>& image,
                                                  double ppd) {
     constexpr double pi = std::numbers::pi;
@@ -238,7 +228,6 @@ template <std::floating_point T, std::floating_point U, typename Make>
 /// derivative of lightness, smoothed by a Gaussian as wide as the eye's edge detector,
 /// 0.082 degrees.
 /// \return Edges in the first channel, points in the second.
-/// \cite andersson2020
 [[nodiscard]] inline ImageT<double> features(const ImageT<double>& image, double ppd) {
     const double deviation = 0.5 * 0.082 * ppd;
     const int radius = static_cast<int>(std::ceil(3 * deviation));
@@ -265,9 +254,6 @@ template <std::floating_point T, std::floating_point U, typename Make>
 }
 
 /// The number of pixels per degree of the visual field.
-/// \param distance  From the eye to the screen, in metres.
-/// \param width     Width of the screen, in metres.
-/// \param pixels    Pixels across the screen.
 /// \return Pixels per degree; 67.0 for the defaults.
 [[nodiscard]] constexpr double pixels_per_degree(double distance = 0.7,
                                                  double width = 0.7,
@@ -280,7 +266,6 @@ template <std::floating_point T, std::floating_point U, typename Make>
 /// pieces: differences above 0.4 of the largest one, between pure green and pure blue,
 /// are compressed into the last 0.05.
 /// \return 0 for equal colours, 1 for green and blue.
-/// \cite andersson2020
 [[nodiscard]] inline double color_error(const RgbT<double>& a, const RgbT<double>& b) {
     const auto powered = [](const RgbT<double>& p, const RgbT<double>& q) {
         return std::pow(hyab(hunt_lab(p), hunt_lab(q)), 0.7);
@@ -316,7 +301,6 @@ template <std::floating_point T, std::floating_point U>
 }
 // [flip_map]
 
-/// The mean of the first channel of an image.
 [[nodiscard]] inline double mean_of(const ImageT<double>& map) {
     std::vector<double> values;
     values.reserve(map.pixels.size());

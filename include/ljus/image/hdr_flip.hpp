@@ -26,7 +26,6 @@ struct Exposures {
 /// A film's response, which maps any light to [0, 1]: Narkowicz's fit of ACES, without
 /// its built-in exposure.
 /// \return In [0, 1]; 0 for NaN and negatives, 0.85 at 2.119.
-/// \cite andersson2021
 [[nodiscard]] inline double film_curve(double x) noexcept {
     if (!(x > 0)) return 0;
     const double y = std::min(x, 1e100); // its square must not overflow
@@ -37,8 +36,6 @@ struct Exposures {
 /// The range of exposures at which a picture shows details.
 /// \return The range from the exposure that maps the brightest luminance to 0.85 of
 ///         film_curve(), to the one that maps the median luminance to it.
-/// \throws std::invalid_argument  as check(reference).
-/// \cite andersson2021
 template <std::floating_point T>
 [[nodiscard]] Exposures exposures_of(const ImageT<T>& reference) {
     check(reference);

@@ -73,8 +73,6 @@ void check(const ImageT<T>& image) {
 
 namespace detail {
 
-/// Requires that two images have the same size.
-/// \throws std::invalid_argument  if the sizes differ, or as check() for either.
 template <std::floating_point T, std::floating_point U>
 void require_same_size(const ImageT<T>& image, const ImageT<U>& reference) {
     check(image);
@@ -87,7 +85,6 @@ void require_same_size(const ImageT<T>& image, const ImageT<U>& reference) {
     throw std::invalid_argument(text);
 }
 
-/// The index of pixel (x, y) in `pixels`.
 template <std::floating_point T>
 [[nodiscard]] std::size_t pixel_index(const ImageT<T>& image, int x, int y) noexcept {
     assert(x >= 0 && x < image.width && "x is a column of the image");

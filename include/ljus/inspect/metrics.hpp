@@ -72,8 +72,6 @@ struct RelativeSquare {
 /// The root mean square error, sqrt(mean (x - r)^2).
 /// It is the metric of theory: for an unbiased method it falls as 1/sqrt(n).
 /// *Trap*: a few highlights dominate it; it says nothing of the dark regions.
-/// \param image      The picture.
-/// \param reference  The reference, of the same size.
 /// \return In units of radiance.
 /// \throws std::invalid_argument  as require_same_size().
 template <std::floating_point T, std::floating_point U>
@@ -87,8 +85,7 @@ template <std::floating_point T, std::floating_point U>
 /// It is relative, like the eye, and the default here.
 /// *Trap*: values with different epsilons, or with the divisor (r + epsilon)^2 of some
 /// tools, are not comparable; state the epsilon.
-/// \param image, reference  The picture and the reference, of the same size.
-/// \param epsilon    Radiance squared, above 0: the scale of darkness.
+/// The epsilon is a squared radiance above 0, the scale of darkness.
 /// \return Dimensionless; 1 for a black picture of a scene that is bright throughout.
 /// \throws std::invalid_argument  as require_same_size(), or for the epsilon.
 template <std::floating_point T, std::floating_point U>
@@ -100,15 +97,11 @@ template <std::floating_point T, std::floating_point U>
 }
 
 /// The relative mean square error without the worst pixels.
-/// Dropping the worst 1 % removes fireflies, and measures the rest of the picture.
+/// Dropping the worst 1 % removes fireflies, and measures the rest of the picture: the
+/// worst floor(dropped * pixels) go, by their mean over the channels. `dropped` is in
+/// [0, 1).
 /// *Trap*: it favours a method that puts its energy into fireflies; state it beside
 /// rel_mse(), never instead of it.
-/// \param image  The picture.
-/// \param reference  The reference, of the same size.
-/// \param dropped  The fraction of pixels to drop, in [0, 1): the worst
-///          floor(dropped * pixels), by their mean over the channels; at 1 %, none of
-///          fewer than 100 pixels.
-/// \param epsilon  As for rel_mse().
 /// \return Dimensionless, at most rel_mse().
 /// \throws std::invalid_argument  as rel_mse(), or for `dropped`.
 template <std::floating_point T, std::floating_point U>
@@ -163,10 +156,6 @@ template <std::floating_point T>
 /// *Trap*: neighbouring pixels share photons, so that the noise of photon maps survives
 /// too; use several seeds and bias_variance() for them. Narrow blocks at the right and
 /// lower edge (see block_means()) have the weight of whole ones.
-/// \param image      The picture.
-/// \param reference  The reference, of the same size.
-/// \param size       Side of a block in pixels, at least 1.
-/// \param epsilon    As for rel_mse().
 /// \return Dimensionless.
 /// \throws std::invalid_argument  as rel_mse() and block_means().
 template <std::floating_point T, std::floating_point U>

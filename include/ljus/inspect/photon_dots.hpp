@@ -89,7 +89,6 @@ photon_in_sight(const W& world, const CameraT<T>& camera, const PhotonT<T>& phot
 
 namespace detail {
 
-/// Adds a dot to a picture.
 template <std::floating_point T>
 void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
              const PhotonDotSettings& look) {
@@ -109,13 +108,8 @@ void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
 
 } // namespace detail
 
-/// Draws photons over a picture of their scene.
-/// \param image    The picture, from scene_drawing().
-/// \param world    The scene of the photons.
-/// \param camera   The camera of the picture.
-/// \param photons  The photons, of any kind.
-/// \param look     The look of a dot.
-/// \param color    Called with each photon; black draws nothing, and saves the ray.
+/// Draws photons of any kind over a picture of their scene, from scene_drawing(). The
+/// colour is called with each photon; black draws nothing, and saves the ray.
 /// \return The number of photons that were drawn.
 /// \throws std::invalid_argument  if the radius of a dot is not in (0, 1000].
 /// \cost One ray per drawn photon that lies within the picture.

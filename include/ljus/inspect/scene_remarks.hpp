@@ -31,10 +31,7 @@ namespace detail {
 
 /// The part of a photon's flux, along one line through its disc, that estimates on the
 /// surfaces there find: about the kernel's weight on a flat one.
-/// \param world    The closed scene.
-/// \param photon   Where the photon landed.
 /// \param offset   From it to the line, within the disc, in units of the radius.
-/// \param gather   Radius, kernel, thickness.
 template <AnyWorld W, std::floating_point T, typename K>
 [[nodiscard]] double found_along(const W& world, const SurfacePointT<T>& photon,
                                  const Vec3T<T>& offset,
@@ -63,12 +60,9 @@ template <AnyWorld W, std::floating_point T, typename K>
 
 /// The light that estimates lose where their disc is wider than an object: the part of
 /// its photons' flux that is spread beyond its edges, for the object that loses most.
-/// The objects on which few of the sampled photons landed are taken together.
-/// \param world   The closed scene.
-/// \param map     Its photons; some thousands are sampled.
-/// \param gather  Radius, kernel, thickness; all photons within the radius count.
-/// \param kinds   The kinds that count.
-/// \param seed    Of the places in the discs.
+/// The objects on which few of the sampled photons landed are taken together. All
+/// photons within the radius count, not the k nearest; the seed is that of the places
+/// in the discs.
 /// \return In [0, 1]; 0 if fewer than 16 photons landed on each object.
 /// \cost Five rays for each of at most 4096 photons.
 template <AnyWorld W, std::floating_point T, typename K>
@@ -144,7 +138,6 @@ namespace detail {
 /// leaves log10(2^p r / c) digits. The direction of a shadow ray is as long as the ray,
 /// and chord() multiplies four lengths: above the fourth root of the largest number, a
 /// ball may cast no shadow.
-/// \return A sentence, or an empty string.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::string digits_remark(const W& world) {
     using T = typename W::Scalar;
@@ -232,7 +225,6 @@ template <AnyWorld W>
 }
 
 /// A sentence about objects whose light is lost at their edges.
-/// \param lost  As edge_loss().
 /// \return Empty if little is lost, or with a line feed.
 [[nodiscard, gnu::cold]] inline std::string edge_remark(double lost, float radius) {
     if (!(lost > 0.2)) return {};
@@ -266,8 +258,6 @@ add_contact_remarks(const Contacts& contacts,
 #ifndef LJUS_CORE // otherwise defined in ljus::core
 
 /// The rule that decides a contact, as the end of a sentence.
-/// \param met    The kind of the surface that is met.
-/// \param other  The kind of the other one.
 /// \return Null if it is of no interest: surfaces that touch in points, and opaque ones
 ///         back to back.
 [[nodiscard, gnu::cold]] inline const char*

@@ -587,9 +587,6 @@ void save_exr_layers(const std::vector<LayerT<T>>& layers, const std::string& pa
 }
 
 /// Saves an image as an EXR file with the channels R, G and B.
-/// \param image    Linear colours.
-/// \param path     The file.
-/// \param numbers  How they are stored.
 /// \throws std::invalid_argument  as check(); std::runtime_error as save_file().
 template <std::floating_point T>
 void save_exr(const ImageT<T>& image, const std::string& path,

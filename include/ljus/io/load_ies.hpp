@@ -48,12 +48,10 @@ struct IesReader {
         throw std::runtime_error(
             join({shown_path(file), ": line ", to_text(line), ": ", why, "."}));
     }
-    /// Takes the next line.
     std::string_view take() {
         ++line;
         return take_line(rest);
     }
-    /// The next number.
     double number(const char* what) {
         std::string_view word = words.next();
         while (word.empty() && !rest.empty()) {
@@ -68,7 +66,6 @@ struct IesReader {
                 {what, " is '", shown(std::string(word)), "'; it must be a number"}));
         return value;
     }
-    /// The next number, within a range.
     double number(const char* what, double low, double high) {
         const double value = number(what);
         if (!(value >= low && value <= high))
@@ -76,7 +73,6 @@ struct IesReader {
                               to_text(low), ", ", to_text(high), "]"}));
         return value;
     }
-    /// The next number, a whole one.
     std::size_t count(const char* what, double low, double high) {
         const double value = number(what, low, high);
         if (value != std::floor(value))

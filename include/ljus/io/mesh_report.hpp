@@ -47,7 +47,6 @@ enum class MeshTrouble : std::uint8_t {
 
 namespace detail {
 
-/// The number of values of MeshTrouble.
 inline constexpr std::size_t mesh_troubles = 21;
 
 } // namespace detail

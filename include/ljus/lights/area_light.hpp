@@ -38,7 +38,6 @@ namespace detail {
 /// directions of the side of its normal.
 template <typename L>
 inline constexpr bool is_lamp = false;
-/// \copydoc is_lamp
 template <typename S>
 inline constexpr bool is_lamp<AreaLightT<S>> = true;
 
@@ -49,9 +48,6 @@ inline constexpr bool has_area_sums = requires(const S& shape) {
 };
 
 /// Precomputes the data of a lamp.
-/// \param shape       With an area.
-/// \param radiance    W/(m^2 sr).
-/// \param inside_out  Whether it emits on the other side.
 /// \throws std::invalid_argument  if its area or its flux is 0 or not finite.
 template <Shape S, std::floating_point T>
 [[nodiscard]] LampT<T> make_lamp(const S& shape, const RgbT<T>& radiance,

@@ -158,7 +158,6 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// A direction to the sky.
 template <std::floating_point T>
 struct SkyDirectionT {
     Vec3T<T> wi{T(0)};      ///< Unit, towards the sky.

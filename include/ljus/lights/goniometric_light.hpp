@@ -100,9 +100,6 @@ namespace detail {
 
 /// Where the integral of a line times the sine reaches a part of its value.
 /// \param c0      The line at the beginning, at least 0.
-/// \param c1      Its slope.
-/// \param theta0  Where the interval begins.
-/// \param length  Its length.
 /// \param part    In [0, 1].
 /// \return In [0, length].
 /// \cost Some four steps of Newton's method, between bounds that close in.
@@ -149,15 +146,12 @@ between_angles(const std::vector<double>& angles, double angle) noexcept {
                          (angle - angles[index]) / (angles[index + 1] - angles[index])};
 }
 
-/// The four intensities around a cell of a table.
 struct CellCorners {
     double low[2] = {};  ///< At the smaller polar angle, at both azimuths.
     double high[2] = {}; ///< At the larger one.
 };
 
 /// The intensities around a cell.
-/// \param polar    The number of the polar angle before it.
-/// \param azimuth  That of the azimuth.
 [[nodiscard]] inline CellCorners corners_of(const std::vector<double>& candela,
                                             std::size_t rows, std::size_t polar,
                                             std::size_t azimuth) noexcept {

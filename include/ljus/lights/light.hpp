@@ -70,7 +70,6 @@ struct ArrivalT {
 namespace detail {
 
 /// Refuses a flux that is 0 or leaves the range of T.
-/// \throws std::invalid_argument  with the value.
 template <std::floating_point T>
 void require_flux(const RgbT<T>& flux) {
     require(is_finite(flux) && !is_black(flux), "the flux of a light", flux,
@@ -85,7 +84,6 @@ template <std::floating_point T>
 }
 
 /// Normalises a direction of any length.
-/// \throws std::invalid_argument  if it is 0 or not finite.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> unit_along(std::string_view what, const Vec3T<T>& way) {
     require_finite(what, way);
@@ -178,7 +176,6 @@ concept FillsSky = requires(const L& light,
 
 namespace detail {
 
-/// The optional functions of a type of light.
 template <Light L>
 [[nodiscard]] constexpr auto light_hooks() noexcept {
     using T = typename L::Scalar;
@@ -220,7 +217,6 @@ template <std::floating_point T>
 [[nodiscard]] const Vec3T<T>& position_of(const SurfacePointT<T>& point) noexcept {
     return point.position;
 }
-/// \copydoc position_of
 template <std::floating_point T>
 [[nodiscard]] const Vec3T<T>& position_of(const Vec3T<T>& point) noexcept {
     return point;

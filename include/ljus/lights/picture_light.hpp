@@ -36,7 +36,6 @@ struct PictureLightT {
 
 namespace detail {
 
-/// \copydoc is_lamp
 template <typename T>
 inline constexpr bool is_lamp<PictureLightT<T>> = true;
 
@@ -207,10 +206,6 @@ sample_light(const PictureLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>
 }
 
 /// The density with which sample_light() chooses a point of the lamp; per steradian.
-/// \param light  The lamp.
-/// \param from   The lit point.
-/// \param point  The point of the lamp.
-/// \param uv     Its coordinates.
 template <std::floating_point T>
 [[nodiscard]] T pdf_towards(const PictureLightT<T>& light, const Vec3T<T>& from,
                             const SurfacePointT<T>& point, const Vec2T<T>& uv) {

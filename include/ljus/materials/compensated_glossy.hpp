@@ -33,8 +33,6 @@ using FullRoughMetal =
 namespace detail {
 
 /// The mean of facet_reflectance() over the angles, \f$ 2 \int F(\mu)\,\mu\,d\mu \f$.
-/// \param facet  A colour at normal incidence, or a metal's index.
-/// \return In [0, 1] for each channel.
 template <std::floating_point T, typename Facet>
 [[nodiscard]] RgbT<T> mean_reflectance(const Facet& facet) noexcept {
     constexpr int steps = 256; // uniform in mu^2, so that all have the same weight

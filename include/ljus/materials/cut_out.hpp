@@ -29,10 +29,8 @@ using CutOut = Textured<Base, Holes<Texture>>;
 
 namespace detail {
 
-/// Whether a texture is a Holes.
 template <typename Texture>
 inline constexpr bool is_holes = false;
-/// \copydoc is_holes
 template <typename Texture>
 inline constexpr bool is_holes<Holes<Texture>> = true;
 

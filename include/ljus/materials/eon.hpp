@@ -58,7 +58,6 @@ inline constexpr T eon_mean_loss = fon_constant<T> -
 /// needs no special case.
 /// \return At least 0; for directions on the same side.
 /// \cost Two arc tangents, four square roots, eight divisions.
-/// \cite eon2025
 // [eon]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> eon_weight(const EonT<T>& surface, const Vec3T<T>& wo,
@@ -89,7 +88,6 @@ struct EonLobeT {
     Vec2T<T> along; ///< The azimuth of wo; unit vector.
 };
 
-/// The lobe for an outgoing direction.
 template <std::floating_point T>
 [[nodiscard]] EonLobeT<T> eon_lobe(T roughness, const Vec3T<T>& wo) noexcept {
     const T r = roughness, mu = std::abs(wo.z);

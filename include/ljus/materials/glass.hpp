@@ -137,7 +137,6 @@ using ThinGlass = ThinGlassT<float>; ///< ThinGlassT in float.
 
 namespace detail {
 
-/// The reflectance and transmittance of a pane.
 template <std::floating_point T>
 struct PaneFractionsT {
     RgbT<T> reflected;   ///< Fraction of the incident light.

@@ -21,9 +21,6 @@ namespace ljus {
 namespace detail {
 
 /// The reflectance of a facet given by its colour at normal incidence: Schlick's.
-/// \param color      Reflectance at normal incidence, in [0, 1].
-/// \param cos_theta  Cosine between ray and facet, in [0, 1].
-/// \return In [0, 1].
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> facet_reflectance(const RgbT<T>& color, T cos_theta) noexcept {
     return {schlick(color.x, cos_theta), schlick(color.y, cos_theta),
@@ -31,9 +28,6 @@ template <std::floating_point T>
 }
 
 /// The reflectance of a metal facet.
-/// \param index      Index of the metal.
-/// \param cos_theta  Cosine between ray and facet, in [0, 1].
-/// \return In [0, 1].
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> facet_reflectance(const ConductorIndexT<T>& index,
                                         T cos_theta) noexcept {

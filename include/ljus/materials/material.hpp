@@ -344,7 +344,6 @@ template <Material M>
 
 namespace detail {
 
-/// The optional functions of a type of material.
 template <Material M>
 [[nodiscard]] constexpr auto material_hooks() noexcept {
     using V = Vec3T<typename M::Scalar>;

@@ -83,7 +83,6 @@ struct LobeFractionsT {
     T diffuse; ///< Matt lobe, times its brightest channel.
     T refract; ///< Refraction.
     T reflect; ///< Mirror and boundary's reflection, which share a direction.
-    /// The sum of the three.
     [[nodiscard]] constexpr T sum() const noexcept {
         return diffuse + refract + reflect;
     }

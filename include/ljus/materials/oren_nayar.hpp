@@ -40,7 +40,6 @@ namespace detail {
 
 /// The larger cosine of two directions to the normal, with a lower bound that keeps
 /// quotients finite where both directions graze.
-/// \param wo, wi  Unit vectors in the surface's frame.
 /// \return At least epsilon^2.
 template <std::floating_point T>
 [[nodiscard]] T larger_cosine(const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
@@ -115,7 +114,6 @@ namespace detail {
 
 /// Requires a roughness within [0, 1000] radians; `what` is its name, e.g.
 /// "oren_nayar.sigma".
-/// \throws std::invalid_argument as require().
 template <std::floating_point T>
 void require_roughness(std::string_view what, T sigma) {
     require(sigma >= T(0) && sigma <= T(1000), what, sigma,

@@ -53,7 +53,6 @@ template <std::floating_point T>
     return glass.roughness * glass.roughness * std::abs(glass.index - T(1)) > T(2e-5);
 }
 
-/// The boundary with the same body, but smooth.
 template <std::floating_point T>
 [[nodiscard]] GlassT<T> smooth(const RoughGlassT<T>& glass) noexcept {
     return {.index = glass.index, .absorption = glass.absorption};
@@ -72,7 +71,6 @@ struct SidesT {
     T beyond = T(1); ///< On the other side.
 };
 
-/// The indices on both sides of rough glass.
 template <std::floating_point T>
 [[nodiscard]] SidesT<T> sides(const RoughGlassT<T>& glass,
                               const Vec3T<T>& wo) noexcept {

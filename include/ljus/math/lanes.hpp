@@ -23,7 +23,6 @@ namespace detail {
 /// prevent that.
 /// \{
 
-/// The number of lanes.
 inline constexpr int lane_count = 8;
 
 /// Calls `body(i)` for each of eight lanes, in a loop that is not unrolled.
@@ -55,11 +54,9 @@ struct alignas(32) Lanes3T {
     T y[lane_count]; ///< Second coordinates.
     T z[lane_count]; ///< Third coordinates.
 
-    /// The vector in one lane.
     [[nodiscard]] constexpr Vec3T<T> operator[](std::size_t lane) const noexcept {
         return {x[lane], y[lane], z[lane]};
     }
-    /// Replaces the vector in one lane.
     constexpr void set(std::size_t lane, const Vec3T<T>& v) noexcept {
         x[lane] = v.x;
         y[lane] = v.y;
@@ -83,8 +80,6 @@ struct alignas(32) LaneMask {
     return std::bit_cast<std::uint64_t>(bytes) & 0x0101010101010101u;
 }
 /// Removes one lane from the set that yes_lanes() returned.
-/// \param lanes  Not 0; the lane's byte is cleared.
-/// \return The lane's index.
 [[nodiscard]] constexpr std::size_t take_lane(std::uint64_t& lanes) noexcept {
     const auto place = static_cast<std::size_t>(std::countr_zero(lanes)) / 8;
     lanes &= lanes - 1;
@@ -136,8 +131,6 @@ namespace detail {
 
 /// Hints that `lines` cache lines of 64 bytes will soon be read. Results do not depend
 /// on it, and compilers without such a hint ignore it.
-/// \param address  Start of the first line; any address.
-/// \cost One instruction per line.
 template <int lines = 1>
 inline void prefetch([[maybe_unused]] const void* address) noexcept {
 #if defined(__GNUC__) // clang defines it, too

@@ -63,12 +63,9 @@ using SobolTable = std::array<std::array<std::uint32_t, 32>, sobol_dimensions>;
     return table;
 }
 
-/// The direction numbers.
 inline constexpr SobolTable sobol_table = make_sobol_table();
 
 /// One coordinate of a Sobol point \cite sobol1967.
-/// \param index      The index of the point.
-/// \param dimension  Which coordinate, below sobol_dimensions.
 /// \return The coordinate times 2^32. The first 2^m points are a (t,m,s)-net: t is 0
 ///         in each dimension alone and in dimensions 0 and 1 together.
 /// \cost 32 exclusive ors, eight or four at a time.
@@ -80,7 +77,6 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
     return bits;
 }
 
-/// Reverses the order of the bits of x.
 [[nodiscard]] constexpr std::uint32_t reversed_bits(std::uint32_t x) noexcept {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
@@ -95,10 +91,8 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 ///
 /// Sums and products carry upwards only. On reversed bits, each bit of the result
 /// therefore depends on the higher bits of the original.
-/// \param bits  A coordinate from sobol().
 /// \param seed  Another seed per dimension; seeds that differ only in their last bits
 ///              give correlated dimensions.
-/// \return The scrambled coordinate times 2^32.
 /// \cite owen1995 \cite burley2020
 // [owen]
 [[nodiscard]] constexpr std::uint32_t owen_scrambled(std::uint32_t bits,
@@ -146,7 +140,6 @@ struct SobolStream {
 namespace detail {
 
 /// A stream with random numbers only, for code that is compiled once for both kinds.
-/// \return A stream past its last dimension.
 [[nodiscard]] constexpr SobolStream without_points(const RandomStream& rest) noexcept {
     return {.dimension = sobol_dimensions, .rest = rest};
 }

@@ -59,14 +59,12 @@ struct CellT {
 
 namespace detail {
 
-/// The cumulative sums of one row.
 [[nodiscard]] inline std::span<const double> row_of(const PiecewiseConstant2D& density,
                                                     int y) noexcept {
     const auto width = static_cast<std::size_t>(density.width);
     return std::span(density.cells).subspan(static_cast<std::size_t>(y) * width, width);
 }
 
-/// One of several intervals, and a position in it.
 template <std::floating_point T>
 struct ChosenIntervalT {
     int index = 0;   ///< Its number.

@@ -54,7 +54,6 @@ template <std::floating_point T, std::size_t N>
     return sum;
 }
 
-/// The derivative of a polynomial with respect to u.
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] constexpr BernsteinT<T, N - 1>
 derivative(const BernsteinT<T, N>& p) noexcept {
@@ -85,9 +84,6 @@ template <std::floating_point T, std::size_t N>
 
 /// The root between two points of opposite sign: Newton's method while each step is at
 /// most half as long as the last one, bisection otherwise.
-/// \param p   The polynomial.
-/// \param a   A point where p has one sign, or is zero.
-/// \param b   A point where p has the other sign; a < b.
 /// \return The root, within one unit of roundoff of 1 where p is steep.
 /// \cost At most 2 steps per bit of T.
 // [root_between]
@@ -117,11 +113,8 @@ template <std::floating_point T, std::size_t N>
 struct RootsT {
     std::array<T, N + 1> at{}; ///< The first `count` are roots.
     std::size_t count = 0;     ///< The number of roots.
-    /// The first root.
     [[nodiscard]] const T* begin() const noexcept { return at.data(); }
-    /// One past the last root.
     [[nodiscard]] const T* end() const noexcept { return at.data() + count; }
-    /// Appends a root.
     void add(T root) noexcept { at[count++] = root; }
 };
 

@@ -9,13 +9,8 @@
 
 namespace ljus::detail {
 
-/// \addtogroup surface
-/// \{
-
-/// The relative error of n roundings in a row, n u / (1 - n u).
-/// \tparam T  The precision; u is its unit roundoff.
-/// \param n   The number of roundings, at least 0.
-/// \return The bound, without a unit.
+/// The relative error of n roundings in a row, n u / (1 - n u) for the unit
+/// roundoff u.
 template <std::floating_point T>
 [[nodiscard]] constexpr T rounding_bound(int n) noexcept {
     const T nu = T(n) * std::numeric_limits<T>::epsilon() / T(2);
@@ -28,7 +23,5 @@ template <std::floating_point T>
 [[nodiscard]] T size_of(const Vec3T<T>& v) noexcept {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
-
-/// \}
 
 } // namespace ljus::detail

@@ -26,8 +26,6 @@ struct Strata {
 
 /// Chooses cells for a number of rays: exactly one per ray, as square as possible. A
 /// prime, or a number with only long factors, gets n rooks that attack no other.
-/// \param rays  At least 1.
-/// \return The cells.
 /// \erratum{The report's program steps by 1/sqrt(n) and drops the remainder: of 8 rays
 ///          it traced 4, and of 10 it traced 9 in nine tenths of the pixel.}
 [[nodiscard]] constexpr Strata strata_for(int rays) noexcept {
@@ -43,9 +41,7 @@ struct Strata {
 /// rounds of an invertible hash within the next power of two are repeated until the
 /// value is below count. A random offset is added last, because the hash alone prefers
 /// some values by half.
-/// \param i      In [0, count).
 /// \param count  At least 1, and at most 2^31.
-/// \param key    Selects the permutation.
 /// \return Each value once; over the keys, all values are equally likely.
 /// \cost At most two hashes on average.
 /// \cite kensler2013
@@ -70,10 +66,6 @@ struct Strata {
 }
 
 /// The position of one ray within its pixel.
-/// \param strata  From strata_for().
-/// \param ray     The ray's number, in [0, rays).
-/// \param key     The pixel's key; it selects the placement of the rooks.
-/// \param u       The position in the ray's cell: point of the unit square.
 /// \return Point of the unit square, uniform over all rays and keys; rounding may put
 ///         it onto the far border of its cell, and so onto 1.
 /// \report{Section 3.2}
@@ -138,9 +130,6 @@ namespace detail {
 /// A column with a point of the last row is wider than its neighbours by one strip.
 /// These columns are spread over the pixel from a random start. Finally all strips are
 /// shifted by the same random step, so that none is preferred.
-/// \param pattern  From make_pattern().
-/// \param i        The point's number, in [0, points).
-/// \param key      The pixel's key.
 /// \return The strip, in [0, points); each once.
 /// \cost Two calls of shuffled() and five divisions.
 [[nodiscard]] constexpr std::uint32_t
@@ -168,10 +157,6 @@ strip_of_broken(const Pattern& pattern, std::uint32_t i, std::uint64_t key) noex
 /// incomplete; so any number of points is possible, even a prime. Within a cell, the x
 /// offset belongs to the point's row and the y offset to its column. Thus each of as
 /// many strips as points holds one point, along x and along y.
-/// \param pattern  From make_pattern().
-/// \param number   The point's number, in [0, points).
-/// \param key      The pixel's key; it selects the order of rows and columns.
-/// \param u        The position in its strips: point of the unit square.
 /// \return Point of the unit square; rounding may put it onto 1.
 /// \cite kensler2013
 // [multi_jittered]
@@ -192,8 +177,6 @@ template <std::floating_point T>
 // [multi_jittered]
 
 /// A scrambled Sobol point.
-/// \param number  The index of the point.
-/// \param key     The pixel's key; it selects the scrambling.
 /// \return Point of the unit square, below 1. The first 2^k points lie one in each cell
 ///         of every dyadic grid of 2^k cells.
 /// \cite owen1995 \cite burley2020

@@ -92,7 +92,6 @@ template <std::floating_point T>
 namespace detail {
 
 /// Requires an index that a metal can have; `what` is its name, e.g. "metal.index".
-/// \throws std::invalid_argument as require().
 template <std::floating_point T>
 void require_conductor(std::string_view what, const ConductorIndexT<T>& index) {
     require_radiance(std::string(what) + ".n", index.n);

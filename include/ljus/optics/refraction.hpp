@@ -98,7 +98,6 @@ namespace detail {
 
 /// Requires an index of refraction within [0.001, 1000]; `what` is its name, e.g.
 /// "glass.index".
-/// \throws std::invalid_argument as require().
 template <std::floating_point T>
 void require_index(std::string_view what, T index) {
     require_positive(what, index);

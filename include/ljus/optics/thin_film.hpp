@@ -19,7 +19,6 @@ namespace ljus {
 
 namespace detail {
 
-/// The reflectance and transmittance of a film at one wavelength.
 template <std::floating_point T>
 struct FilmSharesT {
     T reflected = T(0);   ///< R.

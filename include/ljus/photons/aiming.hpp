@@ -100,7 +100,6 @@ template <AnyWorld W, std::floating_point T>
 }
 // [aim_at]
 
-/// A chosen target.
 template <std::floating_point T>
 struct ChosenTargetT {
     ObjectId target; ///< The object.
@@ -109,7 +108,6 @@ struct ChosenTargetT {
 
 /// Chooses a target in proportion to its weight.
 /// \param size_of   Called with each; returns its weight, or 0 to exclude it.
-/// \param u_target  In [0, 1).
 /// \return The target; nothing if all weights are 0.
 template <std::floating_point T, typename SizeOf>
 [[nodiscard]] std::optional<ChosenTargetT<T>>
@@ -133,7 +131,6 @@ choose_target(std::span<const ObjectId> targets, SizeOf size_of, T u_target) {
     return chosen;
 }
 
-/// A direction towards an object, with its density.
 template <std::floating_point T>
 struct AimedDirectionT {
     Vec3T<T> direction{T(0)}; ///< Unit.
@@ -151,7 +148,6 @@ struct AimNumbersT {
     T time;               ///< Time of the photon.
 };
 
-/// A photon that leaves a light for an object.
 template <std::floating_point T>
 struct LeavingAimedT {
     LeavingPhotonT<T> photon{}; ///< Its flux is over the light's probability.
@@ -246,10 +242,7 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 /// \f$ (1/4\pi) / p(\omega) \f$. A sun aims at the discs that the bounding spheres cast
 /// as shadows. Where objects overlap, a ray belongs to the first one that it hits; the
 /// caller drops photons that were aimed at another.
-/// \param world    The closed scene.
-/// \param choice   The distribution of its lights; at least one.
-/// \param targets  The objects; at least one.
-/// \param stream   Six numbers are drawn.
+/// There are at least one light and one object; six numbers are drawn.
 /// \return The photon; nothing if the target lies behind the light, or if all targets
 ///         have the radius 0.
 /// \cost One cone per target.
@@ -300,12 +293,9 @@ inline void check_shares(std::span<const double> shares, std::size_t count,
 }
 
 /// Aims a photon at one of several objects, chosen with the given probabilities. The
-/// flux is divided by the probability, so that the mean does not depend on it.
-/// \param world    The closed scene.
-/// \param choice   The distribution of its lights.
-/// \param targets  The objects.
-/// \param shares   Probabilities, as check_shares() accepts; if empty, as aim().
-/// \param stream   One number more is drawn than by aim().
+/// flux is divided by the probability, so that the mean does not depend on it. The
+/// shares are as check_shares() accepts; without any it does as aim(). One number more
+/// is drawn than by aim().
 /// \return As aim().
 template <AnyWorld W, StreamLike Stream>
 [[nodiscard]] std::optional<AimedPhotonT<typename W::Scalar>>

@@ -63,7 +63,6 @@ namespace detail {
 /// The irradiance around a photon, from the photons of a map on its side of the
 /// surface.
 /// \param map     The photons; shadow photons do not count.
-/// \param radius  Radius of the disc, in scene units.
 /// \return Luminance of the irradiance, in W/m^2.
 template <std::floating_point T>
 [[nodiscard]] double irradiance_around(const PhotonMapT<T>& map, const PhotonT<T>& at,
@@ -108,7 +107,6 @@ trace_pilot(const W& world, PhotonPassSettings pass, std::size_t object,
     return trace_photons(world, MapType::caustics, pass);
 }
 
-/// Evaluates the photons of a pilot.
 template <std::floating_point T>
 struct PilotLightT {
     const PhotonMapT<T>& caustics; ///< Photons of all pilots.
@@ -118,8 +116,6 @@ struct PilotLightT {
     double dark = 0;               ///< A tenth of the mean irradiance, W/m^2.
 
     /// Sums the flux and the scatters of an object.
-    /// \param photons  The stored photons of its pilot.
-    /// \param paths    Number of paths of its pilot.
     [[nodiscard]] CausticPilot judge(ObjectId object,
                                      const std::vector<PhotonT<T>>& photons,
                                      long long paths) const {
@@ -209,9 +205,7 @@ pilot_caustics(const W& world, const PhotonPassSettings& pass, T radius,
 
 namespace detail {
 
-/// All photons count alike.
 struct AllAlike {
-    /// The weight of a photon.
     template <std::floating_point T>
     [[nodiscard]] constexpr double operator()(const PhotonT<T>&) const noexcept {
         return 1;

@@ -29,13 +29,6 @@ template <typename Material, typename K>
 
 /// The plain counterpart of estimate_radiance() with a fixed radius: one photon at a
 /// time, for any material.
-/// \param map       The photons.
-/// \param surface   The vertex.
-/// \param material  Its material.
-/// \param wo        Outgoing direction, in the surface's frame.
-/// \param gather    Radius, kernel, thickness.
-/// \param kinds     The kinds that count.
-/// \param gathered  Counts the summed photons.
 /// \return Radiance, W/(m^2 sr).
 // [plain estimate]
 template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
@@ -79,13 +72,9 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
 /// \f$ \pi r^2 \f$ of the disc, so the estimate is unbiased. At the edge of a surface
 /// half of the disc lies outside, in a corner three quarters, and the estimate is 1/2
 /// and 1/4 of the right value.
-/// \param map       The photons.
-/// \param surface   The vertex; only point.position, point.normal and frame are used.
-/// \param material  Its material.
-/// \param wo        Outgoing direction, in the surface's frame.
-/// \param gather    Radius, k, kernel, thickness.
-/// \param kinds     The kinds that count.
-/// \param gathered  Counts the summed photons.
+///
+/// Of the vertex only point.position, point.normal and frame are used; `wo` is in that
+/// frame. `gathered` counts the summed photons.
 /// \return Radiance, W/(m^2 sr); 0 if the k nearest photons all lie within 1e-15 of
 ///         the radius from x, where the disc has no area.
 /// \throws std::invalid_argument  for k = 1 or above max_nearest; a radius that check()

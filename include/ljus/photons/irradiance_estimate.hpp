@@ -25,7 +25,6 @@ inline constexpr std::size_t max_nearest = 512;
 
 namespace detail {
 
-/// The default kernel of a type of kernels.
 template <typename K>
 inline constexpr K default_kernel{};
 /// The library's kernel of least variance.
@@ -100,10 +99,8 @@ template <std::floating_point T>
     return RgbT<T>(sum / (std::numbers::pi * radius2));
 }
 
-/// A filter for nearest_photons(): accepts photons by kind.
 struct OfKinds {
     PhotonKinds kinds; ///< The kinds that count.
-    /// Whether a photon counts.
     template <std::floating_point T>
     [[nodiscard]] bool operator()(std::uint32_t /*index*/,
                                   const PhotonRecordT<T>& photon) const noexcept {
@@ -170,7 +167,6 @@ sum_of_nearest(const PhotonMapT<T>& map, const SurfacePointT<T>& point,
     return disc;
 }
 
-/// The disc of an estimate with a fixed radius.
 template <std::floating_point T, KernelLike<T> K>
 [[nodiscard]] FluxDiscT<T, K>
 flux_disc(const Vec3T<T>& position, const Vec3T<T>& normal, const Vec3T<T>& side,
@@ -215,13 +211,9 @@ template <std::floating_point T, KernelLike<T> K>
 ///     const Rgb E = estimate_irradiance(map, {.position = x, .normal = n}, n,
 ///                                       DensityEstimateSettings{.radius = 0.1f});
 ///     const Rgb L = albedo / pi * E; // radiance of a Lambertian surface
-/// \param map     The photons.
-/// \param point   The point; its position is used, and its normal is compared with
-///                those of the photons.
-/// \param side    The point's normal or its opposite; photons that travel against it
-///                count.
-/// \param gather  Radius, k, kernel, thickness.
-/// \param kinds   The kinds that count.
+///
+/// The point's normal is compared with those of the photons; `side` is that normal or
+/// its opposite, and photons that travel against it count.
 /// \return W/m^2; 0 without photons.
 /// \throws std::invalid_argument  for a radius, thickness or k that check() refuses.
 /// \report{Section 3.2.6}

@@ -46,7 +46,6 @@ using IrradiancePoints = IrradiancePointsT<float>; ///< IrradiancePointsT in flo
 
 namespace detail {
 
-/// Whether a photon of a map has a kind.
 template <std::floating_point T>
 [[nodiscard]] bool is_of_kind(const PhotonMapT<T>& map, std::uint32_t index,
                               PhotonKind kind) {
@@ -61,7 +60,6 @@ template <std::floating_point T>
     return map.tree.point_ids()[index] % static_cast<std::size_t>(every) == 0;
 }
 
-/// Whether a map holds direct photons.
 template <std::floating_point T>
 [[nodiscard]] bool has_direct(const PhotonMapT<T>& map) {
     for (std::size_t i = 0; i < map.records.size(); ++i)
@@ -70,9 +68,6 @@ template <std::floating_point T>
 }
 
 /// Whether a point lies above or below a disc, which is as high as its radius.
-/// \param way      From the centre of the disc to the point.
-/// \param normal   Unit normal of the disc.
-/// \param radius2  Squared radius of the disc.
 template <std::floating_point T>
 [[nodiscard]] bool leaves_disc(const Vec3T<T>& way, const Vec3T<T>& normal,
                                T radius2) noexcept {
@@ -88,13 +83,8 @@ template <std::floating_point T>
 /// leaves out those of a parallel wall nearby, and of these only the ones that arrived
 /// on the side in question: without the latter, the light in a hollow ball would shine
 /// through its wall, because some of it grazes the wall within the disc.
-/// \param world     The closed scene.
-/// \param map       The photons.
-/// \param vertex    The point.
-/// \param normal    Unit vector on the side of the irradiance.
-/// \param settings  Number of photons; whether to correct for edges.
-/// \param radius    Maximum radius, in scene units.
-/// \param wanted    Called with the index of a record; whether the photon counts.
+/// The normal is a unit vector on that side; the radius, in scene units, is the largest
+/// one. wanted(index of a record) says whether a photon counts.
 /// \return W/m^2.
 template <AnyWorld W, std::floating_point T, typename Wanted>
 [[nodiscard]] RgbT<T>
@@ -134,9 +124,6 @@ namespace detail {
 
 /// The irradiance from all lights at a lookup point, its mean while the shutter is
 /// open: if something moves, each shadow ray has a time of its own.
-/// \param resting  The point at time 0.
-/// \param rays     Shadow rays per light.
-/// \param context  The random stream of the point; counts the shadow rays.
 /// \return W/m^2.
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> direct_at_point(const W& world, const VertexT<T>& resting,
@@ -168,10 +155,7 @@ template <AnyWorld W, std::floating_point T, typename Context>
 /// shadows; caustics and indirect light from the maps.
 /// \param general   The general map; its indirect photons count, unless they are lookup
 ///                  points.
-/// \param caustics  The caustics map; may be empty.
 /// \param vertex    The point at time 0, seen from the side of the irradiance.
-/// \param radius    Maximum radius of an estimate, in scene units.
-/// \param context   The random stream of the point; counts the shadow rays.
 /// \return W/m^2.
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> irradiance_of_point(const W& world, const PhotonMapT<T>& general,
@@ -203,13 +187,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
 
 } // namespace detail
 
-/// Precomputes the irradiance at every n-th photon of a map.
-/// \param world     The closed scene.
-/// \param general   The general map: the points, and their indirect light.
-/// \param caustics  The caustics map; may be empty.
-/// \param settings  The settings.
-/// \param seed      Seed of the shadow rays.
-/// \param threads   As in ParallelSettings.
+/// Precomputes the irradiance at every n-th photon of the general map, from its
+/// indirect light, the caustics map, which may be empty, and shadow rays.
 /// \return The points, the same for any number of threads.
 /// \cost About 10 microseconds per point.
 template <AnyWorld W, std::floating_point T>

@@ -33,7 +33,6 @@ template <std::floating_point T>
 namespace detail {
 
 /// Finds the surface near a point by a short ray.
-/// \param normal  Unit normal of the expected surface.
 /// \param height  The ray starts at this height above the point, and ends as far below.
 /// \return The vertex; nothing if there is no surface.
 template <AnyWorld W, std::floating_point T>
@@ -51,8 +50,6 @@ vertex_below(const W& world, const Vec3T<T>& place, const Vec3T<T>& normal, T he
 
 /// Whether a surface continues at a point: a short ray from above it hits a surface of
 /// the same normal.
-/// \param normal  Normal of the surface, on the side of the irradiance.
-/// \param height  As for vertex_below().
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] bool goes_on(const W& world, const Vec3T<T>& place,
                            const Vec3T<T>& normal, T height) {
@@ -66,10 +63,7 @@ template <AnyWorld W, std::floating_point T>
 /// shape cuts off a segment, unless another surface continues there, as at the diagonal
 /// of a wall of two triangles. If several edges cut the disc, their fractions are
 /// multiplied, which is exact for a product kernel and close for this one.
-/// \param world   The closed scene.
-/// \param vertex  The centre.
-/// \param normal  Unit normal, on the side of the irradiance.
-/// \param radius  Radius of the disc, in scene units.
+/// The unit normal is on the side of the irradiance; the radius is in scene units.
 /// \return In (0, 1]; 1 for shapes without straight edges.
 /// \cost A ray per edge that cuts the disc.
 template <AnyWorld W, std::floating_point T>

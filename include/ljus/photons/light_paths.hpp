@@ -73,7 +73,6 @@ struct LightPathsT {
 
 namespace detail {
 
-/// The start of a light path.
 template <std::floating_point T>
 struct LightStartT {
     PathStateT<T> path{};     ///< Its ray and flux, of all paths together.
@@ -102,8 +101,6 @@ template <AnyWorld W, StreamLike Stream>
     return start;
 }
 
-/// Traces a light path.
-/// \param out  Receives its vertices.
 // [light path]
 template <AnyWorld W, StreamLike Stream, std::floating_point T>
 void trace_light_path(const W& world, const LightPathSettings& settings, Stream stream,

@@ -40,7 +40,6 @@ template <std::floating_point T>
 }
 
 /// Builds a map of photons that each(add) hands to `add` one by one.
-/// \throws std::invalid_argument  as make_photon_map().
 template <std::floating_point T, typename Each>
 [[nodiscard]] PhotonMapT<T> map_of(std::size_t count, const Each& each, int threads) {
     require_point_count(count);

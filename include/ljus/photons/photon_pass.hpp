@@ -158,8 +158,6 @@ template <std::floating_point T>
 }
 
 /// A sentence about a caustics pass with several lights most of whose photons are lost.
-/// \param stored   Photons that it stored.
-/// \param emitted  Photons that it emitted.
 /// \return Empty if at least a tenth was stored.
 [[nodiscard, gnu::cold]] inline std::string few_stored(std::size_t stored,
                                                        long long emitted) {

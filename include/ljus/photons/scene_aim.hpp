@@ -40,7 +40,6 @@ sphere_around(const std::vector<SphereT<T>>& others) {
 /// The sphere around all that photons are sent to: the objects that are no lamps, and
 /// the lamps that touch the sphere around those. A lamp far away would make the sphere
 /// as large as its distance.
-/// \param world  The closed scene.
 /// \return Larger by 0.1 %, against rounding; nothing if all objects are lamps.
 /// \cost O(n) for n objects, and 16 bytes for each in float.
 template <AnyWorld W, std::floating_point T = typename W::Scalar>
@@ -139,12 +138,7 @@ struct SceneAimT {
     std::vector<std::uint8_t> is_aimed{}; ///< 1 for each aimed light, 0 for others;
                                           ///< empty if none is aimed.
 
-    /// A photon that leaves a light.
-    /// \param number       The light's number.
-    /// \param light        The light.
-    /// \param u_point      For the point where it leaves, of the unit square.
-    /// \param u_direction  For its direction.
-    /// \param time         The time of a moving lamp.
+    /// A photon that leaves the light of this number.
     template <Light L>
     [[nodiscard]] LeavingPhotonT<T>
     operator()(std::uint32_t number, const L& light, const Vec2T<T>& u_point,
@@ -160,10 +154,8 @@ struct SceneAimT {
 /// it pays to aim photons at it. Of a lamp far outside nearly all photons would fly
 /// past the scene otherwise. Lights within the scene and suns are not aimed. Jensen's
 /// projection maps \cite jensen2001 do the same by cells of directions.
-/// \param world     The closed scene.
-/// \param choice    The distribution of its lights.
-/// \param by_power  Whether that is by power. Then the choice of an aimed light is by
-///                  the flux that goes to the scene.
+/// If the lights are chosen by power, an aimed one is chosen by the flux that goes to
+/// the scene.
 /// \return For emit().
 /// \cost That of lit_sphere(), and 64 samples for each light outside the scene.
 template <AnyWorld W, std::floating_point T = typename W::Scalar>

@@ -17,7 +17,6 @@ namespace ljus {
 /// every photon within a cell's length of any point in the cell. If these are too few,
 /// cells of twice and then of four times the length are used. Where the grid says lit,
 /// verdict_at() with the length of the smallest cells finds no shadow photon either.
-/// no shadow photon either.
 template <std::floating_point T>
 struct VerdictGridT {
     detail::VerdictBitsT<T> known{}; ///< By brick.
@@ -79,7 +78,6 @@ struct VerdictsAtT {
     const VerdictGridT<T>& grid;       ///< The grid.
     typename VerdictGridT<T>::Cell at; ///< The vertex's cell.
 
-    /// The verdict about a light.
     [[nodiscard]] Verdict operator()(std::size_t light) const noexcept {
         return grid.verdict(at, light);
     }
@@ -101,8 +99,6 @@ template <std::floating_point T>
 }
 
 /// Whether a vertex needs no indirect ray, because no indirect photon is near.
-/// \param grid    May be empty.
-/// \param counts  Counts the skipped ray.
 template <std::floating_point T>
 [[nodiscard]] bool skips_bounce(const VerdictGridT<T>& grid, const VertexT<T>& vertex,
                                 Counts& counts) noexcept {
@@ -146,12 +142,8 @@ void copy_to_all_lights(VerdictBitsT<T>& grid) {
 
 } // namespace detail
 
-/// Computes the verdicts.
-/// \param photons  Direct and shadow photons count, and indirect ones on request;
-///                 photons without a normal do not.
-/// \param lights   Number of lights in the scene.
-/// \param skip     The rule and the radius.
-/// \param threads  As in ParallelSettings.
+/// Computes the verdicts. Direct and shadow photons count, and indirect ones on
+/// request; photons without a normal do not.
 /// \return The grid, the same for any number of threads; empty without photons, and for
 ///         SkipRule::none without indirect rays.
 /// \throws std::invalid_argument  if a setting is out of range.

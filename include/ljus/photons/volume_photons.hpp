@@ -110,14 +110,11 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Builds a map of the photons that fog scatters.
+/// Builds a map of the photons that fog scatters; other kinds are left out.
 ///
 /// A radius that is not given is chosen for each photon. It is small where photons of
 /// this pass are dense, as in a shaft of light. A photon keeps its whole flux, whatever
 /// its radius.
-/// \param photons   Of trace_photons(); those of other kinds are left out.
-/// \param settings  The radius.
-/// \param threads   As in ParallelSettings.
 /// \return The map, the same for any number of threads.
 /// \throws std::invalid_argument  if a setting is out of range, or a position is not
 ///         finite.
@@ -153,11 +150,8 @@ template <std::floating_point T>
     return static_cast<T>(std::exp(logarithms));
 }
 
-/// The light that one photon brings to a ray.
-/// \param world   The closed scene.
-/// \param photon  The photon.
-/// \param ray     Of unit length, outside all bodies; its t_max is the next surface.
-/// \param kernel  The kernel.
+/// The light that one photon brings to a ray, which is of unit length and outside all
+/// bodies; its t_max is the next surface.
 /// \return W/(m^2 sr) at the ray's origin; 0 if the ray does not cross the disc around
 ///         the photon.
 // [beam]
@@ -183,11 +177,6 @@ template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 // [beam]
 
 /// The plain counterpart of estimate_beam(): a loop over all photons.
-/// \param world   The closed scene.
-/// \param map     The photons.
-/// \param ray     As for light_of_photon().
-/// \param kernel  The kernel.
-/// \return Radiance, W/(m^2 sr).
 // [plain beam]
 template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 [[nodiscard]] RgbT<T> estimate_beam_plain(const W& world, const VolumeMapT<T>& map,
@@ -199,16 +188,12 @@ template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 }
 // [plain beam]
 
-/// The radiance that fog scatters towards a ray, by the photons of a map.
+/// The radiance that fog scatters towards a ray, by the photons of a map. The ray is as
+/// for light_of_photon(); `visited` counts the photons whose boxes it meets.
 ///
 /// At the border of the fog, and at a surface, a part of the balls lies outside, and
 /// the estimate is too dark there. What stands between a photon and the ray is not
 /// seen.
-/// \param world   The closed scene.
-/// \param map     The photons.
-/// \param ray     As for light_of_photon().
-/// \param kernel  The kernel.
-/// \param visited Counts the photons whose boxes the ray meets.
 /// \return Radiance, W/(m^2 sr).
 /// \cost One step for each ball that the ray meets.
 // [tree beam]

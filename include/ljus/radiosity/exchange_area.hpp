@@ -109,11 +109,6 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
 /// the inner integral is closed and the outer one is summed by the double exponential
 /// rule \cite takahasi1974, which allows singularities at the ends: the first edge is
 /// split where it comes close to the second.
-/// \param a     Start of the first edge.
-/// \param u     The first edge, as a vector.
-/// \param b     Start of the second edge.
-/// \param v     The second edge, as a vector.
-/// \param unit  The unit of distances; any length of their magnitude.
 /// \return \f$\cos\varphi \int\!\!\int \ln(r / \text{unit})\, ds\, dt\f$
 [[nodiscard]] inline double edge_pair(const glm::dvec3& a, const glm::dvec3& u,
                                       const glm::dvec3& b, const glm::dvec3& v,

@@ -54,8 +54,6 @@ namespace detail {
 /// Scales form factors until each row's sum is 1, as in a closed room, and keeps their
 /// symmetry \cite sinkhorn1967. The noise of rays then neither adds nor removes light,
 /// which matters for an albedo near 1.
-/// \param factors  Each exchange area is multiplied by a factor of its row and one of
-///                 its column.
 /// \return False if a patch sees no other.
 inline bool close_rows(FormFactors& factors) {
     const std::size_t n = factors.size();

@@ -22,7 +22,6 @@ namespace ljus {
 
 namespace detail {
 
-/// How a shape is divided.
 enum class GridKind : std::uint8_t {
     quad,     ///< Columns along u and rows along v.
     triangle, ///< columns^2 congruent triangles.
@@ -128,7 +127,6 @@ struct CellPlace {
 
 namespace detail {
 
-/// A shape that can be divided into patches.
 template <typename S>
 concept Cuttable = requires(const S& shape) {
     patch_grid(shape, 1.0);
@@ -141,7 +139,6 @@ struct HitSideT {
     bool back = false;    ///< True for the side that does not emit.
 };
 
-/// Finds the side of an object that a ray has hit.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] HitSideT<T> side_of(const W& world, const RayT<T>& ray,
                                   const SceneHitT<T>& hit) {

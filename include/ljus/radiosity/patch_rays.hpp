@@ -50,17 +50,12 @@ template <AnyWorld W, std::floating_point T>
 
 } // namespace detail
 
-/// Casts cosine-weighted rays from a patch. The fraction that arrives at another patch
-/// is the form factor, including visibility.
+/// Casts cosine-weighted rays from a patch, at least one. The fraction that arrives at
+/// another patch is the form factor, including visibility; each arrival adds
+/// area / rays to the row of exchange areas.
 ///
 /// Rays *between* two patches have the weight cos cos / r^2, which is unbounded where
 /// the patches touch; the weight here is constant.
-/// \param world   The closed scene.
-/// \param all     Its patches.
-/// \param number  Index of the patch.
-/// \param rays    The number of rays, at least 1.
-/// \param seed    Seed of the random streams.
-/// \param row     A row of exchange areas; each arrival adds area / rays.
 /// \cite malley1988
 // [shoot_rays]
 template <AnyWorld W>

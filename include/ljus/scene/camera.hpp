@@ -137,10 +137,4 @@ template <std::floating_point T>
 
 /// \}
 
-/// \defgroup room Ready-made scenes
-/// \brief What the ready-made scenes return.
-/// \{
-
-/// \}
-
 } // namespace ljus

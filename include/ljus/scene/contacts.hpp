@@ -126,27 +126,22 @@ template <Shape S>
         return bounds(bounding_sphere(shape));
 }
 
-/// Whether a shape consists of triangles.
 template <typename G>
 inline constexpr bool has_triangles = requires(const G& mesh) {
     facet_of(mesh.triangle(mesh.size()));
 };
 
-/// Whether a shape is one facet.
 template <typename G>
 inline constexpr bool is_facet = requires(const G& shape) {
     facet_of(shape);
 };
 
-/// Whether a shape is a ball.
 template <typename G>
 inline constexpr bool is_ball = std::is_same_v<G, SphereT<ScalarOf<G>>>;
 
-/// Whether a shape is a disc.
 template <typename G>
 inline constexpr bool is_disc = std::is_same_v<G, DiscT<ScalarOf<G>>>;
 
-/// Whether a shape is a cylinder.
 template <typename G>
 inline constexpr bool is_tube = std::is_same_v<G, CylinderT<ScalarOf<G>>>;
 
@@ -172,7 +167,6 @@ template <Shape G>
         return is_facet<G> || is_disc<G> || is_tube<G> || is_ball<G> ? 1 : 0;
 }
 
-/// A piece of a shape.
 template <Shape G>
 [[nodiscard]] SurfacePiece piece_of([[maybe_unused]] const G& shape,
                                     [[maybe_unused]] std::uint32_t number) {
@@ -218,7 +212,6 @@ void put_color(ContactKey& key, std::size_t at, const RgbT<T>& color) {
     key[at + 2] = -double(color.y);
 }
 
-/// Writes a material into a key.
 template <Material M>
 [[gnu::cold]] void put_material(ContactKey& key, const M& m) {
     using T = typename M::Scalar;
@@ -233,7 +226,6 @@ template <Material M>
         put_color(key, 12, next->weight);
 }
 
-/// An object in the search.
 struct ContactObject {
     ObjectId id{};
     ContactKind kind = ContactKind::opaque;
@@ -243,7 +235,6 @@ struct ContactObject {
     BoxT<double> box{};
 };
 
-/// A search for contacts.
 struct ContactSearch {
     const std::vector<ContactObject>& objects; ///< In the order of types and indices.
     double epsilon;                            ///< Of the scene's precision.
@@ -283,11 +274,9 @@ public:
         }
     }
 
-    /// The number of boxes.
     [[nodiscard]] std::uint32_t size() const noexcept {
         return static_cast<std::uint32_t>(boxes_.size());
     }
-    /// A box.
     [[nodiscard]] const Box& box(std::uint32_t i) const noexcept { return boxes_[i]; }
 
     /// Calls f(k) for the boxes of other looks that overlap box i.
@@ -344,8 +333,6 @@ struct ContactPieces {
 };
 
 /// Lists the pieces of all objects; of meshes those that are close to other objects.
-/// \param looks   By object.
-/// \param budget  As of each_overlap().
 [[nodiscard, gnu::cold]] inline ContactPieces
 list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks,
             long long& budget) {

@@ -31,12 +31,8 @@ struct Placed {
     bool inside_out = false;       ///< Whether the normal points inwards.
 };
 
-/// Pairs a shape with its material.
-/// \param shape       Any shape.
-/// \param material    Any material.
-/// \param emission    The radiance that it emits on the side of its normal, W/(m^2 sr).
-/// \param inside_out  Whether the normal points inwards.
-/// \return An argument for make_scene().
+/// Pairs a shape with its material, for make_scene(). The emission is the radiance on
+/// the side of its normal, W/(m^2 sr); inside_out turns the normal inwards.
 template <Shape S, Material M>
 [[nodiscard]] Placed<S, M>
 placed(const S& shape, const M& material,
@@ -70,7 +66,6 @@ template <typename... T>
 template <typename Part>
 struct PartOf;
 
-/// \copydoc PartOf
 template <typename S, typename M>
 struct PartOf<Placed<S, M>> {
     using Shape = TypeList<S>;    ///< Its shape.
@@ -78,7 +73,6 @@ struct PartOf<Placed<S, M>> {
     using Light = TypeList<>;     ///< None.
 };
 
-/// \copydoc PartOf
 template <LightSource L>
 struct PartOf<L> {
     using Shape = TypeList<>;    ///< None.

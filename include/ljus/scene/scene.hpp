@@ -120,7 +120,6 @@ template <typename... A, typename F>
 /// The type that a type of shape refers to by prototype(); void if it does not.
 template <typename S>
 struct PrototypeOf : std::type_identity<void> {};
-/// \copydoc PrototypeOf
 template <typename S>
 requires requires(const S& shape) {
     prototype(shape);
@@ -132,7 +131,6 @@ struct PrototypeOf<S>
 /// The one type to which the shapes of a list refer, or void.
 template <typename... S>
 struct PrototypeIn : std::type_identity<void> {};
-/// \copydoc PrototypeIn
 template <typename First, typename... S>
 struct PrototypeIn<First, S...>
     : std::conditional_t<std::is_void_v<typename PrototypeOf<First>::type>,
@@ -145,7 +143,6 @@ public:
     Prototypes() = default;
     Prototypes(Prototypes&&) = default;            ///< References stay valid.
     Prototypes& operator=(Prototypes&&) = default; ///< References stay valid.
-    /// Keeps one.
     const P& keep(P one) {
         kept_.push_back(std::move(one));
         return kept_.back();
@@ -171,7 +168,6 @@ private:
 template <>
 class Prototypes<void> {
 public:
-    /// Nothing to refuse.
     template <typename S>
     void require_kept(const S&) const noexcept {}
 };

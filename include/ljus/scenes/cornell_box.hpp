@@ -54,7 +54,6 @@ template <std::floating_point T = float>
 namespace detail {
 
 /// Adds the lamp below the ceiling, a square of side 0.5.
-/// \param scene  A scene with quads and Lambertian materials.
 template <typename S, std::floating_point T = typename S::Scalar>
 void add_cornell_lamp(S& scene) {
     scene.add(QuadT<T>{.corner{T(-0.25), T(1.99), T(-0.25)},

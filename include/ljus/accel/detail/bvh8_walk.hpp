@@ -15,10 +15,6 @@
 
 namespace ljus::detail {
 
-/// \defgroup wide_ray Rays for wide nodes
-/// \brief What is computed once per ray: the signs and the slack of box_ray()
-/// \{
-
 /// A ray prepared for wide nodes.
 struct Bvh8Ray {
     Vec3 inverse{1};                   ///< 1 / D, finite.
@@ -34,9 +30,6 @@ struct Bvh8Ray {
 /// Prepares a ray. Boxes grow by the margin of box_ray(). A direction component close
 /// to 0 is replaced by a small one, which moves the ray within the box by less than the
 /// margin.
-/// \param r       Receives the prepared ray.
-/// \param middle  The centre of the tree's box.
-/// \param half    Half the size of the box.
 /// \return False if the squares of the direction's length or of the distance to the box
 ///         leave the range of float.
 [[nodiscard]] inline bool make_ready(Bvh8Ray& r, const Ray& ray, const Vec3& middle,
@@ -68,12 +61,6 @@ struct Bvh8Ray {
     return r.length > 1 / most && r.length < most && reach < most &&
            is_finite(r.near_shift) && is_finite(r.far_shift);
 }
-/// \}
-
-/// \defgroup wide_walk The traversal of a wide tree
-/// \brief Eight boxes are tested at once; those that the ray enters are visited
-/// \cite wald2008. Chapter: \ref ch_bvh.
-/// \{
 
 // The start of a search: a prepared ray; or its result, if no ray can be prepared.
 struct Bvh8Start {
@@ -222,15 +209,13 @@ private:
     std::uint32_t node_ = 0;
 };
 
-/// The traversal of every search: test eight boxes of a node, then visit a child.
+/// The traversal of every search: test eight boxes of a node, then visit a child
+/// \cite wald2008.
 /// \tparam any   True: the first leaf that returns true ends the search, and children
 ///               are unsorted. False: nearer children come first, and leaves shorten
 ///               the ray.
-/// \param ray    The ray; a leaf may shorten it.
 /// \param leaf   Called as leaf(first slot, count, prepared ray); true ends the search.
 ///               Called once with a null pointer if the ray cannot be prepared.
-/// \param watch  Called with the index of each visited node.
-/// \return Whether a leaf returned true.
 template <bool any, typename Leaf, typename Watch>
 bool walk(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& watch) {
     const Bvh8Start start = begin_walk(wide, ray, leaf);
@@ -253,6 +238,5 @@ bool walk(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& watch) {
         if (!waiting.next(wide, at, ray.t_max)) return false;
     }
 }
-/// \}
 
 } // namespace ljus::detail

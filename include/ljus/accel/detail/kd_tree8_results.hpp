@@ -16,9 +16,6 @@
 
 namespace ljus::detail {
 
-/// \addtogroup kd_tree8
-/// \{
-
 /// All points within reach, leaf by leaf.
 /// \tparam Visit  Called as visit(first block, bits of the points); true ends the
 ///                search.
@@ -28,7 +25,6 @@ struct WithinT {
     ReachT<T> reach; ///< The limit.
     Visit visit;     ///< Called for each leaf that has points within reach.
 
-    /// Processes a leaf.
     bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
               std::size_t last) {
         const std::uint32_t found = in_leaf(tree, first, last, center, reach);
@@ -36,14 +32,12 @@ struct WithinT {
     }
 };
 
-/// The nearest point.
 template <std::floating_point T>
 struct NearestOneT {
     static constexpr bool nearest_first = true;
     ReachT<T> reach;                ///< Below the distance of the nearest so far.
     std::optional<Neighbor> best{}; ///< The nearest so far.
 
-    /// Processes a leaf.
     bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
               std::size_t last) {
         // The least distance in T without its last bits: only points that are as near
@@ -164,7 +158,6 @@ struct NearestCountedT {
     NearestCountedT(const ReachT<T>& most, Wanted& which, std::size_t number) noexcept
         : reach(most), wanted(which), k(number) {}
 
-    /// Processes a leaf.
     bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
               std::size_t last) {
         std::size_t next = count; // a local stays in a register
@@ -219,7 +212,6 @@ struct NearestHeapT {
     Wanted& wanted;  ///< Whether a point counts.
     Nearest best;    ///< The nearest so far.
 
-    /// Processes a leaf.
     bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
               std::size_t last) {
         for (std::size_t b = first; b < last; ++b) {
@@ -237,7 +229,5 @@ struct NearestHeapT {
         return false;
     }
 };
-
-/// \}
 
 } // namespace ljus::detail

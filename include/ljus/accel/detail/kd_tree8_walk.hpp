@@ -14,9 +14,6 @@
 
 namespace ljus::detail {
 
-/// \addtogroup kd_tree8
-/// \{
-
 /// The squared distances of eight points from `center`, in the precision of their
 /// coordinates: within five roundings of the exact ones, unless they leave T's range.
 template <std::floating_point T>
@@ -71,7 +68,6 @@ struct ReachT {
         return open ? d2 < limit2 : d2 <= limit2;
     }
     /// The points within reach, exactly; bit i stands for point i.
-    /// \param d2      Their distances2().
     // [within]
     [[nodiscard]] constexpr std::uint32_t within(const Lanes3T<T>& points,
                                                  const Vec3T<T>& center,
@@ -162,7 +158,6 @@ template <std::floating_point T>
 ///     static constexpr bool nearest_first; // false: in the tree's order
 ///     bool leaf(tree, center, first, last) // takes the blocks first to last - 1;
 ///                                          // true ends the search
-/// \return Whether a leaf ended the search.
 template <std::floating_point T, typename Results>
 bool walk(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, Results& results) {
     const KdTree8Shape& shape = tree.shape;
@@ -249,13 +244,7 @@ struct BallBlocks {
 /// waits for the memory that the previous step requested; different balls do not wait
 /// for each other, so that the processor overlaps their reads.
 ///
-/// Each ball finds the same points as by walk(), in the same order, with as many
-/// instructions. A picture of the four-glass room with 16 samples per pixel, whose
-/// caustics are estimated for 64 samples together, takes 2 to 8 % less time with 1e5
-/// photons and 8 to 13 % less with 1e6. Estimates at neighbouring points, whose memory
-/// is in the cache, gain nothing.
-/// \param balls   Number of balls; below 2^32.
-/// \param center  Called as center(ball).
+/// Each ball finds the same points as by walk(), in the same order.
 /// \param expect  Called as expect(block) for each block that will be found, to
 ///                prefetch its payload.
 /// \param found   Receives the blocks: for each ball those of visit_blocks(), in its
@@ -299,7 +288,5 @@ void find_in_balls(const KdTree8PartsT<T>& tree, std::size_t balls, Center cente
             }
     }
 }
-
-/// \}
 
 } // namespace ljus::detail

@@ -13,9 +13,6 @@
 
 namespace ljus::detail {
 
-/// \addtogroup kd_tree8
-/// \{
-
 /// The midpoint of two numbers in the order of all floats. Repeated halving of an
 /// interval ends after at most as many steps as T has bits.
 template <std::floating_point T>
@@ -48,7 +45,6 @@ template <std::floating_point T>
     return static_cast<std::size_t>(sum);
 }
 
-/// Two numbers, the smaller one first.
 template <std::floating_point T>
 struct Extremes {
     T low;
@@ -128,7 +124,5 @@ template <std::floating_point T>
     }
 }
 // [select]
-
-/// \}
 
 } // namespace ljus::detail

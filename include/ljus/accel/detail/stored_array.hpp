@@ -21,9 +21,6 @@
 
 namespace ljus::detail {
 
-/// \addtogroup kd_tree8
-/// \{
-
 /// Gives memory that was freed back to the system. glibc keeps what it has freed in
 /// small pieces for pieces like them, and a large array beside them needs its own.
 inline void give_back_memory() noexcept {
@@ -43,7 +40,6 @@ class GrowingArray {
 
 public:
     GrowingArray() = default;
-    /// Copies elements.
     explicit GrowingArray(std::span<const Element> elements) {
         resize(elements.size());
         if (size_ > 0)
@@ -116,10 +112,8 @@ public:
     using Unmap = void (*)(std::span<const Element>) noexcept;
 
     StoredArray() = default;
-    /// Takes elements in memory.
     StoredArray(GrowingArray<Element> own) noexcept
         : own_(std::move(own)), elements_(own_.data(), own_.size()) {}
-    /// Takes elements in a file.
     StoredArray(std::span<const Element> mapped, Unmap unmap) noexcept
         : elements_(mapped), unmap_(unmap) {}
     StoredArray(const StoredArray& other)
@@ -137,7 +131,6 @@ public:
         if (unmap_ != nullptr) unmap_(elements_);
     }
 
-    /// The elements.
     [[nodiscard]] std::span<const Element> span() const noexcept { return elements_; }
     [[nodiscard]] const Element& operator[](std::size_t i) const noexcept {
         return elements_[i];
@@ -151,7 +144,5 @@ private:
     std::span<const Element> elements_;
     Unmap unmap_ = nullptr;
 };
-
-/// \}
 
 } // namespace ljus::detail

@@ -24,7 +24,6 @@ namespace ljus {
 
 namespace detail {
 
-/// All numbers from `low` to `high`.
 template <std::floating_point T>
 struct IntervalT {
     T low = T(0);  ///< The least.

@@ -64,7 +64,6 @@ struct StrandT {
 
 /// A blob along a ray. As in chord(), the vectors are subtracted before they are
 /// squared.
-/// \param ray   The ray; its range is ignored.
 /// \return In double; nothing for a miss, for non-finite data, a zero direction, or a
 ///         radius not above 0.
 template <std::floating_point T>
@@ -94,7 +93,6 @@ struct StrandsT {
     std::array<StrandT<C>, 16> few; ///< Used for up to 16.
     std::vector<StrandT<C>> many{}; ///< Holds all strands if there are more.
     std::size_t count = 0;          ///< Number of strands.
-    /// Appends a strand.
     void add(const StrandT<C>& strand) {
         if (count < few.size())
             few[count] = strand;
@@ -104,7 +102,6 @@ struct StrandsT {
         }
         ++count;
     }
-    /// All strands.
     [[nodiscard]] std::span<const StrandT<C>> all() const noexcept {
         return {many.empty() ? few.data() : many.data(), count};
     }
@@ -119,7 +116,6 @@ struct MetaballLineT {
     C enter = C(0);                        ///< Where the first strand begins.
     C leave = C(-1);                       ///< Where the last strand ends.
 
-    /// f(O + tD).
     [[nodiscard]] C value(C t) const noexcept {
         C sum = -level;
         for (const auto& b : strands) {
@@ -191,14 +187,11 @@ template <std::floating_point C>
     return line;
 }
 
-/// Real roots, unsorted.
 template <std::floating_point T>
 struct QuarticRootsT {
     std::array<T, 4> at{}; ///< The first `count` are roots.
     std::size_t count = 0; ///< Number of roots.
-    /// Iterator to the first root.
     [[nodiscard]] const T* begin() const noexcept { return at.data(); }
-    /// Iterator past the last root.
     [[nodiscard]] const T* end() const noexcept { return at.data() + count; }
 };
 

@@ -18,12 +18,6 @@
 
 namespace ljus::detail {
 
-/// \defgroup pair_triangles Pairs of triangles
-/// \brief Files often split each wall and each lamp into two triangles. One quad costs
-/// half as much, and the lamp becomes a single light.
-/// \{
-
-/// The flat shapes of a list of triangles.
 template <std::floating_point T>
 struct FlatShapesT {
     std::vector<QuadT<T>> quads; ///< Pairs, in the order in which they are completed.
@@ -31,14 +25,13 @@ struct FlatShapesT {
 };
 
 /// Joins two triangles if they share an edge, face the same side and form a
-/// parallelogram.
+/// parallelogram. Files often split each wall and each lamp in two; one quad costs half
+/// as much, and the lamp becomes a single light.
 ///
 /// The vertices are doubles, as read from a file. A fourth corner may differ from
 /// \f$ B + C - A \f$ by the rounding of the file's decimals: a few units in the last
 /// place of a double, which vanish in float.
 /// \tparam T        The precision of the shapes.
-/// \param vertices  Points.
-/// \param indices   Three indices of vertices per triangle.
 /// \return Every triangle, as itself or as half of a quad with the same normal.
 /// \cost O(n log n).
 template <std::floating_point T>
@@ -87,7 +80,5 @@ pair_triangles(const std::vector<glm::dvec3>& vertices,
                                         .v3 = Vec3T<T>{vertices[indices[i][2]]}});
     return shapes;
 }
-
-/// \}
 
 } // namespace ljus::detail

@@ -16,16 +16,7 @@
 #include "ljus/lights/sun_light.hpp"
 #include "ljus/media/fog.hpp"
 
-namespace ljus {
-
-/// \defgroup json_lights Lights in scene files
-/// \brief Optional (nlohmann-json): the lights that are not objects. Page:
-/// \ref ch_scene_files.
-///
-/// A scene file has at most one environment, because pictures may be large.
-/// \{
-
-namespace detail {
+namespace ljus::detail {
 
 inline constexpr std::string_view light_words[]{"point", "spot", "sun", "environment",
                                                 "goniometric"};
@@ -236,8 +227,4 @@ void read_fog(const JsonField& field, Scene& scene) {
         add(BoxT<T>{vector("low"), vector("high")});
 }
 
-} // namespace detail
-
-/// \}
-
-} // namespace ljus
+} // namespace ljus::detail

@@ -26,14 +26,7 @@
 #include "ljus/scene/make_scene.hpp"
 #include "ljus/scene/picture_lamp.hpp"
 
-namespace ljus {
-
-/// \defgroup json_materials Materials in scene files
-/// \brief Optional (nlohmann-json): the rows of the table of materials. Page:
-/// \ref ch_scene_files.
-/// \{
-
-namespace detail {
+namespace ljus::detail {
 
 /// The largest number of tables for full-glossy and full-rough-metal; each takes some
 /// hundredths of a second.
@@ -387,8 +380,4 @@ MaterialId read_material(const JsonField& field, SharedByMaterialsT<T>& shared,
     return id;
 }
 
-} // namespace detail
-
-/// \}
-
-} // namespace ljus
+} // namespace ljus::detail

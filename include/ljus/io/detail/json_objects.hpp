@@ -24,16 +24,8 @@
 #include "ljus/lights/sun_light.hpp"
 #include "ljus/scene/scene.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
-/// \defgroup json_objects Objects in scene files
-/// \brief Optional (nlohmann-json): shapes with their materials. Page:
-/// \ref ch_scene_files.
-/// \{
-
-namespace detail {
-
-/// The scene type of scene files.
 template <std::floating_point T>
 using FileSceneT = Scene<
     Shapes<QuadT<T>, SphereT<T>, TriangleT<T>, MeshT<T>, InstanceT<T>, DiscT<T>,
@@ -46,7 +38,6 @@ using FileSceneT = Scene<
 /// Reads no meshes: the default of load_json().
 template <std::floating_point T>
 struct NoMeshesT {
-    /// \throws std::runtime_error  always.
     [[noreturn]] std::vector<MeshT<T>> operator()(const std::string& file, double,
                                                   const std::string&) const {
         throw std::runtime_error(
@@ -511,8 +502,4 @@ void read_object(const JsonField& field,
         read_shapes<T>(in, table->name, add);
 }
 
-} // namespace detail
-
-/// \}
-
-} // namespace ljus
+} // namespace ljus::detail

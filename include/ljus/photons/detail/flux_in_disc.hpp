@@ -17,9 +17,6 @@
 
 namespace ljus::detail {
 
-/// \addtogroup photon_map
-/// \{
-
 /// The disc in which flux is summed. A photon is tested in the precision of the
 /// photons.
 template <std::floating_point T, KernelLike<T> K = Kernel>
@@ -112,7 +109,6 @@ public:
         : records_(records), disc_(disc),
           per_radius2_(T(1) / (disc.radius * disc.radius)) {}
 
-    /// Adds a block.
     void add(const FoundBlockT<T>& block) noexcept {
         const RecordBlockT<T>& record = records_[block.first / 8];
         if (const std::uint32_t rest = block.found & (block.found - 1);
@@ -217,7 +213,5 @@ flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
     gathered += flux.gathered();
     return sum;
 }
-
-/// \}
 
 } // namespace ljus::detail

@@ -18,9 +18,6 @@
 
 namespace ljus::detail {
 
-/// \addtogroup photon_map
-/// \{
-
 /// A photon's data besides its position.
 template <std::floating_point T>
 struct PhotonRecordT {
@@ -71,18 +68,14 @@ struct RecordCode {
 template <std::floating_point T>
 class PhotonRecordsT {
 public:
-    /// No records.
     PhotonRecordsT() = default;
 
     /// Takes records.
     /// \param blocks  All of them, in blocks of eight; the last one is padded.
-    /// \param count   Their number.
     PhotonRecordsT(StoredArray<RecordBlockT<T>> blocks, std::size_t count) noexcept
         : blocks_(std::move(blocks)), size_(count) {}
 
-    /// The number of records.
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
-    /// Whether there are no records.
     [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
     /// The record at an index in the tree's order, below size().
     [[nodiscard]] PhotonRecordT<T> operator[](std::size_t index) const noexcept {
@@ -91,7 +84,6 @@ public:
         return {block.direction[i], block.flux[i], block.light[i],
                 RecordCode::kind(block.code[i]), RecordCode::normal(block.code[i])};
     }
-    /// The size in bytes.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return blocks_.span().size_bytes();
     }
@@ -113,7 +105,6 @@ private:
 template <std::floating_point T>
 class RecordSorterT {
 public:
-    /// Adds the record of a photon.
     void add(const PhotonT<T>& photon) {
         if (size_ % 8 == 0) blocks_.resize(size_ / 8 + 1);
         put(size_++,
@@ -122,7 +113,6 @@ public:
 
     /// Sorts the records in place, and makes the blocks; none are left here.
     /// \param order    order[i] is the index of the record that becomes the i-th.
-    /// \param threads  As in ParallelSettings.
     /// \cost O(n), and 4 bytes per record.
     [[nodiscard]] PhotonRecordsT<T> sorted(std::span<const std::uint32_t> order,
                                            int threads) {
@@ -191,7 +181,5 @@ private:
     GrowingArray<RecordBlockT<T>> blocks_;
     std::size_t size_ = 0;
 };
-
-/// \}
 
 } // namespace ljus::detail

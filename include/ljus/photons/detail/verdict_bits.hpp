@@ -16,9 +16,6 @@
 
 namespace ljus::detail {
 
-/// \addtogroup shadow_photons
-/// \{
-
 /// A cell of the grid, with a facing of a surface.
 struct VerdictCell {
     std::int32_t x = 0;   ///< Along the first axis; at least 0.
@@ -32,7 +29,6 @@ struct VerdictCell {
     }
 };
 
-/// Limit of cells along an axis.
 inline constexpr std::int32_t most_cells = 1 << 20;
 
 /// The key of a cell's brick, never 0: 18 bits per coordinate, and the facing.
@@ -41,7 +37,6 @@ inline constexpr std::int32_t most_cells = 1 << 20;
            std::uint64_t(cell.z >> 2) << 36 | std::uint64_t(cell.way + 1) << 54;
 }
 
-/// The first cell of a brick.
 [[nodiscard]] constexpr VerdictCell first_cell(std::uint64_t key) noexcept {
     const auto axis = [&](int shift) {
         return static_cast<std::int32_t>(key >> shift & 0x3ffff) * 4;
@@ -74,7 +69,6 @@ public:
     /// What find() returns for a missing brick.
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-    /// The number of bricks.
     [[nodiscard]] std::uint32_t size() const noexcept {
         return static_cast<std::uint32_t>(keys_.size());
     }
@@ -82,7 +76,6 @@ public:
     [[nodiscard]] const std::vector<std::uint64_t>& keys() const noexcept {
         return keys_;
     }
-    /// The size in bytes.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return entries_.size() * sizeof(Entry) + keys_.size() * sizeof(keys_[0]);
     }
@@ -201,7 +194,6 @@ struct Witness {
 };
 
 /// Finds the cells of photons, and inserts their bricks.
-/// \param grid     Receives the bricks.
 /// \return The counted photons by light; the last list has the indirect photons.
 template <std::floating_point T>
 [[nodiscard]] std::vector<std::vector<Witness>>
@@ -274,7 +266,6 @@ constexpr void add_neighbors(CountsAround& sums) noexcept {
 }
 
 /// Converts sums into bits.
-/// \param needed  photons_needed() by this rule.
 /// \return A bit for each lit cell, and one for each cell in shadow.
 [[nodiscard]] inline std::array<std::uint64_t, 2>
 judge_brick(const CountsAround& sums, SkipRule rule, std::uint32_t needed) noexcept {
@@ -324,7 +315,5 @@ template <std::floating_point T>
     }
     return grid;
 }
-
-/// \}
 
 } // namespace ljus::detail
