@@ -142,9 +142,10 @@ TEST_CASE("moving: a time is drawn only for a scene in which something moves") {
     CHECK(camera_path(moves, Ray{}, drawn).ray.time == next_1d<float>(untouched));
 }
 
-TEST_CASE("moving: caustics of all times are one, which is said") {
+TEST_CASE("moving: light of all times is in one map, which is said") {
     using Moved = Moving<Sphere>;
-    const auto remarks = [](bool glass_moves, bool matt_moves) {
+    const auto remarks = [](bool glass_moves, bool matt_moves,
+                            IndirectLight indirect = IndirectLight::rays) {
         Scene<Shapes<Sphere, Quad, Moved>, Materials<Lambertian, Glass>> scene;
         const auto grey = scene.add(Lambertian{});
         const auto glass = scene.add(Glass{});
@@ -155,9 +156,12 @@ TEST_CASE("moving: caustics of all times are one, which is said") {
         glass_moves ? scene.add(Moved{left, {0, 1, 0}}, glass) : scene.add(left, glass);
         matt_moves ? scene.add(Moved{right, {0, 1, 0}}, grey) : scene.add(right, grey);
         const World world(std::move(scene));
-        const PhotonMapper mapper(world, {.caustics{.photons = 20000}});
+        const PhotonMappingSettings settings{.indirect = indirect,
+                                             .caustics{.photons = 20000},
+                                             .general{.photons = 100000}};
+        const PhotonMapper mapper(world, settings);
         std::string planned;
-        for (const std::string& text : survey(world, {}).remarks)
+        for (const std::string& text : survey(world, settings).remarks)
             planned += text + "\n";
         CHECK(mapper_remarks(mapper) == planned);
         return planned;
@@ -165,6 +169,8 @@ TEST_CASE("moving: caustics of all times are one, which is said") {
     CHECK(remarks(true, false).find("mirrors or glass move: ") == 0);
     CHECK(remarks(false, true).empty());
     CHECK(remarks(false, false).empty());
+    CHECK(remarks(false, false, IndirectLight::map).empty());
+    CHECK(remarks(false, true, IndirectLight::map).find("objects move: ") == 0);
 }
 
 TEST_CASE("moving: photons see what moves as paths do, by whatever carries them") {

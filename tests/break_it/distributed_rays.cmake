@@ -122,10 +122,15 @@ ljus_break_it(NAME stratified-stream-last HEADER math/stratified_stream.hpp
 
 # Glass that moves is not remarked on, or glass that rests is.
 ljus_break_it(NAME moving-caustics-said HEADER inspect/scene_remarks.hpp TEST moving
-    FROM "found |= moves && world"
-    TO   "found &= moves && world"
-    CASES "moving: caustics*")
+    FROM "specular |= moves && world"
+    TO   "specular &= moves && world"
+    CASES "moving: light of all times*")
 ljus_break_it(NAME moving-caustics-matt HEADER inspect/scene_remarks.hpp TEST moving
     FROM "return has(lobes(m), Lobes::specular);"
     TO   "return !has(lobes(m), Lobes::none);"
-    CASES "moving: caustics*")
+    CASES "moving: light of all times*")
+# A scene that only lists what moves is said to move.
+ljus_break_it(NAME moving-gathered HEADER inspect/scene_remarks.hpp TEST moving
+    FROM "gathered && has_moving(world)"
+    TO   "gathered"
+    CASES "moving: light of all times*")

@@ -205,23 +205,35 @@ template <AnyWorld W>
     return count;
 }
 
-/// A sentence about mirrors and glass that move: photons of all times lie in one map.
-/// \return Empty if none of them moves.
+/// Sentences about light of all times that lies in one map, in a scene where something
+/// moves.
+/// \param caustics  Whether a caustics map is looked up.
+/// \param gathered  Whether rays end at the general map.
 template <AnyWorld W>
-[[nodiscard, gnu::cold]] std::string moving_caustics([[maybe_unused]] const W& world) {
-    bool found = false;
-    if constexpr (lists_moving<W>)
+[[nodiscard, gnu::cold]] std::vector<std::string>
+moving_remarks([[maybe_unused]] const W& world, [[maybe_unused]] bool caustics,
+               [[maybe_unused]] bool gathered) {
+    std::vector<std::string> remarks;
+    if constexpr (lists_moving<W>) {
+        bool specular = false;
         world.each_object([&](ObjectId id, const auto& object) {
             const bool moves = world.visit_shape(
                 id, []<typename G>(const G&) { return is_moving<G>; });
             const auto is_specular = [](const auto& m) {
                 return has(lobes(m), Lobes::specular);
             };
-            found |= moves && world.visit_material(object.material, is_specular);
+            specular |= moves && world.visit_material(object.material, is_specular);
         });
-    if (!found) return {};
-    return "mirrors or glass move: caustics are the mean over all times, too bright or "
-           "too dark where something that moves stands before them";
+        if (caustics && specular)
+            remarks.push_back("mirrors or glass move: caustics are the mean over all "
+                              "times, too bright or too dark where something that "
+                              "moves stands before them");
+        if (gathered && has_moving(world))
+            remarks.push_back("objects move: indirect rays find the mean light of all "
+                              "times, and beside what moves the picture is some "
+                              "percent too bright or too dark");
+    }
+    return remarks;
 }
 
 /// A sentence about objects whose light is lost at their edges.
@@ -462,11 +474,11 @@ template <typename Mapper>
     for (const std::string& remark : scene_remarks(mapper.world(), mapper.settings()))
         lines += remark + "\n";
     lines += mapper.maps().remarks;
-    if (mapper.passes().caustics_map)
-        if (const auto moving = detail::moving_caustics(mapper.world());
-            !moving.empty())
-            lines += moving + "\n";
     const PhotonMappingSettings& settings = mapper.settings();
+    for (const std::string& remark : detail::moving_remarks(
+             mapper.world(), mapper.passes().caustics_map,
+             mapper.passes().general_map && detail::gathers(settings.indirect)))
+        lines += remark + "\n";
     if (mapper.passes().general_map && settings.indirect == IndirectLight::photons &&
         settings.general_estimate.nearest == 0)
         lines += detail::edge_remark(

@@ -241,9 +241,10 @@ template <AnyWorld W>
     if (!plan.irradiance.on)
         add_radius(plan.general_map, settings.general_estimate.radius);
     plan.remarks = scene_remarks(world, settings);
-    if (plan.caustics_map.on)
-        if (std::string moving = detail::moving_caustics(world); !moving.empty())
-            plan.remarks.push_back(std::move(moving));
+    for (std::string& remark : detail::moving_remarks(
+             world, plan.caustics_map.on,
+             plan.general_map.on && detail::gathers(settings.indirect)))
+        plan.remarks.push_back(std::move(remark));
     if constexpr (W::lists_fog)
         if (std::string why = detail::refused_in_fog(world, settings); !why.empty())
             plan.remarks.push_back(std::move(why));

@@ -138,7 +138,8 @@ lone_estimate(const PhotonMappingSettings& settings) noexcept {
 enum class Preset : std::uint8_t {
     draft, ///< A first look: blotches, in a fraction of a second.
     fast,  ///< Least time without visible errors. It has bias that more time does not
-           ///< remove: indirect light is smoothed over 4 pixels, penumbras are slightly
+           ///< remove: indirect light is smoothed over 4 pixels, so that dark corners
+           ///< are too bright, by 10 % or more within 8 pixels; penumbras are slightly
            ///< wrong, and caustics and reflections from gloss are blurred. In
            ///< random scenes a ninth of the picture is off by 5 % or less.
     exact  ///< Indirect rays at every bounce; only the caustics map is biased.
