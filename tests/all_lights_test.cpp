@@ -53,14 +53,14 @@ using Lit = Scene<Shapes<Quad, Sphere>, Materials<Lambertian>, Lights<PointLight
 
 /// A floor, a square lamp of side 1 at height 1 and, if asked for, a half plane at
 /// height 0.5 that hides what lies to the left.
-Lit lit_floor(bool screen) {
+Lit lit_floor(bool screen, float radiance = 3) {
     Lit scene;
     const auto white = scene.add(Lambertian{.albedo = Rgb{0.5f}});
     const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
     scene.add(Quad{.corner{-50, 0, -50}, .edge_u{0, 0, 100}, .edge_v{100, 0, 0}},
               white);
     scene.add(Quad{.corner{-0.5f, 1, -0.5f}, .edge_u{1, 0, 0}, .edge_v{0, 0, 1}}, black,
-              Rgb{3});
+              Rgb{radiance});
     if (screen)
         scene.add(Quad{.corner{-9, 0.5f, -9}, .edge_u{0, 0, 18}, .edge_v{9, 0, 0}},
                   black);
@@ -99,6 +99,12 @@ TEST_CASE("all lights: the closed form has no noise where all of a lamp is seen"
         CHECK(std::abs(rays.mean - right) < 4 * rays.error() + 1e-4 * right);
         if (x < 3) CHECK(rays.error() > 1e-4 * right);
     }
+    // So dim that the square of its light is not a float.
+    const World dim(lit_floor(false, 3e-25f));
+    const Mean seen =
+        direct(dim, below(dim, {0, 0.1f, 0}), white, DirectLight::analytic, 1, 50);
+    CHECK(seen.mean / (0.5 * 3e-25 * strip(0, -0.5, 0.5)) ==
+          doctest::Approx(1).epsilon(1e-4));
 }
 
 TEST_CASE("all lights: faint lamps among others share rays, and lose no light") {
@@ -106,7 +112,7 @@ TEST_CASE("all lights: faint lamps among others share rays, and lose no light") 
     // Lamps of side 0.2 in a row, the first of them 9 times as bright: it sends half of
     // the light to a far point, each other one an eighteenth. Those from `hidden` on
     // are behind a screen.
-    const auto row = [&](int lamps, int hidden, float step = 0) {
+    const auto row = [&](int lamps, int hidden, float step = 0, float unit = 1) {
         Lit scene;
         scene.add(Quad{.corner{-50, 0, -50}, .edge_u{0, 0, 100}, .edge_v{100, 0, 0}},
                   scene.add(white));
@@ -115,7 +121,7 @@ TEST_CASE("all lights: faint lamps among others share rays, and lose no light") 
             scene.add(Quad{.corner{0.3f * float(i), 20, -0.1f},
                            .edge_u{0.2f, 0, 0},
                            .edge_v{0, 0, 0.2f}},
-                      black, Rgb{i == 0 ? 9.1f : 1 + step * float(i)});
+                      black, Rgb{unit * (i == 0 ? 9.1f : 1 + step * float(i))});
         scene.add(Quad{.corner{0.3f * float(hidden) - 0.05f, 19.99f, -1},
                        .edge_u{10, 0, 0},
                        .edge_v{0, 0, 2}},
@@ -136,6 +142,10 @@ TEST_CASE("all lights: faint lamps among others share rays, and lose no light") 
         const auto ten = row(10, 10);
         CHECK(light(ten, 4, 0, many) / light(ten, 1, 0, few) ==
               doctest::Approx(1).epsilon(1e-6));
+        Counts dim;
+        CHECK(light(row(10, 10, 0, 1e-25f), 4, 0, dim) / 1e-25f /
+                  light(ten, 4, 0, dim) ==
+              doctest::Approx(1).epsilon(1e-4));
         CHECK(few.shadow_rays == 10);
         CHECK(many.shadow_rays >= 4 + 4); // half of 8, and one more by rounding up
         CHECK(many.shadow_rays <= 4 + 5);

@@ -149,7 +149,8 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     settings.caustics.photons = 0;
     plan = survey(glass, settings);
     CHECK_FALSE(plan.caustics_map.on);
-    CHECK(plan.caustics_map.why == "0 photons were asked for");
+    CHECK(plan.caustics_map.why ==
+          "0 photons were asked for, and caustics are missing");
 
     settings = {};
     settings.indirect = IndirectLight::map;
@@ -767,6 +768,24 @@ TEST_CASE("survey: every reason, in the order in which they are printed") {
     CHECK(cache.cache.why == "pixels interpolate what few points gather");
     CHECK(cache.irradiance.on);
     CHECK(indirect(IndirectLight::none).indirect_rays.why == "not asked for");
+
+    // A map without photons is missing where indirect light is read from it, only there.
+    const auto unmapped = [&](const SceneNeeds& found, IndirectLight way) {
+        return plan_of(found, [&](PhotonMappingSettings& s) {
+            s.indirect = way;
+            s.general.photons = 0;
+        });
+    };
+    for (const IndirectLight way : {IndirectLight::map, IndirectLight::photons,
+                                    IndirectLight::gather, IndirectLight::cache})
+        CHECK(unmapped(lit, way).general_map.why ==
+              "0 photons were asked for, and indirect light is missing");
+    for (const IndirectLight way : {IndirectLight::rays, IndirectLight::none})
+        CHECK(unmapped(lit, way).general_map.why == "no ray uses it");
+    CHECK(unmapped(dark, IndirectLight::map).general_map.why == "no ray uses it");
+    CHECK(unmapped(lit, IndirectLight::gather).irradiance.why ==
+          "there is no general map");
+    CHECK(unmapped(lit, IndirectLight::cache).cache.why == "there is no general map");
     SceneNeeds films = lit;
     films.films = true;
     const Plan bubble = plan_of(films, [](auto&) {});

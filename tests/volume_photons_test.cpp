@@ -288,6 +288,20 @@ TEST_CASE("volume_photons: in a glowing room, fog that absorbs nothing is not se
     }
 }
 
+TEST_CASE("volume_photons: behind fog that lets nothing pass all is finite") {
+    Place scene;
+    scene.add(Sphere{.radius = 1}, scene.add(Glass{}));
+    scene.add(Sphere{.center{0, 9, 0}, .radius = 1}, scene.add(Lambertian{}), Rgb{1});
+    scene.add(Fog<Sphere>{.region{.radius = 3}, .scattering = Rgb{1000}});
+    const World world(std::move(scene));
+    const PhotonMapper mapper(world, {.split_glass = true,
+                                      .indirect = IndirectLight::none,
+                                      .caustics = {.photons = 0}});
+    const auto picture = render(mapper, look_at({.position{0, 0, 5}, .target{0, 0, 0}}),
+                                {.width = 8, .height = 8, .samples = 4});
+    CHECK(picture.counts.rejected == 0);
+}
+
 TEST_CASE("volume_photons: fog dims both halves of direct light") {
     // A ball within a lamp, in fog that absorbs: shadow rays and rays that the material
     // samples share the light.

@@ -37,7 +37,7 @@ ljus_break_it(NAME irradiance-cache-turned HEADER photons/irradiance_points.hpp
 
 # The weight of the visible share forgotten: lamps shine through walls.
 ljus_break_it(NAME all-lights-share HEADER path/all_lights.hpp TEST all_lights
-    FROM "all[c] * arrived[c] / sent[c]"
+    FROM "all[c] * (arrived[c] / sent[c])"
     TO   "all[c]"
     CASES "all lights: in a penumbra*")
 

@@ -97,3 +97,10 @@ ljus_break_it(NAME volume-photons-shrink HEADER render/progressive.hpp
     FROM "settings.fog_estimate.radius *= static_cast<float>(scale);"
     TO   ""
     CASES "volume_photons: the balls of a pass*")
+
+# Behind dense fog a flight divides by a throughput of 0.
+ljus_break_it(NAME volume-photons-black HEADER render/photon_mapping.hpp
+    TEST volume_photons
+    FROM " || is_black(before)"
+    TO   ""
+    CASES "volume_photons: behind fog*")

@@ -143,12 +143,17 @@ inline void plan_photons(Plan& plan, const Passes& run, const SceneNeeds& found,
     plan.caustics_map = {"caustics map", run.caustics_map,
                          found.specular == 0 && !run.gloss_as_mirrors
                              ? "no object mirrors or refracts"
-                         : settings.caustics.photons == 0 ? "0 photons were asked for"
+                         : settings.caustics.photons == 0
+                             ? "0 photons were asked for, and caustics are missing"
                          : run.shadow_rays ? casters() + caustics_clause(settings)
                                            : "nothing is lit"};
+    const bool used = run.shadow_rays && settings.indirect != IndirectLight::rays &&
+                      settings.indirect != IndirectLight::none;
     plan.general_map = {"general map", run.general_map,
                         run.general_map ? "it provides indirect light"
-                                        : "no ray uses it"};
+                        : used && settings.general.photons == 0
+                            ? "0 photons were asked for, and indirect light is missing"
+                            : "no ray uses it"};
     plan.volume_map = {"volume map", run.volume_map,
                        found.fog == 0 ? "no fog scatters light"
                        : run.volume_map
@@ -186,8 +191,11 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
     plan_rays(plan, run, found, settings);
     plan_photons(plan, run, found, settings);
     plan_skipping(plan, run, settings);
+    const bool cached = settings.indirect == IndirectLight::cache;
+    const bool looked_up = cached || settings.indirect == IndirectLight::gather;
     plan.irradiance = {"irradiance", run.irradiance,
-                       !run.irradiance ? "no gather ray asks for it"
+                       !looked_up        ? "no gather ray asks for it"
+                       : !run.irradiance ? "there is no general map"
                        : settings.irradiance.least == 0
                            ? "gather rays look it up where they end"
                            : "gather rays look it up where they end, unless fewer "
@@ -196,6 +204,7 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
                                  " indirect photons are kept"};
     plan.cache = {"irradiance cache", run.cache,
                   run.cache ? "pixels interpolate what few points gather"
+                  : cached  ? "there is no general map"
                             : "not asked for"};
     plan.thin_film = {"thin film", found.films,
                       found.films ? "paths pass through the listed films"

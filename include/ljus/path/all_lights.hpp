@@ -90,7 +90,7 @@ analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
         sent += share.sent;
     }
     for (int c = 0; c < 3; ++c)
-        if (sent[c] > T(0)) result[c] = all[c] * arrived[c] / sent[c];
+        if (sent[c] > T(0)) result[c] = all[c] * (arrived[c] / sent[c]);
     return result;
 }
 
@@ -215,7 +215,7 @@ public:
     [[nodiscard]] RgbT<T> light() const noexcept {
         RgbT<T> result{T(0)};
         for (int c = 0; c < 3; ++c)
-            if (sent_[c] > T(0)) result[c] = all_[c] * arrived_[c] / sent_[c];
+            if (sent_[c] > T(0)) result[c] = all_[c] * (arrived_[c] / sent_[c]);
         return result;
     }
 

@@ -589,7 +589,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context,
 void cross_fog(const PhotonMapper<W, X...>& mapper, PathStateT<T>& path,
                const RgbT<T>& before, T surface, Context& context, const Sum& add) {
     const W& world = mapper.world();
-    if (!meets_fog(world, path.ray)) return;
+    if (!meets_fog(world, path.ray) || is_black(before)) return; // flights divide by it
     FogSegmentT<T> segment{path.ray, before};
     segment.ray.t_max = surface;
     if (world.light_count() > 0) {
