@@ -53,9 +53,10 @@ int main() {
                              .high{1.05, 1.16},
                              .scale = 340};
     PhotonMap map;
+    const double flux = 1; // of each photon; no line depends on it
     for (int i = 0; i < 60; ++i) {
         auto stream = photon_stream({}, i);
-        const PathState photon = emit_photon(scene, 1, stream);
+        const PathState photon = emit_photon(scene, flux, stream);
         Vec2 last = photon.ray.origin;
         const auto at_vertex = [&](const PathState& path, const Vertex& vertex) {
             draw_line(figure, {flat(last), flat(vertex.point.position)},

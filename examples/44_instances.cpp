@@ -105,7 +105,6 @@ int main(int argc, char** argv) {
             world,
             {.direct = DirectLight::mis,
              .caustics{.photons = photons, .seed = options.seed},
-
              .caustics_estimate{.radius = options.pick(0.08f, 0.04f, 0.02f)}},
             abilities<StratifiedStream>);
         const Camera camera = look_at(

@@ -31,8 +31,8 @@ template <std::floating_point T>
     return size.x * sizes(map[0]) + size.y * sizes(map[1]) + size.z * sizes(map[2]);
 }
 
-/// A bound of a vector that is taken back and there again: a relative error behind the
-/// map is at most this times as large, component by component.
+/// The size of a vector after the inverse map and then the map, if no terms cancelled.
+/// Times a relative error between the two, it bounds the error of the result.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> there_and_back(const AffineT<T>& map, const AffineT<T>& back,
                                       const Vec3T<T>& size) noexcept {
@@ -182,8 +182,9 @@ template <std::floating_point T>
 
 /// A point of a triangle of the mesh, in the scene.
 ///
-/// A ray that leaves it is rounded once more at the mesh: its origin and, as far as the
-/// triangle reaches, its direction. The inverse map is as good as its condition.
+/// Its error includes that of a ray that leaves it. The mesh sees this ray rounded once
+/// more, in its origin and in its direction, over the length of the triangle; and the
+/// inverse map has the errors that its condition allows.
 /// \param local  The point at the mesh; its normal is not used.
 // [placed_point]
 template <std::floating_point T>

@@ -59,7 +59,7 @@ public:
         parts_ = builder.build(std::move(items), threads);
     }
 
-    /// A tree whose data are there.
+    /// Makes a tree of data that were built or loaded.
     explicit KdTree8T(detail::KdTree8PartsT<T> parts) : parts_(std::move(parts)) {}
 
     /// The i-th point of the tree has the index point_ids()[i] in the span from which

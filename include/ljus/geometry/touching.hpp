@@ -87,8 +87,8 @@ separated(const Facet& facet, const SurfacePiece& other, double distance) noexce
     return glm::length(glm::cross(a, b)) <= 1e-6 * glm::length(a) * glm::length(b);
 }
 
-/// A rectangle around all places of a polygon that slides in its plane. What is met is
-/// found by rays, so that it may be too large.
+/// A rectangle around all places of a polygon that slides in its plane. It may be too
+/// large, because rays find what really touches.
 [[nodiscard, gnu::cold]] inline Facet around_way(const Facet& facet,
                                                  const glm::dvec3& way) noexcept {
     const glm::dvec3 normal = glm::normalize(area_vector(facet));

@@ -164,9 +164,9 @@ void copy_part(const ImageT<T>& from, int x, int y, int width, int height,
         std::copy_n(&pixel(from, x, y + row), width, &pixel(to, to_x, to_y + row));
 }
 
-/// Makes a map of two pictures tile by tile, so that what is kept of a pixel on the way
-/// is kept in one tile only. The map is that of both pictures at once, because a tile
-/// comes with all pixels around it that count.
+/// Makes a map of two pictures tile by tile, so that intermediate results need memory
+/// for one tile only. The map is the same as without tiles, because each tile comes
+/// with all pixels around it that count.
 /// \param make  make(image, reference) returns the map of a part of both pictures.
 template <std::floating_point T, std::floating_point U, typename Make>
 [[nodiscard]] ImageT<double> map_by_tiles(const ImageT<T>& image,

@@ -29,8 +29,8 @@ namespace ljus {
 
 namespace detail {
 
-/// The part of a photon's flux, along one line through its disc, that estimates on the
-/// surfaces there find: about the kernel's weight on a flat one.
+/// The part of a photon's flux that estimates find on the surfaces along one line
+/// through the photon's disc. On a flat surface it is about the kernel's weight.
 /// \param offset   From it to the line, within the disc, in units of the radius.
 template <AnyWorld W, std::floating_point T, typename K>
 [[nodiscard]] double found_along(const W& world, const SurfacePointT<T>& photon,

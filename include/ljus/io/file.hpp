@@ -71,9 +71,9 @@ inline std::string one_path(const std::string& path) {
 
 } // namespace detail
 
-/// The files that load_file() is asked for, by one thread and while the list exists:
-/// what a scene was made of, meshes, materials and pictures included, as it was when it
-/// was read. A list within a list takes over until it ends.
+/// A list of the files that this thread loads by load_file() while the list exists: all
+/// that a scene is made of, with meshes, materials and pictures, as it is when it is
+/// read. While a second list exists, the files go into that one alone.
 class FilesRead {
 public:
     /// A file that was asked for.

@@ -102,7 +102,8 @@ struct IesGrid {
     std::vector<double> vertical{};   ///< Degrees.
     std::vector<double> candela{};    ///< cd.
 
-    /// Appends a column of a grid with the same vertical angles, at another angle.
+    /// Appends a column of `from`, which has the same vertical angles.
+    /// \param angle  The column's horizontal angle here.
     void append(double angle, const IesGrid& from, std::size_t column) {
         horizontal.push_back(angle);
         for (std::size_t i = 0; i < vertical.size(); ++i)
@@ -116,8 +117,8 @@ struct IesGrid {
     }
 };
 
-/// Completes the horizontal angles by the symmetry that their range says.
-/// \param around  Whether they are those of type C.
+/// Completes the horizontal angles by symmetry: their range tells which symmetry.
+/// \param around  Whether they go around the axis, as those of type C do.
 /// \return What their range must be; nothing if it is right.
 [[nodiscard]] inline const char* complete(IesGrid& grid, bool around) {
     const double first = grid.horizontal.front(), last = grid.horizontal.back();

@@ -105,7 +105,7 @@ namespace ljus {
 /// dangerous to the readers of rare formats.
 /// \{
 
-/// What of a picture is wanted.
+/// Which part of a picture is wanted, and in which form.
 enum class PictureContent : std::uint8_t {
     colors,  ///< Linear colours, without alpha.
     numbers, ///< The bytes over 255, for normals and other data.
@@ -229,7 +229,7 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
 /// \param path    Its name for messages.
 /// \param others  The number of pixels in pictures that are kept beside it: a file of
 ///                four kilobytes can have thirty million, so all together are limited.
-/// \param content What of it is wanted.
+/// \param content Which part of it is wanted.
 /// \return Colours or numbers in [0, 1]. Colours of a PNG file with a gAMA chunk and
 ///         neither an sRGB chunk nor a profile are decoded by its gamma; a picture is
 ///         turned upright by its EXIF orientation. Pixels behind the end of a palette

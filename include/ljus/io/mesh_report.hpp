@@ -75,8 +75,8 @@ struct MeshContent {
 
 /// The problems of a mesh file.
 struct MeshReport {
-    /// What the places in the file are that the counts name: a line of a text, an
-    /// element of a PLY file, a triangle of an STL or glTF file; counted from 1.
+    /// What the numbers of places in the counts refer to: a line of a text, an element
+    /// of a PLY file, a triangle of an STL or glTF file; counted from 1.
     const char* unit = "line";
     std::array<MeshCount, detail::mesh_troubles> counts{}; ///< By MeshTrouble.
     /// One sentence per problem of a material file or a picture, with file and line.

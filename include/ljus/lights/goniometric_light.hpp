@@ -61,8 +61,9 @@ struct GoniometricLightT {
     IntensityTable table{};       ///< The intensities.
     Vec3T<T> position{T(0)};      ///< In scene units.
     Vec3T<T> direction{0, -1, 0}; ///< In which the lamp shines; any length but 0.
-    /// What turns the lamp about its direction, to which it need not be perpendicular:
-    /// horizontal angle 0 of type C, vertical angle 90 of the types B and A.
+    /// A vector on the side of horizontal angle 0 (type C), or of vertical angle 90
+    /// (types B and A): it says how the lamp is turned about its direction. It need not
+    /// be perpendicular to the direction.
     Vec3T<T> reference{0, 0, -1};
     /// W/sr for each candela. The default makes 683 times the luminance of a colour a
     /// photometric quantity, because 683 lumens are a watt of green light.
@@ -87,7 +88,7 @@ struct GoniometricInSceneT {
 
 namespace detail {
 
-/// The integral of a line times the sine, \f$ \int_0^x (c_0 + c_1 t)
+/// The integral of a linear function times the sine, \f$ \int_0^x (c_0 + c_1 t)
 /// \sin(\theta_0 + t)\,dt \f$.
 // [line times sine]
 [[nodiscard]] inline double line_times_sine(double c0, double c1, double theta0,
@@ -98,8 +99,8 @@ namespace detail {
 }
 // [line times sine]
 
-/// Where the integral of a line times the sine reaches a part of its value.
-/// \param c0      The line at the beginning, at least 0.
+/// Where the integral of a linear function times the sine reaches a part of its value.
+/// \param c0      The function at the beginning, at least 0.
 /// \param part    In [0, 1].
 /// \return In [0, length].
 /// \cost Some four steps of Newton's method, between bounds that close in.
@@ -120,8 +121,8 @@ namespace detail {
     return x;
 }
 
-/// Where the integral of a line from a to b over [0, 1] reaches a part of its value.
-/// \param a     At least 0, and so is b.
+/// Where the integral of a linear function over [0, 1] reaches a part of its value.
+/// \param a, b  The function at 0 and at 1, at least 0.
 /// \param part  In [0, 1].
 [[nodiscard]] inline double invert_line(double a, double b, double part) noexcept {
     // The root of (b - a) x^2 / 2 + a x = part (a + b) / 2 that lies in [0, 1].

@@ -218,7 +218,7 @@ concept MayAbsorb = requires(const detail::Own<M>& m) {
 };
 
 /// The material of a transparent body: it provides `refractive_index(m)`, which is 0 if
-/// it is opaque after all. What it is at a point (material_at()) has a member `index`.
+/// it is opaque after all. material_at() returns a material with a member `index`.
 template <typename M>
 concept Refractive = requires(const M& m) {
     { refractive_index(m) } -> std::same_as<typename M::Scalar>;
@@ -235,9 +235,9 @@ template <Refractive M>
 }
 
 /// A material that differs between wavelengths, like glass that makes a rainbow:
-/// `at_wavelength(m, nm)` returns it at one, as a material whose colours are those of
-/// all wavelengths. A path that meets it has one wavelength from there on, chosen by
-/// ljus/optics/dispersion.hpp, which it needs; see \ref dispersion.
+/// `at_wavelength(m, nm)` returns the material at one wavelength, with colours as it
+/// has them for all light. A path that meets it chooses one wavelength and keeps it;
+/// include ljus/optics/dispersion.hpp for that choice, and see \ref dispersion.
 template <typename M>
 concept Dispersive = requires(const M& m, typename M::Scalar nm) {
     at_wavelength(m, nm);

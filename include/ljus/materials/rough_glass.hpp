@@ -45,9 +45,10 @@ using RoughGlass = RoughGlassT<float>; ///< RoughGlassT in float.
 
 namespace detail {
 
-/// Whether the facets spread refracted light by more than 2e-5 radians, about
-/// alpha |n - 1|. The rounding of a float direction is not small against less, and the
-/// boundary counts as smooth: for an index close to that of the surroundings.
+/// Whether the facets spread refracted light by more than 2e-5 radians; the spread is
+/// about alpha |n - 1|. A smaller one, as of an index close to that of the
+/// surroundings, would vanish in the rounding of a float direction, and the boundary
+/// counts as smooth.
 template <std::floating_point T>
 [[nodiscard]] bool is_rough(const RoughGlassT<T>& glass) noexcept {
     return glass.roughness * glass.roughness * std::abs(glass.index - T(1)) > T(2e-5);

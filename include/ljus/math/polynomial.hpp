@@ -108,7 +108,8 @@ template <std::floating_point T, std::size_t N>
 }
 // [root_between]
 
-/// Roots in ascending order; at most N + 1, one per end of a monotone piece.
+/// Roots in ascending order. A polynomial of degree N has at most N monotone pieces,
+/// with N + 1 ends; at most one root is found for each end.
 template <std::floating_point T, std::size_t N>
 struct RootsT {
     std::array<T, N + 1> at{}; ///< The first `count` are roots.

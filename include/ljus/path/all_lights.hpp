@@ -71,7 +71,7 @@ template <std::floating_point T>
 /// of it, there is no noise. In a penumbra the ratio of two random sums has a bias of
 /// the order of the variance of \f$f\f$ over the number of rays.
 /// \param rays      Number of shadow rays, at least 1.
-/// \param place     Called as place(i, cells) for the point of the i-th of its cells.
+/// \param place     Called as place(i, cells) for a point of the i-th cell of the lamp.
 /// \return Radiance towards wo.
 /// \cite heitz2018shadows
 template <AnyWorld W, std::floating_point T, typename Place>
@@ -152,12 +152,12 @@ template <std::floating_point T>
 /// How more than two lamps with a closed form share shadow rays at a vertex; with
 /// fewer, the comparison would take longer than the rays that it saves.
 ///
-/// A lamp gets `rays` if it sends half of the light of all or more, and in proportion
-/// if it sends less. One with the share s of the light then adds s times the variance
-/// of half of it, so that many lamps are no noisier than one. Those that would get
-/// less than one ray are faint: together they are as one lamp in pieces, and rays go
-/// to some of the pieces, chosen in proportion to the light that they send. The light
-/// of the faint lamps is all that they send, times the fraction that these rays find
+/// A lamp that sends half of all light or more gets `rays`; one that sends less gets
+/// fewer in proportion. A lamp with the share s of the light then adds s/2 of the
+/// variance of a single lamp that sends all of it, so that many lamps are no noisier
+/// than one. A lamp that would get less than one ray is faint. The faint lamps share
+/// some rays, for which they are chosen in proportion to the light that they send.
+/// Their light is all that they send together, times the fraction that these rays find
 /// visible: a ratio of two random sums, as in analytic_light().
 template <std::floating_point T>
 class SharedRaysT {
@@ -186,13 +186,13 @@ public:
     [[nodiscard]] const std::optional<SeenLampT<T>>& lamp(std::uint32_t light) const {
         return lamps_[light];
     }
-    /// Whether a lamp shares its rays.
-    /// \param by_it  sent_by() it.
+    /// Whether a lamp is faint, and shares its rays with others.
+    /// \param by_it  What sent_by() says of it.
     [[nodiscard]] bool is_faint(T by_it) const noexcept {
         return mean_rays(by_it) < T(1);
     }
-    /// The rays to the next lamp. The sum over the faint ones is that of their mean
-    /// numbers, rounded up.
+    /// The number of rays to the next lamp. The faint lamps together get the sum of
+    /// their mean numbers, rounded up.
     [[nodiscard]] int rays_to(T by_it) noexcept {
         if (!is_faint(by_it)) return int(std::ceil(mean_rays(by_it)));
         next_ += by_it * scale_;
@@ -263,7 +263,8 @@ add_sampled_light(RgbT<T>& sum, const W& world, std::uint32_t light,
     }
 }
 
-/// The light of all lights at a Lambertian surface, of those with a closed form by it.
+/// The light of all lights at a Lambertian surface: by the closed form of each light
+/// that has one, by shadow rays of all others.
 template <AnyWorld W, std::floating_point T, typename Context, typename Verdicts>
 [[nodiscard]] RgbT<T> analytic_lights(const W& world, const VertexT<T>& vertex,
                                       const LambertianT<T>& material, int rays,

@@ -80,7 +80,7 @@ template <AnyWorld W, std::floating_point T>
     });
 }
 
-/// The sky of one light, in one direction.
+/// What a light that fills the sky sends from one direction.
 template <std::floating_point T>
 struct SkyT {
     RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).

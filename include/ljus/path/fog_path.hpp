@@ -47,7 +47,8 @@ void require_no_film_in_fog([[maybe_unused]] const W& world) {
                 "pass; remove the fog, or all soap films and thin glass.");
 }
 
-/// How light that one scattering brings to a ray is found. All have the same mean.
+/// Ways to find the light that a single scattering brings to a ray. All have the same
+/// mean.
 enum class FogLight : std::uint8_t {
     both,        ///< Both, with the balance heuristic between them.
     flight,      ///< Shadow rays from where the path is scattered, by its free flight.

@@ -46,7 +46,6 @@ struct ExpressionLog {
     /// Starts a path at the eye.
     void begin() noexcept { states = wanted.step(1, 'E'); }
 
-    /// Adds the letter of a scattering.
     void vertex(char letter, const Vec3T<T>&, const RgbT<T>&, T) noexcept {
         states = wanted.step(states, letter);
     }
@@ -81,15 +80,12 @@ struct ClassesLog {
     explicit ClassesLog(std::span<const LightPathExpression> classes) {
         for (const LightPathExpression& wanted : classes) logs.push_back({wanted});
     }
-    /// A path begins at the eye.
     void begin() noexcept {
         for (auto& log : logs) log.begin();
     }
-    /// The path was scattered.
     void vertex(char letter, const Vec3T<T>& at, const RgbT<T>& share, T pdf) noexcept {
         for (auto& log : logs) log.vertex(letter, at, share, pdf);
     }
-    /// Radiance was added.
     void term(std::string_view owner, std::string_view letters,
               const RgbT<T>& value) noexcept {
         for (auto& log : logs) log.term(owner, letters, value);

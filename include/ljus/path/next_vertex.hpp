@@ -136,8 +136,8 @@ template <AnyWorld W>
     });
 }
 
-/// Sets what a vertex shares its place with: the body outside, and an error that lets a
-/// ray start beyond all surfaces there.
+/// For a vertex where surfaces of several objects lie in one place: sets the body
+/// outside, and an error so large that a ray starts beyond all of these surfaces.
 template <AnyWorld W, std::floating_point T>
 [[gnu::cold]] void set_contact(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
                                const SceneHitT<T>& hit) {
@@ -161,9 +161,9 @@ template <AnyWorld W>
                                 []<typename M>(const M&) { return Dispersive<M>; });
 }
 
-/// At the first material that disperses light, on either side of a contact too, a path
-/// turns from light of all wavelengths into that of one, by chance. Its throughput is
-/// multiplied by the colour of the wavelength, whose mean is white.
+/// Chooses the wavelength of a path at random, where it first meets a material that
+/// disperses light, on either side of a contact. Before, it carries all wavelengths.
+/// Its throughput is multiplied by the colour of the wavelength, whose mean is white.
 /// \param path     Keeps the wavelength from there on.
 /// \param vertex   A vertex of fill_vertex(); receives the wavelength.
 /// \param outside  The material of the body on the outside; no_body: air.

@@ -79,9 +79,9 @@ template <std::floating_point T>
 
 /// The irradiance on one side of a surface from the nearest photons, with
 /// Epanechnikov's kernel. Unlike the overload without a scene, it can correct for edges
-/// of the surface. It counts the photons of a disc half as high as it is wide, which
-/// leaves out those of a parallel wall nearby, and of these only the ones that arrived
-/// on the side in question: without the latter, the light in a hollow ball would shine
+/// of the surface. It counts the photons in a disc that is half as high as it is wide,
+/// which leaves out those of a parallel wall nearby. Among them, only those count that
+/// arrived on the side in question. Otherwise the light in a hollow ball would shine
 /// through its wall, because some of it grazes the wall within the disc.
 /// The normal is a unit vector on that side; the radius, in scene units, is the largest
 /// one. wanted(index of a record) says whether a photon counts.

@@ -34,8 +34,8 @@ template <std::floating_point T>
     return {.origin = point, .direction = direction};
 }
 
-/// The flux of all photons of a light together, if each leaves as one from this point
-/// does: the light's flux, or that of flux_from().
+/// The flux that all photons of a light would have together, if each had as much as one
+/// from this point has: flux_from() of the point, or else the light's flux.
 template <typename L, typename Point>
 [[nodiscard]] RgbT<typename L::Scalar> flux_leaving(const L& light,
                                                     const Point& point) {

@@ -98,11 +98,12 @@ template <NearLight L, std::floating_point T>
 /// The part of a light's flux that goes into the cone of a sphere, if it pays to aim
 /// there; nothing if not.
 ///
-/// Let w be the quotient of the densities of emission and of the cone. A photon drawn
-/// in the cone is worth \f$ E[w]^2 / E[w^2] \f$ photons of equal flux, and of those
-/// that leave as the light emits the part \f$ E[w] \f$ goes into the cone. Therefore
-/// aiming pays if \f$ E[w] > E[w^2] \f$. It does not for a spot that shines on a part
-/// of the sphere, nor for a lamp that faces it from nearby.
+/// Let w be the density of emission over that of the cone, for directions drawn in the
+/// cone. Such a photon has a flux in proportion to w, and is worth
+/// \f$ E[w]^2 / E[w^2] \f$ photons of equal flux. Without aiming, the fraction
+/// \f$ E[w] \f$ of the photons goes into the cone. Therefore aiming pays if
+/// \f$ E[w] > E[w^2] \f$. It does not for a spot that shines on a part of the sphere,
+/// nor for a lamp that faces it from nearby.
 /// \param sphere  As of lit_sphere().
 template <AnyWorld W, NearLight L, std::floating_point T>
 [[nodiscard, gnu::cold]] std::optional<double>

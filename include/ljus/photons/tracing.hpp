@@ -120,8 +120,8 @@ start_pass(MapType map, const PhotonPassSettings& pass, LightChoice choice) {
     return choice;
 }
 
-/// Where the photons of a pass leave their lights to; those of the caustics map are
-/// aimed at single objects instead.
+/// How the photons of a pass leave their lights: aimed at the scene where that pays.
+/// Photons of the caustics map are aimed at single objects instead.
 template <AnyWorld W>
 [[nodiscard]] SceneAimT<typename W::Scalar> scene_aim_of(const W& world, MapType map,
                                                          const PhotonPassSettings& pass,

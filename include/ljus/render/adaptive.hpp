@@ -88,17 +88,12 @@ struct AdaptiveBlock {
     int wanted = 1;            ///< Batches to trace in this round.
     double variance = 0;       ///< See relative_variance().
 
-    /// Its number of pixels.
     [[nodiscard]] constexpr double pixels() const noexcept {
         return double(right - x) * (bottom - y);
     }
 };
 
 /// Some rows of the blocks of a picture, from the top left.
-/// \param picture  Its size.
-/// \param size     Side of a block.
-/// \param first    The first row of blocks.
-/// \param last     One past the last row of blocks.
 [[nodiscard]] inline std::vector<AdaptiveBlock>
 adaptive_blocks(const RenderSettings& picture, int size, int first, int last) {
     std::vector<AdaptiveBlock> blocks;
@@ -111,7 +106,6 @@ adaptive_blocks(const RenderSettings& picture, int size, int first, int last) {
     return blocks;
 }
 
-/// The index of a pixel's sums in a picture of this width.
 [[nodiscard]] constexpr std::size_t pixel_index(int width, int x, int y) noexcept {
     return std::size_t(y) * std::size_t(width) + std::size_t(x);
 }
@@ -122,7 +116,6 @@ struct RowSums {
     int top = 0;                     ///< The first row.
     std::vector<PixelSums> pixels{}; ///< Row by row.
 
-    /// The index of a pixel of the picture.
     [[nodiscard]] std::size_t index(int x, int y) const noexcept {
         return pixel_index(width, x, y - top);
     }
@@ -137,8 +130,6 @@ struct RowSums {
 };
 
 /// The number of rays per pixel in a batch.
-/// \param rule   The rule.
-/// \param batch  0: the first rays.
 [[nodiscard]] constexpr int rays_in_batch(const AdaptiveSettings& rule,
                                           int batch) noexcept {
     return batch == 0 ? rule.first : rule.more;
@@ -156,8 +147,6 @@ struct RowSums {
 /// The rays of a pixel are assumed to be independent; because they are stratified, the
 /// true variance of their mean is slightly smaller.
 /// \param block    At least 2 rays per pixel.
-/// \param sums     The sums of its pixels.
-/// \param epsilon  As in AdaptiveSettings.
 /// \return The variance of a ray divided by mean^2 + epsilon, averaged over channels
 ///         and pixels.
 [[nodiscard]] inline double relative_variance(const AdaptiveBlock& block,
@@ -188,7 +177,6 @@ struct RayShare {
 /// for a given sum w n. By Lagrange multipliers v / n^2 is constant: n is proportional
 /// to the square root of the variance \cite neyman1934. A block that already has more
 /// rays keeps them, and the remaining rays are distributed over the other blocks.
-/// \param parts   All blocks.
 /// \param target  The wanted mean of variance / rays; 0: the minimum.
 /// \param limit   Largest mean number of rays per pixel.
 /// \return Rays per pixel for each block, at least those that it has.
@@ -251,7 +239,6 @@ inline void set_variances_around(std::vector<RayShare>& parts,
 
 /// Plans the number of batches of each block in the next round.
 /// \param blocks  Their `wanted` is set.
-/// \param rule    The rule.
 /// \param limit   Largest mean number of rays per pixel, without discarded ones.
 /// \return Whether any block gets a batch.
 inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSettings& rule,
@@ -300,10 +287,6 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
 /// Traces the batches of a block in this round.
 /// \param samples   Receives the samples of these pixels.
 /// \param sums      The sums to which `samples` adds them.
-/// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
-/// \param camera    Any camera.
-/// \param picture   Size, seed, pattern.
-/// \param rule      Rays in a batch.
 /// \param block     The block; its batches and rays are counted.
 /// \param cost      Counts the rays.
 template <typename R, CameraLike C, std::floating_point T>
@@ -329,13 +312,7 @@ void trace_block(SampleSums<R, T>& samples, const RowSums& sums, const R& render
 }
 
 /// Traces the batches of some blocks. Delayed queries of all their samples are batched.
-/// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
-/// \param camera    Any camera.
-/// \param picture   Size, seed, pattern.
-/// \param rule      Rays in a batch.
 /// \param blocks    The blocks; their batches and rays are counted.
-/// \param sums      The sums of their pixels.
-/// \return The counts of the rays.
 template <typename R, CameraLike C>
 [[nodiscard]] Counts
 trace_blocks(const R& renderer, const C& camera, const RenderSettings& picture,
@@ -360,8 +337,6 @@ inline void add_errors(double& error, std::span<const AdaptiveBlock> blocks,
 
 /// Sets the pixels of an adaptive picture to the means of their rays.
 /// \param result     Receives the means and the numbers of rays.
-/// \param blocks     Some blocks of the picture.
-/// \param sums       The sums of their pixels.
 /// \param forgotten  Discarded rays per pixel, which the sums do not contain.
 template <std::floating_point T>
 void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,

@@ -79,9 +79,9 @@ struct GatherRayT {
 
 namespace detail {
 
-/// The irradiance on the side of a surface into which a direction points. Few indirect
-/// photons land in the open, or where most of them stay behind a wall; there is no
-/// point near then, and the irradiance is computed as it is for the points.
+/// The irradiance on the side of a surface into which a direction points. Where few
+/// indirect photons land, as in the open or behind a wall that keeps most of them back,
+/// no point may be near; then the irradiance is computed as it is for the points.
 /// \param lookup   The points and the maps.
 /// \param resting  The surface, detail::at_rest().
 /// \param wi       In its frame.
@@ -102,8 +102,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
                                lookup.irradiance, lookup.points->disc, context);
 }
 
-/// The radiance that a glossy surface reflects to the viewer of the light of lamps and
-/// of the caustics map.
+/// The radiance that a glossy surface reflects to the viewer, of the light that arrives
+/// straight from lamps or is in the caustics map.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> light_on_gloss(const W& world, const GatherLookupT<T>& lookup,
                                      const VertexT<T>& vertex, const M& material,
@@ -129,7 +129,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
 /// counted the light that reaches the ray's origin by nearly_specular() surfaces, the
 /// ray is followed through these as through mirrors. At any other glossy surface the
 /// light of lamps and of the caustics map is added, and the ray continues in a sampled
-/// direction. With `lookup.paths` so it does at a diffuse surface.
+/// direction. With `lookup.paths` it does so at a diffuse surface as well.
 /// \param world      The closed scene.
 /// \param lookup     Irradiance points, or these with a caustics map.
 /// \param path       The ray, as it leaves a diffuse surface.

@@ -136,7 +136,7 @@ template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec3T<T> next_3d(MiddleStream&) noexcept {
     return Vec3T<T>{T(0.5)};
 }
-/// Every bounce has the same numbers.
+/// Does nothing: the numbers of all bounces are the same.
 constexpr void start_bounce(MiddleStream&, std::uint64_t) noexcept {}
 
 /// The sums over the rays of one pixel.

@@ -161,7 +161,7 @@ template <std::floating_point T>
            2 * count_of(photons, PhotonKind::indirect);
 }
 
-/// A sentence about a general map with so few indirect photons that paths are taken.
+/// A sentence about a general map with so few indirect photons that paths replace it.
 /// \param indirect  Indirect photons that it kept.
 [[nodiscard, gnu::cold]] inline std::string
 starved_remark(long long indirect, const PhotonMappingSettings& settings) {
@@ -266,8 +266,8 @@ template <std::floating_point T>
                  to_text(radius), "; trace more, or choose a caustic budget\n"});
 }
 
-/// A sentence about an estimate whose radius was given in another unit than that of the
-/// scene: hardly any place finds a photon, or each one all of them.
+/// A sentence about an estimate whose radius was given in another unit than the
+/// scene's, so that hardly any place finds a photon, or every place finds all of them.
 /// \return Empty, or with a line feed.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string

@@ -66,13 +66,14 @@ struct PhotonMappingSettings {
     PhotonPassSettings general{};  ///< Photons for all other light.
     CausticBudget caustic_budget =
         CausticBudget::as_seen; ///< How mirrors and glass share caustics.photons.
-    /// Whether, with Budgeting listed, lights share them by what arrives even if the
-    /// objects share them as seen; by a pilot of at most a quarter of the photons.
+    /// Whether a pilot measures how much of each light arrives, and the lights share
+    /// caustics.photons by that, even with CausticBudget::as_seen. The pilot takes at
+    /// most a quarter of the photons. Works with Budgeting only.
     bool share_lights = false;
     /// How caustics are estimated; radius 0: chosen to hold 32 photons typically.
     DensityEstimateSettings caustics_estimate{};
-    /// The radius of the disc of a caustic photon that is lone, lone_photons(), as a
-    /// multiple of that of caustics_estimate; 1: as any other. Not with k nearest.
+    /// The radius of the disc of a lone caustic photon, see lone_photons(), over that
+    /// of all others. With 1 a lone photon is as any other; so it is with k nearest.
     float lone_radius = 1;
     /// How the general map is queried; radius 0: chosen to hold 64 photons typically.
     DensityEstimateSettings general_estimate{.radius = 0.3f};

@@ -68,9 +68,7 @@ template <std::floating_point T>
 }
 
 /// Updates the sums of squared deviations from the mean by one value (Welford).
-/// \param squares  The sums, one per pixel.
 /// \param sum      The sum of the n earlier values.
-/// \param n        The number of earlier values.
 template <std::floating_point T>
 void add_squares(ImageT<double>& squares, const ImageT<T>& x, const ImageT<double>& sum,
                  double n) {
@@ -88,7 +86,6 @@ void add_squares(ImageT<double>& squares, const ImageT<T>& x, const ImageT<doubl
     return std::sqrt(sum / double(squares.pixels.size()) / (n * (n - 1)));
 }
 
-/// A hash of all bits of a picture.
 template <std::floating_point T>
 [[nodiscard]] std::uint64_t hash_of(const ImageT<T>& image) noexcept {
     std::uint64_t hash = mix_bits(std::uint64_t(image.width));

@@ -74,7 +74,6 @@ struct CameraVertex {
     const SubpathWeights& weights; ///< At the vertex.
     int depth;                     ///< Surfaces from the eye to here.
 };
-/// Deduces the types.
 template <std::floating_point T, Material M>
 CameraVertex(const VertexT<T>&, const M&, const SubpathWeights&, int)
     -> CameraVertex<T, M>;

@@ -251,12 +251,13 @@ contacts_of(const ContactSearch& search);
            b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
-/// Boxes with a look each, and a tree over them.
+/// Boxes, each with the number of a look, and a tree over them.
 class LookTree {
 public:
-    /// \param boxes  The unit is the largest coordinate of the scene, so that float has
-    ///               the range; they are larger by the distance in float.
-    /// \param looks  By box. What has one look need not be compared.
+    /// \param boxes  In units of the scene's largest coordinate, so that floats can
+    ///               hold them; each is larger than its piece by the distance that
+    ///               counts.
+    /// \param looks  The look of each box. Boxes of the same look are not compared.
     LookTree(std::vector<Box> boxes, std::vector<std::uint32_t> looks)
         : boxes_(std::move(boxes)), looks_(std::move(looks)),
           tree_(build_bvh<float>(boxes_)), below_(tree_.nodes.size(), several) {
@@ -373,7 +374,7 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
     return pieces;
 }
 
-/// Finds the pairs of objects with pieces in one place; in `pair` stand their numbers.
+/// Finds the pairs of objects with pieces in one place; a `pair` holds their numbers.
 [[gnu::cold]] inline void find_pairs(Contacts& contacts, const ContactSearch& search,
                                      const std::vector<std::uint32_t>& looks) {
     long long budget = 1'000'000'000; // nodes

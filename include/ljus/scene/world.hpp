@@ -235,8 +235,8 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     /// The bounding box of the bounding spheres of all shapes.
     [[nodiscard]] const BoxT<Scalar>& box() const noexcept { return box_; }
-    /// Whether a point may lie in an absorbing body, in a scene with fog or priorities
-    /// in any transparent body: whether it lies in their common bounding box.
+    /// Whether a point lies in the common bounding box of all absorbing bodies, and so
+    /// may be in one; with fog or priorities, in that of all transparent bodies.
     [[nodiscard]] bool may_be_in_medium(const Vec3T<Scalar>& point) const noexcept {
         return glm::all(glm::lessThanEqual(media_.low, point)) &&
                glm::all(glm::lessThanEqual(point, media_.high));

@@ -209,7 +209,8 @@ private:
     std::uint32_t node_ = 0;
 };
 
-/// The traversal of every search: test eight boxes of a node, then visit a child.
+/// The traversal of every search: test eight boxes of a node, then visit a child
+/// \cite wald2008.
 /// \tparam any   True: the first leaf that returns true ends the search, and children
 ///               are unsorted. False: nearer children come first, and leaves shorten
 ///               the ray.

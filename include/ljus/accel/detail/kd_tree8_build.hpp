@@ -64,8 +64,8 @@ struct KdTree8Shape {
     [[nodiscard]] constexpr std::uint32_t root_children() const noexcept {
         return 1u << (halvings - 3 * (levels - 1));
     }
-    /// The first block of a range after `depth` halvings. A range ends where the next
-    /// one begins.
+    /// The first block of range `number` after the blocks were halved `depth` times.
+    /// The range ends at the first block of range `number + 1`.
     [[nodiscard]] constexpr std::uint64_t first_block(int depth,
                                                       std::uint64_t number) const {
         return ((number << (halvings - depth)) * blocks) >> halvings;
@@ -105,8 +105,8 @@ public:
     using Item = KdTree8ItemT<T>;                 ///< What it holds.
     static constexpr std::size_t piece = 1 << 13; ///< Items per piece.
 
-    /// Pieces that were read, for other lists of the same thread: the allocator may
-    /// keep what one thread frees from the others.
+    /// Pieces that were read. Lists of the same thread use them again, because memory
+    /// that one thread frees may stay out of the reach of others.
     using Spare = std::vector<std::vector<Item>>;
 
     /// The number of items.

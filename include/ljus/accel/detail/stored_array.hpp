@@ -21,8 +21,8 @@
 
 namespace ljus::detail {
 
-/// Gives memory that was freed back to the system. glibc keeps what it has freed in
-/// small pieces for pieces like them, and a large array beside them needs its own.
+/// Gives freed memory back to the system. glibc keeps small pieces that were freed for
+/// further small pieces, and does not make a large array of them.
 inline void give_back_memory() noexcept {
 #ifdef __GLIBC__
     ::malloc_trim(0);
@@ -30,8 +30,8 @@ inline void give_back_memory() noexcept {
 }
 
 /// An array of numbers. It grows by std::realloc(), which in Linux moves the pages of a
-/// large array to where it fits: a std::vector is in memory twice when it grows, and
-/// one that takes all memory at once takes it before it is used.
+/// large array instead of copying them. A std::vector is in memory twice while it
+/// grows, or reserves all its memory before any of it is used.
 template <typename Element>
 class GrowingArray {
     static constexpr std::size_t alignment = 32; // a pointer of malloc() has less

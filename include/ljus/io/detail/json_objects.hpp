@@ -182,8 +182,8 @@ FlatShapesT<T> read_triangles(const JsonField& field) {
     return pair_triangles<T>(points, triangles);
 }
 
-/// The largest number of scales and normals with which a scene reads one mesh file, and
-/// the largest number of triangles that it has by naming a file again as it is.
+/// Limits for a mesh file that a scene names several times: how often it is read, with
+/// another scale or other normals each time; and the triangles of its unchanged copies.
 inline constexpr std::size_t max_mesh_readings = 16, max_copied_triangles = 1 << 22;
 
 /// The largest number of triangles of all instances together: the area of a stretched

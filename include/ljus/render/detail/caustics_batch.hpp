@@ -9,9 +9,6 @@
 
 namespace ljus::detail {
 
-/// \addtogroup photon_mapping
-/// \{
-
 /// The delayed caustics estimates of a batch of samples.
 template <std::floating_point T>
 struct CausticsBatch {
@@ -20,7 +17,6 @@ struct CausticsBatch {
     BallBlocks found{};                      ///< Storage for the search.
 
     /// Computes the estimates.
-    /// \param mapper   The maps and the settings of an estimate.
     /// \param counts   Counts queries and photons.
     /// \param give     Called as give(item, light) with light for a sample.
     template <typename Mapper, typename Give>
@@ -48,10 +44,6 @@ struct CausticsBatch {
 
 /// Queues the caustics estimate of a vertex, if it can be batched.
 /// \param batch       The batch of the context; a NoBatch delays nothing.
-/// \param vertex      The surface.
-/// \param material    Its material.
-/// \param throughput  Throughput of the path.
-/// \param how         The estimate.
 /// \return Whether the estimate was queued.
 template <typename Batch, std::floating_point T, typename M, typename K>
 [[nodiscard]] bool put_off(Batch& batch, const VertexT<T>& vertex, const M& material,
@@ -65,7 +57,5 @@ template <typename Batch, std::floating_point T, typename M, typename K>
         }
     return false;
 }
-
-/// \}
 
 } // namespace ljus::detail

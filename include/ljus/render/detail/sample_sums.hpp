@@ -11,9 +11,6 @@
 
 namespace ljus::detail {
 
-/// \addtogroup render
-/// \{
-
 /// A renderer that delays some queries, to answer those of many samples together. Its
 /// type `Batch` collects them, as Context::batch, and has
 ///
@@ -52,7 +49,6 @@ struct PixelSums {
 template <typename R, std::floating_point T>
 class SampleSums {
 public:
-    /// \param renderer  The renderer of the samples.
     /// \param sums      The sums of all pixels that get samples.
     /// \param cost      Counts delayed queries, and samples that are not finite.
     SampleSums(const R& renderer, std::span<PixelSums> sums, Counts& cost)
@@ -71,7 +67,6 @@ public:
         pixels_[item] = pixel;
         if (++count_ == BatchOf<R>::together) finish();
     }
-    /// Adds the remaining samples.
     void finish() {
         const auto count = static_cast<std::size_t>(count_);
         if constexpr (Batches<R>)
@@ -101,7 +96,5 @@ private:
     std::array<T, BatchOf<R>::together> weights_;
     std::array<std::size_t, BatchOf<R>::together> pixels_;
 };
-
-/// \}
 
 } // namespace ljus::detail
