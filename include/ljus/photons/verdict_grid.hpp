@@ -142,8 +142,8 @@ void copy_to_all_lights(VerdictBitsT<T>& grid) {
 
 } // namespace detail
 
-/// Computes the verdicts. Direct and shadow photons count, and indirect ones on request;
-/// photons without a normal do not.
+/// Computes the verdicts. Direct and shadow photons count, and indirect ones on
+/// request; photons without a normal do not.
 /// \return The grid, the same for any number of threads; empty without photons, and for
 ///         SkipRule::none without indirect rays.
 /// \throws std::invalid_argument  if a setting is out of range.

@@ -51,8 +51,8 @@ template <AnyWorld W, std::floating_point T>
 } // namespace detail
 
 /// Casts cosine-weighted rays from a patch, at least one. The fraction that arrives at
-/// another patch is the form factor, including visibility; each arrival adds area / rays
-/// to the row of exchange areas.
+/// another patch is the form factor, including visibility; each arrival adds
+/// area / rays to the row of exchange areas.
 ///
 /// Rays *between* two patches have the weight cos cos / r^2, which is unbounded where
 /// the patches touch; the weight here is constant.
