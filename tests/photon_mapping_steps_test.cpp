@@ -24,6 +24,7 @@
 #include "support/refusal.hpp"
 #include "support/rooms.hpp"
 #include "support/seed.hpp"
+#include "support/statistics.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
@@ -118,7 +119,7 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
                         Terms seen, right;
                         auto context = context_of(stream, counts);
                         auto plain = context_of(twin, cost);
-                        light_at(mapper, vertex, material, gather, context,
+                        light_at(mapper, vertex, material, gather, {direct, 3}, context,
                                  Witness{seen});
                         const auto ask = [&](const PhotonMap& map,
                                              const DensityEstimateSettings& how,
@@ -919,4 +920,40 @@ TEST_CASE("photon mapping: light that small objects lose is said") {
     CHECK(said(0.5f, settings));
     settings.indirect = IndirectLight::rays;
     CHECK_FALSE(said(0.5f, settings)); // nobody asks the map
+}
+
+TEST_CASE("photon mapping: after gloss a path finds the lamps by its next ray") {
+    // A groove of gloss in light from all around, which shadow rays alone find as well.
+    // 4 comparisons of 4.5 standard errors: one false alarm in 37 000 seeds.
+    for (const float roughness : {0.3f, 0.6f}) {
+        Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glossy>> room;
+        const auto black = room.add(Lambertian{.albedo = Rgb{0}});
+        room.add(Sphere{.radius = 100}, black, Rgb{1}, true);
+        const auto gloss =
+            room.add(Glossy{.reflectance = Rgb{0.9f}, .roughness = roughness});
+        room.add(Quad{{0, 0, -1}, {1, 1, 0}, {0, 0, 2}}, gloss);
+        room.add(Quad{{0, 0, -1}, {0, 0, 2}, {-1, 1, 0}}, gloss);
+        const World world(std::move(room));
+        const Ray ray{.origin{0.2f, 1, 0}, .direction{0, -1, 0}};
+        const auto mean_of = [&](DirectLight direct, IndirectLight indirect) {
+            PhotonMappingSettings settings{
+                .shadow_rays = 3, .direct = direct, .indirect = indirect};
+            settings.caustics.photons = settings.general.photons = 0;
+            const PhotonMapper mapper(world, settings, abilities<Gathering>);
+            Mean mean;
+            for (std::uint64_t i = 0; i < 20000; ++i) {
+                auto stream =
+                    random_stream(test_seed(1 + int(direct)), Pass::user, 0, i);
+                Counts counts;
+                auto context = context_of(stream, counts);
+                mean.add(double(radiance(mapper, ray, context).x));
+            }
+            return mean;
+        };
+        const Mean right = mean_of(DirectLight::sampled, IndirectLight::rays);
+        CAPTURE(roughness);
+        CHECK(right.mean > 0.5); // the rest is lost between facets, or absorbed
+        for (const IndirectLight indirect : {IndirectLight::rays, IndirectLight::cache})
+            CHECK(std::abs(apart(mean_of(DirectLight::mis, indirect), right)) < 4.5);
+    }
 }

@@ -604,7 +604,12 @@ TEST_CASE("survey: narrow gloss is a mirror to those who look irradiance up") {
                             "as a caustic; radius 0.1 in a scene 18 across"
                           : "no object mirrors or refracts"));
             CHECK(plan.remarks.empty());
-            CHECK(choose_passes(needs(world), settings).gloss_as_mirrors == mirror);
+            const Passes run = choose_passes(needs(world), settings);
+            CHECK(run.gloss_as_mirrors == mirror);
+            CHECK(run.caustics_on_gloss == !mirror);
+            SceneNeeds with_mirror = needs(world);
+            with_mirror.specular = 1;
+            CHECK(choose_passes(with_mirror, settings).caustics_on_gloss);
             // With no photons for it paths carry the light.
             settings.caustics.photons = 0;
             CHECK_FALSE(choose_passes(needs(world), settings).gloss_as_mirrors);

@@ -106,7 +106,7 @@ Rgb radiance(const MapView<W>& view, const Ray& ray, auto& context) {
         if (vertex->emits()) sum += path.throughput * vertex->object.emission;
         const auto at_material = [&](const auto& material) {
             if (has(lobes(material), Lobes::non_specular))
-                light_at(view.mapper, *vertex, material, true, context, add);
+                light_at(view.mapper, *vertex, material, true, {}, context, add);
             return continue_path(path, *vertex, material, Transport::radiance,
                                  Lobes::specular, context.stream);
         };

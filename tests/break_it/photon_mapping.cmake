@@ -128,3 +128,23 @@ ljus_break_it(NAME photon-mapping-edges-said HEADER inspect/scene_remarks.hpp
     FROM "if (!(lost > 0.2)) return {};"
     TO   "if (!(lost > 0.5)) return {};"
     CASES "photon mapping: light that small*")
+
+# A ray of its own to lamps was given up, and the next one forgets them.
+ljus_break_it(NAME photon-mapping-next-ray HEADER render/photon_mapping.hpp
+    TEST photon_mapping_steps
+    FROM "if (sharing > 0 && !path.specular)"
+    TO   "if (false)"
+    CASES "photon mapping: after gloss*")
+
+# The next ray brings what a ray of its own has brought.
+ljus_break_it(NAME photon-mapping-own-ray HEADER path/all_lights.hpp
+    TEST photon_mapping_steps
+    FROM "if (both && next == Lobes::none)"
+    TO   "if (both)"
+    CASES "photon mapping: after gloss*")
+
+# With a mirror in the scene, its caustics on gloss are lost.
+ljus_break_it(NAME photon-mapping-caustics-on-gloss HEADER render/passes.hpp TEST survey
+    FROM "!gloss || found.specular > 0}"
+    TO   "!gloss}"
+    CASES "survey: narrow gloss*")

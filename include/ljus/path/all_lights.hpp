@@ -94,8 +94,35 @@ analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
     return result;
 }
 
-/// The emission that a ray sampled by the material finds, of lamps and of the sky, with
-/// its weight of multiple importance sampling. The ray ends there; it carries no other
+/// The emission that a scattered ray has met, of a lamp or of the sky, with its weight
+/// of multiple importance sampling.
+/// \param path      The ray after next_vertex(); `previous` is where it was scattered.
+/// \param lamp      What it met; nothing if it has left the scene.
+/// \param reaching  The density of its direction, in fog times what passes.
+/// \param rays      Shadow rays per light.
+/// \return Throughput times radiance times the weight.
+template <AnyWorld W, std::floating_point T>
+[[nodiscard]] RgbT<T> met_light(const W& world, const PathStateT<T>& path,
+                                const std::optional<VertexT<T>>& lamp, T reaching,
+                                int rays) {
+    const auto share = [&](T pdf) {
+        return balance_heuristic(reaching, T(rays) * pdf) * path.throughput;
+    };
+    if (lamp) {
+        if (!lamp->emits()) return RgbT<T>{T(0)};
+        return share(pdf_of_lamp_point(world, path.previous, *lamp)) *
+               lamp->object.emission;
+    }
+    RgbT<T> sum{T(0)};
+    if constexpr (has_sky<W>)
+        for (std::uint32_t light = 0; light < world.light_count(); ++light) {
+            const SkyT<T> sky = sky_of(world, light, path.ray.direction);
+            sum += share(sky.pdf) * sky.radiance;
+        }
+    return sum;
+}
+
+/// The same of a ray of its own, which is sampled by the material and carries no other
 /// light.
 /// \param rays      Shadow rays per light.
 /// \param context   Three numbers are drawn; the ray is counted.
@@ -112,6 +139,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
         .medium =
             detail::medium_beyond(vertex.medium, material, vertex.wo, next->sample.wi),
         .medium_known = !detail::leaves_body<M>(vertex.wo, next->sample.wi),
+        .previous = vertex.point.position,
         .depth = 1,
         .branch = std::uint64_t(1) << 44};
     auto numbers = context.stream; // next_vertex() moves the copy
@@ -124,21 +152,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
         path.throughput *= through;
         reaching *= passing(through);
     }
-    const auto share = [&](T pdf) {
-        return balance_heuristic(reaching, T(rays) * pdf) * path.throughput;
-    };
-    if (lamp) {
-        if (!lamp->emits()) return RgbT<T>{T(0)};
-        return share(pdf_of_lamp_point(world, vertex.point.position, *lamp)) *
-               lamp->object.emission;
-    }
-    RgbT<T> sum{T(0)};
-    if constexpr (has_sky<W>)
-        for (std::uint32_t light = 0; light < world.light_count(); ++light) {
-            const SkyT<T> sky = sky_of(world, light, path.ray.direction);
-            sum += share(sky.pdf) * sky.radiance;
-        }
-    return sum;
+    return met_light(world, path, lamp, reaching, rays);
 }
 
 /// The sum of the channels of what a lamp would send to a vertex if nothing occluded
@@ -318,6 +332,9 @@ struct DirectLightSettings {
     DirectLight how = DirectLight::sampled; ///< The method.
     int rays = 1; ///< Shadow rays per light, at least 1; fewer to faint lamps in closed
                   ///< form, or none, if others stand for them.
+    Lobes next = Lobes::none; ///< The lobes of the path's next ray, if that is to bring
+                              ///< the light of found_light(), by met_light(); none: a
+                              ///< ray of its own brings it. Not in fog.
 };
 
 /// The light of all lights at a surface.
@@ -339,7 +356,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
                                         const M& material,
                                         const DirectLightSettings& settings,
                                         Context& context, Verdicts verdicts = {}) {
-    const auto [how, rays] = settings;
+    const auto [how, rays, next] = settings;
     if constexpr (std::same_as<M, LambertianT<T>>)
         if (how == DirectLight::analytic)
             return detail::analytic_lights(world, vertex, material, rays, context,
@@ -348,7 +365,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
     const MisT<T> mis{.heuristic =
                           both ? MisHeuristic::balance : MisHeuristic::shadow_rays,
                       .factor = T(rays),
-                      .lobes = Lobes::non_specular};
+                      .lobes = next == Lobes::none ? Lobes::non_specular : next};
     RgbT<T> sum{T(0)};
     for (std::uint32_t light = 0; light < world.light_count(); ++light) {
         const Vec2T<T> u = next_2d<T>(context.stream);
@@ -359,7 +376,8 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
             detail::add_sampled_light(sum, world, light, vertex, material, u, rays, mis,
                                       context, verdict);
     }
-    if (both) sum += detail::found_light(world, vertex, material, rays, context);
+    if (both && next == Lobes::none)
+        sum += detail::found_light(world, vertex, material, rays, context);
     return sum;
 }
 

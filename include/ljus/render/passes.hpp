@@ -61,6 +61,8 @@ struct Passes {
     bool irradiance = false;       ///< As in Plan.
     bool cache = false;            ///< As in Plan.
     bool gloss_as_mirrors = false; ///< PhotonPassSettings::gloss_as_mirrors.
+    bool caustics_on_gloss = true; ///< Whether the caustics map may have photons where
+                                   ///< there is no diffuse lobe.
 };
 
 namespace detail {
@@ -107,7 +109,8 @@ choose_passes(const SceneNeeds& found, const PhotonMappingSettings& settings) {
                 rays && settings.skip.indirect_rays && settings.general.photons > 0,
             .irradiance = general && looked_up,
             .cache = general && cache,
-            .gloss_as_mirrors = gloss};
+            .gloss_as_mirrors = gloss,
+            .caustics_on_gloss = !gloss || found.specular > 0};
 }
 // [survey]
 

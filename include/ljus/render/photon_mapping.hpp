@@ -493,15 +493,37 @@ namespace detail {
 /// Direct light at a surface, by shadow rays, or by verdicts where they are known.
 template <typename Mapper, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> light_of_lights(const Mapper& mapper, const VertexT<T>& vertex,
-                                      const M& material, Context& context) {
-    const DirectLightSettings how{mapper.settings().direct,
-                                  mapper.settings().shadow_rays};
+                                      const M& material, const DirectLightSettings& how,
+                                      Context& context) {
     if constexpr (Mapper::template has<Skipping>)
         if (!scatters_through(material)) // a verdict is about one side
             return sample_all_lights(
                 mapper.world(), vertex, material, how, context,
                 verdicts_of(mapper, at_rest(mapper.world(), vertex)));
     return sample_all_lights(mapper.world(), vertex, material, how, context);
+}
+
+/// How direct light is found at a surface. A path goes on after gloss, and its next ray
+/// finds the lamps that a ray for them alone would. At the gloss that it meets later,
+/// one shadow ray to each light is enough if no gloss is narrow: what that leaves out
+/// of a narrow highlight would be noise.
+/// \param path  The path at the surface.
+/// \param open  The lobes by which it continues.
+template <typename Mapper, std::floating_point T, Material M>
+[[nodiscard]] DirectLightSettings direct_light_at(const Mapper& mapper,
+                                                  const PathStateT<T>& path,
+                                                  const M& material, Lobes open) {
+    const PhotonMappingSettings& settings = mapper.settings();
+    DirectLightSettings how{settings.direct, settings.shadow_rays};
+    if (has(lobes(material), Lobes::diffuse) || how.how == DirectLight::sampled)
+        return how;
+    if (path.met_diffuse && !mapper.passes().gloss_as_mirrors) how.rays = 1;
+    const bool may_skip =
+        mapper.passes().skipped_bounces && !scatters_through(material);
+    if (has(open, Lobes::glossy) && path.depth < settings.max_depth && !may_skip &&
+        !mapper.world().has_fog())
+        how.next = open;
+    return how;
 }
 
 } // namespace detail
@@ -513,6 +535,7 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
 /// \param vertex    The surface.
 /// \param material  Its material.
 /// \param gather    Whether the general map provides all light except caustics.
+/// \param direct    How shadow rays find direct light.
 /// \param context   The random stream of the path; counts rays and photons; its batch
 ///                  may delay the query of the caustics map.
 /// \param add       The sum of the path.
@@ -521,7 +544,8 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
 template <AnyWorld W, typename... X, std::floating_point T, Material M,
           typename Context, typename Sum>
 void light_at(const PhotonMapper<W, X...>& mapper, const VertexT<T>& vertex,
-              const M& material, bool gather, Context& context, const Sum& add) {
+              const M& material, bool gather, const DirectLightSettings& direct,
+              Context& context, const Sum& add) {
     using Mapper = PhotonMapper<W, X...>;
     const PhotonMappingSettings& settings = mapper.settings();
     const PhotonMapsT<T>& maps = mapper.maps();
@@ -541,7 +565,7 @@ void light_at(const PhotonMapper<W, X...>& mapper, const VertexT<T>& vertex,
             ask(maps.general, settings.general_estimate, light_kinds));
     else
         add("shadow ray", "DL",
-            detail::light_of_lights(mapper, vertex, material, context));
+            detail::light_of_lights(mapper, vertex, material, direct, context));
     if (settings.indirect == IndirectLight::photons && !scatters_through(material))
         add("general map", "D..DL",
             ask(maps.general, settings.general_estimate,
@@ -552,6 +576,8 @@ void light_at(const PhotonMapper<W, X...>& mapper, const VertexT<T>& vertex,
             add("irradiance cache", "D..DL",
                 cached_light(mapper, vertex, material, context));
     if (maps.caustics.empty()) return;
+    if (!mapper.passes().caustics_on_gloss && !has(lobes(material), Lobes::diffuse))
+        return;
     T part = T(1);
     if constexpr (Mapper::template has<Gathering>)
         part = part_of_caustics(mapper, resting);
@@ -653,6 +679,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
     const auto follow_path = [&](PathStateT<T> path) {
         const RadianceSum add{sum, path.throughput, context.log};
         bool gloss_mirrors = false; // whether narrow gloss is a mirror to this path
+        int sharing = 0; // shadow rays that share each light with the path's next ray
         while (path.depth < settings.max_depth) {
             [[maybe_unused]] const RgbT<T> before = path.throughput;
             const auto vertex = next_vertex(mapper.world(), path, context.stream);
@@ -660,6 +687,11 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                 detail::cross_fog(mapper, path, before,
                                   vertex ? vertex->distance : path.ray.t_max, context,
                                   add);
+            if (sharing > 0 && !path.specular)
+                add.add(
+                    "scattered ray", "L",
+                    detail::met_light(mapper.world(), path, vertex, path.pdf, sharing));
+            sharing = 0;
             if (!vertex) {
                 if (!path.met_diffuse)
                     add("sky", "L", sky_radiance(mapper.world(), path.ray.direction));
@@ -682,18 +714,22 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                         mirror = gloss_mirrors &&
                                  nearly_specular_at(mapper.world(), *vertex, material);
                     }
-                if constexpr (!OnlySpecular<M>)
-                    if (has(parts, Lobes::non_specular) && !mirror) {
-                        light_at(mapper, *vertex, material, gather, context, add);
-                        if (!gather)
-                            gloss_mirrors = mapper.passes().gloss_as_mirrors &&
-                                            has(parts, Lobes::diffuse);
-                    }
                 const bool follow =
                     mirror || (through && settings.indirect == IndirectLight::photons);
                 const Lobes open = gather   ? Lobes::specular
                                    : follow ? Lobes::all
                                             : mapper.bounces();
+                if constexpr (!OnlySpecular<M>)
+                    if (has(parts, Lobes::non_specular) && !mirror) {
+                        const auto direct =
+                            detail::direct_light_at(mapper, path, material, open);
+                        light_at(mapper, *vertex, material, gather, direct, context,
+                                 add);
+                        if (direct.next != Lobes::none) sharing = direct.rays;
+                        if (!gather)
+                            gloss_mirrors = mapper.passes().gloss_as_mirrors &&
+                                            has(parts, Lobes::diffuse);
+                    }
                 if (path.depth == settings.max_depth) {
                     detail::cut_if(has(parts, open), context.counts);
                     return false;
