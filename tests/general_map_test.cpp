@@ -772,9 +772,9 @@ TEST_CASE("general map: what the presets ask for") {
         return std::array<double, 3>{double(found.first), double(found.more),
                                      found.disagreement};
     };
-    CHECK(rays(Preset::draft) == std::array<double, 3>{1, 0, 0.4});
-    CHECK(rays(Preset::fast) == std::array<double, 3>{2, 8, 0.4});
-    CHECK(rays(Preset::exact) == std::array<double, 3>{64, 0, 0.4});
+    CHECK(rays(Preset::draft) == std::array<double, 3>{1, 0, 0.75});
+    CHECK(rays(Preset::fast) == std::array<double, 3>{1, 12, 0.75});
+    CHECK(rays(Preset::exact) == std::array<double, 3>{64, 0, 0.75});
     CHECK(preset_settings(Preset::draft, 20000, 20000).caustics.photons == 500000);
     CHECK(preset_settings(Preset::fast, 20000, 20000).caustics.photons == 1000000);
     CHECK(detail::gathers(IndirectLight::map));

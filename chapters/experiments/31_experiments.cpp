@@ -340,12 +340,10 @@ Image by_photons(const Box& room, const PhotonMappingSettings& settings,
     mapper.fill_cache(room.camera, picture);
     if (more == 0) return render(mapper, room.camera, picture).image;
     RenderSettings most = picture;
-    most.samples += more;
-    return render_adaptive(mapper, room.camera, most,
-                           {.first = picture.samples,
-                            .more = more,
-                            .batches = 1,
-                            .disagreement = PresetRays{}.disagreement})
+    most.samples = 1 + more;
+    return render_adaptive(
+               mapper, room.camera, most,
+               {.first = 1, .more = more, .disagreement = PresetRays{}.disagreement})
         .image;
 }
 
@@ -413,7 +411,7 @@ struct Rung {
     DirectLight direct;
     IndirectLight indirect;
     bool stratified;
-    int more; ///< Rays where the first ones disagree.
+    int more; ///< The most rays that are added to one, where those around differ.
 };
 constexpr std::array ladder_rungs{
     Rung{"the report's: one shadow ray", 1, DirectLight::sampled, IndirectLight::rays,
@@ -426,8 +424,8 @@ constexpr std::array ladder_rungs{
          0},
     Rung{"+ the cache for indirect rays", 4, DirectLight::analytic,
          IndirectLight::cache, true, 0},
-    Rung{"+ 8 more rays where 2 disagree", 4, DirectLight::analytic,
-         IndirectLight::cache, true, 8}};
+    Rung{"+ one ray, more where rays differ", 4, DirectLight::analytic,
+         IndirectLight::cache, true, preset_rays(Preset::fast).more}};
 
 /// The room as a rung of the ladder renders it.
 Image shoot_rung(const Rung& rung, const Box& room, const RenderSettings& picture) {

@@ -58,8 +58,8 @@ struct RenderRequest {
     std::optional<ljus::Preset> preset{}; ///< Options given by name override it.
     ljus::RenderSettings picture{};       ///< Settings of the whole picture.
     int more_rays = 0;                    ///< More rays for pixels that need them.
-    double disagreement = 0.4; ///< Relative standard error above which they do.
-    double exposure = 0;       ///< Exposure of PNG files, in stops.
+    double disagreement = 0.75; ///< Deviation from which on they get all of them.
+    double exposure = 0;        ///< Exposure of PNG files, in stops.
     ljus::PhotonMappingSettings photon{.caustics_estimate = {.radius = 0.1f}};
     ljus::PathTracingSettings path{};
     /// How a path tracer's rays to lamps and its paths are weighted; none: paths alone.
@@ -107,9 +107,9 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
         "With normal, albedo, depth, position, object, light-paths, or NAME=CLASS\n"
         "of light paths, as glass=ES+.*L: in NAME.exr, or in files NAME.*.pfm");
     line.add("--more-rays", r.more_rays,
-             "More rays beside pixels whose first rays disagree", 0, million);
+             "The most rays more for a pixel, where rays around it differ", 0, million);
     line.add("--disagreement", r.disagreement,
-             "Relative standard error above which first rays disagree", 1e-6, 1e6);
+             "Relative standard deviation from which on it gets them all", 1e-6, 1e6);
     line.add("--sampling", r.picture.sampling, "Pattern of the rays in a pixel");
     line.add("--precision", r.in_double, "Precision of scene, photons and light",
              {{"float", false}, {"double", true}});
@@ -255,7 +255,7 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int 
     if (r.preset) {
         const ljus::PresetRays rays = preset_rays(*r.preset);
         options = line.fill({width, height, rays.first});
-        r.more_rays = options.samples > 1 ? rays.more : 0;
+        r.more_rays = rays.more;
         r.photon = preset_settings(*r.preset, options.width, options.height);
         // Keep the default shadow rays, not the preset's.
         r.photon.irradiance = {.least = r.photon.irradiance.least};
@@ -275,11 +275,6 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int 
                 "--more-rays is " + std::to_string(r.more_rays) + "; with " + option +
                 ", which takes the same rays in every "
                 "pixel, it must be 0: give --more-rays 0");
-    if (r.more_rays > 0 && options.samples < 2)
-        throw std::invalid_argument(
-            "--rays is " + std::to_string(options.samples) + "; with --more-rays " +
-            std::to_string(r.more_rays) +
-            ", whose first rays must be compared, it must be at least 2");
     const auto sampling = r.picture.sampling;
     r.picture = picture_settings(options);
     r.picture.sampling = sampling;

@@ -43,20 +43,26 @@ ljus_break_it(NAME adaptive-limit HEADER render/adaptive.hpp TEST adaptive
 
 # A pixel's own rays decide as well, and are averaged.
 ljus_break_it(NAME adaptive-own-rays HEADER render/adaptive.hpp TEST adaptive
-    FROM "if (u != x || v != y)"
+    FROM "if (u == x && v == y) continue;"
     TO   ""
     CASES "adaptive: choosing by the rays*")
 
-# All get more as soon as one pixel does.
+# All rays or none: the root of the variance is not asked how many.
 ljus_break_it(NAME adaptive-disagreement HEADER render/adaptive.hpp
     TEST adaptive
-    FROM "> rule.disagreement;"
-    TO   ">= 0;"
-    CASES "adaptive: pixels beside those*")
+    FROM "rule.more * std::min(part, 1.0)"
+    TO   "part < 1 ? 0 : rule.more"
+    CASES "adaptive: as many more rays*")
+
+# The variance around a block of the rays' squares alone.
+ljus_break_it(NAME adaptive-around HEADER render/adaptive.hpp TEST adaptive
+    FROM "(squares - mean * sum)"
+    TO   "squares"
+    CASES "adaptive: the variance of the first rays*")
 
 # The rows beside a band do not decide.
 ljus_break_it(NAME adaptive-band HEADER render/adaptive.hpp TEST adaptive
-    FROM "band < all ? detail::deciding_blocks : 0"
+    FROM "band < all ? 1 : 0"
     TO   "0"
     CASES "adaptive: a picture in bands*")
 

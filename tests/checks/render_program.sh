@@ -299,9 +299,6 @@ for option in "--alpha 0.5" "--checkpoint a.check" --resume "--preview a.png" "-
 done
 refused "--passes is for --renderer photon; give other renderers more --rays" "$scene" --passes 2 --renderer path
 refused "--more-rays cannot be combined with --passes" "$scene" --passes 2 --more-rays 3
-refused "--rays is 1; with --more-rays 3, whose first rays must be compared, it must be at least 2" \
-    "$scene" --rays 1 --more-rays 3
-refused "--rays is 1; with --more-rays 4" "$scene" --preset draft --more-rays 4
 refused "--show-photons cannot be combined with --explain" "$scene" --explain 1,1 --show-photons all
 refused "--plan cannot be combined with --explain" "$scene" --explain 1,1 --plan
 refused "--explain cannot be combined with --passes" "$scene" --passes 2 --explain 1,1

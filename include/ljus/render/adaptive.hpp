@@ -22,23 +22,24 @@ namespace ljus {
 /// go to the pixels where they reduce the error most. The mean number of rays per pixel
 /// is at most RenderSettings::samples.
 ///
-///     // 2 rays; 8 more beside means that have a relative standard error above 0.2
+///     // 1 ray; up to 9 more where the rays of the pixels around differ, all of them
+///     // from a relative standard deviation of 0.3 on
 ///     render_adaptive(mapper, camera, {.samples = 10},
-///                     {.first = 2, .more = 8, .batches = 1, .disagreement = 0.2});
+///                     {.first = 1, .more = 9, .disagreement = 0.3});
 ///     // up to 1000 rays per pixel on average, until the relMSE is 0.01
 ///     render_adaptive(mapper, camera, {.samples = 1000}, {.target = 0.01});
 /// \{
 
 /// How rays are allocated to pixels. The bias that `two_stage` avoids: \cite kirk1991.
 struct AdaptiveSettings {
-    int first = 16;     ///< Rays in every pixel, at least 2.
-    int more = 16;      ///< Rays in a batch, at least 1.
+    int first = 16; ///< Rays in every pixel, at least 2; 1 with `disagreement` alone.
+    int more = 16;  ///< Rays in a batch, at least 1; with `disagreement` the most.
     int batches = 1000; ///< Largest number of batches per pixel, at least 0.
     int block = 1;     ///< Side of the square blocks that share an estimate, in pixels.
     double target = 0; ///< The relMSE at which it stops; 0: none.
-    double disagreement = 0; ///< Above 0: each round adds a batch to every block that
-                             ///< has one within two blocks, beside itself, whose mean
-                             ///< has a relative standard error above this.
+    double disagreement = 0; ///< Above 0: each block gets one batch, in proportion to
+                             ///< the relative standard deviation of the first rays of
+                             ///< the eight blocks around it; `more` rays at this one.
     double epsilon = 0.01;   ///< Added to the squared mean, as in rel_mse().
     bool two_stage = false;  ///< The first rays only allocate the others and are then
                              ///< discarded: no bias. Not with `disagreement`, which
@@ -50,7 +51,8 @@ struct AdaptiveSettings {
 /// \param samples  Largest mean number of rays per pixel.
 /// \throws std::invalid_argument  with name and value.
 inline void check(const AdaptiveSettings& rule, int samples) {
-    require_at_least("first", rule.first, 2);
+    const bool by_others = rule.disagreement > 0 && rule.target == 0;
+    require_at_least("first", rule.first, by_others ? 1 : 2);
     require_at_least("more", rule.more, rule.two_stage ? 2 : 1);
     require_at_least("batches", rule.batches, rule.two_stage ? 1 : 0);
     require_at_least("block", rule.block, 1);
@@ -86,7 +88,10 @@ struct AdaptiveBlock {
     int rays = 0;              ///< Per pixel, without discarded ones.
     int batches = 0;           ///< Batches traced so far; the first rays are one.
     int wanted = 1;            ///< Batches to trace in this round.
+    int more = 0;              ///< Rays per pixel in each batch but the first.
     double variance = 0;       ///< See relative_variance().
+    Rgb sum{0};                ///< Sum of all its first rays.
+    Rgb squares{0};            ///< Sum of their squares.
 
     [[nodiscard]] constexpr double pixels() const noexcept {
         return double(right - x) * (bottom - y);
@@ -129,16 +134,16 @@ struct RowSums {
     }
 };
 
-/// The number of rays per pixel in a batch.
+/// The number of rays per pixel in the next batch of a block.
 [[nodiscard]] constexpr int rays_in_batch(const AdaptiveSettings& rule,
-                                          int batch) noexcept {
-    return batch == 0 ? rule.first : rule.more;
+                                          const AdaptiveBlock& block) noexcept {
+    return block.batches == 0 ? rule.first : block.more;
 }
 
 /// The number of rays of a block in this round.
 [[nodiscard]] constexpr double rays_wanted(const AdaptiveBlock& block,
                                            const AdaptiveSettings& rule) noexcept {
-    return block.pixels() * block.wanted * rays_in_batch(rule, block.batches);
+    return block.pixels() * block.wanted * rays_in_batch(rule, block);
 }
 
 /// The relative variance of the rays of a block.
@@ -161,6 +166,21 @@ struct RowSums {
         }
     const RgbT<double> relative = variance / (mean * mean + epsilon);
     return std::fmax((relative.x + relative.y + relative.z) / 3, 0.0); // not NaN
+}
+
+/// Sets what decides about the next rays: of a block's own, or of those around it.
+inline void set_statistics(AdaptiveBlock& block, const RowSums& sums,
+                           const AdaptiveSettings& rule) {
+    if (rule.disagreement == 0) {
+        block.variance = relative_variance(block, sums, rule.epsilon);
+        return;
+    }
+    for (int y = block.y; y < block.bottom; ++y)
+        for (int x = block.x; x < block.right; ++x) {
+            const PixelSums& found = sums.pixels[sums.index(x, y)];
+            block.sum += Rgb(found.sum);
+            block.squares += Rgb(found.squares);
+        }
 }
 
 /// The statistics of a block that ray_shares() needs.
@@ -213,29 +233,45 @@ struct RayShare {
     return wanted;
 }
 
-/// How many blocks to each side decide whether a block gets more rays.
-inline constexpr int deciding_blocks = 2;
-
-/// Sets the variance of each part to the largest one of the blocks around it, without
-/// its own; to infinity for a block that is alone.
+/// The relative variance of the first rays of the blocks around each block, without its
+/// own; infinity for a block with less than two such rays.
+///
+/// It contains the differences between pixels: an edge or a shadow's border is noticed
+/// with one ray per pixel.
+/// \param parts   Their variances are set.
 /// \param blocks  All blocks of a picture, row by row.
+/// \param rule    Its `first` and `epsilon` are used.
+// [variances around]
 inline void set_variances_around(std::vector<RayShare>& parts,
-                                 const std::vector<AdaptiveBlock>& blocks) {
+                                 const std::vector<AdaptiveBlock>& blocks,
+                                 const AdaptiveSettings& rule) {
     const int all = static_cast<int>(blocks.size());
     int columns = 0;
     while (columns < all && blocks[std::size_t(columns)].y == blocks[0].y) ++columns;
     for (int i = 0; i < all; ++i) {
         const int x = i % columns, y = i / columns;
-        const int right = std::min(x + deciding_blocks, columns - 1);
-        const int bottom = std::min(y + deciding_blocks, all / columns - 1);
-        double most = all == 1 ? std::numeric_limits<double>::infinity() : 0;
-        for (int v = std::max(y - deciding_blocks, 0); v <= bottom; ++v)
-            for (int u = std::max(x - deciding_blocks, 0); u <= right; ++u)
-                if (u != x || v != y)
-                    most = std::max(most, blocks[pixel_index(columns, u, v)].variance);
-        parts[std::size_t(i)].variance = most;
+        const int right = std::min(x + 1, columns - 1);
+        const int bottom = std::min(y + 1, all / columns - 1);
+        double rays = 0;
+        RgbT<double> sum{0}, squares{0};
+        for (int v = std::max(y - 1, 0); v <= bottom; ++v)
+            for (int u = std::max(x - 1, 0); u <= right; ++u) {
+                if (u == x && v == y) continue;
+                const AdaptiveBlock& block = blocks[pixel_index(columns, u, v)];
+                rays += block.pixels() * rule.first;
+                sum += RgbT<double>(block.sum);
+                squares += RgbT<double>(block.squares);
+            }
+        double& variance = parts[std::size_t(i)].variance;
+        variance = std::numeric_limits<double>::infinity();
+        if (rays < 2) continue;
+        const RgbT<double> mean = sum / rays;
+        const RgbT<double> relative =
+            (squares - mean * sum) / ((rays - 1) * (mean * mean + rule.epsilon));
+        variance = std::fmax((relative.x + relative.y + relative.z) / 3, 0.0);
     }
 }
+// [variances around]
 
 /// Plans the number of batches of each block in the next round.
 /// \param blocks  Their `wanted` is set.
@@ -251,7 +287,7 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
         parts.push_back({block.pixels(), block.variance, have});
         spare += block.pixels() * (limit - have);
     }
-    if (rule.disagreement > 0) set_variances_around(parts, blocks);
+    if (rule.disagreement > 0) set_variances_around(parts, blocks, rule);
     std::vector<double> shares(parts.size());
     if (rule.disagreement == 0) shares = ray_shares(parts, rule.target, limit);
 
@@ -265,15 +301,20 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
     bool any = false;
     for (const std::size_t i : order) {
         double batches = 0;
+        blocks[i].more = rule.more;
         if (rule.disagreement > 0) {
-            batches = std::sqrt(parts[i].variance / parts[i].rays) > rule.disagreement;
+            // As in ray_shares(), rays in proportion to the root of the variance.
+            blocks[i].variance = parts[i].variance;
+            const double part = std::sqrt(parts[i].variance) / rule.disagreement;
+            blocks[i].more = static_cast<int>(rule.more * std::min(part, 1.0));
+            if (blocks[i].more > 0) batches = 1;
         } else {
             // At most doubled, because an estimate from few rays is unreliable.
             const double most = rule.two_stage ? shares[i] : 2 * parts[i].rays;
             const double lacking = std::min(shares[i], most) - parts[i].rays;
             batches = std::ceil(lacking / rule.more - 1e-6);
         }
-        const double cost = rule.more * parts[i].pixels;
+        const double cost = std::max(blocks[i].more, 1) * parts[i].pixels;
         batches = std::min({batches, double(most_batches - blocks[i].batches),
                             std::floor(spare / cost * (1 + 1e-9))});
         blocks[i].wanted = static_cast<int>(std::max(batches, 0.0));
@@ -294,9 +335,9 @@ void trace_block(SampleSums<R, T>& samples, const RowSums& sums, const R& render
                  const C& camera, const RenderSettings& picture,
                  const AdaptiveSettings& rule, AdaptiveBlock& block, Counts& cost) {
     for (; block.wanted > 0; --block.wanted) {
-        const int batch = block.batches++;
         RenderSettings part = picture; // with its own sampling pattern
-        part.samples = rays_in_batch(rule, batch);
+        part.samples = rays_in_batch(rule, block);
+        const int batch = block.batches++;
         if (batch > 0)
             part.seed = mix_bits(picture.seed + mix_bits(std::uint64_t(batch)));
         const PictureRays rays(part);
@@ -327,11 +368,13 @@ trace_blocks(const R& renderer, const C& camera, const RenderSettings& picture,
 }
 
 /// Adds the estimated squared relative errors of the pixels of some blocks, without
-/// bias.
+/// bias; of those with a single ray by the rays around them, which is too much.
 inline void add_errors(double& error, std::span<const AdaptiveBlock> blocks,
                        const RowSums& sums, double epsilon) {
     for (const AdaptiveBlock& block : blocks)
-        error += block.pixels() * relative_variance(block, sums, epsilon) /
+        error += block.pixels() *
+                 (block.rays == 1 ? block.variance
+                                  : relative_variance(block, sums, epsilon)) /
                  std::max(block.rays, 1);
 }
 
@@ -352,12 +395,12 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
 }
 
 /// The number of rows of blocks that are finished before the next ones begin, to save
-/// memory. If each block gets at most one more batch, and there are rays for it, only
-/// the blocks within `deciding_blocks` matter; otherwise all rows are one band.
+/// memory. If the blocks around decide, and there are rays for each of them, only
+/// the blocks beside it matter; otherwise all rows are one band.
 [[nodiscard]] inline int rows_in_band(const RenderSettings& picture,
                                       const AdaptiveSettings& rule) noexcept {
     const int all = static_cast<int>(block_count(picture.height, rule.block));
-    if (rule.disagreement == 0 || rule.target > 0 || rule.batches > 1 ||
+    if (rule.disagreement == 0 || rule.target > 0 ||
         picture.samples - rule.first < rule.more)
         return all;
     // Enough for each thread that none waits long for the last one of a band.
@@ -375,7 +418,7 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
 /// pixel whose first rays all miss a bright spot is estimated as dark and gets no
 /// further rays: the mean of the picture is too dark. Larger blocks and more first rays
 /// reduce this bias; `two_stage` removes it. With `disagreement` the neighbours of a
-/// block decide, and one batch has no bias if `samples` allows it for every pixel.
+/// block decide, which has no bias if `samples` allows `more` rays for every pixel.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera.
 /// \param picture   Size, seed, threads; `samples` is the limit for the mean.
@@ -385,8 +428,8 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
 /// \throws std::invalid_argument  as render(), or for a setting out of range, or if
 ///         there are fewer samples than first rays.
 /// \cost The rays. The result has 24 bytes per pixel in float. About 200 more are
-///       needed for all pixels at a time; with `disagreement`, no target, one batch and
-///       enough samples, for 4096 pixels per thread, at least for 16384.
+///       needed for all pixels at a time; with `disagreement`, no target and enough
+///       samples, for 4096 pixels per thread, at least for 16384.
 /// \report{Sections 4.3 and 5}
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>
@@ -440,18 +483,17 @@ render_adaptive(const R& renderer, const C& camera, const RenderSettings& pictur
     };
     const auto update = [&](std::size_t from) {
         for (std::size_t i = from; i < blocks.size(); ++i)
-            blocks[i].variance = relative_variance(blocks[i], sums, rule.epsilon);
+            set_statistics(blocks[i], sums, rule);
     };
 
     const double limit = picture.samples - (rule.two_stage ? rule.first : 0);
-    const int rounds = rule.two_stage          ? 1
-                       : rule.disagreement > 0 ? rule.batches
-                                               : std::numeric_limits<int>::max();
+    const bool once = rule.two_stage || rule.disagreement > 0;
+    const int rounds = once ? 1 : std::numeric_limits<int>::max();
     const auto columns = std::size_t(detail::block_count(picture.width, rule.block));
     const int all = int(detail::block_count(picture.height, rule.block));
     const int band = detail::rows_in_band(picture, rule);
-    const int around = band < all ? detail::deciding_blocks : 0;
-    const auto estimate = [&] { // if all rows are in work
+    const int around = band < all ? 1 : 0; // rows beside it that decide
+    const auto estimate = [&] {            // if all rows are in work
         double sum = 0;
         detail::add_errors(sum, blocks, sums, rule.epsilon);
         return sum / pixels;

@@ -182,22 +182,23 @@ enum class Preset : std::uint8_t {
     return settings;
 }
 
-/// The rays per pixel of a preset. The further rays go to pixels within two pixels of
-/// one whose first rays disagree. A pixel's own rays do not decide, so that this choice
-/// has no bias: see render_adaptive().
+/// The rays per pixel of a preset. The further rays go to pixels around which the first
+/// rays differ. A pixel's own rays do not decide, so that this choice has no bias: see
+/// render_adaptive().
 struct PresetRays {
-    int first = 1;             ///< In every pixel.
-    int more = 0;              ///< More rays beside pixels that disagree.
-    double disagreement = 0.4; ///< Least relative standard error of the first rays'
-                               ///< mean in a pixel that disagrees.
+    int first = 1;              ///< In every pixel.
+    int more = 0;               ///< The most that are added to a pixel.
+    double disagreement = 0.75; ///< The relative standard deviation of the first rays
+                                ///< around a pixel from which on it gets all of them;
+                                ///< below it fewer, in proportion.
 };
 
 /// The rays of a preset, for RenderSettings::samples and render_adaptive().
 /// \param preset  Which one.
 /// \return The numbers of rays.
-[[nodiscard]] inline PresetRays preset_rays(Preset preset) {
+[[nodiscard]] constexpr PresetRays preset_rays(Preset preset) noexcept {
     if (preset == Preset::draft) return {.first = 1, .more = 0};
-    if (preset == Preset::fast) return {.first = 2, .more = 8};
+    if (preset == Preset::fast) return {.first = 1, .more = 12};
     return {.first = 64, .more = 0};
 }
 
