@@ -354,7 +354,7 @@ TEST_CASE("irradiance cache: it equals path tracing, block by block") {
                                    .threads = 1};
             add(render(PathTracer(room), camera, picture).image, traced, all_traced);
             if (run > 12) continue;
-            picture.samples = 4;
+            picture.samples = 2; // the path tracer's noise is larger
             const auto settings = cached(picture.seed);
             PhotonMapper mapper(room, settings, abilities<Gathering, StratifiedStream>);
             mapper.fill_cache(camera, picture);

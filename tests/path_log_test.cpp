@@ -197,7 +197,7 @@ TEST_CASE("path log: the two renderers bring the same light, class of paths by c
     const ClosedRoom room = mixed_room();
     PhotonMappingSettings settings;
     settings.caustics_estimate.radius = 0.04f;
-    const std::uint64_t paths = 30000;
+    const std::uint64_t paths = 12000;
     const int seeds = 24;
     std::set<std::string> classes;
     const auto run = [&](const auto& renderer, std::uint64_t seed) {

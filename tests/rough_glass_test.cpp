@@ -76,19 +76,19 @@ struct Fractions {
 /// surface.
 Fractions by_quadrature(const RoughGlassT<double>& m, const Vec& wo) {
     constexpr int n = 800, around = 200;
+    const auto ring = ljus_test::directions_around(around);
     Fractions found;
     const double scale = index_at(m, wo) / index_at(m, -wo);
-    for (int i = 0; i < n; ++i)
-        for (int j = 0; j < around; ++j) {
-            const double t = 1 - (i + 0.5) / n, phi = 2 * pi * (j + 0.5) / around;
-            const double theta = pi / 2 * (1 - t * t);
-            const double s = std::sin(theta), z = std::cos(theta);
-            const double part = s * z * pi * t / n * 2 * pi / around;
-            const Vec wi{s * std::cos(phi), s * std::sin(phi), std::copysign(z, wo.z)};
+    for (int i = 0; i < n; ++i) {
+        const double t = 1 - (i + 0.5) / n, theta = pi / 2 * (1 - t * t);
+        const double s = std::sin(theta), z = std::copysign(std::cos(theta), wo.z);
+        const double part = s * std::abs(z) * pi * t / n * 2 * pi / around;
+        for (const glm::dvec2& way : ring) {
+            const Vec wi{s * way, z}, other{s * way, -z};
             found.reflected += evaluate(m, wo, wi).x * part;
-            const Vec other{wi.x, wi.y, -wi.z};
             found.transmitted += evaluate(m, wo, other).x * part / (scale * scale);
         }
+    }
     return found;
 }
 
@@ -96,7 +96,10 @@ Fractions by_quadrature(const RoughGlassT<double>& m, const Vec& wo) {
 Fractions by_samples(const RoughGlassT<double>& m, const Vec& wo, int count = 100000) {
     Fractions found;
     for (int i = 0; i < count; ++i) {
-        const auto part = [&](double step) { return std::fmod(0.5 + i * step, 1.0); };
+        const auto part = [&](double step) {
+            const double x = 0.5 + i * step;
+            return x - std::floor(x);
+        };
         // Roberts' steps: the powers of the root of x^4 = x + 1.
         const Vec u{part(0.8191725133961645), part(0.6710436067037893),
                     part(0.5497004779019703)};

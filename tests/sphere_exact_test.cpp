@@ -51,7 +51,7 @@ using ljus_test::grid_exponent;
 using ljus_test::Integer;
 using ljus_test::Numbers;
 using ljus_test::on_grid;
-using Real = boost::multiprecision::cpp_bin_float_100;
+using Real = boost::multiprecision::cpp_bin_float_50;
 
 // --- The oracle ----------------------------------------------------------------------
 

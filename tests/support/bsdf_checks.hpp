@@ -25,6 +25,17 @@ namespace ljus_test {
 // library; see OnlySpecular.
 using ljus::evaluate, ljus::lobes, ljus::pdf;
 
+/// The middles of n equal arcs of the unit circle, for sums over a hemisphere that need
+/// their sines and cosines many times.
+inline std::vector<glm::dvec2> directions_around(int n) {
+    std::vector<glm::dvec2> ring;
+    for (int i = 0; i < n; ++i) {
+        const double phi = 2 * std::numbers::pi * (i + 0.5) / n;
+        ring.emplace_back(std::cos(phi), std::sin(phi));
+    }
+    return ring;
+}
+
 /// The fraction of uniform light that the lobes with an f send to `wo`, by the
 /// midpoint rule in sin^2(theta) and phi: exact for a constant f.
 template <ljus::Material M>
@@ -32,16 +43,15 @@ ljus::RgbT<double> albedo_by_quadrature(const M& m,
                                         const ljus::Vec3T<typename M::Scalar>& wo,
                                         int n = 400) {
     using T = typename M::Scalar;
+    const std::vector<glm::dvec2> around = directions_around(n);
     ljus::RgbT<double> sum{0};
     for (int i = 0; i < n; ++i) {
+        const double sin2 = (i + 0.5) / n;
+        const T z = std::copysign(T(std::sqrt(1 - sin2)), wo.z);
         ljus::RgbT<double> row{0}; // a sum of sums loses less to rounding
-        for (int j = 0; j < n; ++j) {
-            const double sin2 = (i + 0.5) / n,
-                         phi = 2 * std::numbers::pi * (j + 0.5) / n;
-            const double s = std::sqrt(sin2), z = std::sqrt(1 - sin2);
-            const ljus::Vec3T<T> wi{T(s * std::cos(phi)), T(s * std::sin(phi)),
-                                    std::copysign(T(z), wo.z)};
-            row += ljus::RgbT<double>(evaluate(m, wo, wi));
+        for (const glm::dvec2& way : around) {
+            const glm::dvec2 side = std::sqrt(sin2) * way;
+            row += ljus::RgbT<double>(evaluate(m, wo, {T(side.x), T(side.y), z}));
         }
         sum += row;
     }
@@ -94,17 +104,18 @@ void check_sampling(const M& m, const ljus::Vec3T<typename M::Scalar>& wo,
     constexpr double dphi = 2 * std::numbers::pi / columns, dz = 2.0 / rows;
     // The last cell is for deltas and for what is absorbed.
     std::vector<double> counts(rows * columns + 1), expected(rows * columns + 1);
+    const std::vector<glm::dvec2> ring = directions_around(columns * fine);
     double dense = 0;
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column) {
             double sum = 0;
-            for (int i = 0; i < fine * fine; ++i) {
-                const double z = -1 + dz * (row + (i / fine + 0.5) / fine);
-                const double phi = dphi * (column + (i % fine + 0.5) / fine);
+            for (int i = 0; i < fine; ++i) {
+                const double z = -1 + dz * (row + (i + 0.5) / fine);
                 const double r = std::sqrt((1 - z) * (1 + z));
-                const ljus::Vec3T<T> wi{T(r * std::cos(phi)), T(r * std::sin(phi)),
-                                        T(z)};
-                sum += double(pdf(m, wo, wi, which));
+                for (int j = 0; j < fine; ++j) {
+                    const glm::dvec2 side = r * ring[std::size_t(column * fine + j)];
+                    sum += double(pdf(m, wo, {T(side.x), T(side.y), T(z)}, which));
+                }
             }
             const double share = sum / (fine * fine) * dz * dphi;
             expected[static_cast<std::size_t>(row * columns + column)] = share * count;
