@@ -269,7 +269,7 @@ TEST_CASE("bvh: the split is the cheapest of all between 16 slots on three axes"
         const Vec3 stretch{round % 3 == 0 ? 3 : 0.3f, round % 3 == 1 ? 3 : 0.3f,
                            round % 3 == 2 ? 3 : 0.3f};
         const auto boxes = some_boxes(n, 2 + n.below(40), stretch);
-        std::vector<detail::PrimitiveRefT<float>> refs;
+        detail::GrowingArray<detail::PrimitiveRefT<float>> refs;
         for (const Box& box : boxes)
             refs.push_back({{{box.low.x, box.low.y, box.low.z, 0, -box.high.x,
                               -box.high.y, -box.high.z, 0}},
@@ -307,8 +307,8 @@ TEST_CASE("bvh: the split is the cheapest of all between 16 slots on three axes"
     }
     for (const int times : axes) CHECK(times > 30);
     // Centres in one place: no split.
-    const std::vector<detail::PrimitiveRefT<float>> equal(
-        5, {{{0, 0, 0, 0, -1, -1, -1, 0}}, 0});
+    detail::GrowingArray<detail::PrimitiveRefT<float>> equal;
+    for (int i = 0; i < 5; ++i) equal.push_back({{{0, 0, 0, 0, -1, -1, -1, 0}}, 0});
     detail::PrimitiveRangeT<float> range{.last = 5};
     for (const auto& ref : equal) range.take(ref);
     CHECK(detail::best_split(equal, range, 1).axis == -1);

@@ -99,7 +99,8 @@ public:
         return tree_.primitive_ids;
     }
     /// The nodes, the root first.
-    [[nodiscard]] const std::vector<detail::BvhNodeT<T>>& nodes() const noexcept {
+    [[nodiscard]] const detail::GrowingArray<detail::BvhNodeT<T>>&
+    nodes() const noexcept {
         return tree_.nodes;
     }
     /// The box around all primitives.

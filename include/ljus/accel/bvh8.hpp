@@ -48,7 +48,7 @@ public:
         return wide_.primitive_ids;
     }
     /// The nodes, the root first.
-    [[nodiscard]] const std::vector<detail::Bvh8Node>& nodes() const noexcept {
+    [[nodiscard]] const detail::GrowingArray<detail::Bvh8Node>& nodes() const noexcept {
         return wide_.nodes;
     }
     /// The tree, for detail::walk().

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ljus/accel/detail/stored_array.hpp"
 #include "ljus/geometry/box.hpp"
 
 namespace ljus {
@@ -40,7 +41,7 @@ static_assert(sizeof(BvhNodeT<float>) == 32);
 /// leaves.
 template <std::floating_point T>
 struct BvhNodesT {
-    std::vector<BvhNodeT<T>> nodes{}; ///< Empty for an empty tree.
+    GrowingArray<BvhNodeT<T>> nodes{}; ///< Empty for an empty tree.
     std::vector<std::uint32_t>
         primitive_ids{}; ///< primitive_ids[slot] is the index of a primitive.
 };

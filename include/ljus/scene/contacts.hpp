@@ -87,9 +87,9 @@ struct TouchingObject {
 
 /// All contacts of a scene.
 struct Contacts {
-    std::vector<Contact> pairs{};          ///< Each pair of objects once.
-    std::vector<TouchingObject> objects{}; ///< Those that take part.
-    BoxT<double> box{};                    ///< A box around all that objects share.
+    detail::GrowingArray<Contact> pairs{};          ///< Each pair of objects once.
+    detail::GrowingArray<TouchingObject> objects{}; ///< Those that take part.
+    BoxT<double> box{};   ///< A box around all that objects share.
     bool complete = true; ///< False if more objects overlap than can be compared.
     /// The number of objects of the types before each type of shape.
     std::vector<std::uint32_t> first{};
@@ -236,8 +236,8 @@ struct ContactObject {
 };
 
 struct ContactSearch {
-    const std::vector<ContactObject>& objects; ///< In the order of types and indices.
-    double epsilon;                            ///< Of the scene's precision.
+    std::span<const ContactObject> objects; ///< In the order of types and indices.
+    double epsilon;                         ///< Of the scene's precision.
     FunctionRef<SurfacePiece(ObjectId, std::uint32_t)> piece;
     FunctionRef<void(ContactKey&, ObjectId)> put; ///< Emission and material.
 };
@@ -394,7 +394,7 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
         auto& pairs = contacts.pairs;
         if (last[other] == no_contact || pairs[last[other]].pair[0] != one) {
             last[other] = static_cast<std::uint32_t>(pairs.size());
-            pairs.emplace_back().pair = {one, other};
+            pairs.push_back({.pair = {one, other}});
         }
         Contact& contact = pairs[last[other]];
         contact.box = box_union(
@@ -412,7 +412,7 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
 /// The area that each material covers, in units of 2^-30 of the largest area of an
 /// object: sums of whole numbers do not depend on an order.
 [[nodiscard, gnu::cold]] inline std::vector<double>
-covered_areas(const std::vector<ContactObject>& objects, std::size_t materials) {
+covered_areas(std::span<const ContactObject> objects, std::size_t materials) {
     std::vector<double> covered(materials);
     double most = 0;
     for (const ContactObject& object : objects) most = std::max(most, object.area);
@@ -439,13 +439,12 @@ covered_areas(const std::vector<ContactObject>& objects, std::size_t materials) 
             if (at == no_contact) {
                 at = static_cast<std::uint32_t>(contacts.objects.size());
                 const ContactObject& object = search.objects[number];
-                TouchingObject& touching = contacts.objects.emplace_back();
-                touching.object = object.id;
-                touching.kind = object.kind;
+                TouchingObject touching{.object = object.id, .kind = object.kind};
                 touching.key[0] = double(object.kind);
                 touching.key[8] = covered[object.material];
                 touching.key[15] = double(number);
                 search.put(touching.key, object.id);
+                contacts.objects.push_back(touching);
             }
             contact.pair[k] = at;
             contact.next[k] = contacts.objects[at].contact;
@@ -486,12 +485,11 @@ template <typename W>
 find_contacts(const W& world, const std::vector<BoxT<typename W::Scalar>>& boxes) {
     constexpr auto types = static_cast<std::uint32_t>(
         std::tuple_size_v<std::remove_cvref_t<decltype(world.materials())>>);
-    std::vector<detail::ContactObject> objects(world.size());
-    auto next = objects.begin();
+    detail::GrowingArray<detail::ContactObject> objects(world.size());
+    detail::ContactObject* next = objects.data();
     auto box = boxes.begin();
     world.each_object([&](ObjectId id, const auto& object) {
-        detail::ContactObject& one = *next++;
-        one.id = id;
+        detail::ContactObject& one = *next++ = {.id = id};
         one.material = object.material.index * types + object.material.type;
         one.kind = !is_black(object.emission)
                        ? ContactKind::lamp

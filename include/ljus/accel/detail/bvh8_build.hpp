@@ -137,7 +137,7 @@ struct Bvh8Child {
 /// leaves. Coordinates are relative to the centre of the tree's box, so that a scene
 /// far from the origin loses no precision.
 struct Bvh8Nodes {
-    std::vector<Bvh8Node> nodes{}; ///< Empty for an empty tree.
+    GrowingArray<Bvh8Node> nodes{}; ///< Empty for an empty tree.
     std::vector<std::uint32_t>
         primitive_ids{}; ///< primitive_ids[slot] is a primitive's index, or padding.
     Box box{};           ///< Around all primitives.
@@ -168,7 +168,7 @@ void add_wide_node(Bvh8Nodes& wide, const BvhNodesT<T>& tree,
         if (below.count == 0) {
             node.child[i] =
                 static_cast<std::uint32_t>(wide.nodes.size()) * Bvh8Child::stride;
-            wide.nodes.resize(wide.nodes.size() + 1);
+            wide.nodes.push_back({}); // written below
             continue;
         }
         node.child[i] = Bvh8Child::leaf |
@@ -198,13 +198,13 @@ template <std::floating_point T>
     wide.box = tree.nodes[0].box;
     wide.middle = 0.5f * wide.box.low + 0.5f * wide.box.high;
     wide.half = 0.5f * wide.box.high - 0.5f * wide.box.low;
-    wide.nodes.resize(1);
+    wide.nodes.push_back({});
     add_wide_node(wide, tree, BvhCollapse<T>(tree), 0, 0, multiple);
     require(wide.primitive_ids.size() < Bvh8Child::first,
             "the number of slots in a tree",
             static_cast<long long>(wide.primitive_ids.size()), "below 2^27");
+    wide.nodes.shrink_to_fit();
     // A copy has no spare capacity.
-    wide.nodes = std::vector<Bvh8Node>(wide.nodes);
     wide.primitive_ids = std::vector<std::uint32_t>(wide.primitive_ids);
     return wide;
 }

@@ -123,7 +123,7 @@ struct ToBinT {
 // planes per axis are tried, the borders of 16 bins \cite wald2007.
 // [best_split]
 template <std::floating_point T>
-[[nodiscard]] Split best_split(const std::vector<PrimitiveRefT<T>>& refs,
+[[nodiscard]] Split best_split(const GrowingArray<PrimitiveRefT<T>>& refs,
                                const PrimitiveRangeT<T>& range,
                                std::uint32_t at_a_time) {
     struct Bin {
@@ -179,7 +179,7 @@ struct HalvesT {
 
 // Partitions a range into its halves; without a split, by index.
 template <std::floating_point T>
-[[nodiscard]] HalvesT<T> divide(std::vector<PrimitiveRefT<T>>& refs,
+[[nodiscard]] HalvesT<T> divide(GrowingArray<PrimitiveRefT<T>>& refs,
                                 const PrimitiveRangeT<T>& range, const Split& split) {
     PrimitiveRangeT<T> low{
         .first = range.first, .last = range.first, .depth = range.depth + 1};
@@ -228,11 +228,11 @@ public:
         for (const PrimitiveRefT<T>& ref : refs_) all.take(ref);
         // One thread builds the top. Subtrees of at most `alone` primitives are built
         // separately and appended in order: the tree does not depend on the threads.
-        std::vector<Job> jobs;
+        GrowingArray<Job> jobs;
         tree.nodes.reserve(refs_.size());
         tree.nodes.push_back({all.bounds.box(), 0, 0});
         grow(tree.nodes, 0, all, &jobs);
-        std::vector<std::vector<BvhNodeT<T>>> parts(jobs.size());
+        std::vector<GrowingArray<BvhNodeT<T>>> parts(jobs.size());
         parallel_blocks(static_cast<long long>(jobs.size()),
                         [&](long long number) {
                             const auto i = static_cast<std::size_t>(number);
@@ -255,8 +255,8 @@ private:
         std::size_t node;
         PrimitiveRangeT<T> range;
     };
-    void grow(std::vector<BvhNodeT<T>>& nodes, std::size_t node,
-              const PrimitiveRangeT<T>& range, std::vector<Job>* jobs) {
+    void grow(GrowingArray<BvhNodeT<T>>& nodes, std::size_t node,
+              const PrimitiveRangeT<T>& range, GrowingArray<Job>* jobs) {
         if (jobs && range.size() <= alone) {
             jobs->push_back({node, range});
             return;
@@ -283,8 +283,8 @@ private:
         grow(nodes, children + 1, high, jobs);
     }
     // Appends a separately built subtree; its root replaces the placeholder.
-    static void append(std::vector<BvhNodeT<T>>& nodes, std::size_t root,
-                       const std::vector<BvhNodeT<T>>& part) {
+    static void append(GrowingArray<BvhNodeT<T>>& nodes, std::size_t root,
+                       const GrowingArray<BvhNodeT<T>>& part) {
         const auto shift = static_cast<std::uint32_t>(nodes.size()) - 1;
         const auto shifted = [&](BvhNodeT<T> node) {
             if (node.count == 0) node.first += shift;
@@ -295,7 +295,7 @@ private:
     }
 
     BvhSettings settings_;
-    std::vector<PrimitiveRefT<T>> refs_;
+    GrowingArray<PrimitiveRefT<T>> refs_;
 };
 
 /// Refuses what no tree can be built of; see BvhT's constructor.

@@ -107,7 +107,7 @@ public:
 
     /// Pieces that were read. Lists of the same thread use them again, because memory
     /// that one thread frees may stay out of the reach of others.
-    using Spare = std::vector<std::vector<Item>>;
+    using Spare = std::vector<GrowingArray<Item>>;
 
     /// The number of items.
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
@@ -125,7 +125,7 @@ public:
                 pieces_.emplace_back(piece);
             }
         }
-        return std::span<Item>(pieces_.back()).subspan(size_ % piece);
+        return {pieces_.back().data() + size_ % piece, piece - size_ % piece};
     }
     /// Adds the first places of room().
     void take(std::size_t count) noexcept { size_ += count; }
@@ -148,26 +148,25 @@ public:
         const std::size_t count = pieces_.size();
         for (std::size_t n = 0; n < count; ++n) {
             const std::size_t k = backwards ? count - 1 - n : n;
-            use(std::span<const Item>(pieces_[k])
-                    .first(std::min(piece, size_ - k * piece)));
-            if (spare_ != nullptr) spare_->push_back(std::move(pieces_[k]));
-            std::vector<Item>().swap(pieces_[k]);
+            GrowingArray<Item> read = std::move(pieces_[k]);
+            use({read.data(), std::min(piece, size_ - k * piece)});
+            if (spare_ != nullptr) spare_->push_back(std::move(read));
         }
         *this = {};
     }
     /// All items in one array; the list is empty then.
-    [[nodiscard]] std::vector<Item> joined() {
-        std::vector<Item> all;
-        all.reserve(size_);
+    [[nodiscard]] GrowingArray<Item> joined() {
+        GrowingArray<Item> all(size_);
+        Item* end = all.data();
         const auto add = [&](std::span<const Item> items) {
-            all.insert(all.end(), items.begin(), items.end());
+            end = std::copy(items.data(), items.data() + items.size(), end);
         };
         drain(add);
         return all;
     }
 
 private:
-    std::vector<std::vector<Item>> pieces_;
+    Spare pieces_;
     std::size_t size_ = 0;
     Spare* spare_ = nullptr;
 };
@@ -234,8 +233,8 @@ public:
             parallel_blocks(static_cast<long long>(end - i),
                             [&](long long number) {
                                 const std::size_t n = i + std::size_t(number);
-                                std::vector<Item> from = ranges[n].joined();
-                                std::vector<Item> to(from.size());
+                                GrowingArray<Item> from = ranges[n].joined();
+                                GrowingArray<Item> to(from.size());
                                 finish(depth, n, from.data(), to.data());
                             },
                             {.threads = threads});
@@ -316,13 +315,14 @@ private:
         };
         const bool inside = front <= rank && rank <= count - above.size();
         if (!inside || (least != most && between.size() > count / 2)) {
-            std::vector<Item> all = low.joined();
-            all.reserve(count);
+            GrowingArray<Item> all = low.joined();
+            all.resize(count);
+            Item* end = all.data() + front;
             const auto add = [&](std::span<const Item> items) {
-                all.insert(all.end(), items.begin(), items.end());
+                end = std::copy(items.data(), items.data() + items.size(), end);
             };
             const auto add_reversed = [&](std::span<const Item> items) {
-                all.insert(all.end(), items.rbegin(), items.rend());
+                end = std::reverse_copy(items.data(), items.data() + items.size(), end);
             };
             between.drain(add);
             above.drain(add_reversed, true);
@@ -331,9 +331,9 @@ private:
             push(high, all.data() + rank, all.data() + count);
             return;
         }
-        std::vector<Item> band = between.joined();
+        GrowingArray<Item> band = between.joined();
         if (least != most) {
-            std::vector<Item> sorted(band.size());
+            GrowingArray<Item> sorted(band.size());
             partition(band.data(), sorted.data(), band.size(), rank - front, axis);
             band = std::move(sorted);
         }

@@ -8,7 +8,6 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "ljus/accel/detail/kd_tree8_build.hpp"
 
@@ -234,9 +233,9 @@ struct BallBlocks {
         std::uint32_t ball;   ///< Index of the ball.
         std::uint32_t number; ///< Index of the node in its level, or of the leaf.
     };
-    std::vector<Place> here{};       ///< Nodes of one level, sorted by ball.
-    std::vector<Place> below{};      ///< Nodes of the next level, sorted by ball.
-    std::vector<BallBlock> blocks{}; ///< The result, sorted by ball.
+    GrowingArray<Place> here{};       ///< Nodes of one level, sorted by ball.
+    GrowingArray<Place> below{};      ///< Nodes of the next level, sorted by ball.
+    GrowingArray<BallBlock> blocks{}; ///< The result, sorted by ball.
 };
 
 /// Finds the points within many balls together. All balls visit one level of the tree

@@ -29,76 +29,121 @@ inline void give_back_memory() noexcept {
 #endif
 }
 
+/// Memory of std::malloc() with an aligned place in it.
+struct AlignedMemory {
+    static constexpr std::size_t alignment = 32; ///< A pointer of malloc() has less.
+    char* start = nullptr;                       ///< Of malloc(), to be freed.
+    char* place = nullptr;                       ///< In it, aligned.
+
+    /// Changes its size. One function for arrays of all types, since each would
+    /// otherwise compile its own.
+    /// \param kept  Bytes of the aligned place that are in use.
+    /// \param size  Of the new one, not smaller.
+    /// \throws std::bad_alloc  if there is no such memory.
+    void take(std::size_t kept, std::size_t size);
+};
+
+// The distance from a pointer to the next one that is aligned.
+[[nodiscard]] inline std::size_t to_aligned(const void* pointer) noexcept {
+    return (~reinterpret_cast<std::uintptr_t>(pointer) + 1) % AlignedMemory::alignment;
+}
+
+[[gnu::cold]] inline void AlignedMemory::take(std::size_t kept, std::size_t size) {
+    const std::size_t before = to_aligned(start);
+    void* const moved = size > static_cast<std::size_t>(-1) - alignment
+                            ? nullptr
+                            : std::realloc(static_cast<void*>(start), size + alignment);
+    if (moved == nullptr) throw std::bad_alloc();
+    start = static_cast<char*>(moved);
+    place = start + to_aligned(start);
+    if (place != start + before) std::memmove(place, start + before, kept);
+}
+
 /// An array of numbers. It grows by std::realloc(), which in Linux moves the pages of a
 /// large array instead of copying them. A std::vector is in memory twice while it
-/// grows, or reserves all its memory before any of it is used.
+/// grows, or reserves all its memory before any of it is used. For each type of
+/// elements, a compiler instantiates half as many functions as for a std::vector.
 template <typename Element>
 class GrowingArray {
-    static constexpr std::size_t alignment = 32; // a pointer of malloc() has less
     static_assert(std::is_trivially_copyable_v<Element> &&
-                  alignof(Element) <= alignment);
+                  alignof(Element) <= AlignedMemory::alignment);
 
 public:
     GrowingArray() = default;
+    /// Elements that are not initialised.
+    explicit GrowingArray(std::size_t count) { resize(count); }
     explicit GrowingArray(std::span<const Element> elements) {
         resize(elements.size());
         if (size_ > 0)
-            std::memcpy(static_cast<void*>(data_), elements.data(),
+            std::memcpy(static_cast<void*>(data()), elements.data(),
                         elements.size_bytes());
     }
+    GrowingArray(const GrowingArray& other)
+        : GrowingArray(std::span<const Element>(other.data(), other.size())) {}
     GrowingArray(GrowingArray&& other) noexcept
-        : memory_(std::exchange(other.memory_, nullptr)),
-          data_(std::exchange(other.data_, nullptr)),
+        : memory_(std::exchange(other.memory_, {})),
           size_(std::exchange(other.size_, 0)), room_(std::exchange(other.room_, 0)) {}
-    GrowingArray& operator=(GrowingArray&& other) noexcept {
+    GrowingArray& operator=(GrowingArray other) noexcept {
         std::swap(memory_, other.memory_);
-        std::swap(data_, other.data_);
         std::swap(size_, other.size_);
         std::swap(room_, other.room_);
         return *this;
     }
-    ~GrowingArray() { std::free(memory_); }
+    ~GrowingArray() {
+        if (memory_.start != nullptr) std::free(memory_.start); // most are empty
+    }
 
     /// Changes the number of elements; new ones are not initialised.
     void resize(std::size_t count) {
         if (count > room_) take(count < room_ + room_ / 8 ? room_ + room_ / 8 : count);
         size_ = count;
     }
+    /// Makes room for some elements.
+    void reserve(std::size_t count) {
+        if (count > room_) take(count);
+    }
+    /// A further element that is not initialised.
+    [[nodiscard]] Element& add() {
+        if (size_ == room_) take(room_ < 16 ? 16 : 2 * room_);
+        return data()[size_++];
+    }
+    /// Adds an element, not one of its own.
+    void push_back(const Element& element) { add() = element; }
+    /// Removes all elements, and keeps their memory.
+    void clear() noexcept { size_ = 0; }
     /// Gives the memory behind the last element back.
     void shrink_to_fit() {
         if (size_ < room_) take(size_);
     }
 
-    [[nodiscard]] Element* data() noexcept { return data_; }
-    [[nodiscard]] const Element* data() const noexcept { return data_; }
+    [[nodiscard]] Element* data() noexcept {
+        return reinterpret_cast<Element*>(memory_.place);
+    }
+    [[nodiscard]] const Element* data() const noexcept {
+        return reinterpret_cast<const Element*>(memory_.place);
+    }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
-    [[nodiscard]] Element& operator[](std::size_t i) noexcept { return data_[i]; }
+    [[nodiscard]] std::size_t capacity() const noexcept { return room_; }
+    [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
+    [[nodiscard]] Element* begin() noexcept { return data(); }
+    [[nodiscard]] Element* end() noexcept { return data() + size_; }
+    [[nodiscard]] const Element* begin() const noexcept { return data(); }
+    [[nodiscard]] const Element* end() const noexcept { return data() + size_; }
+    [[nodiscard]] Element& operator[](std::size_t i) noexcept { return data()[i]; }
     [[nodiscard]] const Element& operator[](std::size_t i) const noexcept {
-        return data_[i];
+        return data()[i];
     }
 
 private:
-    // The distance from a pointer to the next one that is aligned.
-    [[nodiscard]] static std::size_t shift(const void* pointer) noexcept {
-        return (~reinterpret_cast<std::uintptr_t>(pointer) + 1) % alignment;
-    }
     // Makes room for some elements, not fewer than there are.
     void take(std::size_t room) {
-        if (room > (static_cast<std::size_t>(-1) - alignment) / sizeof(Element))
-            throw std::bad_alloc();
-        const std::size_t before = shift(memory_);
-        void* const moved = std::realloc(memory_, room * sizeof(Element) + alignment);
-        if (moved == nullptr) throw std::bad_alloc();
-        memory_ = static_cast<char*>(moved);
-        const std::size_t now = shift(memory_);
-        if (now != before)
-            std::memmove(memory_ + now, memory_ + before, size_ * sizeof(Element));
-        data_ = reinterpret_cast<Element*>(memory_ + now);
+        constexpr std::size_t all = static_cast<std::size_t>(-1);
+        memory_.take(size_ * sizeof(Element),
+                     room > all / sizeof(Element) ? all : room * sizeof(Element));
         room_ = room;
     }
 
-    char* memory_ = nullptr;  // of malloc()
-    Element* data_ = nullptr; // in it, aligned
+    AlignedMemory memory_{};
     std::size_t size_ = 0;
     std::size_t room_ = 0;
 };

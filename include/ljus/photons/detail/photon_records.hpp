@@ -128,7 +128,8 @@ public:
         // First into groups that fit into a cache, then within each: records that move
         // straight to their places would miss the cache each time.
         constexpr std::size_t group = 4096;
-        std::vector<std::size_t> next; // the first place of a group that is not settled
+        GrowingArray<std::size_t>
+            next; // the first place of a group that is not settled
         for (std::size_t i = 0; i < size_; i += group) next.push_back(i);
         for (std::size_t g = 0; g < next.size(); ++g)
             for (const std::size_t end = std::min((g + 1) * group, size_);
@@ -140,7 +141,7 @@ public:
         const auto settle = [&](long long number) {
             const auto first = static_cast<std::size_t>(number) * group;
             const std::size_t end = std::min(first + group, size_);
-            std::vector<PhotonRecordT<T>> records(end - first);
+            GrowingArray<PhotonRecordT<T>> records(end - first);
             for (std::size_t i = first; i < end; ++i) records[to[i] - first] = get(i);
             for (std::size_t i = first; i < end; ++i) {
                 if (i % 8 == 0) blocks_[i / 8] = {};

@@ -13,8 +13,8 @@ namespace ljus::detail {
 template <std::floating_point T>
 struct CausticsBatch {
     std::uint32_t item = 0; ///< Index of the sample that is being traced.
-    std::vector<EstimatePlaceT<T>> places{}; ///< In the order of the samples.
-    BallBlocks found{};                      ///< Storage for the search.
+    GrowingArray<EstimatePlaceT<T>> places{}; ///< In the order of the samples.
+    BallBlocks found{};                       ///< Storage for the search.
 
     /// Computes the estimates.
     /// \param counts   Counts queries and photons.
@@ -51,8 +51,7 @@ template <typename Batch, std::floating_point T, typename M, typename K>
     if constexpr (std::same_as<M, LambertianT<T>> &&
                   std::same_as<Batch, CausticsBatch<T>>)
         if (how.nearest == 0 && in_lanes<M>(how)) {
-            set_place(batch.places.emplace_back(), vertex, material, throughput,
-                      batch.item);
+            set_place(batch.places.add(), vertex, material, throughput, batch.item);
             return true;
         }
     return false;
