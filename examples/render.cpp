@@ -406,6 +406,16 @@ void tell_place(const FileRoom<S>& room) {
     }
 }
 
+/// Remarks on a whole picture of a scene that no light has reached.
+template <std::floating_point T>
+void tell_dark(const ImageT<T>& image, const Request& r) {
+    if (r.part.count > 0 || !r.region.empty()) return;
+    for (const RgbT<T>& color : image.pixels)
+        if (!is_black(color)) return;
+    tell({"every pixel is black: no light reaches what the camera sees; it may be in a "
+          "body, or the lamps may face away"});
+}
+
 /// Does what the user asks for, in one precision.
 template <std::floating_point T>
 void run_request(examples::CommandLine& line, Request& r,
@@ -447,6 +457,7 @@ void run_request(examples::CommandLine& line, Request& r,
                               : map_photons(room, r);
     if (!r.pixel.empty()) return;
     const double seconds = watch.seconds();
+    if (!first_hit && room.world.size() > 0) tell_dark(result.rendered.image, r);
     line.fill({r.picture.width, r.picture.height, r.picture.samples});
     save_result(r, to_json(line, r), result, seconds);
     examples::when_stopped_say("'" + r.file + "' is saved");

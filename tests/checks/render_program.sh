@@ -129,6 +129,18 @@ grep -q '^camera.position lies in a surface' err.txt ||
     wrong "no remark on a camera in the floor: $(cat err.txt)"
 "$render" "$scene" "${few[@]}" --quiet --out choice.pfm 2>err.txt
 [ ! -s err.txt ] || wrong "a remark on nothing: $(cat err.txt)"
+# So is a picture that no light has reached, here within a ball; a part of it is not.
+cat >dark.json <<'END'
+{"camera": {"position": [0, 0, 0.1], "look_at": [0, 0, 0], "up": [0, 1, 0], "vfov_deg": 40},
+ "image": {"width": 4, "height": 4},
+ "materials": {"grey": {"type": "lambertian", "albedo": [0.5, 0.5, 0.5]}},
+ "objects": [{"type": "sphere", "material": "grey", "center": [0, 0, 0], "radius": 1}],
+ "lights": [{"type": "point", "position": [0, 3, 0], "intensity": [9, 9, 9]}]}
+END
+"$render" dark.json --rays 1 --quiet --out dark.pfm 2>err.txt
+grep -q '^every pixel is black: ' err.txt || wrong "no remark on a dark picture: $(cat err.txt)"
+"$render" dark.json --rays 1 --region 0,0,2,2 --quiet --out dark.pfm 2>err.txt
+[ ! -s err.txt ] || wrong "a remark on a dark part: $(cat err.txt)"
 # So is a radius in another unit than the scene's, of a picture in passes as well; the plan
 # shows it beside the scene's size.
 for passes in "" "--passes 2"; do
