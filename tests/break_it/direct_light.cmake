@@ -44,7 +44,7 @@ ljus_break_it(NAME direct-light-lamp-time HEADER path/direct_light.hpp TEST dire
 
 # The mirror of a mixture has its part in the density of its matt part.
 ljus_break_it(NAME all-lights-lobes HEADER path/all_lights.hpp TEST all_lights
-    FROM ".lobes = Lobes::non_specular}"
+    FROM ".lobes = next == Lobes::none ? Lobes::non_specular : next}"
     TO   ".lobes = Lobes::all}"
     CASES "all lights: of a material that is part mirror*")
 
