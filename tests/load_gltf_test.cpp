@@ -83,7 +83,7 @@ struct File {
         file["buffers"] = {
             {{"byteLength", bytes.size()},
              {"uri", "data:application/octet-stream;base64," + base64(bytes)}}};
-        return bytes_of(file.dump());
+        return text_bytes(file.dump());
     }
     [[nodiscard]] Bytes glb() const {
         json file = all;
@@ -92,7 +92,7 @@ struct File {
         text.resize((text.size() + 3) / 4 * 4, ' ');
         Bytes chunk = bytes;
         chunk.resize((chunk.size() + 3) / 4 * 4, 0);
-        Bytes out = bytes_of("glTF");
+        Bytes out = text_bytes("glTF");
         add_number(out, 2, 4);
         add_number(out, 28 + text.size() + chunk.size(), 4);
         add_number(out, text.size(), 4);
@@ -144,7 +144,7 @@ TEST_CASE("load_mesh: the end of a name says which format a file has") {
         obj += "f " + std::to_string(a + 1) + " " + std::to_string(b + 1) + " " +
                std::to_string(c + 1) + "\n";
     const ScratchFolder folder;
-    const std::pair<const char*, Bytes> files[]{{"a.obj", bytes_of(obj)},
+    const std::pair<const char*, Bytes> files[]{{"a.obj", text_bytes(obj)},
                                                 {"b.PLY", ply_bytes(data, "ascii")},
                                                 {"c.stl", stl_bytes(data, false)},
                                                 {"d.gltf", file.gltf()},
@@ -371,7 +371,7 @@ TEST_CASE("load_gltf: what its materials become") {
 
 TEST_CASE("load_gltf: pictures of colour, of metal and roughness, and colours") {
     // BMP: 2 x 1 pixels, left red 255 and right green 255 blue 255, bottom row first.
-    Bytes bmp = bytes_of("BM");
+    Bytes bmp = text_bytes("BM");
     for (const int word : {54 + 8, 0, 54, 40, 2, 1})
         add_number(bmp, std::uint64_t(word), 4);
     add_number(bmp, 1, 2);
@@ -580,7 +580,7 @@ TEST_CASE("load_gltf: a file that cannot be right is refused with a sentence") {
     const auto buffer = [&](const std::string& uri) {
         far["buffers"][0] = {{"byteLength", 36}};
         if (!uri.empty()) far["buffers"][0]["uri"] = uri;
-        return refused(bytes_of(far.dump()));
+        return refused(text_bytes(far.dump()));
     };
     CHECK(buffer("") == "x.glb: buffers[0] has no uri, and the file no bytes for it.");
     CHECK(buffer("data:;base64,AAAA") ==

@@ -10,7 +10,7 @@ using namespace ljus_test;
 namespace {
 
 LoadedMesh read(const std::string& text) {
-    return read_ply(bytes_of(text), "x.ply");
+    return read_ply(text_bytes(text), "x.ply");
 }
 
 std::string message(const std::string& text) {
@@ -73,10 +73,10 @@ TEST_CASE("load_ply: whole numbers are signed, or not, as their type says") {
     // -1 as char, 65535 as ushort, -2 as int, in bytes of either order.
     for (const bool big : {false, true}) {
         Bytes bytes =
-            bytes_of(std::string("ply\nformat binary_") + (big ? "big" : "little") +
-                     "_endian 1.0\nelement vertex 3\nproperty char x\n"
-                     "property ushort y\nproperty int z\nelement face 1\n"
-                     "property list uchar uchar vertex_indices\nend_header\n");
+            text_bytes(std::string("ply\nformat binary_") + (big ? "big" : "little") +
+                       "_endian 1.0\nelement vertex 3\nproperty char x\n"
+                       "property ushort y\nproperty int z\nelement face 1\n"
+                       "property list uchar uchar vertex_indices\nend_header\n");
         for (const int x : {-1, 1, 0}) {
             add_number(bytes, std::uint64_t(x), 1, big);
             add_number(bytes, x == 0 ? 0 : 65535, 2, big);
@@ -174,10 +174,11 @@ TEST_CASE("load_ply: faces may stand before the vertices, their colours are name
 
 TEST_CASE("load_ply: behind a header whose lines end in CR, LF is a number") {
     // A face of ten corners, whose number is that of LF, before its vertices.
-    Bytes bytes = bytes_of("ply\rformat binary_little_endian 1.0\relement face 1\r"
-                           "property list uchar uchar vertex_index\relement vertex 10\r"
-                           "property uchar x\rproperty uchar y\rproperty uchar z\r"
-                           "end_header\r\n");
+    Bytes bytes =
+        text_bytes("ply\rformat binary_little_endian 1.0\relement face 1\r"
+                   "property list uchar uchar vertex_index\relement vertex 10\r"
+                   "property uchar x\rproperty uchar y\rproperty uchar z\r"
+                   "end_header\r\n");
     for (unsigned char i = 0; i < 10; ++i) bytes.push_back(i);
     const int places[10][2]{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0},
                             {4, 2}, {3, 2}, {2, 2}, {1, 2}, {0, 2}};

@@ -40,20 +40,20 @@ TEST_CASE("load_stl: corners at one place are one vertex to smooth normals") {
 
 TEST_CASE("load_stl: two solids, capital letters, polygons, and attributes") {
     const auto loaded = read_stl(
-        bytes_of("  solid a\r\nFACET NORMAL 0 0 1\r\nOUTER LOOP\r\nVERTEX 0 0 0\r\n"
-                 "VERTEX 2 0 0\r\nVERTEX 2 2 0\r\nVERTEX 0 2 0\r\nENDLOOP\r\n"
-                 "ENDFACET\r\nendsolid a\r\nsolid b\r\nendsolid b\r\n"),
+        text_bytes("  solid a\r\nFACET NORMAL 0 0 1\r\nOUTER LOOP\r\nVERTEX 0 0 0\r\n"
+                   "VERTEX 2 0 0\r\nVERTEX 2 2 0\r\nVERTEX 0 2 0\r\nENDLOOP\r\n"
+                   "ENDFACET\r\nendsolid a\r\nsolid b\r\nendsolid b\r\n"),
         "x.stl");
     CHECK(area(loaded.parts.at(0).mesh) == 4);
     CHECK(loaded.report.content.objects == 2);
     CHECK(loaded.report[MeshTrouble::edge_open].line == 8);
     // All in capitals; and a normal that points to the other side than the corners say.
     for (const std::string up : {"1", "-1", "0", "NAN"}) {
-        const auto capital =
-            read_stl(bytes_of("SOLID A\nFACET NORMAL 0 0 " + up +
-                              "\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 2 0 0\nVERTEX 2 2 0\n"
-                              "ENDLOOP\nENDFACET\nENDSOLID A\n"),
-                     "x.stl");
+        const auto capital = read_stl(
+            text_bytes("SOLID A\nFACET NORMAL 0 0 " + up +
+                       "\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 2 0 0\nVERTEX 2 2 0\n"
+                       "ENDLOOP\nENDFACET\nENDSOLID A\n"),
+            "x.stl");
         CHECK(area(capital.parts.at(0).mesh) == 2);
         CHECK(capital.report[MeshTrouble::turned].count == (up == "-1" ? 1 : 0));
     }
@@ -95,8 +95,8 @@ TEST_CASE("load_stl: binary or text, whatever it begins with, and what is left o
     const std::string text = "\xef\xbb\xbfsolid a\nfacet normal 0 0 1\nouter loop\n"
                              "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
                              "endfacet\n";
-    CHECK(notes(bytes_of(text + "endsolid a\n")).empty());
-    CHECK(notes(bytes_of(text)) ==
+    CHECK(notes(text_bytes(text + "endsolid a\n")).empty());
+    CHECK(notes(text_bytes(text)) ==
           std::vector<std::string>{
               "the file ends before 'endsolid': perhaps it is cut off."});
 }
@@ -128,9 +128,9 @@ TEST_CASE("load_stl: a file that cannot be right is refused with a sentence") {
         {nowhere, "no face of the file can be used; the first problem: triangle 1: 1 "
                   "vertices have coordinates that are not finite numbers; their faces "
                   "are left out."},
-        {bytes_of("solid\nouter loop\nvertex 0 0 0\n"),
+        {text_bytes("solid\nouter loop\nvertex 0 0 0\n"),
          "the file ends within a triangle, before its 'endloop'."},
-        {bytes_of("solid\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n"),
+        {text_bytes("solid\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n"),
          "no face of the file can be used; the first problem: line 5: 1 faces have "
          "fewer than three corners; they are left out."},
     };

@@ -24,7 +24,7 @@ inline void add_number(Bytes& bytes, std::uint64_t bits, int size, bool big = fa
 inline void add_float(Bytes& bytes, float value, bool big = false) {
     add_number(bytes, std::bit_cast<std::uint32_t>(value), 4, big);
 }
-inline Bytes bytes_of(const std::string& text) {
+inline Bytes text_bytes(const std::string& text) {
     return {text.begin(), text.end()};
 }
 inline std::string text_of(const Bytes& bytes) {
@@ -45,8 +45,8 @@ inline Bytes ply_bytes(const MeshData& data, const std::string& format) {
     if (!data.normals.empty())
         head += "property float nx\nproperty float ny\nproperty float nz\n";
     Bytes bytes =
-        bytes_of(head + "element face " + std::to_string(data.triangles.size()) +
-                 "\nproperty list uchar int vertex_indices\nend_header\n");
+        text_bytes(head + "element face " + std::to_string(data.triangles.size()) +
+                   "\nproperty list uchar int vertex_indices\nend_header\n");
     const auto add = [&](const ljus::Vec3& v) {
         for (int k = 0; k < 3; ++k) add_float(bytes, v[k], big);
     };
@@ -78,7 +78,7 @@ inline Bytes ply_bytes(const MeshData& data, const std::string& format) {
 /// An STL file: text, or binary behind a head of 80 bytes.
 inline Bytes stl_bytes(const MeshData& data, bool text, std::string head = "") {
     head.resize(80, ' ');
-    Bytes bytes = bytes_of(head);
+    Bytes bytes = text_bytes(head);
     add_number(bytes, data.triangles.size(), 4);
     std::string lines = "solid a mesh\n";
     for (const auto& triangle : data.triangles) {
@@ -91,7 +91,7 @@ inline Bytes stl_bytes(const MeshData& data, bool text, std::string head = "") {
         lines += " endloop\nendfacet\n";
         add_number(bytes, 0, 2);
     }
-    return text ? bytes_of(lines + "endsolid\n") : bytes;
+    return text ? text_bytes(lines + "endsolid\n") : bytes;
 }
 
 /// The sum of the areas of all triangles.
