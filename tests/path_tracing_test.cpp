@@ -24,6 +24,7 @@ using namespace ljus;
 using ljus_test::apart;
 using ljus_test::Mean;
 using ljus_test::mean_radiance;
+using ljus_test::mean_radiances;
 
 namespace {
 
@@ -383,14 +384,14 @@ TEST_CASE_TEMPLATE("path tracing: two lamps give the sum of what each gives", T,
     const World first(room<T>(true, false));
     const World second(room<T>(false, true));
     const World both(room<T>(true, true));
-    for (const int channel : {0, 2}) {
-        const long long paths = 60000;
-        const Mean a =
-            mean_radiance(PathTracer(first), paths, 23, into_room<T>, channel);
-        const Mean b =
-            mean_radiance(PathTracer(second), paths, 24, into_room<T>, channel);
-        const Mean c =
-            mean_radiance(PathTracer(both), paths, 25, into_room<T>, channel);
+    const auto means = [](const World<Room<T>>& world, std::uint64_t seed) {
+        return mean_radiances(PathTracer(world), 60000, seed, into_room<T>);
+    };
+    const auto by_first = means(first, 23), by_second = means(second, 24),
+               by_both = means(both, 25);
+    for (const std::size_t channel : {0u, 2u}) {
+        const Mean &a = by_first[channel], &b = by_second[channel],
+                   &c = by_both[channel];
         CAPTURE(a.mean);
         CAPTURE(b.mean);
         CAPTURE(c.mean);

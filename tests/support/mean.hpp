@@ -3,6 +3,8 @@
 /// \file support/mean.hpp
 /// \brief The mean radiance that a renderer finds over many paths.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "ljus/math/random.hpp"
@@ -12,25 +14,33 @@
 
 namespace ljus_test {
 
-/// The mean of one channel of a renderer's radiance over many paths.
+/// The mean of each channel of a renderer's radiance over many paths.
 /// \param renderer  A path tracer or a photon mapper.
 /// \param paths     How many.
 /// \param seed      Of their random numbers; see test_seed().
 /// \param ray       Called with the path's stream; returns where it starts.
-/// \param channel   0, 1 or 2.
 template <typename Renderer, typename MakeRay>
-[[nodiscard]] Mean mean_radiance(const Renderer& renderer, long long paths,
-                                 std::uint64_t seed, MakeRay ray, int channel = 0) {
-    Mean mean;
+[[nodiscard]] std::array<Mean, 3> mean_radiances(const Renderer& renderer,
+                                                 long long paths, std::uint64_t seed,
+                                                 MakeRay ray) {
+    std::array<Mean, 3> means;
     ljus::Counts counts;
     for (long long path = 0; path < paths; ++path) {
         auto stream = ljus::random_stream(test_seed(seed), ljus::Pass::camera, 0,
                                           static_cast<std::uint64_t>(path));
         const auto start = ray(stream);
         auto context = ljus::context_of(stream, counts);
-        mean.add(double(radiance(renderer, start, context)[channel]));
+        const auto found = radiance(renderer, start, context);
+        for (int c = 0; c < 3; ++c) means[std::size_t(c)].add(double(found[c]));
     }
-    return mean;
+    return means;
+}
+
+/// That of one channel: 0, 1 or 2.
+template <typename Renderer, typename MakeRay>
+[[nodiscard]] Mean mean_radiance(const Renderer& renderer, long long paths,
+                                 std::uint64_t seed, MakeRay ray, int channel = 0) {
+    return mean_radiances(renderer, paths, seed, ray)[std::size_t(channel)];
 }
 
 } // namespace ljus_test
