@@ -1,9 +1,11 @@
 // concept: photon_map
-// alone: counts what operator new gives
+// alone: looks at the heap in operator new and delete
 /// \file memory_test.cpp
 /// \brief The most memory that photons, pixels and triangles take at a time.
 
 #include <doctest/doctest.h>
+
+#include <cstdlib> // which says whether this is glibc
 
 #if defined(__GLIBC__)
 
@@ -12,7 +14,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <new>
 #include <optional>
@@ -30,26 +31,34 @@
 
 namespace {
 
-std::atomic<long long> taken{0}, most{0};
+std::atomic<long long> most{0};
 
-void count(long long bytes) {
-    const long long now = taken += bytes;
+/// The bytes that malloc() has given and that are not free again.
+long long taken() {
+    const auto heap = ::mallinfo2();
+    return static_cast<long long>(heap.uordblks + heap.hblkhd);
+}
+
+/// Looks how much is taken, where a large piece comes or goes.
+void look(std::size_t size) {
+    if (size < 4096) return;
+    const long long now = taken();
     for (long long old = most; now > old && !most.compare_exchange_weak(old, now);) {
     }
 }
 
-void* counted(void* memory) {
-    if (memory != nullptr) count(static_cast<long long>(::malloc_usable_size(memory)));
+void* counted(void* memory, std::size_t size) {
+    if (memory != nullptr) look(size);
     return memory;
 }
 
-void* required(void* memory) {
+void* required(void* memory, std::size_t size) {
     if (memory == nullptr) throw std::bad_alloc();
-    return counted(memory);
+    return counted(memory, size);
 }
 
 void give(void* memory) noexcept {
-    if (memory != nullptr) count(-static_cast<long long>(::malloc_usable_size(memory)));
+    if (memory != nullptr) look(::malloc_usable_size(memory));
     std::free(memory);
 }
 
@@ -57,7 +66,7 @@ void give(void* memory) noexcept {
 /// are taken before.
 template <typename Work>
 double peak_of(const Work& work) {
-    const long long before = most = taken.load();
+    const long long before = most = taken();
     work();
     return double(most - before);
 }
@@ -65,14 +74,14 @@ double peak_of(const Work& work) {
 } // namespace
 
 void* operator new(std::size_t size) {
-    return required(std::malloc(std::max(size, std::size_t(1))));
+    return required(std::malloc(std::max(size, std::size_t(1))), size);
 }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-    return counted(std::malloc(size));
+    return counted(std::malloc(size), size);
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
     const auto unit = std::size_t(alignment);
-    return required(std::aligned_alloc(unit, (size + unit - 1) / unit * unit));
+    return required(std::aligned_alloc(unit, (size + unit - 1) / unit * unit), size);
 }
 void operator delete(void* memory) noexcept {
     give(memory);

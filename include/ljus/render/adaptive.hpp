@@ -241,7 +241,6 @@ struct RayShare {
 /// \param parts   Their variances are set.
 /// \param blocks  All blocks of a picture, row by row.
 /// \param rule    Its `first` and `epsilon` are used.
-// [variances around]
 inline void set_variances_around(std::vector<RayShare>& parts,
                                  const std::vector<AdaptiveBlock>& blocks,
                                  const AdaptiveSettings& rule) {
@@ -271,7 +270,6 @@ inline void set_variances_around(std::vector<RayShare>& parts,
         variance = std::fmax((relative.x + relative.y + relative.z) / 3, 0.0);
     }
 }
-// [variances around]
 
 /// Plans the number of batches of each block in the next round.
 /// \param blocks  Their `wanted` is set.
