@@ -350,4 +350,17 @@ TEST_CASE("rough glass scenes: a shadow ray out of rough glass into another body
         CHECK(std::abs(mapped.mean - by_paths.mean) <
               0.03 * by_paths.mean + 5 * std::hypot(mapped.error(), by_paths.error()));
     }
+    // At the last vertex, where it leaves the frosted ball, no ray goes on that would
+    // find the lamp: one of its own does.
+    PhotonMappingSettings ending = mapper.settings();
+    ending.max_depth = 2;
+    const auto ended =
+        ljus_test::mean_radiances(PhotonMapper(world, ending), 40000, 7, ray);
+    const auto right = ljus_test::mean_radiances(
+        PathTracer(world, {.max_depth = 2, .sample_lights = false}), 40000, 8, ray);
+    for (const std::size_t channel : {0u, 1u}) {
+        MESSAGE(ended[channel].mean, " and ", right[channel].mean, " +- ",
+                right[channel].error());
+        CHECK(std::abs(ljus_test::apart(ended[channel], right[channel])) < 5);
+    }
 }
