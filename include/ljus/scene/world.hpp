@@ -411,8 +411,7 @@ private:
         std::size_t type = 0;
         const auto add = [&]<typename G>(const std::vector<G>& list) {
             if constexpr (detail::is_plane<G>) {
-                auto& frames = frames_[type] =
-                    detail::GrowingArray<FrameT<Scalar>>(list.size());
+                auto& frames = frames_[type] = std::vector<FrameT<Scalar>>(list.size());
                 for (std::size_t i = 0; i < list.size(); ++i) {
                     const auto n = normal(list[i]);
                     frames[i] = frame_around(objects_[type][i].inside_out ? -n : n);
@@ -613,8 +612,7 @@ private:
     decltype(S::prototypes) prototypes_; // to which shapes_ refer
     decltype(S::materials) materials_;
     decltype(S::media) fog_;
-    std::array<detail::GrowingArray<FrameT<Scalar>>,
-               std::tuple_size_v<decltype(S::shapes)>>
+    std::array<std::vector<FrameT<Scalar>>, std::tuple_size_v<decltype(S::shapes)>>
         frames_;
     std::size_t size_ = 0;
     BoxT<Scalar> box_{};
