@@ -356,7 +356,9 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
                                         const M& material,
                                         const DirectLightSettings& settings,
                                         Context& context, Verdicts verdicts = {}) {
-    const auto [how, rays, next] = settings;
+    const DirectLight how = settings.how;
+    const int rays = settings.rays;
+    const Lobes next = std::same_as<M, LambertianT<T>> ? Lobes::none : settings.next;
     if constexpr (std::same_as<M, LambertianT<T>>)
         if (how == DirectLight::analytic)
             return detail::analytic_lights(world, vertex, material, rays, context,

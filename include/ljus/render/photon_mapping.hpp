@@ -503,6 +503,12 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
     return sample_all_lights(mapper.world(), vertex, material, how, context);
 }
 
+/// Whether a scene lists a material that may be glossy.
+template <AnyWorld W>
+inline constexpr bool lists_gloss = W::any_material([]<typename M>() {
+    return !OnlySpecular<M> && !std::same_as<M, LambertianT<typename M::Scalar>>;
+});
+
 /// How direct light is found at a surface. A path goes on after gloss, and its next ray
 /// finds the lamps that a ray for them alone would. At the gloss that it meets later,
 /// one shadow ray to each light is enough if no gloss is narrow: what that leaves out
@@ -679,7 +685,8 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
     const auto follow_path = [&](PathStateT<T> path) {
         const RadianceSum add{sum, path.throughput, context.log};
         bool gloss_mirrors = false; // whether narrow gloss is a mirror to this path
-        int sharing = 0; // shadow rays that share each light with the path's next ray
+        // Shadow rays that share each light with the path's next ray.
+        [[maybe_unused]] int sharing = 0;
         while (path.depth < settings.max_depth) {
             [[maybe_unused]] const RgbT<T> before = path.throughput;
             const auto vertex = next_vertex(mapper.world(), path, context.stream);
@@ -687,11 +694,13 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                 detail::cross_fog(mapper, path, before,
                                   vertex ? vertex->distance : path.ray.t_max, context,
                                   add);
-            if (sharing > 0 && !path.specular)
-                add.add(
-                    "scattered ray", "L",
-                    detail::met_light(mapper.world(), path, vertex, path.pdf, sharing));
-            sharing = 0;
+            if constexpr (detail::lists_gloss<W>) {
+                if (sharing > 0 && !path.specular)
+                    add.add("scattered ray", "L",
+                            detail::met_light(mapper.world(), path, vertex, path.pdf,
+                                              sharing));
+                sharing = 0;
+            }
             if (!vertex) {
                 if (!path.met_diffuse)
                     add("sky", "L", sky_radiance(mapper.world(), path.ray.direction));
