@@ -24,7 +24,8 @@ namespace ljus {
 
 namespace detail {
 
-/// A bound of the image of a vector whose components are at most those of `size`.
+/// An upper bound, per component, of |M v|, where M is the linear part of the map and v
+/// is any vector whose components are at most those of `size` in absolute value.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> transform_sizes(const AffineT<T>& map,
                                        const Vec3T<T>& size) noexcept {

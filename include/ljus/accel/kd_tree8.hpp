@@ -31,8 +31,9 @@ struct FoundBlockT {
 /// \cite bentley1975. Each node holds eight tight boxes; each leaf holds 16 to 32
 /// points in lanes of eight.
 ///
-/// Distances are computed in T, eight at a time. If one is too close to the limit of a
-/// search for the precision of T, it is computed again in double; see detail::ReachT.
+/// Distances are computed in T, eight at a time. Where the precision of T cannot tell
+/// whether a point is within the limit of a search, the distance of that point is
+/// computed again in double; see detail::ReachT.
 ///
 /// It is used as KdTreeT, has its searches, and visit_blocks() for callers that process
 /// eight points at a time. Every search is the traversal detail::walk() with its own

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/cylinder.hpp
-/// \brief The cylinder: a tube without ends. Two discs close it.
+/// \brief The cylinder: an open tube. To close it, add a disc at each end.
 
 #include <array>
 #include <cmath>

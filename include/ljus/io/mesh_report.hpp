@@ -57,7 +57,7 @@ struct MeshCount {
     long long line = 0;  ///< The first line, or other MeshReport::unit, from 1.
 };
 
-/// What a mesh file has in it, problems or not.
+/// The numbers of vertices, faces and other elements of a mesh file.
 struct MeshContent {
     long long vertices = 0;    ///< Lines v.
     long long normals = 0;     ///< Lines vn.

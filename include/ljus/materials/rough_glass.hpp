@@ -168,11 +168,12 @@ template <std::floating_point T>
 }
 // [rough glass]
 
-/// Chooses a facet that is visible from `wo`, and reflection with its probability F, or
-/// refraction with 1 - F. The weight is the fraction of light that no other facet
-/// blocks, at most 1; radiance from index n_t is then scaled by (n_i/n_t)^2.
+/// Chooses a facet that is visible from `wo`. The facet reflects with probability F,
+/// its Fresnel reflectance, and otherwise refracts. The weight is the fraction of light
+/// that no other facet blocks, at most 1. For refracted radiance it is multiplied by
+/// (n_o/n_i)^2, with the indices n_o on the side of `wo` and n_i on that of `wi`.
 /// \return Also nothing if a reflected direction points into the surface, or a
-///         refracted one out of it.
+///         refracted direction points out of it.
 /// \cost One sine, one cosine, a dozen square roots.
 /// \cite walter2007 \cite heitz2018
 // [sample rough glass]

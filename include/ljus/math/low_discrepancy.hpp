@@ -86,11 +86,13 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 }
 
 /// Owen's scrambling of one coordinate by a hash: whether a bit is flipped depends on
-/// the seed and on all higher bits. Cells of a dyadic grid are permuted, so that the
-/// points stay evenly spread, and each point alone becomes uniform over [0, 1).
+/// the seed and on all higher bits. This permutes the halves of [0, 1), the halves of
+/// each half, and so on. The points therefore stay evenly spread, and each point alone
+/// becomes uniform over [0, 1).
 ///
-/// Sums and products carry upwards only. On reversed bits, each bit of the result
-/// therefore depends on the higher bits of the original.
+/// In a sum or a product, each bit depends on the same and on lower bits of the
+/// operands only. The function therefore reverses the bits, hashes them by sums and
+/// products, and reverses them again.
 /// \param seed  Another seed per dimension; seeds that differ only in their last bits
 ///              give correlated dimensions.
 /// \cite owen1995 \cite burley2020

@@ -659,7 +659,8 @@ template <AnyWorld W, std::floating_point T>
 
 namespace detail {
 
-/// Finds the medium at the start of a path, and where it leaves a body.
+/// Sets the medium of a path if it is not known: at the start of the path and, if
+/// bodies may lie inside others, where the path has left a body.
 template <AnyWorld W, std::floating_point T>
 inline void find_medium(const W& world, PathStateT<T>& path) {
     if constexpr (lists_media<W>) {

@@ -75,9 +75,10 @@ struct AimT {
     T size = T(0); ///< About the solid angle over 2 pi: the weight of the choice.
 };
 
-/// Chooses how a point of a light aims at an object: at the cone of its bounding
-/// sphere, or at the area of a flat object. If the light emits into a narrower cone, as
-/// a spot or a lamp inside the sphere does, it aims at that cone.
+/// Chooses how a point of a light aims at an object: at the cone of directions to the
+/// object's bounding sphere or, if the object is flat, at its area. If the cone of
+/// emission is narrower (a spot light, or a lamp inside the bounding sphere), the point
+/// aims at the cone of emission instead.
 /// \param emission  The cone of all directions of emission.
 // [aim_at]
 template <AnyWorld W, std::floating_point T>

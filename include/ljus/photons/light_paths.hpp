@@ -51,7 +51,9 @@ struct LightVertexT {
     RgbT<T> flux{T(0)};       ///< W that arrive, as in a PhotonT.
     SubpathWeights weights{}; ///< At the vertex.
     int depth = 0;            ///< Surfaces from the light to here.
-    std::string letters{};    ///< Of a path from a surface before it to the light.
+    /// Heckbert's letters of a path from the light to this vertex and on to one more
+    /// diffuse surface, the last surface first: "DD...L".
+    std::string letters{};
 };
 
 /// Light paths with their vertices.

@@ -412,11 +412,12 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
 
 /// Renders a picture with more rays where the variance is larger, by several threads.
 ///
-/// *Trap*: for a target, the allocation depends on the same rays that are averaged. A
-/// pixel whose first rays all miss a bright spot is estimated as dark and gets no
-/// further rays: the mean of the picture is too dark. Larger blocks and more first rays
-/// reduce this bias; `two_stage` removes it. With `disagreement` the neighbours of a
-/// block decide, which has no bias if `samples` allows `more` rays for every pixel.
+/// *Trap*: unless `two_stage` or `disagreement` is set, the rays that are averaged also
+/// decide how many rays follow. A pixel whose first rays all miss a bright spot seems
+/// dark and gets no further rays, so that the picture is too dark on average. Larger
+/// blocks and more first rays reduce this bias; `two_stage` removes it. With
+/// `disagreement`, the blocks around a block decide how many rays it gets. This has no
+/// bias if `samples` is at least `first` + `more`.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera.
 /// \param picture   Size, seed, threads; `samples` is the limit for the mean.
@@ -425,9 +426,9 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
 ///         that is not finite is left out and counted.
 /// \throws std::invalid_argument  as render(), or for a setting out of range, or if
 ///         there are fewer samples than first rays.
-/// \cost The rays. The result has 24 bytes per pixel in float. About 200 more are
-///       needed for all pixels at a time; with `disagreement`, no target and enough
-///       samples, for 4096 pixels per thread, at least for 16384.
+/// \cost The time of the rays. The result takes 24 bytes per pixel in float. Meanwhile
+///       each pixel of the picture takes about 200 bytes more. With `disagreement`, no
+///       target and enough samples, only 4096 pixels per thread do, but at least 16384.
 /// \report{Sections 4.3 and 5}
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>

@@ -70,12 +70,14 @@ struct PhotonMappingSettings {
     /// caustics.photons by that, even with CausticBudget::as_seen. The pilot takes at
     /// most a quarter of the photons. Works with Budgeting only.
     bool share_lights = false;
-    /// How caustics are estimated; radius 0: chosen to hold 32 photons typically.
+    /// How caustics are estimated. With radius 0 the mapper chooses a radius for which
+    /// a disc typically holds 32 photons.
     DensityEstimateSettings caustics_estimate{};
     /// The radius of the disc of a lone caustic photon, see lone_photons(), over that
     /// of all others. With 1 a lone photon is as any other; so it is with k nearest.
     float lone_radius = 1;
-    /// How the general map is queried; radius 0: chosen to hold 64 photons typically.
+    /// How the general map is queried. With radius 0 the mapper chooses a radius for
+    /// which a disc typically holds 64 photons.
     DensityEstimateSettings general_estimate{.radius = 0.3f};
     BeamEstimateSettings fog_estimate{};  ///< How photons in fog are spread.
     IrradiancePointSettings irradiance{}; ///< Points that gather rays look up.
@@ -186,11 +188,12 @@ enum class Preset : std::uint8_t {
 /// rays differ. A pixel's own rays do not decide, so that this choice has no bias: see
 /// render_adaptive().
 struct PresetRays {
-    int first = 1;              ///< In every pixel.
-    int more = 0;               ///< The most that are added to a pixel.
-    double disagreement = 0.75; ///< The relative standard deviation of the first rays
-                                ///< around a pixel from which on it gets all of them;
-                                ///< below it fewer, in proportion.
+    int first = 1; ///< In every pixel.
+    int more = 0;  ///< The most that are added to a pixel.
+    /// If the relative standard deviation of the first rays around a pixel is at least
+    /// this, the pixel gets all `more` rays. If it is smaller, the pixel gets a part of
+    /// them, in proportion.
+    double disagreement = 0.75;
 };
 
 /// The rays of a preset, for RenderSettings::samples and render_adaptive().

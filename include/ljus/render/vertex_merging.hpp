@@ -118,7 +118,8 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
 }
 // [shadow ray]
 
-/// Light of a light path, by a ray to one of its vertices, times the weight.
+/// The radiance that a camera path receives by a connection: a shadow ray from its
+/// vertex to a vertex of a light path. The weight among all strategies is included.
 // [connection]
 template <AnyWorld W, std::floating_point T, Material M>
 [[nodiscard]] RgbT<T> connect(const VertexMerger<W>& merger,

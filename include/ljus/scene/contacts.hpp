@@ -59,8 +59,10 @@ enum class ContactKind : std::uint8_t {
 /// The material of air, which is none.
 inline constexpr MaterialId no_body{0xffffffffu, 0};
 
-/// What decides between surfaces in one place, in this order: kind, emission, index of
-/// refraction, absorption, area, what is reflected, number. The smaller list is met.
+/// Decides which of several surfaces in one place a ray meets: the one whose key comes
+/// first in lexicographical order. The numbers of a key describe, in this order, the
+/// object's kind, emission, index of refraction, absorption, area, what it reflects,
+/// and its number.
 using ContactKey = std::array<double, 16>;
 
 /// The position of an object without contacts, and of what follows the last contact.

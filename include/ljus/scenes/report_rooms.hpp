@@ -214,8 +214,9 @@ template <std::floating_point T = float>
     return {World(std::move(scene)), report_camera<T>()};
 }
 
-/// The room of figures 11 and 13: one lamp and four glass balls. The history of the
-/// report's program lacks it; two of the balls were fitted to the picture.
+/// The room of figures 11 and 13: one lamp and four glass balls. No stored version of
+/// the report's program contains this room, so two of the balls were fitted to the
+/// picture in the report.
 /// \report{Figures 11 and 13, Tables 2 and 4}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> four_glass_room() {
