@@ -412,8 +412,8 @@ void tell_dark(const ImageT<T>& image, const Request& r) {
     if (r.part.count > 0 || !r.region.empty()) return;
     for (const RgbT<T>& color : image.pixels)
         if (!is_black(color)) return;
-    tell({"every pixel is black: no light reaches what the camera sees; it may be in a "
-          "body, or the lamps may face away"});
+    tell({"every pixel is black: no light reaches what the camera sees; the camera may "
+          "be in a body, or the lamps may face away"});
 }
 
 /// Does what the user asks for, in one precision.

@@ -7,7 +7,8 @@
 
 #include <cstdlib> // which says whether this is glibc
 
-#if defined(__GLIBC__)
+#ifdef __GLIBC__
+#if __GLIBC_PREREQ(2, 33) // has mallinfo2()
 
 #include <malloc.h>
 
@@ -39,7 +40,7 @@ long long taken() {
     return static_cast<long long>(heap.uordblks + heap.hblkhd);
 }
 
-/// Looks how much is taken, where a large piece comes or goes.
+/// Notes how much is taken, whenever a large piece comes or goes.
 void look(std::size_t size) {
     if (size < 4096) return;
     const long long now = taken();
@@ -236,4 +237,5 @@ TEST_CASE("memory: a triangle takes at most 150 bytes while its file is read") {
     CHECK(with_file < 150.0 * ball.parts.at(0).mesh.size());
 }
 
+#endif
 #endif

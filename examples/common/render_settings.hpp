@@ -58,8 +58,8 @@ struct RenderRequest {
     std::optional<ljus::Preset> preset{}; ///< Options given by name override it.
     ljus::RenderSettings picture{};       ///< Settings of the whole picture.
     int more_rays = 0;                    ///< More rays for pixels that need them.
-    double disagreement = 0.75; ///< Deviation from which on they get all of them.
-    double exposure = 0;        ///< Exposure of PNG files, in stops.
+    double disagreement = 0.75;           ///< Deviation at which they get all of them.
+    double exposure = 0;                  ///< Exposure of PNG files, in stops.
     ljus::PhotonMappingSettings photon{.caustics_estimate = {.radius = 0.1f}};
     ljus::PathTracingSettings path{};
     /// How a path tracer's rays to lamps and its paths are weighted; none: paths alone.
@@ -107,9 +107,11 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
         "With normal, albedo, depth, position, object, light-paths, or NAME=CLASS\n"
         "of light paths, as glass=ES+.*L: in NAME.exr, or in files NAME.*.pfm");
     line.add("--more-rays", r.more_rays,
-             "The most rays more for a pixel, where rays around it differ", 0, million);
+             "Most further rays of a pixel, where the rays around it differ", 0,
+             million);
     line.add("--disagreement", r.disagreement,
-             "Relative standard deviation from which on it gets them all", 1e-6, 1e6);
+             "Relative standard deviation at which a pixel gets all of them", 1e-6,
+             1e6);
     line.add("--sampling", r.picture.sampling, "Pattern of the rays in a pixel");
     line.add("--precision", r.in_double, "Precision of scene, photons and light",
              {{"float", false}, {"double", true}});

@@ -358,6 +358,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
                                         Context& context, Verdicts verdicts = {}) {
     const DirectLight how = settings.how;
     const int rays = settings.rays;
+    // Only gloss shares its ray; a matt surface asks nothing while the program runs.
     const Lobes next = std::same_as<M, LambertianT<T>> ? Lobes::none : settings.next;
     if constexpr (std::same_as<M, LambertianT<T>>)
         if (how == DirectLight::analytic)

@@ -37,13 +37,14 @@ struct AdaptiveSettings {
     int batches = 1000; ///< Largest number of batches per pixel, at least 0.
     int block = 1;     ///< Side of the square blocks that share an estimate, in pixels.
     double target = 0; ///< The relMSE at which it stops; 0: none.
-    double disagreement = 0; ///< Above 0: each block gets one batch, in proportion to
-                             ///< the relative standard deviation of the first rays of
-                             ///< the eight blocks around it; `more` rays at this one.
-    double epsilon = 0.01;   ///< Added to the squared mean, as in rel_mse().
-    bool two_stage = false;  ///< The first rays only allocate the others and are then
-                             ///< discarded: no bias. Not with `disagreement`, which
-                             ///< has none.
+    /// Above 0: each block gets one batch, whose rays are in proportion to the relative
+    /// standard deviation of the first rays of the eight blocks around it. A deviation
+    /// of this number, or a larger one, brings `more` rays.
+    double disagreement = 0;
+    double epsilon = 0.01;  ///< Added to the squared mean, as in rel_mse().
+    bool two_stage = false; ///< The first rays only allocate the others and are then
+                            ///< discarded: no bias. Not with `disagreement`, which
+                            ///< has none.
 };
 
 /// Refuses a rule that gives no picture.
@@ -168,7 +169,8 @@ struct RowSums {
     return std::fmax((relative.x + relative.y + relative.z) / 3, 0.0); // not NaN
 }
 
-/// Sets what decides about the next rays: of a block's own, or of those around it.
+/// Sets the statistics from which plan_round() allocates rays: the variance of a block,
+/// or with `disagreement` the sums of its first rays, for the blocks around it.
 inline void set_statistics(AdaptiveBlock& block, const RowSums& sums,
                            const AdaptiveSettings& rule) {
     if (rule.disagreement == 0) {
@@ -234,7 +236,7 @@ struct RayShare {
 }
 
 /// The relative variance of the first rays of the blocks around each block, without its
-/// own; infinity for a block with less than two such rays.
+/// own; infinity for a block with fewer than two such rays.
 ///
 /// It contains the differences between pixels: an edge or a shadow's border is noticed
 /// with one ray per pixel.

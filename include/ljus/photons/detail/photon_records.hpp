@@ -128,8 +128,7 @@ public:
         // First into groups that fit into a cache, then within each: records that move
         // straight to their places would miss the cache each time.
         constexpr std::size_t group = 4096;
-        GrowingArray<std::size_t>
-            next; // the first place of a group that is not settled
+        GrowingArray<std::size_t> next; // of each group: its first unsettled place
         for (std::size_t i = 0; i < size_; i += group) next.push_back(i);
         for (std::size_t g = 0; g < next.size(); ++g)
             for (const std::size_t end = std::min((g + 1) * group, size_);
