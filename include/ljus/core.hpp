@@ -3,12 +3,11 @@
 /// \file ljus/core.hpp
 /// \brief The templates that the optional library ljus::core compiles, in float.
 ///
-/// All of Ljus is in its headers, but code that does not depend on a scene's types can
-/// be compiled once for all programs. A program that defines `LJUS_CORE` and is linked
-/// with ljus::core uses the instantiations in this list, and the functions marked
-/// LJUS_CORE_INLINE. ljus.hpp then includes this list; core/core.cpp instantiates it,
-/// and compiles what is marked LJUS_CORE_CLONES for several generations of processors.
-/// To add an instantiation, add a line here.
+/// Code that does not depend on a scene's types can be compiled once for all programs.
+/// The library ljus::core contains this code. A program uses the library if it defines
+/// `LJUS_CORE` and is linked with ljus::core.
+/// ljus.hpp then includes this list, which declares the instantiations. core/core.cpp
+/// defines them. To add an instantiation, add a line here.
 
 #include "ljus/accel/mesh.hpp"
 #include "ljus/inspect/survey.hpp"
@@ -19,7 +18,8 @@
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scene/camera.hpp"
 
-/// `extern` in programs that use the library; empty in core/core.cpp.
+/// The keyword `extern` in a program, which only declares the instantiations. The macro
+/// is empty in core/core.cpp, which defines them.
 #ifndef LJUS_CORE_EXTERN
 #define LJUS_CORE_EXTERN extern
 #endif
@@ -28,7 +28,7 @@ namespace ljus {
 
 /// \cond INSTANTIATIONS
 
-// Sentences of the checks at the border.
+// Error messages.
 LJUS_CORE_EXTERN template std::string to_text(float);
 LJUS_CORE_EXTERN template std::string to_text(double);
 LJUS_CORE_EXTERN template std::string to_text(const Vec3&);

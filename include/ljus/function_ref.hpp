@@ -16,9 +16,10 @@ namespace ljus {
 template <typename Signature>
 class FunctionRef;
 
-/// A reference to an object that can be called as `R callable(A...)`. A function that
-/// takes it is compiled once, not once per type of callable. It is like
-/// std::function_ref of C++26, but for objects only.
+/// A reference to an object that can be called with arguments of the types A and
+/// returns an R. A function that takes a FunctionRef is compiled once, not once per
+/// type of callable. The class resembles std::function_ref of C++26, but cannot refer
+/// to a plain function.
 ///
 /// The callable must outlive the reference. A temporary does not compile.
 template <typename R, typename... A>
@@ -39,7 +40,7 @@ public:
     requires(!std::same_as<std::remove_cvref_t<F>, FunctionRef>) FunctionRef(const F&&)
     = delete;
 
-    /// Calls it.
+    /// Calls the callable.
     R operator()(A... a) const { return call_(callable_, static_cast<A&&>(a)...); }
 
 private:

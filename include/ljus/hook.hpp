@@ -13,29 +13,30 @@
 
 namespace ljus::detail {
 
-// A row of a table of hooks. A function with a misspelt name is never called; the
-// survey prints the table, which then shows that the hook is missing.
+// A row of a table of hooks. A hook with a misspelt name is never called. The survey
+// prints the table, which then shows the hook as missing.
 struct Hook {
-    const char* name;    // of the function, or of the constant
-    const char* purpose; // its purpose
+    const char* name;    // the name of the function or constant
+    const char* purpose; // what the hook does
     const char* without; // what happens without it
     bool provided;       // whether the type has it
 };
 
-// Derives from S to tell which hooks S itself provides. Overloads written for S accept
-// it. The generic defaults do not, because it is neither a Shape nor a Material.
+// A stand-in for S that tells which hooks S itself provides. Functions written for S
+// accept the stand-in, because it derives from S. The generic defaults do not accept
+// it, because it is neither a Shape nor a Material.
 template <typename S>
 struct OwnOf : S {
-    using Scalar = void; // a material's is a number
+    using Scalar = void; // in a Material, Scalar is a floating-point type
 };
 
-// Whether a type is such a stand-in.
+// Whether a type is an OwnOf.
 template <typename S>
 inline constexpr bool is_stand_in = false;
 template <typename S>
 inline constexpr bool is_stand_in<OwnOf<S>> = true;
 
-// The stand-in for any type; a final type stands for itself.
+// OwnOf<S>, or S itself if S is final and no type can derive from it.
 template <typename S>
 using Own = std::conditional_t<std::is_final_v<S>, S, OwnOf<S>>;
 
@@ -61,7 +62,7 @@ template <typename T>
 #endif
 }
 
-// A table in one line: the hooks of the type, and what happens without the others.
+// One line of text: the hooks that the type has, and what happens without the others.
 template <typename Rows>
 [[nodiscard]] std::string to_line(const Rows& rows) {
     std::string has, lacks;

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/ljus.hpp
-/// \brief The headers for a first program: all shapes, lights and materials, scenes,
-/// cameras, the renderers, PNG. Other features have their own headers.
+/// \brief The headers for a first program: common shapes, lights and materials, scenes,
+/// cameras, the renderers and PNG files. Other features have their own headers.
 
 #include "ljus/geometry/box.hpp"
 #include "ljus/geometry/isosurface.hpp"
@@ -41,6 +41,6 @@
 #include "ljus/inspect/survey.hpp"
 #include "ljus/io/png.hpp"
 
-#ifdef LJUS_CORE // link with ljus::core, and what it has is not compiled here
+#ifdef LJUS_CORE // the program is linked with ljus::core
 #include "ljus/core.hpp"
 #endif

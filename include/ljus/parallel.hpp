@@ -17,18 +17,19 @@
 namespace ljus {
 
 /// \defgroup parallel Parallel loops
-/// \brief The same result, byte by byte, on any number of threads.
+/// \brief Loops with the same result, byte by byte, on any number of threads.
 ///
-/// Work is cut into blocks that do not depend on the number of threads. A block writes
-/// only its own results, and sums are formed per block and added in block order.
-/// Without OpenMP the blocks run one after the other.
+/// The iterations of a loop are divided into blocks. The division does not depend on
+/// the number of threads. A block writes only its own results. Sums are formed per
+/// block, and the sums of the blocks are added in the order of the blocks. Without
+/// OpenMP the blocks run one after the other.
 /// \{
 
 /// The largest number of threads that may be requested.
 inline constexpr int max_threads_allowed = 1024;
 
-/// The callback of a long loop: any named object that can be called as
-/// `bool progress(long long done, long long total)`; returning false stops the loop.
+/// The callback of a long loop: any object with a name that can be called as
+/// `bool progress(long long done, long long total)`. A loop stops if it returns false.
 ///
 ///     auto progress = [&](long long done, long long total) { return !stopped; };
 ///     parallel_blocks(count, body, {.progress = progress});
@@ -44,17 +45,18 @@ struct NoProgress {
 
 } // namespace detail
 
-/// The progress of loops that do not report.
+/// The default callback. It does nothing and never stops the loop.
 inline constexpr detail::NoProgress no_progress;
 
-/// How a parallel loop runs.
+/// The settings of a parallel loop.
 struct ParallelSettings {
-    int threads = 0; ///< 1 to max_threads_allowed; 0: one per processor.
-    Progress progress = no_progress; ///< Called after a block, by one thread at a time.
+    int threads = 0; ///< At most max_threads_allowed; 0 stands for max_threads().
+    Progress progress = no_progress; ///< Called after blocks, by one thread at a time.
 };
 
-/// The number of threads for `threads = 0`: that of the processors or OMP_NUM_THREADS,
-/// at most max_threads_allowed; 1 without OpenMP.
+/// The number of threads that `threads = 0` stands for. It is the environment variable
+/// OMP_NUM_THREADS or, if that is not set, the number of processors, and at most
+/// max_threads_allowed. Without OpenMP it is 1.
 [[nodiscard]] inline int max_threads() noexcept {
 #ifdef _OPENMP
     const int most = omp_get_max_threads();
@@ -75,18 +77,22 @@ namespace detail {
 
 /// The items of a block: first <= i < last.
 struct BlockRange {
-    long long first = 0; ///< The first one.
-    long long last = 0;  ///< One past the last one.
+    long long first = 0; ///< The first item.
+    long long last = 0;  ///< One past the last item.
 };
 
-/// The items of block number `block`, in [0, block_count(total, size)).
+/// The items of block number `block`.
+/// \param block  From 0 to block_count(total, size) - 1.
+/// \param size   Items per block.
+/// \param total  The number of all items.
 [[nodiscard]] constexpr BlockRange block_range(long long block, long long size,
                                                long long total) noexcept {
     const long long first = block * size;
     return {first, total - first < size ? total : first + size};
 }
 
-// The body of a loop, without its type: the loop below is compiled once for all bodies.
+// A reference to the body of a loop. A function that takes it is compiled once for all
+// bodies.
 using BlockBody = FunctionRef<void(long long block)>;
 
 // Implements parallel_blocks().
@@ -95,12 +101,12 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
 
 #ifndef LJUS_CORE // otherwise defined in ljus::core
 
-// Protects shared state. OpenMP's lock needs no further header; <atomic> would make
-// each header that includes this one an eighth slower to compile. A single thread does
-// not call OpenMP: LLVM's runtime crashes in a forked process.
+// A lock. OpenMP's own lock needs no further header, whereas <atomic> would make each
+// header that includes this one an eighth slower to compile. A single thread does not
+// call OpenMP, because LLVM's OpenMP runtime crashes in a forked process.
 #ifdef _OPENMP
 struct Mutex {
-    const bool shared; // by more than one thread
+    const bool shared; // whether several threads use the lock
     omp_lock_t lock{};
     explicit Mutex(bool many) noexcept : shared(many) {
         if (shared) omp_init_lock(&lock);
@@ -174,7 +180,7 @@ struct BlockLoop {
         }
     }
 
-    // Reports the progress unless another thread is reporting; the others work on.
+    // Reports the progress, unless another thread is reporting. No thread waits.
     void report() {
         long long now = 0;
         {
@@ -190,9 +196,9 @@ struct BlockLoop {
         stop = stop || stopped;
     }
 
-    // Keeps the current exception if its block is the lowest that threw. Every lower
-    // block has begun and runs to its end, so that the lowest failing block is the same
-    // for any number of threads.
+    // Keeps the current exception if its block is the lowest that threw. Blocks begin
+    // in ascending order, and each block that has begun runs to its end. The lowest
+    // block that throws is therefore the same for any number of threads.
     void fail(long long block) {
         const LockGuard turn(turns);
         stop = true;
@@ -215,10 +221,11 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
     BlockLoop loop{count, body, options.progress, Mutex(threads > 1)};
 #ifdef _OPENMP
     if (threads > 1) {
-        // At the end of the region libgomp's threads wait by spinning for milliseconds.
-        // A program that has taken the processor of the last thread cannot move to
-        // theirs meanwhile: a loop of one millisecond took twenty. The threads sleep at
-        // once if there are more of them than processors, so one idle thread is added.
+        // At the end of a parallel region, libgomp's threads wait for the last one by
+        // spinning for milliseconds. If another program occupies the processor of the
+        // last thread, that thread cannot move to a spinning thread's processor, and a
+        // loop of one millisecond takes twenty. Threads sleep at once if there are more
+        // of them than processors. The loop therefore adds one idle thread.
         const int idle = threads == omp_get_num_procs() ? 1 : 0;
 #pragma omp parallel num_threads(threads + idle)
         if (omp_get_thread_num() < threads) loop.work();
@@ -241,19 +248,21 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
 /// Calls `body(block)` once for each block in [0, count), on several threads.
 ///
 /// Each free thread takes the next block. Small blocks keep all threads busy to the
-/// end. A loop stops between blocks only, so a block should take well below a second. A
-/// loop inside a body runs on the thread that calls it.
-/// \param count    The number of blocks; none if it is 0 or less.
+/// end. A loop can stop only between blocks, so a block should take well below a
+/// second. A loop inside a body runs on the thread that calls it.
+/// \param count    The number of blocks. If it is 0 or negative, there are none.
 /// \param body     Called as body(long long), concurrently and in any order.
-/// \param options  Threads and progress. `progress(done, total)` follows a block
-///                 unless another thread is reporting, with ascending `done`; when all
-///                 blocks are done, (count, count) has been reported once.
+/// \param options  The number of threads and the callback. `progress(done, total)` is
+///                 called after a block, unless another thread is in the callback.
+///                 `done` is larger in each call. When all blocks are done, (count,
+///                 count) has been reported once.
 /// \return True if all blocks ran; false if `progress` stopped the loop.
-/// \throws std::invalid_argument  if `options.threads` is not allowed; otherwise what a
-///         body or `progress` threw: no further block begins then, and of several
-///         exceptions that of the lowest block is thrown.
-/// \cost About 30 microseconds to wake the threads (more the first time), and below 0.1
-///       per block.
+/// \throws std::invalid_argument  if `options.threads` is not within [0, 1024]. If a
+///         body or `progress` throws, no further block begins, and the loop throws the
+///         same exception. If several blocks throw, the loop throws the exception of
+///         the lowest one.
+/// \cost About 30 microseconds to wake the threads, more the first time, and below 0.1
+///       microseconds per block.
 template <std::invocable<long long> Body>
 bool parallel_blocks(long long count, Body&& body,
                      const ParallelSettings& options = {}) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/image/color.hpp
-/// \brief Converts radiance to the 256 levels of a screen: the sRGB curve.
+/// \brief Converts linear light to the 256 levels of a screen by the sRGB curve.
 
 #include <cmath>
 #include <concepts>
@@ -11,18 +11,21 @@
 namespace ljus {
 
 /// \defgroup color Colour
-/// \brief Radiance is linear and unbounded; the bytes of a screen are neither.
+/// \brief Radiance is linear and unbounded. The bytes of a picture file are encoded by
+/// the sRGB curve and limited to 255.
 /// \{
 
-/// The luminance Y of a linear sRGB colour (Rec. 709 primaries, white D65).
+/// The luminance Y of a linear sRGB colour (R, G, B), with the primaries of Rec. 709
+/// and the white D65.
 /// \return 0.2126 R + 0.7152 G + 0.0722 B; 1 for white.
 template <std::floating_point T>
 [[nodiscard]] constexpr T luminance(const RgbT<T>& c) noexcept {
     return T(0.2126) * c.x + T(0.7152) * c.y + T(0.0722) * c.z;
 }
 
-/// The sRGB curve (IEC 61966-2-1): from linear light to the encoded value.
-/// \return The curve; 0 for NaN and for linear <= 0, 1 for linear >= 1.
+/// The sRGB curve (IEC 61966-2-1): turns linear light into the encoded value.
+/// \return The encoded value in [0, 1]; 0 for NaN and for linear <= 0, 1 for linear >=
+///         1.
 // [srgb_encode]
 [[nodiscard]] inline double srgb_encode(double linear) noexcept {
     if (!(linear > 0.0)) return 0.0; // written so that NaN is black
@@ -32,7 +35,7 @@ template <std::floating_point T>
 // [srgb_encode]
 
 /// The inverse of srgb_encode().
-/// \return Linear light; 0 for NaN and for encoded <= 0, 1 for encoded >= 1.
+/// \return Linear light in [0, 1]; 0 for NaN and for encoded <= 0, 1 for encoded >= 1.
 [[nodiscard]] inline double srgb_decode(double encoded) noexcept {
     if (!(encoded > 0.0)) return 0.0;
     const double y = 1.0 < encoded ? 1.0 : encoded;
@@ -40,10 +43,9 @@ template <std::floating_point T>
 }
 
 /// The byte of a picture file for one channel.
-/// It is computed in double: in float, 200 of the 765 numbers at and next to the 255
-/// thresholds are off by one.
-/// \param linear  Any number: NaN and negatives give 0, 1 and above give 255.
-/// \return floor(255 y + 1/2), where y is the encoded value.
+/// \param linear  Any number. NaN and negative numbers give 0; 1 and above give 255.
+/// \return floor(255 y + 1/2), where y is the encoded value in double. In float, some
+///         bytes would be off by one.
 [[nodiscard]] inline unsigned char srgb_byte(double linear) noexcept {
     return static_cast<unsigned char>(255.0 * srgb_encode(linear) + 0.5);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/image/filter.hpp
-/// \brief Pixel filters: the weight of a film position for a pixel.
+/// \brief Pixel filters: how much the light at a film position contributes to a pixel.
 
 #include <algorithm>
 #include <array>
@@ -17,16 +17,17 @@ namespace ljus {
 /// \brief Section 3.2: "multiple primary rays are cast per pixel. This means that the
 /// resulting image will be anti-aliased". Chapter: \ref ch_radiance.
 ///
-/// A pixel is a weighted mean of the radiance around its centre. A filter is the
-/// weight, a product of a function of x and one of y, and its integral is 1.
+/// A pixel is a weighted mean of the radiance around the pixel's centre. The filter is
+/// the weight as a function of the position (x, y). It is a product of a function of x
+/// and the same function of y, and its integral is 1.
 /// \{
 
 /// The filters. Lengths are in pixels.
 enum class Filter : std::uint8_t {
-    box,      ///< The mean over the pixel itself.
+    box,      ///< Constant over the pixel, 0 outside.
     tent,     ///< Falls linearly to 0 at the centres of the neighbours.
-    gaussian, ///< A Gaussian of deviation 1/2, shifted down to be 0 at 3/2.
-    mitchell  ///< A cubic with negative lobes: sharper, but edges get a halo.
+    gaussian, ///< A Gaussian of standard deviation 1/2, shifted down to 0 at 3/2.
+    mitchell  ///< A cubic with negative lobes: sharper, but with halos at edges.
 };
 
 /// The radius of a filter along x and along y, in pixels.
@@ -35,8 +36,10 @@ enum class Filter : std::uint8_t {
     return radii[static_cast<std::size_t>(filter)];
 }
 
-/// The weight of a filter along one axis, at the distance x from the pixel's centre.
-/// \return Per pixel; its integral over x is 1, and it is 0 outside the radius.
+/// The weight of a filter along one axis, at the distance x from the pixel's centre, in
+/// pixels.
+/// \return The weight per pixel of length. Its integral over x is 1, and it is 0
+///         outside the radius.
 /// \cite mitchell1988
 // [filter weight]
 template <std::floating_point T>
@@ -60,17 +63,17 @@ template <std::floating_point T>
 }
 // [filter weight]
 
-/// A film position that was drawn for a pixel, and the weight of a ray through it.
+/// A film position that was sampled for a pixel, and the weight of a ray through it.
 template <std::floating_point T>
 struct FilterSampleT {
-    Vec2T<T> place{T(0)}; ///< From the pixel's upper left corner, in pixels.
-    T weight = T(1);      ///< Filter over pdf; its mean is 1.
+    Vec2T<T> place{T(0)}; ///< Measured from the pixel's upper left corner, in pixels.
+    T weight = T(1);      ///< The filter over the pdf; the mean of all weights is 1.
 };
 
 namespace detail {
 
-/// The cumulative integral of a filter's absolute weight from the centre to the radius,
-/// at equal steps.
+/// The integral of a filter's absolute weight from the centre to each of 65 equally
+/// spaced distances up to the radius, over the whole integral.
 using FilterTable = std::array<double, 65>;
 
 [[nodiscard]] inline FilterTable make_filter_table(Filter filter) noexcept {
@@ -85,8 +88,8 @@ using FilterTable = std::array<double, 65>;
     return cdf;
 }
 
-/// The table of the Gaussian or of Mitchell's filter, whose integrals have no inverse
-/// in closed form.
+/// The table for sampling the Gaussian or Mitchell's filter. Their integrals have no
+/// inverse in closed form.
 [[nodiscard]] inline const FilterTable& filter_table(Filter filter) noexcept {
     static const FilterTable gaussian = make_filter_table(Filter::gaussian);
     static const FilterTable mitchell = make_filter_table(Filter::mitchell);
@@ -94,9 +97,11 @@ using FilterTable = std::array<double, 65>;
 }
 
 /// Samples a position along one axis by inversion.
-/// \param filter  Not the box.
-/// \param u       In [0, 1]; the position grows with u, so that strata are kept.
-/// \return x: the distance from the pixel's centre; y: the weight, filter over pdf.
+/// \param filter  Any filter except the box.
+/// \param u       A random number in [0, 1]. The position increases with u, so that
+///                strata of u give strata of positions.
+/// \return In x the signed distance from the pixel's centre, in pixels; in y the
+///         weight, the filter over the pdf.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> sample_filter_axis(Filter filter, T u) noexcept {
     const T v = std::abs(T(2) * u - T(1)); // by symmetry
@@ -115,15 +120,16 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// A film position for a ray of a pixel, drawn in proportion to the filter: *filter
-/// importance sampling* \cite ernst2006. Every ray belongs to one pixel, so that pixels
-/// stay independent; the mean of weight times radiance is the filtered pixel.
+/// Samples the film position of a ray in proportion to the filter: *filter importance
+/// sampling* \cite ernst2006. A ray contributes to one pixel only, so that pixels are
+/// independent of each other. The mean of weight times radiance is the filtered pixel.
 /// \param filter  The filter.
 /// \param u       Point of the unit square, from the pixel's pattern.
-/// \return The position and its weight: 1 for the box and the tent, near 1 for the
-///         Gaussian, near 1.3 or -1.3 along each axis for Mitchell's.
-/// \cost Nothing for the box; per axis, a square root for the tent and 6 steps of a
-///       search for the others.
+/// \return The position and its weight. The weight is 1 for the box and the tent and
+///         near 1 for the Gaussian. For Mitchell's filter it is a product of two
+///         numbers near 1.3 or -1.3.
+/// \cost Nothing for the box. Per axis, the tent takes a square root, and the others 6
+///       steps of a binary search.
 // [sample filter]
 template <std::floating_point T>
 [[nodiscard]] FilterSampleT<T> sample_filter(Filter filter,

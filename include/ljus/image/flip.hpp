@@ -15,27 +15,28 @@
 namespace ljus {
 
 /// \defgroup flip FLIP
-/// \brief Footnote 1: "all we really need is to make the results look real". A number
-/// for it, after Andersson et al. \cite andersson2020.
-/// Chapter: \ref ch_light_transport.
+/// \brief Footnote 1: "all we really need is to make the results look real". FLIP
+/// measures how visible a difference is \cite andersson2020. Chapter:
+/// \ref ch_light_transport.
 /// \{
 
 namespace detail {
 
-/// The contributions of red, green and blue to X, Y and Z (primaries of Rec. 709). Each
-/// row adds up to 1, because X, Y and Z are relative to the white point.
+/// The contributions of red, green and blue, with the primaries of Rec. 709, to each of
+/// X, Y and Z. The contributions to each add up to 1, because X, Y and Z are relative
+/// to the white point.
 inline constexpr Vec3T<double> xyz_weights[3] = {
     Vec3T<double>{10135552, 8788810, 4435075} / 23359437.0,
     Vec3T<double>{2613072, 8788810, 887015} / 12288897.0,
     Vec3T<double>{1425312, 8788810, 70074185} / 80288307.0};
 
-/// XYZ of a linear sRGB colour, in units of the white point D65.
+/// The XYZ coordinates of a linear sRGB colour, in units of the white point D65.
 [[nodiscard]] inline Vec3T<double> xyz_over_white(const RgbT<double>& c) noexcept {
     return {glm::dot(xyz_weights[0], c), glm::dot(xyz_weights[1], c),
             glm::dot(xyz_weights[2], c)};
 }
 
-/// The linear sRGB colour of XYZ: the inverse of xyz_over_white().
+/// Converts XYZ to a linear sRGB colour: the inverse of xyz_over_white().
 [[nodiscard]] inline RgbT<double> rgb_of(const Vec3T<double>& xyz) noexcept {
     // Cramer's rule: cross products of two rows over the determinant.
     const auto& [x, y, z] = xyz_weights;
@@ -44,22 +45,23 @@ inline constexpr Vec3T<double> xyz_weights[3] = {
            glm::dot(x, yz);
 }
 
-/// YCxCz, which separates lightness, red-green and blue-yellow. Each is linear in
-/// light, so that it can be blurred.
-/// \return 116 Y - 16; 500 (X - Y); 200 (Y - Z), in units of white.
+/// Converts a colour to YCxCz: lightness, red-green and blue-yellow. The three channels
+/// are linear in light, so that they can be blurred.
+/// \return 116 Y - 16, 500 (X - Y) and 200 (Y - Z), with X, Y and Z in units of white.
 [[nodiscard]] inline Vec3T<double> opponent(const RgbT<double>& c) noexcept {
     const Vec3T<double> white = xyz_over_white(c);
     return {116 * white.y - 16, 500 * (white.x - white.y), 200 * (white.y - white.z)};
 }
 
-/// The linear sRGB colour of YCxCz.
+/// Converts YCxCz to a linear sRGB colour.
 [[nodiscard]] inline RgbT<double> rgb_of_opponent(const Vec3T<double>& c) noexcept {
     const double y = (c.x + 16) / 116;
     return rgb_of({y + c.y / 500, y, y - c.z / 200});
 }
 
-/// L*a*b* of a colour with the Hunt effect: dark colours are less colourful.
-/// \return L*, and a* and b* times L*/100.
+/// Converts a colour to L*a*b* with the Hunt effect, which makes dark colours less
+/// colourful.
+/// \return L*, and a* and b* multiplied by L*/100.
 [[nodiscard]] inline Vec3T<double> hunt_lab(const RgbT<double>& c) noexcept {
     const auto root = [](double t) {
         constexpr double d = 6.0 / 29;
@@ -72,22 +74,22 @@ inline constexpr Vec3T<double> xyz_weights[3] = {
             0.01 * lightness * 200 * (y - z)};
 }
 
-/// The HyAB distance, made for large differences: city-block in lightness, Euclidean in
-/// a* and b*.
+/// The HyAB distance of two L*a*b* colours, which suits large differences. It is the
+/// difference in L* plus the Euclidean distance in a* and b*.
 [[nodiscard]] inline double hyab(const Vec3T<double>& a,
                                  const Vec3T<double>& b) noexcept {
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
 /// One Gaussian of a contrast sensitivity function: a sqrt(pi / b) exp(-pi^2 x^2 / b),
-/// with x in degrees.
+/// where x is the distance in degrees.
 struct EyeGaussian {
     double a; ///< Weight.
-    double b; ///< Width, in square degrees.
+    double b; ///< Square of the width, in square degrees.
 };
 
-/// The blur of lightness, red-green and blue-yellow: a sum of two Gaussians each
-/// \cite andersson2020.
+/// The filters that blur lightness, red-green and blue-yellow \cite andersson2020. Each
+/// is a sum of two Gaussians.
 inline constexpr EyeGaussian eye_gaussians[3][2] = {
     {{1, 0.0047}, {0, 1e-5}}, {{1, 0.0053}, {0, 1e-5}}, {{34.1, 0.04}, {13.5, 0.025}}};
 
@@ -109,8 +111,8 @@ inline void make_unit(Weights& weights) noexcept {
     for (double& weight : weights) weight /= weight > 0 ? positive : -negative;
 }
 
-/// Convolves one channel of an image along x and along y; pixels at the border are
-/// repeated outside.
+/// Convolves one channel of an image along x and along y. Outside the image, the pixels
+/// of the border are repeated.
 [[nodiscard]] inline std::vector<double> blurred(const ImageT<double>& image,
                                                  int channel, const Weights& along_x,
                                                  const Weights& along_y) {
@@ -138,7 +140,8 @@ inline void make_unit(Weights& weights) noexcept {
     return result;
 }
 
-/// Converts a picture to YCxCz, clamped to [0, 1] of sRGB as on a screen; NaN is black.
+/// Converts a linear sRGB picture to YCxCz. Channels are clamped to [0, 1] first, as on
+/// a screen; NaN becomes black.
 template <std::floating_point T>
 [[nodiscard]] ImageT<double> opponent_image(const ImageT<T>& image) {
     ImageT<double> result = make_image<double>(image.width, image.height);
@@ -150,8 +153,10 @@ template <std::floating_point T>
     return result;
 }
 
-/// How many pixels away a pixel still counts: three standard deviations of the widest
-/// Gaussian of the eye; the one that finds edges is narrower.
+/// The distance, in pixels, up to which other pixels influence a pixel's FLIP. It is
+/// three standard deviations of the eye's widest Gaussian; the edge detector is
+/// narrower.
+/// \param ppd  Pixels per degree of the visual field.
 [[nodiscard]] inline int eye_radius(double ppd) noexcept {
     return static_cast<int>(
         std::ceil(3 * std::sqrt(0.04 / 2) / std::numbers::pi * ppd));
@@ -165,15 +170,19 @@ void copy_part(const ImageT<T>& from, int x, int y, int width, int height,
 }
 
 /// Makes a map of two pictures tile by tile, so that intermediate results need memory
-/// for one tile only. The map is the same as without tiles, because each tile comes
-/// with all pixels around it that count.
-/// \param make  make(image, reference) returns the map of a part of both pictures.
+/// for one tile only. Each tile includes a margin of eye_radius() pixels. The map is
+/// therefore the same as without tiles.
+/// \param image      The picture.
+/// \param reference  The other picture, of the same size.
+/// \param ppd        Pixels per degree of the visual field.
+/// \param make       Called as make(image, reference); returns the map of a part of
+///                   both pictures.
 template <std::floating_point T, std::floating_point U, typename Make>
 [[nodiscard]] ImageT<double> map_by_tiles(const ImageT<T>& image,
                                           const ImageT<U>& reference, double ppd,
                                           Make make) {
     const int around = eye_radius(ppd), side = std::max(512, 8 * around);
-    const int most = side + 2 * around; // of a tile with what is around it
+    const int most = side + 2 * around; // of a tile with its margin
     if (image.width <= most && image.height <= most) return make(image, reference);
     ImageT<double> map = make_image<double>(image.width, image.height);
     for (int top = 0; top < map.height; top += side)
@@ -194,8 +203,8 @@ template <std::floating_point T, std::floating_point U, typename Make>
     return map;
 }
 
-/// A picture as a distant viewer sees it: each channel is blurred by the eye's contrast
-/// sensitivity.
+/// A picture in YCxCz as a viewer sees it, in linear sRGB: each channel is blurred by
+/// the eye's contrast sensitivity.
 [[nodiscard]] inline ImageT<double> eye_filtered(const ImageT<double>& image,
                                                  double ppd) {
     constexpr double pi = std::numbers::pi;
@@ -224,9 +233,9 @@ template <std::floating_point T, std::floating_point U, typename Make>
     return seen;
 }
 
-/// The strength of edges and points at each pixel: the lengths of the first and second
-/// derivative of lightness, smoothed by a Gaussian as wide as the eye's edge detector,
-/// 0.082 degrees.
+/// The strength of edges and points at each pixel of a YCxCz picture. These are the
+/// lengths of the first and the second derivative of lightness, smoothed by a Gaussian
+/// as wide as the eye's edge detector, 0.082 degrees.
 /// \return Edges in the first channel, points in the second.
 [[nodiscard]] inline ImageT<double> features(const ImageT<double>& image, double ppd) {
     const double deviation = 0.5 * 0.082 * ppd;
@@ -246,7 +255,7 @@ template <std::floating_point T, std::floating_point U, typename Make>
         const Weights& derivative = kind == 0 ? edge : point;
         const std::vector<double> x = blurred(image, 0, derivative, smooth);
         const std::vector<double> y = blurred(image, 0, smooth, derivative);
-        // Lightness runs from -16 to 100; weights that add up to 0 cancel the -16.
+        // Lightness ranges over 116 units, from -16 to 100.
         for (std::size_t i = 0; i < x.size(); ++i)
             found.pixels[i][kind] = std::hypot(x[i], y[i]) / 116;
     }
@@ -254,6 +263,9 @@ template <std::floating_point T, std::floating_point U, typename Make>
 }
 
 /// The number of pixels per degree of the visual field.
+/// \param distance  From the eye to the screen, in metres.
+/// \param width     Width of the screen, in metres.
+/// \param pixels    Pixels along the width.
 /// \return Pixels per degree; 67.0 for the defaults.
 [[nodiscard]] constexpr double pixels_per_degree(double distance = 0.7,
                                                  double width = 0.7,
@@ -261,10 +273,10 @@ template <std::floating_point T, std::floating_point U, typename Make>
     return distance * pixels / width * std::numbers::pi / 180;
 }
 
-/// The perceived difference of two colours without their surroundings.
-/// The HyAB distance is raised to the power 0.7 and mapped to [0, 1] by two linear
-/// pieces: differences above 0.4 of the largest one, between pure green and pure blue,
-/// are compressed into the last 0.05.
+/// The perceived difference of two linear sRGB colours, without their surroundings.
+/// The HyAB distance is raised to the power 0.7. The largest result, that of pure green
+/// and pure blue, is mapped to 1. Results up to 0.4 of the largest are mapped linearly
+/// to [0, 0.95], and larger ones linearly to [0.95, 1].
 /// \return 0 for equal colours, 1 for green and blue.
 [[nodiscard]] inline double color_error(const RgbT<double>& a, const RgbT<double>& b) {
     const auto powered = [](const RgbT<double>& p, const RgbT<double>& q) {
@@ -310,18 +322,18 @@ template <std::floating_point T, std::floating_point U>
 
 } // namespace detail
 
-/// FLIP of each pixel: how strongly a viewer who flips between two pictures sees it
-/// change.
-/// Detail too fine for the eye is blurred, channel by channel, before colours are
-/// compared. Where only one picture has an edge or a point, the colour difference is
-/// raised to a power below 1.
+/// FLIP of each pixel: how visible the change of the pixel is to a viewer who flips
+/// between two pictures.
+/// Before colours are compared, detail too fine for the eye is blurred. Where only one
+/// picture has an edge or a point, the colour difference is raised to a power below 1,
+/// which makes it larger.
 /// \param image      Linear sRGB; clamped to [0, 1], as on a screen.
 /// \param reference  The other picture, of the same size.
-/// \param ppd        From pixels_per_degree().
+/// \param ppd        Pixels per degree of the visual field, from pixels_per_degree().
 /// \return A grey image in [0, 1]; 0 where no difference is visible.
-/// \throws std::invalid_argument  as require_same_size(), or for a ppd outside
-///         [1, 1000].
-/// \cost Proportional to pixels times ppd.
+/// \throws std::invalid_argument  if the sizes differ, or if ppd is not within [1,
+///         1000].
+/// \cost Proportional to the number of pixels times ppd.
 /// \cite andersson2020
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] ImageT<double> flip_map(const ImageT<T>& image,
@@ -336,10 +348,13 @@ template <std::floating_point T, std::floating_point U>
 }
 
 /// The mean of flip_map().
-/// *Trap*: FLIP is made for pictures shown alternately at the same spot of a screen, at
-/// a given distance and exposure. The values of several errors cannot be added, and no
-/// theory predicts how fast FLIP falls with more rays.
-/// \return In [0, 1]; symmetric in the two pictures.
+/// *Trap*: FLIP is valid for pictures shown alternately at the same place of a screen,
+/// for one viewing distance and one exposure. The FLIP values of several errors cannot
+/// be added.
+/// \param image      Linear sRGB; clamped to [0, 1], as on a screen.
+/// \param reference  The other picture, of the same size.
+/// \param ppd        Pixels per degree of the visual field, from pixels_per_degree().
+/// \return A number in [0, 1]; exchanging the two pictures does not change it.
 /// \throws std::invalid_argument  as flip_map().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double flip(const ImageT<T>& image, const ImageT<U>& reference,

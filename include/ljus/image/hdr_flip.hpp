@@ -18,14 +18,14 @@ namespace detail {
 
 /// The range of exposures of HDR-FLIP.
 struct Exposures {
-    double first = 0; ///< In stops: the brightest pixel is nearly white.
-    double last = 0;  ///< In stops: half of the picture is nearly white.
+    double first = 0; ///< In stops: here the brightest pixel is nearly white.
+    double last = 0;  ///< In stops: here half of the pixels are nearly white.
     int count = 2;    ///< Number of exposures, about one per stop, at least 2.
 };
 
-/// A film's response, which maps any light to [0, 1]: Narkowicz's fit of ACES, without
-/// its built-in exposure.
-/// \return In [0, 1]; 0 for NaN and negatives, 0.85 at 2.119.
+/// The response of a film to light x, by Narkowicz's fit of the ACES curve, without the
+/// exposure built into the fit.
+/// \return A number in [0, 1]; 0 for NaN and negative x, 0.85 for x = 2.119.
 [[nodiscard]] inline double film_curve(double x) noexcept {
     if (!(x > 0)) return 0;
     const double y = std::min(x, 1e100); // its square must not overflow
@@ -34,8 +34,8 @@ struct Exposures {
 }
 
 /// The range of exposures at which a picture shows details.
-/// \return The range from the exposure that maps the brightest luminance to 0.85 of
-///         film_curve(), to the one that maps the median luminance to it.
+/// \return The first exposure maps the brightest luminance to 0.85 by film_curve(). The
+///         last exposure maps the median luminance to 0.85.
 template <std::floating_point T>
 [[nodiscard]] Exposures exposures_of(const ImageT<T>& reference) {
     check(reference);
@@ -62,13 +62,15 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// HDR-FLIP of each pixel: the largest flip_map() over exposures_of(reference).
+/// HDR-FLIP of each pixel: the largest flip_map() over a range of exposures.
 /// \param image      Linear sRGB of any brightness.
-/// \param reference  The reference, of the same size; it alone sets the exposures.
-/// \param ppd        From pixels_per_degree().
+/// \param reference  The reference, of the same size. It alone determines the
+///                   exposures.
+/// \param ppd        Pixels per degree of the visual field, from pixels_per_degree().
 /// \return A grey image in [0, 1].
 /// \throws std::invalid_argument  as flip_map().
-/// \cost exposures_of().count times flip_map().
+/// \cost That of flip_map(), times about the number of stops between the brightest and
+///       the median luminance.
 /// \cite andersson2021
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] ImageT<double> hdr_flip_map(const ImageT<T>& image,
@@ -100,7 +102,12 @@ template <std::floating_point T, std::floating_point U>
 }
 
 /// The mean of hdr_flip_map().
-/// \return In [0, 1]; scaling both pictures by one number does not change it.
+/// \param image      Linear sRGB of any brightness.
+/// \param reference  The reference, of the same size. It alone determines the
+///                   exposures.
+/// \param ppd        Pixels per degree of the visual field, from pixels_per_degree().
+/// \return A number in [0, 1]. It stays the same if both pictures are scaled by one
+///         number.
 /// \throws std::invalid_argument  as flip_map().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double hdr_flip(const ImageT<T>& image, const ImageT<U>& reference,

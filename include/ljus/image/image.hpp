@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/image/image.hpp
-/// \brief An image: width times height linear colours.
+/// \brief An image: a rectangle of linear colours.
 
 #include <cassert>
 #include <concepts>
@@ -33,8 +33,8 @@ struct ImageT {
 using Image = ImageT<float>; ///< ImageT in float.
 
 /// Requires a valid image size.
-/// \throws std::invalid_argument  unless both are at least 1 and the image has at most
-///         max_pixels.
+/// \throws std::invalid_argument  unless width and height are at least 1 and their
+///         product is at most max_pixels.
 inline void require_image_size(long long width, long long height) {
     // The division avoids an overflow of the product.
     if (width >= 1 && height >= 1 && width <= max_pixels / height) return;
@@ -46,7 +46,7 @@ inline void require_image_size(long long width, long long height) {
     throw std::invalid_argument(text);
 }
 
-/// An image of one colour.
+/// Makes an image of one colour, which is black by default.
 /// \throws std::invalid_argument  as require_image_size(), before memory is allocated.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> make_image(int width, int height,
@@ -57,8 +57,8 @@ template <std::floating_point T = float>
     return {.width = width, .height = height, .pixels = {count, fill}};
 }
 
-/// Requires that an image has the number of pixels of its size.
-/// \throws std::invalid_argument  unless pixels.size() = width * height, at least 1.
+/// Requires that an image has width * height pixels.
+/// \throws std::invalid_argument  unless it has, and as require_image_size().
 template <std::floating_point T>
 void check(const ImageT<T>& image) {
     require_image_size(image.width, image.height);
@@ -110,9 +110,12 @@ template <std::floating_point T>
     return image.pixels[detail::pixel_index(image, x, y)];
 }
 
-/// Requires a picture of radiances, at least one of which is not black.
-/// \throws std::invalid_argument  as check(); with the pixel, if one is negative or not
-///         finite; if all are black.
+/// Requires an image of radiances that are finite and at least 0. One of them at least
+/// must be above 0.
+/// \param what   The name of the image, for the message.
+/// \param image  The image.
+/// \throws std::invalid_argument  as check(); if a pixel is negative or not finite,
+///         with its column and row; or if all pixels are black.
 template <std::floating_point T>
 void require_radiance(std::string_view what, const ImageT<T>& image) {
     check(image);

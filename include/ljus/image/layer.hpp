@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/image/layer.hpp
-/// \brief Images with names: a picture, and what belongs to each of its pixels.
+/// \brief Layers: named images that belong to one picture.
 
 #include <string>
 #include <vector>
@@ -11,23 +11,22 @@
 namespace ljus {
 
 /// \defgroup layer Layers
-/// \brief The pixels of a picture again, with other values: normals, depths, or the
-/// light of some paths. An EXR file holds many; see \ref exr.
+/// \brief A layer holds other values for the pixels of a picture: normals, depths, or
+/// the light of some paths. An EXR file can contain many layers; see \ref exr.
 /// \{
 
 /// One layer of a picture.
 template <std::floating_point T>
 struct LayerT {
-    std::string name{};                               ///< As "albedo"; "": the picture.
-    std::vector<std::string> channels{"R", "G", "B"}; ///< Three, or one.
-    ImageT<T> image{}; ///< The values. One channel stands in all three.
+    std::string name{}; ///< E.g. "albedo"; "" for the picture.
+    std::vector<std::string> channels{"R", "G", "B"}; ///< Three names, or one.
+    ImageT<T> image{}; ///< The values. A single channel is repeated in all three.
 };
 using Layer = LayerT<float>; ///< LayerT in float.
 
-/// The full name of a channel, as OpenEXR has it: "albedo.R", or "Z" in a layer without
-/// a name.
+/// The full name of a channel in OpenEXR: "albedo.R", or "Z" in a layer without a name.
 /// \param layer    The layer.
-/// \param channel  Its number, below channels.size().
+/// \param channel  The index of the channel, below channels.size().
 template <std::floating_point T>
 [[nodiscard]] std::string channel_name(const LayerT<T>& layer, std::size_t channel) {
     const std::string& own = layer.channels[channel];

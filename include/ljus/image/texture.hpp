@@ -16,41 +16,43 @@
 namespace ljus {
 
 /// \defgroup texture Textures
-/// \brief A map from a point to (u, v), and a colour for each (u, v).
+/// \brief A map gives (u, v) for each point of a surface. A texture gives a colour for
+/// each (u, v).
 ///
-/// A texture is a type with `color_at(texture, place, uv)` and `check(texture)`. A map
-/// is a type with `map_coordinates(map, place, uv)` and `check(map)`. `place` is a
-/// point in scene units, and `uv` are its coordinates on its own shape, see
-/// texture_coordinates(). A texture receives uv only if it declares
-/// `static constexpr bool uses_uv = true`, otherwise (0, 0). Both textures here repeat
-/// with period 1 in u and in v, unless a picture has another PictureWrap.
+/// A texture is a type with the functions `color_at(texture, place, uv)` and
+/// `check(texture)`. A map is a type with the functions
+/// `map_coordinates(map, place, uv)` and `check(map)`. `place` is the point in scene
+/// units. `uv` are the coordinates of the point on its own shape, see
+/// texture_coordinates(). A type receives `uv` only if it declares
+/// `static constexpr bool uses_uv = true`; otherwise `uv` is (0, 0). Both textures here
+/// repeat with period 1 in u and in v, unless a picture has another PictureWrap.
 /// \{
 
-/// Coordinates on a plane, projected orthogonally onto all surfaces: `origin` is
-/// (0, 0), `origin + edge_u` is (1, 0).
+/// Projects each point of a surface orthogonally onto a plane. The point `origin` of
+/// the plane has (u, v) = (0, 0), and `origin + edge_u` has (1, 0).
 template <std::floating_point T>
 struct PlaneMapT {
     Vec3T<T> origin{T(0)};             ///< The point with (u, v) = (0, 0).
-    Vec3T<T> edge_u{T(1), T(0), T(0)}; ///< One repetition in u, in scene units.
-    Vec3T<T> edge_v{T(0), T(0), T(1)}; ///< One in v, at right angles to edge_u.
+    Vec3T<T> edge_u{T(1), T(0), T(0)}; ///< From u = 0 to u = 1, in scene units.
+    Vec3T<T> edge_v{T(0), T(0), T(1)}; ///< From v = 0 to v = 1; normal to edge_u.
 };
 using PlaneMap = PlaneMapT<float>; ///< PlaneMapT in float.
 
-/// Longitude and latitude around a centre, see globe_coordinates().
+/// Maps a point to its longitude and latitude around a centre, see globe_coordinates().
 template <std::floating_point T>
 struct GlobeMapT {
-    Vec3T<T> center{T(0)}; ///< Centre of the globe.
+    Vec3T<T> center{T(0)}; ///< Centre of the globe, in scene units.
 };
 using GlobeMap = GlobeMapT<float>; ///< GlobeMapT in float.
 
-/// The coordinates of the shape itself; a mesh has them from its file. They are scaled,
-/// then turned, then displaced.
+/// Uses the coordinates of the point on its own shape, which a mesh reads from its
+/// file. The coordinates are scaled, then rotated, then displaced.
 template <std::floating_point T>
 struct UvMapT {
     static constexpr bool uses_uv = true; ///< See texture_coordinates().
     Vec2T<T> scale{T(1)};                 ///< Repetitions per unit of u and v.
-    Vec2T<T> turn{T(1), T(0)}; ///< Unit: where the direction (1, 0) is turned to.
-    Vec2T<T> offset{T(0)};     ///< In repetitions.
+    Vec2T<T> turn{T(1), T(0)};            ///< Cosine and sine of the angle of rotation.
+    Vec2T<T> offset{T(0)};                ///< Displacement, in repetitions.
 };
 using UvMap = UvMapT<float>; ///< UvMapT in float.
 
@@ -58,7 +60,7 @@ using UvMap = UvMapT<float>; ///< UvMapT in float.
 template <typename M>
 concept UsesUv = M::uses_uv;
 
-/// The coordinates (u, v) of a point on a plane, in repetitions.
+/// The coordinates (u, v) of a point projected onto a plane, in repetitions.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> map_coordinates(const PlaneMapT<T>& map, const Vec3T<T>& place,
                                        const Vec2T<T>& = Vec2T<T>{T(0)}) noexcept {
@@ -85,11 +87,11 @@ template <std::floating_point T>
            map.offset;
 }
 
-/// A direction in a picture as one on the shape: turned back, and mirrored where the
-/// scale is negative.
+/// Converts a direction in a picture to the direction on the shape. The direction is
+/// rotated back, and mirrored where the scale is negative.
 /// \param map    How the picture lies on the shape.
-/// \param along  Along u and v of the picture.
-/// \return Along u and v of the shape, of the same length.
+/// \param along  The direction's components along u and v of the picture.
+/// \return The components along u and v of the shape. The length stays the same.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> direction_on_shape(const UvMapT<T>& map,
                                           const Vec2T<T>& along) noexcept {
@@ -99,8 +101,8 @@ template <std::floating_point T>
                 (map.turn.x * along.y - map.turn.y * along.x)};
 }
 
-/// Requires finite edges that are not zero.
-/// \throws std::invalid_argument naming the edge.
+/// Requires a finite origin, and finite edges that are not zero.
+/// \throws std::invalid_argument  with the name of the member and its value.
 template <std::floating_point T>
 void check(const PlaneMapT<T>& map) {
     require_finite("plane_map.origin", map.origin);
@@ -111,41 +113,40 @@ void check(const PlaneMapT<T>& map) {
 }
 
 /// Requires a finite centre.
-/// \throws std::invalid_argument naming the centre.
+/// \throws std::invalid_argument  with the centre.
 template <std::floating_point T>
 void check(const GlobeMapT<T>& map) {
     require_finite("globe_map.center", map.center);
 }
 
-/// Requires a finite scale that is not zero, a direction and a finite offset.
-/// \throws std::invalid_argument naming the member.
+/// Requires a finite scale that is not zero, a `turn` of unit length and a finite
+/// offset.
+/// \throws std::invalid_argument  with the name of the member and its value.
 template <std::floating_point T>
 void check(const UvMapT<T>& map) {
     for (const T scale : {map.scale.x, map.scale.y})
         require(std::isnormal(scale), "uv_map.scale", scale, "finite and not 0");
     const T length = glm::dot(map.turn, map.turn);
     require(std::abs(length - T(1)) < T(1e-3), "the squared length of uv_map.turn",
-            length, "1: it is the cosine and the sine of an angle");
+            length, "1, because it is the cosine and the sine of an angle");
     for (const T offset : {map.offset.x, map.offset.y})
         require(std::isfinite(offset), "uv_map.offset", offset, "finite");
 }
 
 /// A chessboard of `columns` by `rows` squares per repetition.
-/// It is a plane pattern. With a solid checker that changes at y = 0, rounding would
-/// decide the colour of each pixel of a floor at y = 0.
 template <std::floating_point T, typename Map = PlaneMapT<T>>
 struct CheckerT {
     static constexpr bool uses_uv = UsesUv<Map>; ///< As the map declares it.
     Map map{};                                   ///< Maps a point to (u, v).
     RgbT<T> even{T(0.9)}; ///< The colour of the square at (0, 0).
-    RgbT<T> odd{T(0.1)};  ///< The colour of its neighbours.
-    int columns = 2;      ///< Squares from u = 0 to 1; even.
-    int rows = 2;         ///< Squares from v = 0 to 1; even.
+    RgbT<T> odd{T(0.1)};  ///< The colour of the squares beside that.
+    int columns = 2;      ///< The number of squares from u = 0 to 1; even.
+    int rows = 2;         ///< The number of squares from v = 0 to 1; even.
 };
 using Checker = CheckerT<float>;                        ///< On a plane, in float.
 using GlobeChecker = CheckerT<float, GlobeMapT<float>>; ///< On a globe, in float.
 
-/// The colour of a checker at a point: one of the two.
+/// The colour of a checker at a point.
 template <std::floating_point T, typename Map>
 [[nodiscard]] RgbT<T> color_at(const CheckerT<T, Map>& checker, const Vec3T<T>& place,
                                const Vec2T<T>& uv = Vec2T<T>{T(0)}) noexcept {
@@ -155,8 +156,9 @@ template <std::floating_point T, typename Map>
     return std::abs(std::fmod(field, T(2))) < T(0.5) ? checker.even : checker.odd;
 }
 
-/// Requires colours within [0, 1] and even numbers of squares.
-/// \throws std::invalid_argument naming the member.
+/// Requires a valid map, colours within [0, 1] and even numbers of squares, from 2 to
+/// 1000000.
+/// \throws std::invalid_argument  with the name of the member and its value.
 template <std::floating_point T, typename Map>
 void check(const CheckerT<T, Map>& checker) {
     check(checker.map);
@@ -172,15 +174,15 @@ void check(const CheckerT<T, Map>& checker) {
 
 /// What a picture shows beyond its border.
 enum class PictureWrap : std::uint8_t {
-    repeat, ///< Itself again.
-    clamp,  ///< The pixels of its border.
-    mirror  ///< Its mirror image, then itself again.
+    repeat, ///< The picture again.
+    clamp,  ///< The colour of the nearest border pixel.
+    mirror  ///< The mirror image of the picture, then the picture again.
 };
 
-/// The colour between the centres of pixels.
+/// How the colour between the centres of pixels is found.
 enum class PictureFilter : std::uint8_t {
     bilinear, ///< Interpolated between four pixels.
-    nearest   ///< That of the pixel.
+    nearest   ///< The colour of the pixel that contains the point.
 };
 
 /// An image with its lower left corner at (0, 0) and its upper right corner at (1, 1).
@@ -189,8 +191,8 @@ struct PictureTextureT {
     static constexpr bool uses_uv = UsesUv<Map>; ///< As the map declares it.
     ImageT<T> image{}; ///< Linear colours in [0, 1], see load_image().
     Map map{};         ///< Maps a point to (u, v).
-    PictureWrap wrap = PictureWrap::repeat;         ///< Beyond its border.
-    PictureFilter filter = PictureFilter::bilinear; ///< Between its pixels.
+    PictureWrap wrap = PictureWrap::repeat;         ///< Beyond the border.
+    PictureFilter filter = PictureFilter::bilinear; ///< Between pixels.
 };
 using PictureTexture = PictureTextureT<float>; ///< On a plane, in float.
 /// A picture in the coordinates of the shape, in float.
@@ -205,7 +207,7 @@ template <std::floating_point T, typename Map>
     const Vec2T<T> at = map_coordinates(texture.map, place, uv);
     const bool repeats = texture.wrap == PictureWrap::repeat;
     const auto inside = [&](T x) {
-        if (texture.wrap == PictureWrap::mirror) // the distance to an even number
+        if (texture.wrap == PictureWrap::mirror) // distance to the nearest even number
             x = std::abs(x - T(2) * std::round(x / T(2)));
         if (!repeats) return x > T(0) ? std::min(x, T(1)) : T(0);
         // Below 1 even after rounding; 0 for NaN.
@@ -230,8 +232,10 @@ template <std::floating_point T, typename Map>
            dy * ((T(1) - dx) * color(left, top + 1) + dx * color(left + 1, top + 1));
 }
 
-/// Requires an image with at least one pixel and all channels within [0, 1].
-/// \throws std::invalid_argument naming the image or the pixel.
+/// Requires a valid map, and an image with at least one pixel and all channels within
+/// [0, 1].
+/// \throws std::invalid_argument  with the name of the member or the number of the
+///         pixel, and its value.
 template <std::floating_point T, typename Map>
 void check(const PictureTextureT<T, Map>& texture) {
     check(texture.map);

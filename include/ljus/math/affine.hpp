@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/math/affine.hpp
-/// \brief Affine maps: what moves, turns, scales, mirrors and shears a shape.
+/// \brief Affine maps, which move, turn, scale, mirror and shear a shape.
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,14 @@
 namespace ljus {
 
 /// \defgroup affine Affine maps
-/// \brief Points go to \f$Lp + b\f$, directions to \f$Lv\f$, normals to
-/// \f$L^{-T}n\f$. Chapter: \ref ch_instances.
+/// \brief An affine map is given by a 3x3 matrix L and a vector b. It maps a point p to
+/// \f$Lp + b\f$, a direction v to \f$Lv\f$ and a normal n to \f$L^{-T}n\f$. Chapter:
+/// \ref ch_instances.
 /// \{
 
-/// An affine map, as a matrix of GLM: its first three columns are the images of the
-/// axes and form L, the last one is the image of the origin, b. GLM's own functions
-/// make it: `Affine(glm::translate(glm::mat4(1), by))`.
+/// An affine map, as a GLM matrix of four columns. The first three columns form L: they
+/// are the images of the axes. The last column is b, the image of the origin. GLM's
+/// functions make such a matrix: `Affine(glm::translate(glm::mat4(1), by))`.
 template <std::floating_point T>
 using AffineT = glm::mat<4, 3, T>;
 using Affine = AffineT<float>; ///< AffineT in float.
@@ -38,9 +39,9 @@ template <std::floating_point T>
     return transform_vector(map, p) + map[3];
 }
 
-/// The image of a normal: it stays normal to the images of the surface's tangents, and
-/// on the image of its side, also if the map mirrors.
-/// \param inverse  The inverse_of() the map.
+/// The image of a normal. It is normal to the image of the surface and points to the
+/// same side, even if the map mirrors.
+/// \param inverse  The inverse of the map, from inverse_of().
 /// \param n        A vector along the normal.
 /// \return A vector along the image's normal, in general not of unit length.
 // [transform_normal]
@@ -51,14 +52,15 @@ template <std::floating_point T>
 }
 // [transform_normal]
 
-/// The determinant of L: the factor of volumes; negative if the map mirrors.
+/// The determinant of L: the factor by which the map scales volumes. It is negative if
+/// the map mirrors.
 template <std::floating_point T>
 [[nodiscard]] constexpr T determinant_of(const AffineT<T>& map) noexcept {
     return glm::dot(map[0], glm::cross(map[1], map[2]));
 }
 
 /// The inverse map, by Cramer's rule.
-/// \param map  Its determinant is not 0.
+/// \param map  The map, whose determinant must not be 0.
 template <std::floating_point T>
 [[nodiscard]] constexpr AffineT<T> inverse_of(const AffineT<T>& map) noexcept {
     const T d = determinant_of(map);
@@ -70,8 +72,8 @@ template <std::floating_point T>
     return back;
 }
 
-/// The largest factor by which a map stretches a length: the root of the largest
-/// eigenvalue of \f$L^T L\f$, in closed form \cite smith1961.
+/// The largest factor by which a map stretches a length. It is the square root of the
+/// largest eigenvalue of \f$L^T L\f$, computed in closed form \cite smith1961.
 template <std::floating_point T>
 [[nodiscard]] T largest_stretch(const AffineT<T>& map) noexcept {
     const T xx = glm::dot(map[0], map[0]), xy = glm::dot(map[0], map[1]);

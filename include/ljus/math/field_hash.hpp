@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/math/field_hash.hpp
-/// \brief A hash of all members of a struct: it records what a saved map was made of.
+/// \brief A hash of all members of a struct. A saved light map keeps the hash of
+/// everything that the map was computed from.
 
 #include <array>
 #include <bit>
@@ -15,7 +16,7 @@
 
 namespace ljus::detail {
 
-// The unsigned integer of the same size.
+// The unsigned integer type with the size of Number.
 template <typename Number>
 using BitsOf = std::conditional_t<sizeof(Number) == 8, std::uint64_t, std::uint32_t>;
 
@@ -40,7 +41,8 @@ constexpr std::uint64_t fnv_hash(std::uint64_t hash, unsigned char byte) noexcep
     return (hash ^ byte) * 0x100000001b3u;
 }
 
-// Converts to a member of any type, to count the members of an aggregate.
+// A value that converts to any type. member_count() uses it to count the members of an
+// aggregate.
 template <typename Whole>
 struct AnyMember {
     template <typename Member>
@@ -62,8 +64,9 @@ constexpr std::size_t member_count() noexcept {
         return member_count<A, N - 1>();
 }
 
-// FNV-1a over the numbers that values hold, in the order of their members, with the
-// lengths of lists. Names and padding do not count: the hash is the same everywhere.
+// The FNV-1a hash of all numbers in some values, in the order of the members. The
+// length of each list counts, names and padding do not. The hash is the same on every
+// machine.
 struct FieldHash {
     std::uint64_t value = fnv_start;
 
@@ -72,7 +75,8 @@ struct FieldHash {
         (add_one(values), ...);
     }
 
-    // Tells apart types with equal members. The name depends on the compiler's family.
+    // Adds the name of a type, so that types with equal members differ. g++ and clang
+    // use the same name; another compiler may use another.
     template <typename V>
     void add_name_of() {
         for (const char* c = typeid(V).name(); *c != '\0'; ++c) add(*c);
@@ -91,7 +95,7 @@ private:
         } else if constexpr (requires { v.begin(), v.end(), v.size(); }) {
             add(std::uint64_t(v.size()));
             for (const auto& each : v) add(each);
-        } else if constexpr (requires { v.data(); }) { // made from data, like a mesh
+        } else if constexpr (requires { v.data(); }) { // a mesh
             add(v.data());
         } else {
             static_assert(std::is_aggregate_v<V>,

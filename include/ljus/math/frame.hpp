@@ -21,12 +21,12 @@ struct FrameT {
 };
 using Frame = FrameT<float>; ///< FrameT in float.
 
-/// A frame around a normal: the branchless construction of \cite duff2017, whose
-/// sign keeps it exact near -z, where Frisvad's earlier form divides by almost zero.
+/// Makes a frame around a normal, by the construction of \cite duff2017. It has no
+/// branch and is accurate for all normals, even near -z.
 /// \param n  Unit vector.
-/// \return A right-handed frame: each length within 2 units of roundoff of 1, and each
-///         product of two within 4 of 0, if the coordinates of n are rounded once; for
-///         n from glm::normalize(), which itself is up to 3 off, within 3 and 8.
+/// \return A right-handed frame. For n from glm::normalize(), each length is within 3
+///         units of roundoff of 1, and the dot product of each two vectors is within 8
+///         of 0.
 /// \cost One division, no square root, no branch.
 template <std::floating_point T>
 [[nodiscard]] FrameT<T> frame_around(const Vec3T<T>& n) noexcept {

@@ -19,14 +19,14 @@ namespace detail {
 
 /// \defgroup lanes Lanes
 /// \brief Eight numbers in loops of constant length, which compilers turn into vector
-/// instructions. A long body, a choice between products, and shifts that differ by lane
-/// prevent that.
+/// instructions. Compilers fail to do so if the body of a loop is long, chooses between
+/// products, or shifts each lane by another number of bits.
 /// \{
 
 inline constexpr int lane_count = 8;
 
-/// Calls `body(i)` for each of eight lanes, in a loop that is not unrolled.
-/// g++ unrolls inner loops before it vectorises, and then finds no vector any more.
+/// Calls `body(i)` for each of eight lanes, in a loop that is not unrolled. g++ would
+/// unroll the loop before it looks for vector instructions, and then would find none.
 /// \param body  Called with an int in [0, 8).
 template <typename Body>
 constexpr void for_lanes(Body&& body) noexcept {
@@ -47,7 +47,7 @@ struct alignas(32) LanesT {
 };
 using Lanes = LanesT<float>; ///< LanesT in float.
 
-/// Eight points, directions or colours, by coordinate.
+/// Eight points, directions or colours, stored coordinate by coordinate.
 template <std::floating_point T>
 struct alignas(32) Lanes3T {
     T x[lane_count]; ///< First coordinates.
@@ -65,21 +65,21 @@ struct alignas(32) Lanes3T {
 };
 using Lanes3 = Lanes3T<float>; ///< Lanes3T in float.
 
-/// Eight answers: -1 (all bits set) for yes, 0 for no.
+/// Eight truth values: -1, with all bits set, for true, and 0 for false.
 struct alignas(32) LaneMask {
     std::int32_t lane[lane_count]; ///< -1 or 0.
 };
 
-/// Packs a mask into one byte per lane, for take_lane(). It is written in two steps
-/// that compilers know: narrow to bytes, then move the bytes into one register.
-/// \return 1 in the byte of each lane that says yes; 0 if none does.
+/// Packs a mask into an integer with one byte per lane, for take_lane().
+/// \return The byte is 1 for a lane that is true, and 0 for the others.
 [[nodiscard]] constexpr std::uint64_t yes_lanes(const LaneMask& mask) noexcept {
     std::array<std::int8_t, lane_count> bytes{};
     for (std::size_t i = 0; i < lane_count; ++i)
         bytes[i] = static_cast<std::int8_t>(mask.lane[i]);
     return std::bit_cast<std::uint64_t>(bytes) & 0x0101010101010101u;
 }
-/// Removes one lane from the set that yes_lanes() returned.
+/// Removes one lane from the set that yes_lanes() returned. The set must not be empty.
+/// \return The index of the removed lane, in [0, 8).
 [[nodiscard]] constexpr std::size_t take_lane(std::uint64_t& lanes) noexcept {
     const auto place = static_cast<std::size_t>(std::countr_zero(lanes)) / 8;
     lanes &= lanes - 1;
@@ -96,13 +96,14 @@ template <std::floating_point T>
     return bits;
 }
 
-/// The index of the smallest of eight numbers, up to a difference in the last three
-/// bits.
-/// The bits of numbers >= 0 are ordered like the numbers. Their last three bits are
-/// replaced by the index, so that the smallest integer gives both.
+/// The index of the smallest of eight numbers. Numbers that differ in their last three
+/// bits only count as equal.
+/// As integers, the bits of numbers >= 0 are ordered like the numbers. The function
+/// replaces the last three bits of each number by the index of its lane. The smallest
+/// integer then contains the index of the smallest number.
 /// \param numbers  The numbers; those in `among` must be >= 0.
 /// \param among    Bit mask of the lanes that count, with lane 0 in the lowest bit.
-/// \param bound    Larger numbers do not count, nor does NaN.
+/// \param bound    Numbers above `bound` and NaN do not count.
 /// \return The index, or 8 if no number counts.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::uint32_t
@@ -124,13 +125,14 @@ smallest_lane(const LanesT<T>& numbers, std::uint32_t among, T bound) noexcept {
 } // namespace detail
 
 /// \defgroup prefetch Prefetching
-/// \brief Reading memory takes hundreds of cycles; a prefetch starts it early.
+/// \brief A read from memory takes hundreds of cycles. A prefetch starts the read
+/// early.
 /// \{
 
 namespace detail {
 
-/// Hints that `lines` cache lines of 64 bytes will soon be read. Results do not depend
-/// on it, and compilers without such a hint ignore it.
+/// Hints that `lines` cache lines of 64 bytes, from `address` on, will soon be read.
+/// The hint does not change results. Compilers without such a hint ignore it.
 template <int lines = 1>
 inline void prefetch([[maybe_unused]] const void* address) noexcept {
 #if defined(__GNUC__) // clang defines it, too

@@ -12,10 +12,10 @@ namespace ljus {
 /// \defgroup low_discrepancy Low-discrepancy numbers
 /// \brief Points that fill the unit cube more evenly than random ones.
 ///
-/// The error of a mean of N random points falls like \f$N^{-1/2}\f$. The first
-/// \f$2^m\f$ Sobol points put one point into each cell of every dyadic grid. For a
-/// smooth function of few dimensions the error of scrambled points falls almost like
-/// \f$N^{-3/2}\f$; with edges it is larger, but below that of random points.
+/// The error of a mean over N random points falls like \f$N^{-1/2}\f$. For a smooth
+/// function of few dimensions, the error with scrambled Sobol points falls almost like
+/// \f$N^{-3/2}\f$. For a function with edges it falls more slowly, but remains below
+/// the error with random points.
 /// \{
 
 namespace detail {
@@ -23,13 +23,13 @@ namespace detail {
 /// The number of dimensions of sobol().
 inline constexpr std::uint32_t sobol_dimensions = 16;
 
-/// The direction numbers of all dimensions: bit i of the index flips the bits [d][i]
-/// in dimension d.
+/// The direction numbers of all dimensions. If bit i of a point's index is set, the
+/// coordinate in dimension d is combined with entry [d][i] by exclusive or.
 using SobolTable = std::array<std::array<std::uint32_t, 32>, sobol_dimensions>;
 
-/// Computes the direction numbers at compile time, by the recurrence of Joe and Kuo,
-/// from a primitive polynomial (degree s, inner coefficients a) and s odd numbers per
-/// dimension \cite joe2008.
+/// Computes the direction numbers at compile time, by the recurrence of Joe and Kuo
+/// \cite joe2008. Each dimension has a primitive polynomial, given by its degree s and
+/// its inner coefficients a, and s odd numbers m.
 [[nodiscard]] constexpr SobolTable make_sobol_table() noexcept {
     struct Seed {
         unsigned s, a, m[6];
@@ -66,13 +66,13 @@ using SobolTable = std::array<std::array<std::uint32_t, 32>, sobol_dimensions>;
 inline constexpr SobolTable sobol_table = make_sobol_table();
 
 /// One coordinate of a Sobol point \cite sobol1967.
-/// \return The coordinate times 2^32. The first 2^m points are a (t,m,s)-net: t is 0
-///         in each dimension alone and in dimensions 0 and 1 together.
+/// \return The coordinate times 2^32. In each dimension, each of 2^m equal intervals
+///         contains one of the first 2^m points.
 /// \cost 32 exclusive ors, eight or four at a time.
 [[nodiscard]] constexpr std::uint32_t sobol(std::uint32_t index,
                                             std::uint32_t dimension) noexcept {
     std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < 32; ++i) // without branches: bits are unpredictable
+    for (std::size_t i = 0; i < 32; ++i) // branches would be unpredictable
         bits ^= detail::sobol_table[dimension][i] & (0u - ((index >> i) & 1u));
     return bits;
 }
@@ -85,23 +85,23 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
     return (x >> 16) | (x << 16);
 }
 
-/// Owen's scrambling of one coordinate by a hash: whether a bit is flipped depends on
-/// the seed and on all higher bits. This permutes the halves of [0, 1), the halves of
-/// each half, and so on. The points therefore stay evenly spread, and each point alone
-/// becomes uniform over [0, 1).
+/// Owen's scrambling of one coordinate \cite owen1995, by a hash \cite burley2020.
+/// Whether a bit is flipped depends on the seed and on all higher bits. This permutes
+/// the halves of [0, 1), the halves of each half, and so on. The points therefore stay
+/// evenly spread, and each point alone becomes uniform over [0, 1).
 ///
-/// In a sum or a product, each bit depends on the same and on lower bits of the
-/// operands only. The function therefore reverses the bits, hashes them by sums and
-/// products, and reverses them again.
-/// \param seed  Another seed per dimension; seeds that differ only in their last bits
-///              give correlated dimensions.
-/// \cite owen1995 \cite burley2020
+/// In a sum or a product, a bit depends on lower bits and not on higher ones. The
+/// function therefore reverses the bits, hashes them by sums and products, and reverses
+/// them again.
+/// \param bits  The coordinate times 2^32.
+/// \param seed  The seed, different for each dimension. Seeds that differ only in their
+///              last bits give correlated dimensions.
 // [owen]
 [[nodiscard]] constexpr std::uint32_t owen_scrambled(std::uint32_t bits,
                                                      std::uint64_t seed) noexcept {
     const std::uint64_t key = mix_bits(seed);
     std::uint32_t x = reversed_bits(bits);
-    x ^= x * 0x3d20adeau; // an even factor keeps this invertible
+    x ^= x * 0x3d20adeau; // invertible, because the factor is even
     x += static_cast<std::uint32_t>(key);
     x *= static_cast<std::uint32_t>(key >> 32) | 1u;
     x ^= x * 0x05526c56u;
@@ -112,15 +112,15 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 
 } // namespace detail
 
-/// The numbers of one path among many that are to be spread evenly together. The first
-/// sobol_dimensions numbers are a scrambled Sobol point; all further ones are random.
-/// It is used like a RandomStream.
+/// The numbers of one path. The numbers of all paths of a pass are spread evenly
+/// together. The first sobol_dimensions numbers of a path are a scrambled Sobol point,
+/// and all further ones are random. A SobolStream is used like a RandomStream.
 ///
-/// Each number is uniform, so that no mean changes. The numbers of one path are
-/// independent; those of different paths are stratified.
+/// Each number alone is uniform, so that means stay the same. The numbers of one path
+/// are independent of each other.
 struct SobolStream {
     std::uint64_t seed = 0;      ///< Seed of the scrambling; the same for all paths.
-    std::uint32_t index = 0;     ///< Index of the point.
+    std::uint32_t index = 0;     ///< Index of the Sobol point.
     std::uint32_t dimension = 0; ///< The next dimension.
     RandomStream rest{};         ///< Supplies the numbers after the last dimension.
 };
@@ -129,7 +129,8 @@ struct SobolStream {
 /// \param seed       The user's seed.
 /// \param pass       The pass that draws.
 /// \param iteration  The repetition of the pass; each has its own scrambling.
-/// \param path       The path's number in the pass; after 2^32 the scrambling changes.
+/// \param path       The path's number in the pass. The scrambling changes after each
+///                   2^32 paths.
 /// \return A stream at dimension 0.
 [[nodiscard]] constexpr SobolStream sobol_stream(std::uint64_t seed, Pass pass,
                                                  std::uint64_t iteration,
@@ -141,21 +142,24 @@ struct SobolStream {
 
 namespace detail {
 
-/// A stream with random numbers only, for code that is compiled once for both kinds.
+/// A SobolStream that gives only the random numbers of `rest`. Code that is compiled
+/// for a SobolStream can thus also use plain random numbers.
 [[nodiscard]] constexpr SobolStream without_points(const RandomStream& rest) noexcept {
     return {.dimension = sobol_dimensions, .rest = rest};
 }
 
 } // namespace detail
 
-/// Moves a stream to the start of a bounce. The dimensions of the Sobol point are not
-/// reset: paths that draw equally often per bounce use the same dimensions there.
+/// Moves the random numbers after the Sobol point to the start of a bounce. The
+/// dimensions of the Sobol point are used in the order of the draws, whatever the
+/// bounce.
 constexpr void start_bounce(SobolStream& stream, std::uint64_t bounce) noexcept {
     start_bounce(stream.rest, bounce);
 }
 
 /// The next number, uniform in [0, 1), never 1; uses one dimension.
-/// \return A multiple of 2^-24 (float) or 2^-32 (double, while the dimensions last).
+/// \return A multiple of 2^-24 in float. In double it is a multiple of 2^-32 from the
+///         Sobol point, and of 2^-53 after that.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(SobolStream& stream) noexcept {
     const std::uint32_t d = stream.dimension;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/math/piecewise_constant.hpp
-/// \brief Cells of a grid, chosen in proportion to their weights.
+/// \brief Samples the cells of a grid in proportion to their weights.
 
 #include <algorithm>
 #include <cmath>
@@ -13,20 +13,21 @@
 namespace ljus {
 
 /// \defgroup piecewise_constant Piecewise constant densities
-/// \brief Inversion of a density that is constant in each cell of a grid, as for a
-/// picture that is a light \cite pharr2023. Chapter: \ref ch_environment.
+/// \brief Sampling, by inversion, of a density that is constant in each cell of a grid
+/// \cite pharr2023. A picture that serves as a light has such a density. Chapter:
+/// \ref ch_environment.
 /// \{
 
-/// Cumulative sums of the weights of a grid's cells, for sample_cell(); in double,
-/// because one cell may weigh 1e9 times as much as its neighbours.
+/// Cumulative sums of the weights of a grid's cells, for sample_cell(). They are
+/// double, because one cell may weigh 1e9 times as much as its neighbours.
 struct PiecewiseConstant2D {
     int width = 0;             ///< Cells per row.
     int height = 0;            ///< Number of rows.
-    std::vector<double> rows;  ///< The weight of all rows up to each row.
-    std::vector<double> cells; ///< Row by row: the weight up to each cell in its row.
+    std::vector<double> rows;  ///< For each row: the weight of the rows up to it.
+    std::vector<double> cells; ///< For each cell: the weight of its row up to it.
 };
 
-/// Sums up weights.
+/// Computes the cumulative sums of a grid's weights.
 /// \param width   Cells per row, at least 1.
 /// \param height  Number of rows, at least 1.
 /// \param weight  Called as weight(x, y) for each cell; returns at least 0.
@@ -67,18 +68,20 @@ namespace detail {
 
 template <std::floating_point T>
 struct ChosenIntervalT {
-    int index = 0;   ///< Its number.
-    T within = T(0); ///< In [0, 1].
+    int index = 0;   ///< The number of the interval.
+    T within = T(0); ///< Position in the interval, in [0, 1].
 };
 
-/// Chooses an interval in proportion to its length.
-/// \param sums  The sum of all lengths up to each interval.
-/// \param u     In [0, 1); what is left of it gives the position in the interval.
+/// Chooses an interval with a probability proportional to its length, and a position in
+/// the interval, uniformly.
+/// \param sums  For each interval, the sum of the lengths up to its end.
+/// \param u     A random number in [0, 1).
 // [choose_interval]
 template <std::floating_point T>
 [[nodiscard]] ChosenIntervalT<T> choose_interval(std::span<const double> sums,
                                                  T u) noexcept {
-    // Below the sum, and so before the end of an interval whose length is not 0.
+    // The place stays below the sum. It is therefore in an interval whose length is not
+    // 0.
     const double place =
         std::min(double(u) * sums.back(), std::nextafter(sums.back(), 0.0));
     const auto end = std::upper_bound(sums.begin(), sums.end(), place);
@@ -90,9 +93,9 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Chooses a cell with a probability proportional to its weight, and a point in it,
-/// uniformly. Neighbours in u stay neighbours, so that stratified numbers stay
-/// stratified.
+/// Chooses a cell with a probability proportional to its weight, and a point in the
+/// cell, uniformly. Close u give close points, so that stratified u give stratified
+/// points.
 /// \return A cell whose weight is not 0.
 /// \cost Two binary searches.
 // [sample_cell]
@@ -105,9 +108,9 @@ template <std::floating_point T>
 }
 // [sample_cell]
 
-/// The probability that sample_cell() chooses a cell: its part of the sum of all
-/// weights.
-/// \param density  The weights.
+/// The probability that sample_cell() chooses a cell: the cell's weight over the sum of
+/// all weights.
+/// \param density  The cumulative sums of the weights.
 /// \param x        Column, in [0, width).
 /// \param y        Row, in [0, height).
 [[nodiscard]] inline double probability_of_cell(const PiecewiseConstant2D& density,

@@ -17,22 +17,23 @@
 namespace ljus {
 
 /// \defgroup polynomial Polynomials
-/// \brief Section 2.1: isosurfaces "treated analytically". Chapter: \ref ch_metaballs.
+/// \brief Section 2.1: isosurfaces are "treated analytically", as roots of polynomials.
+/// Chapter: \ref ch_metaballs.
 /// \{
 
 namespace detail {
 
-/// A polynomial of degree N on [0, 1], given by its Bernstein coefficients:
+/// A polynomial p of degree N on [0, 1], given by its Bernstein coefficients c_i:
 /// \f[ p(u) = \sum_{i=0}^{N} c_i \binom{N}{i} u^i (1 - u)^{N-i}. \f]
-/// c_0 and c_N are p(0) and p(1), and p stays between the smallest and the largest
-/// coefficient. The number of roots in (0, 1) is the number of sign changes of the
-/// coefficients, or less by an even number \cite farouki2012.
+/// c_0 is p(0), and c_N is p(1). On [0, 1], p stays between the smallest and the
+/// largest coefficient. The number of roots in (0, 1) is the number of sign changes of
+/// the coefficients, or smaller by an even number \cite farouki2012.
 template <std::floating_point T, std::size_t N>
 struct BernsteinT {
     std::array<T, N + 1> c{}; ///< c_0 to c_N.
 };
 
-/// The coefficients 1, N, ..., N, 1 of (a + b)^N.
+/// The binomial coefficients 1, N, ..., N, 1 of (a + b)^N.
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] constexpr std::array<T, N + 1> binomials() noexcept {
     std::array<T, N + 1> row{T(1)};
@@ -40,8 +41,8 @@ template <std::floating_point T, std::size_t N>
     return row;
 }
 
-/// p(u) for u in [0, 1], with an error of at most 3 N units of roundoff of the largest
-/// |c_i|.
+/// The value p(u), for u in [0, 1]. The error is at most 3 N units of roundoff times
+/// the largest |c_i|.
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] constexpr T value_at(const BernsteinT<T, N>& p, T u) noexcept {
     constexpr auto binomial = binomials<T, N>();
@@ -74,7 +75,8 @@ template <std::floating_point T, std::size_t N>
     return changes;
 }
 
-/// A bound of the rounding error of a polynomial's values: 8 eps max |c_i|.
+/// A bound on the rounding error of the values of a polynomial: 8 times the machine
+/// epsilon times the largest |c_i|.
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] constexpr T noise(const BernsteinT<T, N>& p) noexcept {
     T largest = T(0);
@@ -82,10 +84,11 @@ template <std::floating_point T, std::size_t N>
     return T(8) * std::numeric_limits<T>::epsilon() * largest;
 }
 
-/// The root between two points of opposite sign: Newton's method while each step is at
-/// most half as long as the last one, bisection otherwise.
-/// \return The root, within one unit of roundoff of 1 where p is steep.
-/// \cost At most 2 steps per bit of T.
+/// The root between a and b, where p has opposite signs. Each step is a step of
+/// Newton's method if that is at most half as long as the last step; otherwise the step
+/// bisects the interval.
+/// \return The root. Where p is steep, the error is at most one unit of roundoff of 1.
+/// \cost At most 2 steps per bit of T's mantissa.
 // [root_between]
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] T root_between(const BernsteinT<T, N>& p, T a, T b) noexcept {
@@ -109,7 +112,7 @@ template <std::floating_point T, std::size_t N>
 // [root_between]
 
 /// Roots in ascending order. A polynomial of degree N has at most N monotone pieces,
-/// with N + 1 ends; at most one root is found for each end.
+/// which have N + 1 ends. roots() finds at most one root per end.
 template <std::floating_point T, std::size_t N>
 struct RootsT {
     std::array<T, N + 1> at{}; ///< The first `count` are roots.
@@ -119,17 +122,17 @@ struct RootsT {
     void add(T root) noexcept { at[count++] = root; }
 };
 
-/// All roots of a polynomial in [0, 1].
-/// Between two neighbouring roots of its derivative a polynomial is monotone: it has
-/// one root there if the signs at the ends differ, otherwise none. The derivative's
-/// roots are found in the same way, down to degree 1 \cite yuksel2022. Nothing
-/// is divided by the leading coefficient, which may be tiny or 0.
-/// \param p          The polynomial. One that is not finite has no roots.
-/// \param tolerance  The error of its coefficients. A value at an extremum or an end
-///                   that is no larger counts as a root, so that no root is missed.
-/// \return Ascending roots. Each is an exact root of a polynomial that differs from p
-///         by at most 2 `tolerance` on [0, 1], and near each exact root of p there is
-///         one. A root of multiplicity m appears 1 to m times.
+/// All roots of a polynomial p in [0, 1].
+/// Between two neighbouring roots of its derivative, p is monotone. It has one root
+/// there if its signs at the two ends differ, and otherwise none. The roots of the
+/// derivative are found in the same way, down to degree 1 \cite yuksel2022. The leading
+/// coefficient may be tiny or 0.
+/// \param p          The polynomial, with finite coefficients.
+/// \param tolerance  The error of the coefficients. An extremum of p or an end of [0,
+///                   1] counts as a root if |p| is at most `tolerance` there.
+/// \return The roots in ascending order. Each is an exact root of a polynomial that
+///         differs from p by at most 2 `tolerance` on [0, 1]. Near each exact root of p
+///         there is a returned root. A root of multiplicity m appears 1 to m times.
 /// \cost At most N (N + 1) / 2 calls of root_between(); mostly 0 or 1.
 // [roots]
 template <std::floating_point T, std::size_t N>
@@ -171,11 +174,12 @@ template <std::floating_point T, std::size_t N>
 }
 // [roots]
 
-/// The first point at which a polynomial loses the sign that it has at 0.
-/// \param p  The polynomial; p(0), its first coefficient, is not 0.
-/// \return The first u in (0, 1] where p crosses zero, or comes within noise() of it at
-///         an extremum; nothing if p keeps its sign or is NaN.
-/// \cost No evaluation if the coefficients have one sign; one root if they change once.
+/// The first point at which a polynomial p loses the sign that it has at 0.
+/// \param p  The polynomial, with p(0) not 0.
+/// \return The first u in (0, 1] where p crosses zero, or where p has an extremum with
+///         |p| at most noise(p). Nothing if p keeps its sign or is NaN.
+/// \cost Nothing is evaluated if all coefficients have the same sign. One root is
+///       computed if the sign changes once.
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] std::optional<T> first_change(const BernsteinT<T, N>& p) noexcept {
     const int changes = sign_changes(p);

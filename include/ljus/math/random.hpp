@@ -25,16 +25,16 @@ enum class Pass : std::uint32_t {
     user = 1000       ///< The first value free for user-defined passes.
 };
 
-/// Mixes 64 bits so that each input bit changes half of the output bits: the finaliser
-/// of SplitMix64 \cite steele2014, a bijection.
+/// Mixes 64 bits: on average, a change of one input bit changes half of the output
+/// bits. The function is a bijection, the finaliser of SplitMix64 \cite steele2014.
 [[nodiscard]] constexpr std::uint64_t mix_bits(std::uint64_t x) noexcept {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
     return x ^ (x >> 31);
 }
 
-/// The numbers of one path. Number n is a function of the key and n alone; the bounce
-/// is n >> 16, and the dimension is in the lower 16 bits of n.
+/// The random numbers of one path. Number n depends on the key and on n only. The
+/// bounce is n >> 16, and the dimension within the bounce is in the lower 16 bits of n.
 struct RandomStream {
     std::uint64_t key = 0;     ///< Made by random_stream() from seed, pass and path.
     std::uint64_t counter = 0; ///< The index n of the next number.
@@ -56,8 +56,10 @@ struct RandomStream {
         .key = mix_bits(mix_bits(work + odd * (iteration + 1)) ^ mix_bits(path + odd))};
 }
 
-/// Moves a stream to the start of a bounce (0: the camera or the light), however many
-/// numbers were drawn before.
+/// Moves a stream to the start of a bounce. The numbers of a bounce do not depend on
+/// how many numbers were drawn before.
+/// \param stream  The stream.
+/// \param bounce  The number of the bounce; 0 is the camera or the light.
 constexpr void start_bounce(RandomStream& stream, std::uint64_t bounce) noexcept {
     stream.counter = bounce << 16;
 }
@@ -82,8 +84,8 @@ template <std::floating_point T = float>
     return {x, next_1d<T>(stream)};
 }
 
-/// The next point of the unit cube [0, 1)^3: a direction and the choice of a lobe. It
-/// uses three dimensions.
+/// The next point of the unit cube [0, 1)^3; uses three dimensions. Two coordinates
+/// serve to sample a direction, and the third to choose a lobe.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec3T<T> next_3d(RandomStream& stream) noexcept {
     const T x = next_1d<T>(stream);
@@ -91,19 +93,19 @@ template <std::floating_point T = float>
     return {x, y, next_1d<T>(stream)};
 }
 
-/// A source of random numbers: a copyable struct with these functions beside it:
+/// A source of random numbers: a copyable struct for which these functions are defined.
 ///
 /// | function                     | what it does                                      |
 /// |------------------------------|---------------------------------------------------|
-/// | next_1d<T>(stream)           | the next number of [0, 1)                         |
-/// | next_2d<T>(stream)           | the next point of the unit square                 |
-/// | next_3d<T>(stream)           | the next point of the unit cube                   |
+/// | next_1d<T>(stream)           | returns the next number of [0, 1)                 |
+/// | next_2d<T>(stream)           | returns the next point of the unit square         |
+/// | next_3d<T>(stream)           | returns the next point of the unit cube           |
 /// | start_bounce(stream, bounce) | moves to the numbers of a bounce, which do not    |
 /// |                              | depend on what was drawn before                   |
 ///
-/// Copies of a stream draw the same numbers. The `Stream` of a renderer also has a
-/// member `key`, which tells the rays of a picture apart, and a function
-/// `start_ray(stream, seed, pixel, ray, pattern)`, as a StratifiedStream has.
+/// Copies of a stream draw the same numbers. The `Stream` of a renderer must also have
+/// a member `key` and a function `start_ray(stream, seed, pixel, ray, pattern)`, like
+/// those of StratifiedStream.
 template <typename S>
 concept StreamLike = std::copyable<S> && requires(S& stream, std::uint64_t bounce) {
     { next_1d<float>(stream) } -> std::same_as<float>;

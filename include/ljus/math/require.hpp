@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/math/require.hpp
-/// \brief Checks of input data; each failure is one sentence that one can act on.
+/// \brief Checks of input data. The message of a failed check is one sentence that says
+/// what is wrong and what would be right.
 
 #include <cmath>
 #include <cstdio>
@@ -23,7 +24,8 @@ namespace ljus {
 
 namespace detail {
 
-// Text is slow to compile: what follows is compiled once for all types of values.
+// Code that builds texts is slow to compile. The following functions are therefore
+// compiled once, for all types of values.
 
 // The concatenation of several texts.
 [[nodiscard, gnu::cold]] LJUS_CORE_INLINE std::string
@@ -35,8 +37,8 @@ inline char* with_point(char* digits) {
     return digits;
 }
 
-// One number, or several as the components of a vector; `single` means that they are
-// floats. See to_text().
+// The text of one number, or of several numbers as the components of a vector. `single`
+// means that the numbers are floats. See to_text().
 [[nodiscard, gnu::cold]] LJUS_CORE_INLINE std::string
 numbers_to_text(std::initializer_list<double> values, bool single);
 
@@ -59,7 +61,7 @@ LJUS_CORE_INLINE std::string numbers_to_text(std::initializer_list<double> value
             const double read = std::strtod(digits, nullptr);
             if (read == value || (single && float(read) == float(value))) break;
         }
-        // C writes at least two digits of an exponent: 1e-07 becomes 1e-7.
+        // snprintf writes at least two digits of an exponent: 1e-07 becomes 1e-7.
         with_point(digits);
         char* const e = std::strchr(digits, 'e');
         if (e != nullptr && e[2] == '0') std::memmove(e + 2, e + 3, std::strlen(e + 2));
@@ -82,14 +84,14 @@ template <std::floating_point T>
     return detail::numbers_to_text({double(value)}, std::is_same_v<T, float>);
 }
 
-/// A vector as a message shows it.
+/// A vector as text: (1, 0.5, -2).
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string to_text(const Vec3T<T>& v) {
     return detail::numbers_to_text({double(v.x), double(v.y), double(v.z)},
                                    std::is_same_v<T, float>);
 }
 
-/// An integer as a message shows it.
+/// An integer as text.
 [[nodiscard, gnu::cold]] inline std::string to_text(long long value) {
     char digits[24];
     std::snprintf(digits, sizeof digits, "%lld", value);
@@ -98,7 +100,7 @@ template <std::floating_point T>
 
 namespace detail {
 
-// Outside of require(), so that what is inlined everywhere stays small.
+// A function of its own, so that require() stays small where it is inlined.
 template <typename Value>
 [[noreturn, gnu::cold]] void refuse(std::string_view what, const Value& value,
                                     std::string_view right) {
@@ -108,7 +110,8 @@ template <typename Value>
 
 } // namespace detail
 
-/// Throws one sentence if a condition fails: the name, the value, what would be right.
+/// Throws an exception if a condition fails. The message says which value is wrong,
+/// what it is, and what would be right.
 /// \param ok     The condition that must hold.
 /// \param what   The name of the value, e.g. "sphere.radius".
 /// \param value  The value, shown in the message.
@@ -126,7 +129,8 @@ void require_finite(std::string_view what, const Vec3T<T>& value) {
     require(is_finite(value), what, value, "finite in every component");
 }
 
-/// Requires that a vector is finite and has a direction; throws as require().
+/// Requires that a vector is finite and not 0, so that it has a direction; throws as
+/// require().
 template <std::floating_point T>
 void require_direction(std::string_view what, const Vec3T<T>& value) {
     const Vec3T<WideT<T>> wide{value};

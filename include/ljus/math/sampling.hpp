@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/math/sampling.hpp
-/// \brief Points and directions from two uniform numbers, each with its density.
+/// \brief Functions that turn two uniform random numbers into a point or a direction,
+/// and the densities of the results.
 
 #include <cmath>
 #include <limits>
@@ -12,7 +13,8 @@
 namespace ljus {
 
 /// \defgroup sampling Sampling
-/// \brief Section 3.2.4: pure functions of a point u of [0,1)^2, each beside its pdf.
+/// \brief Section 3.2.4: sampling functions. Each takes a point u of [0,1)^2 and stands
+/// beside its pdf.
 ///
 /// Directions are unit vectors around +z. The caller supplies the random numbers, so
 /// that every function here can be plotted, stratified and tested.
@@ -20,8 +22,8 @@ namespace ljus {
 
 namespace detail {
 
-/// The concentric map without the correction of rounding: a point of the unit disc, or
-/// up to 2 units of roundoff outside.
+/// Maps the unit square onto the unit disc. Rounding may put the point up to 2 units of
+/// roundoff outside the disc.
 template <std::floating_point T>
 [[nodiscard]] inline Vec2T<T> concentric_map(const Vec2T<T>& u) noexcept {
     constexpr T quarter = std::numbers::pi_v<T> / T(4);
@@ -38,10 +40,11 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// A point of the unit disc, uniform in area: the concentric map \cite shirley1997,
-/// which maps squares around the centre to circles. A point that rounding puts onto the
-/// border or outside is moved 4 units of roundoff inwards.
-/// \return Point with x^2 + y^2 < 1.
+/// Samples a point of the unit disc, uniformly in area, by the concentric map
+/// \cite shirley1997. This map turns squares around the centre into circles. If
+/// rounding puts a point onto the border or outside, the point is moved 4 units of
+/// roundoff inwards.
+/// \return A point (x, y) with x^2 + y^2 < 1.
 /// \cost One division, one sine, one cosine.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> sample_concentric_disc(const Vec2T<T>& u) noexcept {
@@ -50,17 +53,18 @@ template <std::floating_point T>
     return p.x * p.x + p.y * p.y < T(1) - two ? p : (T(1) - two) * p;
 }
 
-/// The density of sample_concentric_disc(), per unit of area: 1/pi, or 0 outside.
+/// The density of sample_concentric_disc(), per unit of area: 1/pi in the unit disc,
+/// and 0 outside.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_concentric_disc(const Vec2T<T>& p) noexcept {
     return p.x * p.x + p.y * p.y <= T(1) ? std::numbers::inv_pi_v<T> : T(0);
 }
 
-/// A direction above the horizon with density cos(theta)/pi: a point of the disc,
-/// lifted onto the hemisphere (Malley's method).
-/// A point on the border of the disc would lie on the horizon, where the density is 0
-/// and the weight f cos/pdf is 0/0. The map uses the middle of each cell of random
-/// numbers instead, half a roundoff inside, so that always z >= sqrt(epsilon).
+/// Samples a direction above the horizon with density cos(theta)/pi, where theta is the
+/// angle to +z. A point of the unit disc is lifted onto the hemisphere (Malley's
+/// method).
+/// A point on the border of the disc would lie on the horizon, where the density is 0.
+/// The function therefore returns z >= sqrt(epsilon), with the machine epsilon of T.
 /// \return Unit vector with z > 0.
 /// \cost That of sample_concentric_disc(), and one square root.
 /// \report{Section 3.2.4}
@@ -69,7 +73,7 @@ template <std::floating_point T>
 [[nodiscard]] inline Vec3T<T> sample_cosine_hemisphere(const Vec2T<T>& u) noexcept {
     // `inline` is a hint that makes a path tracer faster with g++.
     const Vec2T<T> p = detail::concentric_map(u);
-    // The map keeps the larger of |a| and |b| as the radius of p.
+    // The radius of p is the larger of |a| and |b|.
     const T a = std::abs(T(2) * u.x - T(1));
     const T b = std::abs(T(2) * u.y - T(1));
     const T r = glm::max(a, b);
@@ -78,61 +82,64 @@ template <std::floating_point T>
 }
 // [cosine hemisphere]
 
-/// The density of sample_cosine_hemisphere(), per steradian: cos(theta)/pi, or 0 on and
-/// below the horizon.
+/// The density of sample_cosine_hemisphere(), per steradian: cos(theta)/pi above the
+/// horizon, and 0 on and below it.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_cosine_hemisphere(const Vec3T<T>& d) noexcept {
     return d.z > T(0) ? d.z * std::numbers::inv_pi_v<T> : T(0);
 }
 
-/// A direction inside a cone around +z, uniform in solid angle.
-/// The cone is given by 1 - cos(theta), which keeps its digits for small angles: a lamp
-/// one degree wide has cos = 0.99996. See one_minus_cosine().
+/// Samples a direction inside a cone around +z, uniformly in solid angle.
+/// The size of the cone is given as 1 - cos(theta_max), where theta_max is the half
+/// angle. For a small angle, cos(theta_max) is close to 1 and has lost most digits. See
+/// one_minus_cosine().
 /// \param u                  Point of [0,1)^2.
-/// \param one_minus_cos_max  1 - cos of the half angle, in (0, 2]; 1 is the hemisphere.
+/// \param one_minus_cos_max  1 - cos(theta_max), in (0, 2]; 1 gives the hemisphere.
 /// \return Unit vector within the cone.
 /// \cost One square root, one sine, one cosine.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_uniform_cone(const Vec2T<T>& u,
                                            T one_minus_cos_max) noexcept {
-    const T w = u.x * one_minus_cos_max; // 1 - cos(theta), Archimedes
+    const T w = u.x * one_minus_cos_max; // 1 - cos(theta), which is uniform
     const T r = std::sqrt(w * (T(2) - w));
     const T phi = T(2) * std::numbers::pi_v<T> * u.y;
     return {r * std::cos(phi), r * std::sin(phi), T(1) - w};
 }
 
-/// The density of sample_uniform_cone(), per steradian, for directions inside. The
-/// caller tests whether a direction is inside.
-/// \param one_minus_cos_max  1 - cos of the half angle, in (0, 2].
-/// \return 1 over the solid angle 2 pi (1 - cos).
+/// The density of sample_uniform_cone(), per steradian, for a direction inside the
+/// cone. The caller tests whether the direction is inside.
+/// \param one_minus_cos_max  1 - cos(theta_max) for the half angle theta_max, in (0,
+///                           2].
+/// \return 1 over the solid angle of the cone, 2 pi (1 - cos(theta_max)).
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_uniform_cone(T one_minus_cos_max) noexcept {
     return std::numbers::inv_pi_v<T> / (T(2) * one_minus_cos_max);
 }
 
-/// 1 - cos(theta) from the squared sine, without cancellation.
-/// \param sin_squared  sin^2(theta) in [0, 1], of an angle up to 90 degrees: for a
-///                     sphere seen from outside, radius^2 / distance^2.
-/// \return 1 - sqrt(1 - sin^2), as sin^2 / (1 + sqrt(1 - sin^2)).
+/// Computes 1 - cos(theta) from sin^2(theta), without cancellation.
+/// \param sin_squared  sin^2(theta), in [0, 1], for an angle theta up to 90 degrees.
+///                     For the half angle of a sphere seen from outside it is radius^2
+///                     / distance^2.
+/// \return 1 - sqrt(1 - sin^2), computed as sin^2 / (1 + sqrt(1 - sin^2)).
 template <std::floating_point T>
 [[nodiscard]] T one_minus_cosine(T sin_squared) noexcept {
     return sin_squared / (T(1) + std::sqrt(T(1) - sin_squared));
 }
 
-/// A direction above the horizon (z > 0), uniform in solid angle.
+/// Samples a direction above the horizon (z > 0), uniformly in solid angle.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_uniform_hemisphere(const Vec2T<T>& u) noexcept {
     return sample_uniform_cone(u, T(1));
 }
 
-/// The density of sample_uniform_hemisphere(), per steradian: 1/(2 pi), or 0 on and
-/// below the horizon.
+/// The density of sample_uniform_hemisphere(), per steradian: 1/(2 pi) above the
+/// horizon, and 0 on and below it.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_uniform_hemisphere(const Vec3T<T>& d) noexcept {
     return d.z > T(0) ? std::numbers::inv_pi_v<T> / T(2) : T(0);
 }
 
-/// A direction, uniform over the whole sphere.
+/// Samples a direction, uniformly over the whole sphere.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_uniform_sphere(const Vec2T<T>& u) noexcept {
     return sample_uniform_cone(u, T(2));
@@ -144,8 +151,9 @@ template <std::floating_point T>
     return std::numbers::inv_pi_v<T> / T(4);
 }
 
-/// A point of a triangle, uniform in area: the square is folded along its diagonal
-/// \cite heitz2019. Neighbours in u stay neighbours, and no square root is needed.
+/// Samples a point of a triangle, uniformly in area. The square is folded along its
+/// diagonal \cite heitz2019, so that close u give close points. No square root is
+/// needed.
 /// \return Barycentric coordinates of the three vertices, each >= 0, with sum 1.
 /// \cost Five additions and multiplications.
 template <std::floating_point T>
@@ -158,8 +166,8 @@ template <std::floating_point T>
     return {u.x - half, half, T(1) - u.x};
 }
 
-/// The density of sample_uniform_triangle(), per unit of area; `area` is the
-/// triangle's, 1/2 for the barycentric plane itself.
+/// The density of sample_uniform_triangle(), per unit of area: 1/area.
+/// \param area  The area of the triangle.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_uniform_triangle(T area) noexcept {
     return T(1) / area;
@@ -171,13 +179,14 @@ template <std::floating_point T>
 /// \brief Section 3.2.4: "two uniform random generators for the azimuth and inclination
 /// angles".
 ///
-/// A belt near the pole is shorter than one near the horizon, but gets as many
-/// directions: they crowd around the normal. An estimate must divide by this density.
-/// \erratum{The report does not mention the density. Without it the directions count
-/// as if they were cosine-weighted.}
+/// A ring of directions near the pole is shorter than a ring near the horizon, but gets
+/// as many samples. The samples therefore crowd around the pole. An estimate must
+/// divide by their density.
+/// \erratum{The report does not mention the density. An estimate that omits it counts
+///          the directions as if they were cosine-weighted.}
 /// \{
 
-/// A direction above the horizon whose inclination and azimuth are uniform.
+/// Samples a direction above the horizon whose inclination and azimuth are uniform.
 /// \return Unit vector with z > 0.
 /// \cost Two sines, two cosines.
 /// \report{Section 3.2.4}
@@ -198,8 +207,9 @@ template <std::floating_point T>
 ///
 /// \f[ p(\omega) = \frac{1}{\pi^2 \sin\theta} \f]
 ///
-/// The factors are 2/pi per radian of inclination, 1/(2 pi) per radian of azimuth, and
-/// 1/sin(theta), because a radian of each spans a solid angle of sin(theta).
+/// The inclination theta has density 2/pi per radian, and the azimuth phi has density
+/// 1/(2 pi) per radian. Their product is divided by sin(theta), because a step dtheta
+/// dphi covers the solid angle sin(theta) dtheta dphi.
 /// \return At least 1/pi^2; infinite at the pole, 0 on and below the horizon.
 // [naive pdf]
 template <std::floating_point T>

@@ -17,15 +17,17 @@ namespace ljus {
 
 namespace detail {
 
-/// A pixel cut into columns x rows cells, or into n columns and n rows only.
+/// The cells of a pixel, in a grid of columns and rows. Either each cell has one ray,
+/// or each column and each row has one ray. The second arrangement is called n rooks.
 struct Strata {
     int columns = 1;      ///< The number of columns.
     int rows = 1;         ///< The number of rows.
-    bool n_rooks = false; ///< One ray per column and per row (n rooks): `columns` rays.
+    bool n_rooks = false; ///< True if each column and each row has one ray.
 };
 
-/// Chooses cells for a number of rays: exactly one per ray, as square as possible. A
-/// prime, or a number with only long factors, gets n rooks that attack no other.
+/// Chooses the grid for a number of rays. It has one cell per ray, and the cells are as
+/// square as possible. If there would be more than four rows per column, as for a prime
+/// above 4, the function chooses n rooks.
 /// \erratum{The report's program steps by 1/sqrt(n) and drops the remainder: of 8 rays
 ///          it traced 4, and of 10 it traced 9 in nine tenths of the pixel.}
 [[nodiscard]] constexpr Strata strata_for(int rays) noexcept {
@@ -37,12 +39,15 @@ struct Strata {
     return {.columns = columns, .rows = rows};
 }
 
-/// The value at index i of a random permutation of 0 ... count - 1, without a table:
-/// rounds of an invertible hash within the next power of two are repeated until the
-/// value is below count. A random offset is added last, because the hash alone prefers
-/// some values by half.
-/// \param count  At least 1, and at most 2^31.
-/// \return Each value once; over the keys, all values are equally likely.
+/// The value at index i of a random permutation of the numbers 0 to count - 1. Instead
+/// of a table, the function uses an invertible hash of the numbers below the next power
+/// of two. It repeats the hash until the value is below count. Finally it adds a random
+/// offset modulo count, because the hash alone does not give each value equally often.
+/// \param i      The index, in [0, count).
+/// \param count  From 1 to 2^31.
+/// \param key    The number of the permutation.
+/// \return A number in [0, count), another one for each i. Over all keys, each value is
+///         equally likely.
 /// \cost At most two hashes on average.
 /// \cite kensler2013
 [[nodiscard]] constexpr std::uint32_t shuffled(std::uint32_t i, std::uint32_t count,
@@ -66,8 +71,8 @@ struct Strata {
 }
 
 /// The position of one ray within its pixel.
-/// \return Point of the unit square, uniform over all rays and keys; rounding may put
-///         it onto the far border of its cell, and so onto 1.
+/// \return Point of the unit square, uniform over all rays and keys. A coordinate may
+///         be rounded to the far border of its cell, and so to 1.
 /// \report{Section 3.2}
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec2T<T> stratified(const Strata& strata, int ray,
@@ -91,23 +96,26 @@ template <std::floating_point T>
 /// \ref ch_first_picture.
 /// \{
 
-/// How the rays of a pixel are spread over it. Every pattern has exactly the number of
-/// points that is asked for, and each point is uniform, so that no mean changes.
+/// How the rays of a pixel are spread over the pixel. Every pattern has exactly the
+/// requested number of points. Each point alone is uniform over the pixel, so that the
+/// pattern does not change the mean of a pixel.
 enum class Sampling : std::uint8_t {
     random,         ///< Independent points.
-    jittered,       ///< One in each of a x b = n cells; n rooks where n is prime.
-    multi_jittered, ///< Jittered, and one in each of n strips of x and of y; any n.
-    sobol           ///< The first n Sobol points, with Owen's scrambling.
+    jittered,       ///< One point in each cell of a grid; n rooks for a prime above 4.
+    multi_jittered, ///< Jittered, with one point in each of n strips along x and y.
+    sobol           ///< Sobol points with Owen's scrambling.
 };
 
-/// A prepared pattern.
+/// A pattern for one number of points, made by make_pattern().
 struct Pattern {
     Sampling sampling = Sampling::multi_jittered; ///< The kind of pattern.
     int points = 1;                               ///< The number of points.
-    detail::Strata strata{};                      ///< Its cells, if it has any.
+    detail::Strata strata{};                      ///< The cells of a jittered pattern.
 };
 
-/// Prepares a pattern of at least 1 point.
+/// Makes a pattern.
+/// \param sampling  The kind of pattern.
+/// \param points    The number of points, at least 1.
 [[nodiscard]] constexpr Pattern make_pattern(Sampling sampling, int points) noexcept {
     Pattern pattern{.sampling = sampling, .points = points};
     if (sampling == Sampling::jittered) pattern.strata = detail::strata_for(points);
@@ -126,11 +134,12 @@ struct Pattern {
 
 namespace detail {
 
-/// The x strip of a point of a multi-jittered pattern whose last row is incomplete.
-/// A column with a point of the last row is wider than its neighbours by one strip.
-/// These columns are spread over the pixel from a random start. Finally all strips are
-/// shifted by the same random step, so that none is preferred.
-/// \return The strip, in [0, points); each once.
+/// Finds the x strip of point number i in a multi-jittered pattern whose last row is
+/// incomplete. There are as many strips as points. A column with a point in the last
+/// row has one strip more than the other columns. These wider columns are spread evenly
+/// over the pixel from a random start. Finally all strips are shifted cyclically by the
+/// same random number, so that each strip is equally likely.
+/// \return The strip, in [0, points), another one for each i.
 /// \cost Two calls of shuffled() and five divisions.
 [[nodiscard]] constexpr std::uint32_t
 strip_of_broken(const Pattern& pattern, std::uint32_t i, std::uint64_t key) noexcept {
@@ -140,10 +149,10 @@ strip_of_broken(const Pattern& pattern, std::uint32_t i, std::uint64_t key) noex
     const std::uint64_t bits = mix_bits(key + 1);
     const std::uint64_t start = ((bits >> 32) * m) >> 32; // in [0, m)
     const std::uint64_t step = ((bits & 0xffffffffu) * all) >> 32;
-    // The number of columns, among the first c, with a point of the last row.
+    // How many of the first c columns have a point in the last row.
     const auto before = [&](std::uint64_t c) { return (c * last + start) / m; };
     std::uint64_t column = shuffled(i % m, m, key);
-    if (row == full) // the k-th column with such a point
+    if (row == full) // the k-th column with a point in the last row
         column = (shuffled(i % m, last, key) * std::uint64_t(m) + m - 1 - start) / last;
     const auto points =
         static_cast<std::uint32_t>(full + before(column + 1) - before(column));
@@ -153,10 +162,9 @@ strip_of_broken(const Pattern& pattern, std::uint32_t i, std::uint64_t key) noex
 }
 
 /// A point of a correlated multi-jittered pattern.
-/// The points lie in a grid of m columns and n rows, where the last row may be
-/// incomplete; so any number of points is possible, even a prime. Within a cell, the x
-/// offset belongs to the point's row and the y offset to its column. Thus each of as
-/// many strips as points holds one point, along x and along y.
+/// The points lie in a grid of m columns and n rows. The last row may be incomplete, so
+/// that the number of points can be a prime. The square is also divided along x and
+/// along y into as many strips as there are points. Each strip has one point.
 /// \return Point of the unit square; rounding may put it onto 1.
 /// \cite kensler2013
 // [multi_jittered]
@@ -177,8 +185,9 @@ template <std::floating_point T>
 // [multi_jittered]
 
 /// A scrambled Sobol point.
-/// \return Point of the unit square, below 1. The first 2^k points lie one in each cell
-///         of every dyadic grid of 2^k cells.
+/// \return Point of the unit square, below 1. If a grid has 2^k cells and its numbers
+///         of columns and rows are powers of two, each cell has one of the first 2^k
+///         points.
 /// \cite owen1995 \cite burley2020
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec2T<T> scrambled_sobol(int number,
@@ -191,14 +200,14 @@ template <std::floating_point T>
 } // namespace detail
 
 /// A point of a pattern: the position of one ray within its pixel.
-/// \param pattern  From make_pattern().
-/// \param number   The point's number, in [0, points); the order has no meaning.
-/// \param key      The pixel's key: the points of two keys are independent. Any number;
-///                 mix_bits() turns consecutive numbers into good keys.
+/// \param pattern  The pattern, made by make_pattern().
+/// \param number   The number of the point, in [0, pattern.points).
+/// \param key      The pixel's key. The points of two pixels are independent if their
+///                 keys differ; mix_bits() makes good keys of consecutive numbers.
 /// \param u        Two random numbers in [0, 1); Sobol points do not use them.
 /// \return Point of the unit square, uniform over keys and u; rounding may put it onto
 ///         1.
-/// \cost See the chapter's table: nanoseconds per point, for 64 points and for 61.
+/// \cost Some nanoseconds; the chapter has a table for 61 and for 64 points.
 /// \report{Section 3.2}
 // [spread]
 template <std::floating_point T>

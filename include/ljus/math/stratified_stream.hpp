@@ -15,24 +15,25 @@ namespace ljus {
 /// \ref ch_distributed_rays.
 /// \{
 
-/// The numbers of one ray of a pixel. In each draw, the pixel's n rays are spread over
-/// the interval or the square by the picture's pattern. Each draw permutes the rays in
-/// another way, so that the time does not depend on the position on the lens.
+/// The random numbers of one ray of a pixel. In each draw, the picture's pattern
+/// spreads the numbers of the pixel's rays evenly over the interval or the square. Each
+/// draw permutes the rays in another way. A ray's time, for example, therefore does not
+/// depend on its position on the lens.
 struct StratifiedStream {
-    Pattern pattern{};           ///< The pattern of the pixel's rays.
-    int ray = 0;                 ///< The ray's number, in [0, pattern.points).
-    std::uint64_t key = 0;       ///< The pixel's key.
-    std::uint64_t dimension = 0; ///< The next draw.
-    RandomStream rest{};         ///< The positions within cells.
+    Pattern pattern{};     ///< The pattern of the pixel's rays.
+    int ray = 0;           ///< The ray's number, in [0, pattern.points).
+    std::uint64_t key = 0; ///< A random number that is the same in all rays of a pixel.
+    std::uint64_t dimension = 0; ///< The index of the next draw.
+    RandomStream rest{};         ///< Gives the positions within cells.
 };
 
 /// Sets a stream to the numbers of one ray of a pixel.
-/// \param stream   The stream.
+/// \param stream   The stream that is set.
 /// \param seed     The user's seed.
 /// \param pixel    The pixel's number within the picture.
 /// \param ray      The ray's number within the pixel.
-/// \param pattern  make_pattern() for the rays of a pixel; with Sampling::random all
-///                 numbers are independent.
+/// \param pattern  The pattern of a pixel's rays, made by make_pattern(). With
+///                 Sampling::random all numbers are independent.
 constexpr void start_ray(StratifiedStream& stream, std::uint64_t seed,
                          std::uint64_t pixel, int ray,
                          const Pattern& pattern) noexcept {
@@ -44,8 +45,10 @@ constexpr void start_ray(StratifiedStream& stream, std::uint64_t seed,
               .rest = random_stream(seed, Pass::camera, 0, path)};
 }
 
-/// Moves a stream to the start of a bounce (0: the camera), however many numbers were
-/// drawn before.
+/// Moves a stream to the start of a bounce. The numbers of a bounce do not depend on
+/// how many numbers were drawn before.
+/// \param stream  The stream.
+/// \param bounce  The number of the bounce; 0 is the camera.
 constexpr void start_bounce(StratifiedStream& stream, std::uint64_t bounce) noexcept {
     stream.dimension = bounce << 16;
     start_bounce(stream.rest, bounce);
@@ -53,8 +56,8 @@ constexpr void start_bounce(StratifiedStream& stream, std::uint64_t bounce) noex
 
 namespace detail {
 
-/// The cell of the ray in the next draw, in [0, pattern.points); also sets the draw's
-/// key.
+/// Chooses the ray's cell in the next draw, in [0, pattern.points), and sets `key` to
+/// the key of that draw.
 [[nodiscard]] constexpr std::uint32_t next_cell(StratifiedStream& stream,
                                                 std::uint64_t& key) noexcept {
     key = mix_bits(stream.key + 0x9e3779b97f4a7c15u * ++stream.dimension);
@@ -62,7 +65,7 @@ namespace detail {
                     static_cast<std::uint32_t>(stream.pattern.points), key);
 }
 
-/// Moves a number that rounding may have put onto 1 below it.
+/// If rounding has made x equal to 1, returns the largest number below 1 instead.
 template <std::floating_point T>
 [[nodiscard]] constexpr T below_one(T x) noexcept {
     constexpr T last = T(1) - std::numeric_limits<T>::epsilon() / T(2);
@@ -86,15 +89,15 @@ template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec2T<T> next_2d(StratifiedStream& stream) noexcept {
     std::uint64_t key = 0;
     const auto cell = static_cast<int>(detail::next_cell(stream, key));
-    // Not next_cell()'s key: applying the same permutation twice would correlate rays.
+    // The key is mixed: next_cell() and spread() must not use the same permutation.
     const Vec2T<T> u =
         spread(stream.pattern, cell, mix_bits(key), next_2d<T>(stream.rest));
     return {detail::below_one(u.x), detail::below_one(u.y)};
 }
 // [next 2d]
 
-/// A stratified point of the square and a stratified number, in two draws: a direction,
-/// and the choice of a lobe.
+/// A stratified point of the unit square and a stratified number, in two draws. The
+/// point serves to sample a direction, and the number to choose a lobe.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec3T<T> next_3d(StratifiedStream& stream) noexcept {
     const Vec2T<T> xy = next_2d<T>(stream);

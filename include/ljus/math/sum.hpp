@@ -14,7 +14,7 @@
 namespace ljus {
 
 /// \defgroup sum Sums
-/// \brief A plain float sum of 10^8 ones stops at 2^24: it loses 83 %.
+/// \brief A plain sum of 10^8 ones in float stops at 2^24 and loses 83 % of the result.
 /// \{
 
 namespace detail {
@@ -31,10 +31,11 @@ template <typename T>
     return pairwise_sum(first, half) + pairwise_sum(first + half, count - half);
 }
 
-/// The pairwise sum of numbers or colours: each half is summed in the same way.
+/// The sum of numbers or colours, by pairwise summation: a list is cut into two halves,
+/// and each half is summed in the same way.
 ///
-/// No term passes through more than 16 + log2(n) additions, so that the error grows
-/// like log n instead of n, at the cost of a plain sum.
+/// Each of n terms passes through at most 16 + log2(n) additions. The rounding error
+/// therefore grows like log n instead of n.
 /// \param terms  Anything contiguous: a vector, an array, a span.
 /// \return The sum; 0 for no terms.
 /// \cost One addition per term.

@@ -36,13 +36,13 @@ template <std::floating_point T>
 using RgbT = glm::vec<3, T>;
 using Rgb = RgbT<float>; ///< RgbT in float.
 
-/// The precision of a computation: Compute if it is a floating-point type, otherwise
-/// (void) the precision T of the data.
+/// The precision of a computation: the type Compute if it is a floating-point type, and
+/// otherwise T, the precision of the data. By default Compute is void.
 template <typename Compute, std::floating_point T>
 using ComputeT = std::conditional_t<std::is_floating_point_v<Compute>, Compute, T>;
 
-/// At least double, for the few computations where the digits or the range of float do
-/// not suffice.
+/// The wider of T and double. It serves computations that need more digits or a larger
+/// range than float has.
 template <std::floating_point T>
 using WideT = decltype(T() + double());
 
@@ -60,8 +60,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The absolute value of each component. glm::abs() branches on each sign, which a
-/// processor cannot predict for the direction of a ray.
+/// The absolute value of each component. glm::abs() branches on each sign, and a
+/// processor cannot predict the signs of a ray's direction.
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<T> sizes(const Vec3T<T>& v) noexcept {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
@@ -76,10 +76,11 @@ template <std::floating_point T>
     return v.x < yz ? yz : v.x;
 }
 
-/// Longitude and latitude of a direction, north along y: u in [0, 1) once around from
-/// +x towards -z, v from 0 at the south pole to 1 at the north pole.
+/// Longitude u and latitude v of a direction, both scaled to [0, 1]. North is along +y.
+/// u goes once around, from +x towards -z, and v goes from 0 at the south pole to 1 at
+/// the north pole.
 /// \param d  A direction of any length.
-/// \return (u, v) in [0, 1]; (0, 0.5) for the zero vector.
+/// \return (u, v); (0, 0.5) for the zero vector.
 /// \cost Two arc tangents.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> globe_coordinates(const Vec3T<T>& d) noexcept {

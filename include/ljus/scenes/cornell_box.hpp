@@ -12,8 +12,8 @@
 namespace ljus {
 
 /// \defgroup cornell_box The Cornell box
-/// \brief The box used to compare renderers \cite goral1984, with balls instead of
-/// blocks \cite jensen1996.
+/// \brief A box that is often used to compare renderers \cite goral1984, here with
+/// balls instead of blocks \cite jensen1996.
 /// \{
 
 /// The scene type of the Cornell box.
@@ -21,8 +21,9 @@ template <std::floating_point T>
 using CornellSceneT = Scene<Shapes<QuadT<T>, SphereT<T>>,
                             Materials<LambertianT<T>, MirrorT<T>, GlassT<T>>>;
 
-/// Adds five walls, from (-1, 0, -1) to (1, 2, 1), with normals inwards; the side of
-/// the camera is open. The left wall is red, the right one green, all others white.
+/// Adds five walls of a box from (-1, 0, -1) to (1, 2, 1), with normals inwards. The
+/// side towards the camera is open. The left wall is red, the right wall is green, and
+/// the others are white.
 /// \param scene  A scene with quads and Lambertian materials.
 template <typename S, std::floating_point T = typename S::Scalar>
 void add_cornell_walls(S& scene) {
@@ -42,7 +43,7 @@ void add_cornell_walls(S& scene) {
     scene.add(QuadT<T>{corner + x, z, y}, green); // right
 }
 
-/// The camera of the box, whose picture is filled by it.
+/// The camera of the box. The box fills its picture.
 template <std::floating_point T = float>
 [[nodiscard]] CameraT<T> cornell_camera() {
     return look_at(ViewT<T>{.position{T(0), T(1), T(4.4)},
@@ -78,8 +79,8 @@ template <std::floating_point T = float>
     return {World(std::move(scene)), cornell_camera<T>()};
 }
 
-/// The box with two matt balls instead of mirror and glass: all surfaces are diffuse,
-/// so that every renderer of the book could carry all of its light.
+/// The Cornell box with two matt balls. All surfaces are diffuse, so that every
+/// renderer of the book could compute all of the box's light.
 // [matt_cornell_box]
 template <std::floating_point T = float>
 [[nodiscard]] Room<CornellSceneT<T>> matt_cornell_box() {

@@ -10,21 +10,22 @@
 namespace ljus {
 
 /// \defgroup furnaces Furnaces
-/// \brief Inside a closed surface with emission L and albedo a, the radiance is
+/// \brief A furnace is a closed room whose walls all have the same emission L and
+/// albedo a. In every place and direction the radiance is
 ///
-/// \f[ L + aL + a^2L + \dots = \frac{L}{1 - a} \f]
+/// \f[ L + aL + a^2L + \dots = \frac{L}{1 - a}. \f]
 ///
-/// everywhere and in every direction, for any shape of the room and with any objects of
-/// the same emission and albedo in it.
+/// This holds for any shape of the room, and with any objects of the same emission and
+/// albedo in it.
 /// \{
 
 namespace detail {
 
-/// A room within a sphere of radius 1 around the origin.
+/// The scene type of a room inside a sphere.
 template <std::floating_point T>
 using SphereFurnaceT = Scene<Shapes<SphereT<T>>, Materials<LambertianT<T>>>;
 
-/// A room within the cube of side 2 around the origin.
+/// The scene type of a room inside a box.
 template <std::floating_point T>
 using BoxFurnaceT = Scene<Shapes<QuadT<T>>, Materials<LambertianT<T>>>;
 
@@ -38,11 +39,13 @@ CameraT<T> furnace_camera() {
 
 } // namespace detail
 
-/// A furnace within a sphere, lit by a single object.
+/// A furnace inside the sphere of radius 1 around the origin. Its only lamp is the wall
+/// itself.
 /// \param emission  Emission of the wall, W/(m^2 sr).
 /// \param albedo    Albedo of the wall, below 1.
 /// \return The scene, and a camera inside.
-/// \throws std::invalid_argument  for a negative emission or an albedo outside [0, 1].
+/// \throws std::invalid_argument  if the emission is negative or the albedo is not
+///         within [0, 1].
 template <std::floating_point T>
 [[nodiscard]] Room<detail::SphereFurnaceT<T>> sphere_furnace(const RgbT<T>& emission,
                                                              const RgbT<T>& albedo) {
@@ -52,12 +55,13 @@ template <std::floating_point T>
     return {World(std::move(scene)), detail::furnace_camera<T>()};
 }
 
-/// A furnace within a box: near an edge the lamps are so close that only multiple
-/// importance sampling bounds the noise.
+/// A furnace inside the cube of side 2 around the origin. Near an edge the glowing
+/// walls are so close that only multiple importance sampling bounds the noise.
 /// \param emission  Emission of the walls, W/(m^2 sr).
 /// \param albedo    Albedo of the walls, below 1.
 /// \return The scene, and a camera inside.
-/// \throws std::invalid_argument  for a negative emission or an albedo outside [0, 1].
+/// \throws std::invalid_argument  if the emission is negative or the albedo is not
+///         within [0, 1].
 template <std::floating_point T>
 [[nodiscard]] Room<detail::BoxFurnaceT<T>> box_furnace(const RgbT<T>& emission,
                                                        const RgbT<T>& albedo) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/scenes/mesh_formulas.hpp
-/// \brief Meshes that are computed: a sphere and a torus.
+/// \brief Meshes computed from formulas: a sphere and a torus.
 
 #include <algorithm>
 #include <array>
@@ -29,8 +29,8 @@ struct UnitTriangles {
     std::vector<Triple> triangles{}; // counter-clockwise, from outside
 };
 
-// The corners of three rectangles, each in a plane of two axes, with sides in the
-// golden ratio g.
+// An icosahedron. Its vertices are the corners of three rectangles with sides in the
+// golden ratio g. Each rectangle lies in a plane of two axes.
 [[nodiscard]] inline UnitTriangles icosahedron() {
     UnitTriangles solid;
     auto& n = solid.points;
@@ -40,8 +40,8 @@ struct UnitTriangles {
             for (const glm::dvec3& v :
                  {glm::dvec3(0, a, b), glm::dvec3(a, b, 0), glm::dvec3(b, 0, a)})
                 n.push_back(glm::normalize(v));
-    // A face is a triple of neighbours, which are 2 apart if the circumradius is
-    // sqrt(1 + g^2).
+    // A face is a triple of neighbours. If the circumradius is sqrt(1 + g^2),
+    // neighbours are 2 apart.
     const double edge = 2.0 / std::sqrt(1 + g * g);
     const auto near = [&](std::uint32_t a, std::uint32_t b) {
         return std::abs(glm::distance(n[a], n[b]) - edge) < 1e-9;
@@ -56,7 +56,8 @@ struct UnitTriangles {
     return solid;
 }
 
-// Splits each triangle into four, at the midpoints of its edges.
+// Splits each triangle into four at the midpoints of its edges, which are moved onto
+// the sphere.
 inline void cut_in_four(UnitTriangles& mesh) {
     using Triple = UnitTriangles::Triple;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
@@ -79,11 +80,11 @@ inline void cut_in_four(UnitTriangles& mesh) {
 
 } // namespace detail
 
-/// A sphere of triangles: an icosahedron whose triangles are split into four
-/// repeatedly, with vertices on the sphere and the sphere's normals.
+/// A sphere made of triangles. Each triangle of an icosahedron is split into four
+/// repeatedly. The vertices lie on the sphere and have the sphere's normals.
 /// \param sphere  A valid sphere.
-/// \param cuts    The number of splits, 0 to 10: 20 * 4^cuts triangles.
-/// \return The data.
+/// \param cuts    The number of splits, 0 to 10; the mesh has 20 * 4^cuts triangles.
+/// \return The data of the mesh.
 /// \throws std::invalid_argument  if `cuts` is not within [0, 10].
 template <std::floating_point T>
 [[nodiscard]] MeshDataT<T> icosphere(const SphereT<T>& sphere, int cuts) {
@@ -100,13 +101,14 @@ template <std::floating_point T>
     return data;
 }
 
-/// A torus around the y axis, with its normals.
-/// \param center  Its centre.
-/// \param large   Radius of the tube's centre line.
-/// \param small   Radius of the tube; below `large` there is a hole.
-/// \param around  Segments around the axis, at least 3.
-/// \param across  Segments around the tube, at least 3.
-/// \return The data: 2 * around * across triangles.
+/// A torus around an axis parallel to the y axis, with the normals of the torus.
+/// \param center  Centre of the torus, in scene units.
+/// \param large   Radius of the tube's centre line, in scene units.
+/// \param small   Radius of the tube, in scene units. If it is below `large`, the torus
+///                has a hole.
+/// \param around  Segments around the axis, 3 to 10000.
+/// \param across  Segments around the tube, 3 to 10000.
+/// \return The data of the mesh, with 2 * around * across triangles.
 /// \throws std::invalid_argument  if a number of segments is not within [3, 10000].
 template <std::floating_point T>
 [[nodiscard]] MeshDataT<T> torus(const Vec3T<T>& center, T large, T small, int around,

@@ -16,16 +16,17 @@
 namespace ljus {
 
 /// \defgroup report_room The report's room
-/// \brief A room with six walls, of which the camera sees four.
+/// \brief A room of which the camera sees the floor, the ceiling and four walls.
 ///
 /// x points into the picture, y to the left and z up. As in the report, the two walls
-/// behind the camera and the floor and ceiling between them are left out.
+/// behind the camera are left out, with the floor and the ceiling between them.
 /// \{
 
-/// The camera of all the report's pictures: 53.13 degrees, from (-7, 0, 0).
+/// The camera of all the report's pictures: at (-7, 0, 0), with a field of view of
+/// 53.13 degrees.
 ///
-/// The point (x, y, z) appears at the fraction 1/2 - y/(x + 7) of the width and
-/// 1/2 - z/(x + 7) of the height, from the upper left corner.
+/// The point (x, y, z) appears at the fraction 1/2 - y/(x + 7) of the width from the
+/// left, and at the fraction 1/2 - z/(x + 7) of the height from the top.
 template <std::floating_point T = float>
 [[nodiscard]] CameraT<T> report_camera() {
     return look_at(ViewT<T>{.position{T(-7), T(0), T(0)},
@@ -43,12 +44,13 @@ LambertianT<T> report_matt(T red, T green, T blue) {
 
 } // namespace detail
 
-/// Adds one of the report's lamps: a black square below the ceiling that shines down.
+/// Adds one of the report's lamps: a black square that shines down, 0.001 below the
+/// ceiling.
 /// \param scene  A scene with quads and Lambertian materials.
-/// \param x      x of its first corner; the lamp ends at x + size.
-/// \param y      y of its first corner; the lamp ends at y + size.
-/// \param size   Length of its sides.
-/// \param color  The lamp's radiance over 30.
+/// \param x      The smallest x of the lamp.
+/// \param y      The smallest y of the lamp.
+/// \param size   Length of the lamp's sides, in scene units.
+/// \param color  The lamp's radiance divided by 30, in W/(m^2 sr).
 template <typename S, std::floating_point T>
 void add_ceiling_lamp(S& scene, T x, T y, T size, const RgbT<T>& color) {
     scene.add(QuadT<T>{.corner{x, y, T(4.999)},
@@ -57,12 +59,12 @@ void add_ceiling_lamp(S& scene, T x, T y, T size, const RgbT<T>& color) {
               scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}}), T(30) * color);
 }
 
-/// Adds the report's room: floor, ceiling and the four visible walls, all matt, with
-/// normals inwards.
+/// Adds the report's room: floor, ceiling and the four visible walls. All are matt and
+/// have normals inwards.
 /// \param scene  A scene with quads, triangles and Lambertian materials.
 template <typename S, std::floating_point T = typename S::Scalar>
 void add_report_room(S& scene) {
-    // The outline of the floor from v2, the left corner near the camera, to v6.
+    // The outline of the floor, from the left corner near the camera to the right one.
     constexpr std::array<std::array<T, 2>, 5> outline{
         {{T(0), T(6)}, {T(10), T(6)}, {T(13), T(0)}, {T(10), T(-6)}, {T(0), T(-6)}}};
     const auto corner = [&](std::size_t i, T z) {
@@ -100,20 +102,21 @@ void add_report_room(S& scene) {
 /// \defgroup report_rooms The report's scenes
 /// \brief Figures 1, 11, 12, 13 and 15: the objects in the report's room.
 ///
-/// The original materials and their counterparts here:
+/// The materials of the report's program, and their counterparts here:
 ///
 /// | the report's program                | here                                     |
 /// |-------------------------------------|------------------------------------------|
 /// | matt, colour c, up to 1             | Lambertian, albedo 0.75 c                |
 /// | Oren-Nayar, roughness 0             | Lambertian, which is the same            |
-/// | mirror, reflectivity 1, colour c    | Mirror, 0.98: the colour was not used    |
-/// | glass, colour c at each boundary    | Glass, same index; transmittance         |
+/// | mirror, reflectivity 1, colour c    | Mirror, 0.98; the program ignored c      |
+/// | glass, colour c at each boundary    | Glass of the same index, transmittance   |
 /// |                                     | \f$c^2\f$ through the centre (Beer's law)|
-/// | a channel of 0 in a glass           | 0.05: no absorption is infinite          |
-/// | reflectivity r and transparency 1,  | Mixture, both divided by 1 + r: the      |
-/// |   together: up to 1 + r of the light| mirror's fraction is r / (1 + r)         |
-/// | index 1.0 (the thin glass)          | kept: light goes straight on             |
-/// | lamp of colour c, no unit           | radiance 30 c, and black                 |
+/// | a channel of 0 in a glass           | 0.05; a transmittance of 0 would need    |
+/// |                                     | infinite absorption                      |
+/// | reflectivity r and transparency 1,  | Mixture; both are divided by 1 + r, and  |
+/// |   together up to 1 + r of the light | the mirror's fraction is r / (1 + r)     |
+/// | index 1.0 (the thin glass)          | index 1.0; light goes straight on        |
+/// | lamp of colour c, no unit           | radiance 30 c, on a black surface        |
 /// | a lamp 0.00001 below the ceiling    | 0.001 below                              |
 /// \{
 
@@ -125,8 +128,9 @@ using ReportSceneT =
 
 namespace detail {
 
-// The program tints at both boundaries, so that the path through the centre of a ball
-// gives the square of the colour: the colour itself belongs to the radius.
+// The report's program multiplies by the colour at both boundaries. A path through the
+// centre of a ball is thus multiplied by the square of the colour. Half of that path,
+// one radius, is multiplied by the colour itself.
 template <std::floating_point T>
 RgbT<T> report_absorption(const RgbT<T>& color, T radius) {
     return absorption_from_color(glm::max(color, RgbT<T>{T(0.05)}), radius);
@@ -179,7 +183,7 @@ void add_report_matt_objects(ReportSceneT<T>& scene) {
 
 } // namespace detail
 
-/// The room of figures 1 and 15: two lamps and every material.
+/// The room of figures 1 and 15, with two lamps and every material.
 /// \report{Figures 1 and 15}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> final_room() {
@@ -199,7 +203,7 @@ template <std::floating_point T = float>
     return {World(std::move(scene)), report_camera<T>()};
 }
 
-/// The room of figure 12: one lamp and one of each material.
+/// The room of figure 12, with one lamp and one object of each material.
 /// \report{Figure 12, Table 3}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> all_materials_room() {
@@ -214,9 +218,9 @@ template <std::floating_point T = float>
     return {World(std::move(scene)), report_camera<T>()};
 }
 
-/// The room of figures 11 and 13: one lamp and four glass balls. No stored version of
-/// the report's program contains this room, so two of the balls were fitted to the
-/// picture in the report.
+/// The room of figures 11 and 13, with one lamp and four glass balls. No stored version
+/// of the report's program contains this room. Two of the balls were therefore fitted
+/// to the report's picture.
 /// \report{Figures 11 and 13, Tables 2 and 4}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> four_glass_room() {

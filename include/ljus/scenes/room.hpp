@@ -15,10 +15,10 @@ namespace ljus {
 /// A closed scene with its camera.
 template <typename S>
 struct Room {
-    World<S> world;                       ///< Shapes, materials and lights, closed.
-    CameraT<typename S::Scalar> camera{}; ///< Its camera.
+    World<S> world;                       ///< Shapes, materials and lights.
+    CameraT<typename S::Scalar> camera{}; ///< The camera.
 };
-/// Deduces the scene from its world.
+/// Deduces the scene type from the world.
 template <typename S>
 Room(World<S>, CameraT<typename S::Scalar>) -> Room<S>;
 
