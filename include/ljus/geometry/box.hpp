@@ -17,7 +17,7 @@ namespace ljus {
 /// \brief Discussion: "axis-aligned bounding boxes". Chapter: \ref ch_bvh.
 /// \{
 
-/// An axis-aligned box, given by two opposite corners. By default it is empty.
+/// An axis-aligned box, given by two opposite corners. The default box is empty.
 template <std::floating_point T>
 struct BoxT {
     Vec3T<T> low{std::numeric_limits<T>::infinity()};   ///< The least x, y and z.
@@ -38,24 +38,27 @@ template <std::floating_point T>
     return {glm::min(a.low, point), glm::max(a.high, point)};
 }
 
-/// A ray with the reciprocals that the test of many boxes shares.
+/// A ray that is prepared for intersection with many boxes.
 template <std::floating_point T>
 struct BoxRayT {
-    Vec3T<T> origin{T(0)};             ///< O.
-    Vec3T<T> inverse{T(1)};            ///< 1 / D; infinite where D is 0.
+    Vec3T<T> origin{T(0)};             ///< The ray's origin, in scene units.
+    Vec3T<T> inverse{T(1)};            ///< 1 over the direction, per component.
     std::array<bool, 3> is_negative{}; ///< Sign of `inverse`; -0 counts as negative.
-    T slack = T(0); ///< Margin added to all sides of each box, in scene units.
+    T slack = T(0); ///< Margin added to each side of each box, in scene units.
 };
 
 /// Prepares a ray for intersection with many boxes.
 ///
-/// A tree must find every hit that the shape's own test finds. The rounding of both
-/// tests is proportional to the coordinates relative to the ray's origin. Each box
-/// therefore grows by 16 roundoffs of that size; the slabs alone need 3 \cite ize2013.
-/// \param ray  Its direction may have any length but zero; its range is ignored.
+/// A tree must find every hit that the test of the shape itself finds. The rounding
+/// errors of both tests are proportional to the distance of the boxes from the ray's
+/// origin. Each box is therefore enlarged by 16 units of roundoff of that distance. The
+/// test of a box alone needs 3 units \cite ize2013.
+/// \param ray  The ray. Its direction may have any length except zero. Its range is
+///             ignored.
 /// \param all  A box around all boxes to be tested.
-/// \return The prepared ray; nothing if the length of its direction or the distance to
-///         `all` exceeds the range of T. Then test the shapes themselves.
+/// \return The prepared ray. Nothing if the square of the direction's length or of the
+///         distance to `all` is outside the range of T; the shapes must then be tested
+///         without boxes.
 // [box_ray]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BoxRayT<T>> box_ray(const RayT<T>& ray,
@@ -77,15 +80,16 @@ template <std::floating_point T>
 }
 // [box_ray]
 
-/// Finds where a ray enters a box: after the near plane and before the far plane of
-/// each axis. The signs of the inverse direction tell near from far \cite williams2005.
+/// Finds where a ray enters a box. A point of the ray is in the box if it lies beyond
+/// the near plane and before the far plane of each axis. The signs of the inverse
+/// direction tell the near plane from the far one \cite williams2005.
 ///
-/// A ray that lies in the plane of a side gives \f$ 0 \cdot \infty \f$, which is NaN;
-/// the comparisons ignore such an axis.
-/// \param ray    Of box_ray().
-/// \param box    One of the boxes.
+/// If the ray lies in the plane of a side, the plane's distance is
+/// \f$ 0 \cdot \infty \f$, which is NaN. The comparisons ignore a NaN.
+/// \param ray    The ray, from box_ray().
+/// \param box    A box within the `all` of box_ray().
 /// \param t_min  First t of the ray, in units of the direction's length.
-/// \param t_max  Last t.
+/// \param t_max  Last t of the ray.
 /// \return The first t of [t_min, t_max] inside the box; nothing for a miss, or if the
 ///         range is NaN.
 // [slabs]

@@ -20,17 +20,17 @@
 namespace ljus {
 
 /// \defgroup cylinder Cylinders
-/// \brief The points at one distance from a line segment, without its two ends.
+/// \brief A cylinder is an open tube around a line segment.
 ///
 /// A closed cylinder of glass consists of a Cylinder and the two discs of ends_of().
 /// \{
 
-/// The points at distance R from the axis, between its two ends; the outside is away
-/// from the axis.
+/// The points at the distance R from an axis, between the two ends of the axis. The
+/// outside is away from the axis.
 template <std::floating_point T>
 struct CylinderT {
-    Vec3T<T> base{T(0)};             ///< B, where the axis begins, in scene units.
-    Vec3T<T> axis{T(0), T(1), T(0)}; ///< A, from there to the other end.
+    Vec3T<T> base{T(0)};             ///< One end of the axis, in scene units.
+    Vec3T<T> axis{T(0), T(1), T(0)}; ///< A, from the base to the other end.
     T radius = T(1);                 ///< R, above 0, in scene units.
 };
 using Cylinder = CylinderT<float>; ///< CylinderT in float.
@@ -43,16 +43,16 @@ template <std::floating_point T>
 
 /// Intersects a ray with a cylinder, from outside or inside.
 ///
-/// Without their parts along the axis, ray and cylinder are a line and a circle of the
-/// plane. The discriminant and the second root are those of chord(), which do not
-/// cancel.
+/// Projected along the axis, the ray is a line and the cylinder is a circle. The
+/// intersection is computed as in chord(), without cancellation.
 /// \tparam Compute  The precision of the arithmetic; by default double, as for
-///                  triangles.
-/// \param ray       Its direction may have any length but zero; hits lie in
+/// triangles.
+/// \param ray       The ray. Its direction may have any length except zero. Hits lie in
 ///                  [t_min, t_max].
-/// \param cylinder  The cylinder. Lengths between 1e-15 and 1e15 in float arithmetic.
-/// \return t, and v in [0, 1] along the axis; nothing for a miss, or for a ray along
-///         the axis.
+/// \param cylinder  The cylinder. In float arithmetic its lengths must be between 1e-15
+///                  and 1e15.
+/// \return The distance t, and the coordinate v along the axis, in [0, 1]. Nothing for
+///         a miss, or for a ray along the axis.
 /// \cost Two square roots and three divisions.
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>>
@@ -93,7 +93,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The point of a cylinder at a height and a normal across the axis.
+/// The point of a cylinder with the coordinate v along the axis, in [0, 1], and the
+/// given unit normal.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> point_of(const CylinderT<T>& cylinder, T v,
                                         const Vec3T<T>& normal) noexcept {
@@ -106,9 +107,9 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The point of a cylinder that a ray hit: O + tD, projected onto the cylinder. On a
-/// cylinder so thin and distant that rounding leaves nothing of the normal, it faces
-/// the ray.
+/// The point of a cylinder that a ray hit: the point O + tD of the ray, projected onto
+/// the cylinder. If the cylinder is so thin and distant that rounding leaves nothing of
+/// the normal, the normal faces the ray.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const CylinderT<T>& cylinder,
                                              const RayT<T>& ray,
@@ -125,8 +126,11 @@ template <std::floating_point T>
     return detail::point_of(cylinder, hit.v, Vec3T<T>(glm::normalize(way)));
 }
 
-/// Samples a point of a cylinder uniformly: its density is 1 / area per squared scene
-/// unit. `u` is a point of the unit square: around the axis, and along it.
+/// Samples a point of a cylinder uniformly. Its density is 1 / area per squared scene
+/// unit.
+/// \param cylinder  The cylinder.
+/// \param u         Point of the unit square. u.x gives the angle around the axis, and
+///                  u.y the position along the axis.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const CylinderT<T>& cylinder,
                                            const Vec2T<T>& u) noexcept {
@@ -137,8 +141,9 @@ template <std::floating_point T>
     return detail::point_of(cylinder, u.y, glm::normalize(out));
 }
 
-/// The texture coordinates of a hit: once around the axis, from the tangent of
-/// frame_around(axis_of(cylinder)) to its bitangent, and along it; in [0, 1].
+/// The texture coordinates (u, v) of a hit, in [0, 1]. u goes once around the axis. It
+/// starts at the tangent of frame_around(axis_of(cylinder)) and turns towards the
+/// bitangent. v goes along the axis.
 /// \cost An arc tangent.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const CylinderT<T>& cylinder,
@@ -149,15 +154,15 @@ template <std::floating_point T>
     return {u < T(0) ? u + T(1) : u, hit.v};
 }
 
-/// The two discs that close a cylinder: at its base and at the other end, facing away
-/// from it.
+/// The two discs that close a cylinder: one at its base, and one at the other end. Both
+/// face away from the cylinder.
 template <std::floating_point T>
 [[nodiscard]] std::array<DiscT<T>, 2> ends_of(const CylinderT<T>& cylinder) noexcept {
     return {DiscT<T>{cylinder.base, -cylinder.axis, cylinder.radius},
             DiscT<T>{cylinder.base + cylinder.axis, cylinder.axis, cylinder.radius}};
 }
 
-/// A sphere around a cylinder, through its two borders.
+/// A sphere around a cylinder, through the circles at its two ends.
 template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const CylinderT<T>& cylinder) noexcept {
     const Vec3T<T> half = cylinder.axis / T(2);
@@ -165,7 +170,8 @@ template <std::floating_point T>
             .radius = std::hypot(glm::length(half), cylinder.radius)};
 }
 
-/// A box that contains a cylinder despite rounding: that of its two ends.
+/// A box that contains a cylinder despite rounding. It is the box around the discs at
+/// the two ends, a few units in the last place too large.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const CylinderT<T>& cylinder) noexcept {
     const auto ends = ends_of(cylinder);
@@ -184,9 +190,9 @@ template <std::floating_point T>
     return shape;
 }
 
-/// Refuses a cylinder with a non-finite member, without a length, or with a radius not
-/// above 0.
-/// \throws std::invalid_argument  with the name and the value.
+/// Refuses a cylinder if a member is not finite, if the axis has no length, or if the
+/// radius is not above 0.
+/// \throws std::invalid_argument  with the name and the value of the member.
 template <std::floating_point T>
 void check(const CylinderT<T>& cylinder) {
     require_finite("cylinder.base", cylinder.base);

@@ -19,14 +19,14 @@
 namespace ljus {
 
 /// \defgroup disc Discs
-/// \brief A circle with its inside: the plane of section 3.1.5 with another border.
+/// \brief Section 3.1.5, with a circle as the border instead of a triangle.
 /// \{
 
-/// The points of a plane within a distance of a centre.
+/// The points of a plane within the distance R of a centre.
 template <std::floating_point T>
 struct DiscT {
     Vec3T<T> center{T(0)};             ///< C, in scene units.
-    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Of any length but 0; towards the front.
+    Vec3T<T> normal{T(0), T(0), T(1)}; ///< N, towards the front; any length except 0.
     T radius = T(1);                   ///< R, above 0, in scene units.
 };
 using Disc = DiscT<float>; ///< DiscT in float.
@@ -37,14 +37,18 @@ template <std::floating_point T>
     return Vec3T<T>(glm::normalize(Vec3T<WideT<T>>{disc.normal}));
 }
 
-/// Intersects a ray with a disc: \f$ t = N \cdot (C - O) / N \cdot D \f$, and the point
-/// O + tD lies within R of C.
+/// Intersects a ray O + tD with a disc. The ray meets the plane of the disc at
+/// \f$ t = N \cdot (C - O) / N \cdot D \f$. It hits the disc if the point O + tD lies
+/// within R of C.
 /// \tparam Compute  The precision of the arithmetic; by default double, as for
-///                  triangles.
-/// \param ray   Its direction may have any length but zero; hits lie in [t_min, t_max].
-/// \param disc  The disc. Lengths between 1e-18 and 1e18 in float arithmetic.
-/// \return t, and u and v in [-1, 1]: the place relative to the centre along tangent
-///         and bitangent of frame_around(normal(disc)), in radii. Nothing for a miss.
+/// triangles.
+/// \param ray   The ray. Its direction may have any length except zero. Hits lie in
+///              [t_min, t_max].
+/// \param disc  The disc. In float arithmetic its lengths must be between 1e-18 and
+///              1e18.
+/// \return The distance t, and the coordinates u and v of the point in [-1, 1]. These
+///         are relative to the centre, in units of the radius, along the tangent and
+///         the bitangent of frame_around(normal(disc)). Nothing for a miss.
 /// \cost One division, and a square root for a hit.
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
@@ -52,7 +56,7 @@ template <typename Compute = void, std::floating_point T>
     using C = ComputeT<Compute, WideT<T>>;
     const Vec3T<C> d{ray.direction}, n{disc.normal};
     const Vec3T<C> to = Vec3T<C>{disc.center} - Vec3T<C>{ray.origin};
-    // 0/0 in the plane itself, infinite beside it: neither is a hit.
+    // If the ray is parallel to the disc, t is 0/0 or infinite, which is a miss.
     const C t = glm::dot(n, to) / glm::dot(n, d);
     constexpr C max{std::numeric_limits<T>::max()};
     if (!(C(ray.t_min) <= t && t <= C(ray.t_max) && t <= max)) return std::nullopt;
@@ -65,14 +69,14 @@ template <typename Compute = void, std::floating_point T>
                         static_cast<T>(glm::dot(p, frame.bitangent) / r), 0};
 }
 
-/// The area, \f$ \pi R^2 \f$, in squared scene units.
+/// The area of a disc, \f$ \pi R^2 \f$, in squared scene units.
 template <std::floating_point T>
 [[nodiscard]] constexpr T area(const DiscT<T>& disc) noexcept {
     return std::numbers::pi_v<T> * disc.radius * disc.radius;
 }
 
-/// The point of a disc at the coordinates u, v of intersect(): position, error bound,
-/// and `normal`, which is what normal() returned.
+/// The point of a disc at the coordinates u and v of intersect(), with its error bound.
+/// `normal` must be the result of normal(disc).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> point_at(const DiscT<T>& disc, T u, T v,
                                         const Vec3T<T>& normal) noexcept {
@@ -80,7 +84,7 @@ template <std::floating_point T>
     const Vec3T<T> along_u = disc.radius * frame.tangent;
     const Vec3T<T> along_v = disc.radius * frame.bitangent;
     const Vec3T<T> a = u * along_u, b = v * along_v;
-    // The rounded frame tilts the plane: by 4 roundoffs for each component.
+    // The rounding of the frame tilts the plane, by 4 units of roundoff per component.
     SurfacePointT<T> point{
         .position = disc.center + a + b,
         .error =
@@ -100,8 +104,10 @@ template <std::floating_point T>
     return point_at(disc, hit.u, hit.v, normal(disc));
 }
 
-/// Samples a point of a disc uniformly: its density is 1 / area per squared scene unit.
-/// `u` is a point of the unit square, `normal` is what normal() returned.
+/// Samples a point of a disc uniformly. Its density is 1 / area per squared scene unit.
+/// \param disc    The disc.
+/// \param u       Point of the unit square.
+/// \param normal  The result of normal(disc).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const DiscT<T>& disc, const Vec2T<T>& u,
                                            const Vec3T<T>& normal) noexcept {
@@ -116,7 +122,8 @@ template <std::floating_point T>
     return sample_area(disc, u, normal(disc));
 }
 
-/// The texture coordinates of a hit: the disc fills the circle in the unit square.
+/// The texture coordinates of a hit. The disc fills the largest circle in the unit
+/// square.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const DiscT<T>& /*disc*/,
                                            const ShapeHitT<T>& hit,
@@ -130,9 +137,9 @@ template <std::floating_point T>
     return {.center = disc.center, .radius = disc.radius};
 }
 
-/// A box that contains a disc despite rounding; it is a few units in the last place too
-/// large. Along an axis the disc reaches as far as \f$ R \sqrt{1 - n_i^2} \f$, which is
-/// computed from the two other components.
+/// A box that contains a disc despite rounding, a few units in the last place too
+/// large. Along axis i the disc extends by \f$ R \sqrt{1 - n_i^2} \f$ from its centre,
+/// where n is the unit normal.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const DiscT<T>& disc) noexcept {
     const Vec3T<T> n = normal(disc);
@@ -153,9 +160,9 @@ template <std::floating_point T>
     return shape;
 }
 
-/// Refuses a disc with a non-finite member, without a normal, or with a radius not
-/// above 0.
-/// \throws std::invalid_argument  with the name and the value.
+/// Refuses a disc if a member is not finite, if the normal is 0, or if the radius is
+/// not above 0.
+/// \throws std::invalid_argument  with the name and the value of the member.
 template <std::floating_point T>
 void check(const DiscT<T>& disc) {
     require_finite("disc.center", disc.center);

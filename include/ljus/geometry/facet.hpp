@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/facet.hpp
-/// \brief Flat polygons, and the fraction of a hemisphere that one fills.
+/// \brief Flat polygons and their form factors.
 
 #include <array>
 #include <cmath>
@@ -18,19 +18,19 @@ namespace ljus {
 /// \brief Section 2.2: "a form factor, which describes patch visibility, is calculated
 /// for each pair of patches". Chapter: \ref ch_radiosity.
 ///
-/// All computations are in double: a form factor is a small difference of larger
-/// numbers.
+/// All computations are in double, because a form factor can be a small difference of
+/// larger numbers.
 /// \{
 
 /// A convex polygon. Its corners turn counter-clockwise as seen from its front.
 struct Facet {
     std::array<glm::dvec3, 6> corners{}; ///< The first `count` are used.
-    int count = 0;                       ///< At most 6: a quad cut by a plane has 5.
+    int count = 0;                       ///< The number of corners.
 };
 
 namespace detail {
 
-/// A facet with the opposite front.
+/// A facet whose front is the back of the given one.
 [[nodiscard]] constexpr Facet turned(const Facet& facet) noexcept {
     Facet other{.count = facet.count};
     for (int i = 0; i < facet.count; ++i)
@@ -51,10 +51,12 @@ namespace detail {
 }
 
 /// Clips a facet by a plane.
-/// \param normal  Unit normal; points to the side that is kept.
-/// \param width   Corners within this distance count as on the plane.
-/// \return The facet in front of the plane, with at most one corner more; no corners if
-///         nothing is left.
+/// \param facet   The facet.
+/// \param point   A point of the plane.
+/// \param normal  Unit normal of the plane, towards the side that is kept.
+/// \param width   Corners within this distance of the plane count as on the plane.
+/// \return The part of the facet in front of the plane, with at most one corner more;
+///         no corners if nothing is left.
 [[nodiscard]] inline Facet clipped(const Facet& facet, const glm::dvec3& point,
                                    const glm::dvec3& normal,
                                    double width = 0) noexcept {
@@ -83,15 +85,15 @@ namespace detail {
 /// The form factor from a point of a surface to a facet: the fraction of the point's
 /// diffuse emission that arrives at the facet.
 ///
-/// Lambert's formula: with the unit vectors \f$v_k\f$ to the corners,
+/// Lambert's formula gives the form factor F. v_k is the unit vector from the point to
+/// corner k, theta_k is the angle between v_k and v_{k+1}, and n is the normal at the
+/// point.
 /// \f[ F = \frac1{2\pi} \sum_k \theta_k\,
-///     n \cdot \frac{v_{k+1} \times v_k}{|v_{k+1} \times v_k|}, \f]
-/// where \f$\theta_k\f$ is the angle between \f$v_k\f$ and \f$v_{k+1}\f$. Each term is
-/// the signed area between an edge and the centre of Nusselt's disc.
+///     n \cdot \frac{v_{k+1} \times v_k}{|v_{k+1} \times v_k|} \f]
 /// \param point   Any point not on the facet's border.
 /// \param normal  Unit normal at the point.
-/// \param facet   A facet; its part below the point's horizon is clipped.
-/// \return In [0, 1]; 0 if the facet faces away.
+/// \param facet   The facet. The part below the point's horizon does not count.
+/// \return F in [0, 1]; 0 if the facet faces away.
 /// \report{Section 2.2}
 /// \cite baum1989
 // [form_factor_at]
@@ -115,9 +117,9 @@ namespace detail {
 
 namespace detail {
 
-/// The coefficients of the series of theta / sin theta in x = sin^2(theta / 2): the
-/// hypergeometric function 2F1(1, 1; 3/2; x), whose terms have the ratio
-/// x (n + 1) / (n + 3/2). For x up to 1/4 the sum of 16 is exact to 1e-10.
+/// The first 16 coefficients of theta / sin(theta) as a series in x = sin^2(theta / 2).
+/// The series is the hypergeometric function 2F1(1, 1; 3/2; x). For x up to 1/4 its
+/// first 16 terms are exact to 1e-10.
 inline constexpr auto angle_over_sine_series = [] {
     std::array<double, 16> terms{1};
     for (std::size_t n = 0; n + 1 < terms.size(); ++n)
@@ -125,12 +127,13 @@ inline constexpr auto angle_over_sine_series = [] {
     return terms;
 }();
 
-/// theta / sin theta for an angle of at most 60 degrees.
-/// \param cosine  Its cosine, at least 1/2.
+/// theta / sin(theta) for an angle theta of at most 60 degrees.
+/// \param cosine  cos(theta), at least 1/2.
 [[nodiscard]] constexpr double angle_over_sine(double cosine) noexcept {
     const auto& a = angle_over_sine_series;
     const double x = 0.5 - 0.5 * cosine, x2 = x * x;
-    // Two sums, because each step waits for the one before.
+    // Two independent sums are faster, because each step of a sum waits for the one
+    // before.
     double even = a[14], odd = a[15];
     for (std::size_t n = 14; n > 0; n -= 2) {
         even = even * x2 + a[n - 2];
@@ -139,9 +142,9 @@ inline constexpr auto angle_over_sine_series = [] {
     return even + odd * x;
 }
 
-/// The fast twin of form_factor_at(): without arc tangents and clipping for a facet of
-/// three or four corners above the horizon whose edges fill at most 60 degrees each.
-/// Its loops of four become vector instructions.
+/// The fast twin of form_factor_at(). It needs no arc tangent and no clipping if the
+/// facet has three or four corners, lies above the horizon, and has edges that each
+/// span at most 60 degrees as seen from the point. Otherwise it calls form_factor_at().
 [[nodiscard]] inline double form_factor_fast(const glm::dvec3& point,
                                              const glm::dvec3& normal,
                                              const Facet& facet) noexcept {

@@ -20,8 +20,8 @@ namespace ljus {
 /// \addtogroup isosurface
 /// \{
 
-/// A field: its value and gradient at a point, in double, and a bound of the gradient's
-/// length.
+/// A field with its value and its gradient at a point, and with a bound on the length
+/// of the gradient, `lipschitz()`.
 template <typename F>
 concept LipschitzField = requires(const F& field, Vec3T<double> x) {
     { field.value(x) } -> std::same_as<double>;
@@ -29,19 +29,19 @@ concept LipschitzField = requires(const F& field, Vec3T<double> x) {
     { field.lipschitz() } -> std::same_as<double>;
 };
 
-/// The surface of a field, within a ball.
+/// The surface where a field is 0.
 /// \report{Section 2.1}
 template <std::floating_point T, LipschitzField Field>
 struct IsosurfaceT {
     Field field{};       ///< Positive inside, negative outside.
-    SphereT<T> bounds{}; ///< Contains the whole surface, with a margin.
+    SphereT<T> bounds{}; ///< A sphere around the whole surface, with a margin.
 };
 template <LipschitzField Field>
 using Isosurface = IsosurfaceT<float, Field>; ///< IsosurfaceT in float.
 
 namespace detail {
 
-/// The field of an isosurface along a ray; the Lipschitz bound gives its range.
+/// The field of an isosurface along a ray. It satisfies FieldOnRay.
 template <LipschitzField Field>
 struct LipschitzLine {
     const Field& field; ///< The field.
@@ -52,7 +52,7 @@ struct LipschitzLine {
 
     /// f(O + tD).
     [[nodiscard]] double value(double t) const { return field.value(point_at(ray, t)); }
-    /// Bound of |df/dt|.
+    /// A bound on |df/dt|.
     [[nodiscard]] double steepest() const { return field.lipschitz() * length; }
     /// An interval that contains all values in [a, b].
     [[nodiscard]] IntervalT<double> range(double a, double b) const {
@@ -63,9 +63,11 @@ struct LipschitzLine {
 
 } // namespace detail
 
-/// The distance within the ray's [t_min, t_max] at which it first hits an isosurface.
+/// The distance at which a ray first hits an isosurface, within the ray's [t_min,
+/// t_max].
 /// \tparam Solver  SphereTracing or Bisection.
-/// \return As first_meeting(), computed in double.
+/// \return The distance in units of the direction's length, computed in double; nothing
+///         for a miss, or if the solver gives up.
 template <typename Solver = SphereTracing, std::floating_point T, LipschitzField Field>
 [[nodiscard]] std::optional<T> intersect(const RayT<T>& ray,
                                          const IsosurfaceT<T, Field>& surface,
@@ -83,10 +85,15 @@ template <typename Solver = SphereTracing, std::floating_point T, LipschitzField
 
 namespace detail {
 
-/// Projects the hit of a field onto the surface: one Newton step along the gradient,
-/// bounded by the error of t that stems from its rounding and the solver's tolerance.
-/// If the gradient vanishes, the normal faces the ray.
-/// \param rounding  Error bound of the values of f, including the solver's tolerance.
+/// Projects a hit onto the surface of a field f by one Newton step along the gradient.
+/// The step is taken only if it is no longer than the error of t, which stems from
+/// rounding and from the solver's tolerance. If the gradient is 0, the normal faces the
+/// ray.
+/// \param value     Called as value(x): the field f.
+/// \param gradient  Called as gradient(x): the gradient of f.
+/// \param ray       The ray.
+/// \param t         Distance of the hit, in units of the direction's length.
+/// \param rounding  A bound on the error of f, including the solver's tolerance.
 template <std::floating_point T, typename Value, typename Gradient>
 [[nodiscard]] SurfacePointT<T> refined(const Value& value, const Gradient& gradient,
                                        const RayT<T>& ray, T t, double rounding) {
@@ -95,8 +102,9 @@ template <std::floating_point T, typename Value, typename Gradient>
     Wide x = o + double(t) * d;
     const double unit = double(std::numeric_limits<T>::epsilon()) / 2;
     Wide g = gradient(x);
-    // The error along the ray: the error of f over its slope, or the root of the error
-    // of f where the slope vanishes and f behaves like a square.
+    // The error along the ray is the error of f over the slope of f. Where the slope is
+    // 0, f behaves like a square, and the error along the ray is the square root of the
+    // error of f.
     const double doubt =
         std::max(8 * unit * (glm::length(o) + double(t) * glm::length(d)),
                  std::min(rounding / glm::length(g), std::sqrt(rounding)));
@@ -127,15 +135,16 @@ template <std::floating_point T, LipschitzField Field>
                            ray, hit.t, 4 * SphereTracing{}.tolerance);
 }
 
-/// A sphere around the isosurface: its bounds.
+/// A sphere around the isosurface: its member `bounds`.
 template <std::floating_point T, LipschitzField Field>
 [[nodiscard]] SphereT<T>
 bounding_sphere(const IsosurfaceT<T, Field>& surface) noexcept {
     return surface.bounds;
 }
 
-/// Refuses bounds with a radius not above 0, and a Lipschitz bound not above 0.
-/// \throws std::invalid_argument  with the name and the value.
+/// Refuses an isosurface if the centre of its bounds is not finite, or if their radius
+/// or the Lipschitz bound is not finite and above 0.
+/// \throws std::invalid_argument  with the name and the value of the member.
 template <std::floating_point T, LipschitzField Field>
 void check(const IsosurfaceT<T, Field>& surface) {
     require_finite("isosurface.bounds.center", surface.bounds.center);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/metaballs.hpp
-/// \brief Metaballs: a field of blobs, and its isosurface.
+/// \brief Metaballs: the isosurface of the summed field of some blobs.
 
 #include <cmath>
 #include <concepts>
@@ -18,10 +18,11 @@ namespace ljus {
 /// \addtogroup metaballs
 /// \{
 
-/// A field of blobs. Its surface is where the field equals `level`:
+/// Metaballs: the surface where the summed fields of some blobs are equal to a level L:
 /// \f[ f(X) = \sum_i w_i \left(1 - \frac{|X - C_i|^2}{R_i^2}\right)_+^2 - L = 0. \f]
-/// f is positive inside and negative outside. A blob of negative weight carves. One
-/// blob of weight 1 and level 1/4 gives a sphere of radius 0.707 R.
+/// The index + means that a negative number counts as 0. f is positive inside and
+/// negative outside. A blob of negative weight removes volume. One blob of weight 1 and
+/// level 1/4 gives a sphere of radius 0.707 R.
 /// \report{Section 2.1, footnote 2} \cite blinn1982 \cite wyvill1986
 // [metaballs]
 template <std::floating_point T>
@@ -46,8 +47,9 @@ template <std::floating_point T>
     return sum;
 }
 
-/// The gradient of the field, \f$ \nabla f = -4 \sum_i w_i s_i (X - C_i)/R_i^2 \f$, in
-/// double. It points inwards.
+/// The gradient of the field in double,
+/// \f$ \nabla f = -4 \sum_i w_i s_i (X - C_i)/R_i^2 \f$. The sum is over the blobs for
+/// which \f$ s_i = 1 - |X - C_i|^2/R_i^2 \f$ is positive. The gradient points inwards.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<WideT<T>> gradient(const MetaballsT<T>& balls,
                                        const Vec3T<WideT<T>>& x) {
@@ -61,9 +63,9 @@ template <std::floating_point T>
     return sum;
 }
 
-/// The Lipschitz constant of the field: the sum of
-/// \f$ \frac{8}{3\sqrt 3} |w_i| / R_i \f$. A blob is steepest at
-/// \f$ r = R / \sqrt 3 \f$. Sphere tracing steps by |f| over it.
+/// A bound on the slope of the field (its Lipschitz constant): the sum of
+/// \f$ \frac{8}{3\sqrt 3} |w_i| / R_i \f$ over all blobs. The field of a blob is
+/// steepest at the distance \f$ R / \sqrt 3 \f$ from its centre.
 /// \return At least |grad f| everywhere, per scene unit, in double.
 template <std::floating_point T>
 [[nodiscard]] WideT<T> lipschitz(const MetaballsT<T>& balls) {
@@ -73,17 +75,16 @@ template <std::floating_point T>
     return sum * detail::steepest_blob<WideT<T>>;
 }
 
-/// The distance within the ray's [t_min, t_max] at which it first hits metaballs, from
-/// outside or inside.
-/// \tparam Solver  QuarticPieces, the default, is the fastest and most accurate of the
-///                 four; the others are Bisection, SphereTracing and Radicals.
-/// \return The smallest t at which f crosses 0, in units of the direction's length,
-///         computed in double and rounded to T once; nothing for a miss, a NaN, an
-///         infinity, or a zero direction. The inside is where f >= 0.
-/// \cost A square root and a division per blob, and a quartic per span. The spans lie
-///       between the points at which the ray enters, leaves or is nearest to a blob: at
-///       most 3 n - 1 spans, each with n additions and mostly 0 or 1 root; at most 10
-///       roots of 106 steps.
+/// The distance at which a ray first hits metaballs, from outside or inside, within the
+/// ray's [t_min, t_max].
+/// \tparam Solver  QuarticPieces, Bisection, SphereTracing or Radicals. The default,
+/// QuarticPieces, is the fastest and the most accurate.
+/// \return The smallest t at which f crosses 0, in units of the direction's length. It
+///         is computed in double and rounded to T once. Nothing for a miss, a NaN, an
+///         infinity, or a zero direction. A point with f >= 0 is inside.
+/// \cost A square root and a division per blob. A ray that meets n blobs has at most 3
+///       n - 1 spans, which end where the ray enters, leaves or is nearest to a blob. A
+///       span costs n additions and mostly 0 or 1 root; at most 10 roots of 106 steps.
 /// \report{Section 2.1}
 template <typename Solver = QuarticPieces, std::floating_point T>
 [[nodiscard]] std::optional<T> intersect(const RayT<T>& ray, const MetaballsT<T>& balls,
@@ -114,8 +115,9 @@ surface_point(const MetaballsT<T>& balls, const RayT<T>& ray, const ShapeHitT<T>
 
 namespace detail {
 
-/// The radius within which a blob's field reaches a value.
-/// \return R sqrt(1 - sqrt(s/w)); negative if the field is below s everywhere.
+/// The radius within which the field of a blob is at least `share`.
+/// \return R sqrt(1 - sqrt(share / w)) for the blob's radius R and weight w, which is
+///         above 0; negative if the field is below `share` everywhere.
 template <std::floating_point T>
 [[nodiscard]] WideT<T> reach_of(const BlobT<T>& blob, WideT<T> share) {
     const WideT<T> s = std::sqrt(share / WideT<T>(blob.weight));
@@ -124,9 +126,9 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// A sphere around metaballs. Where n blobs together reach the level, at least one of
-/// them reaches 1/n of it; the sphere contains all points where a blob does. For a
-/// single blob it is the surface itself.
+/// A sphere around metaballs. Where the fields of n blobs of positive weight add up to
+/// the level L, at least one field is L/n or more. The sphere contains all such points.
+/// For a single blob the sphere is the surface itself.
 template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const MetaballsT<T>& balls) {
     using C = WideT<T>;
@@ -157,8 +159,9 @@ template <std::floating_point T>
                       (T(1) + T(4) * std::numeric_limits<T>::epsilon())};
 }
 
-/// Refuses metaballs that have no surface.
-/// \throws std::invalid_argument  with the name and the value.
+/// Refuses metaballs if a member is not finite, if the level or a radius is not above
+/// 0, or if the positive weights do not exceed the level.
+/// \throws std::invalid_argument  with the name and the value of the member.
 template <std::floating_point T>
 void check(const MetaballsT<T>& balls) {
     require_positive("metaballs.level", balls.level);

@@ -13,15 +13,17 @@ namespace ljus {
 /// \ref ch_distributed_rays.
 /// \{
 
-/// A shape that is cheap to displace, because each ray displaces it to its own time.
+/// A shape with the function `translated(shape, by)`. For each ray this function moves
+/// the shape to the ray's time, so it should be cheap.
 template <typename S>
 concept Movable = Shape<S> && requires(const S& shape, const Vec3T<ScalarOf<S>>& by) {
     { translated(shape, by) } -> std::same_as<S>;
 };
 
-/// A shape in linear motion. The shutter opens at time 0 and closes at time 1, and a
-/// ray sees the shape at the ray's time. A scene without moving shapes pays nothing.
-/// \tparam S  A sphere, a triangle, a quad, an instance of a mesh.
+/// A shape in linear motion. The shutter opens at time 0 and closes at time 1. A ray
+/// sees the shape at the ray's time.
+/// \tparam S  A sphere, a triangle, a quad, a disc, a cylinder or an instance of a
+/// mesh.
 // [moving]
 template <Movable S>
 struct Moving {
@@ -48,7 +50,7 @@ template <typename S, std::floating_point T>
 }
 // [at_time]
 
-/// A shape at rest is the same at all times.
+/// The shape itself, because it does not move.
 template <typename S, std::floating_point T>
 requires(!detail::is_moving<S>)
     [[nodiscard]] constexpr const S& at_time(const S& shape, T) noexcept {
@@ -56,7 +58,7 @@ requires(!detail::is_moving<S>)
 }
 
 /// \name As a shape
-/// Its bounds contain it at all times.
+/// The bounds of a moving shape contain the shape at all times.
 /// \{
 
 /// Intersects a ray with the shape at the ray's time.
@@ -107,8 +109,8 @@ template <typename S>
     return sphere;
 }
 
-/// A box around all positions of the shape: that around the first and the last one. It
-/// is a few units in the last place too large.
+/// A box around all positions of the shape: the union of the boxes at time 0 and at
+/// time 1, a few units in the last place too large.
 template <typename S>
 [[nodiscard]] auto bounds(const Moving<S>& moving) noexcept {
     using T = ScalarOf<S>;
@@ -120,7 +122,7 @@ template <typename S>
     return BoxT<T>{both.low - rounding, both.high + rounding};
 }
 
-/// The texture coordinates of the shape; they move with it.
+/// The texture coordinates of the shape, which move with the shape.
 template <typename S, std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const Moving<S>& moving,
                                            const ShapeHitT<T>& hit,
@@ -128,14 +130,14 @@ template <typename S, std::floating_point T>
     return texture_coordinates(moving.shape, hit, point);
 }
 
-/// The texture tangents of the shape; a displacement does not turn them.
+/// The texture tangents of the shape, which a displacement does not change.
 template <HasTangents S, std::floating_point T>
 [[nodiscard]] std::array<Vec3T<T>, 2>
 texture_tangents(const Moving<S>& moving, const ShapeHitT<T>& hit) noexcept {
     return texture_tangents(moving.shape, hit);
 }
 
-/// The shading normal of the shape; a displacement does not turn it.
+/// The shading normal of the shape, which a displacement does not change.
 template <typename S, std::floating_point T>
 requires requires(const S& shape, const ShapeHitT<T>& hit, const Vec3T<T>& normal) {
     shading_normal(shape, hit, normal);
@@ -154,7 +156,7 @@ requires requires(const S& shape) {
     return area_sums(moving.shape);
 }
 
-/// What the shape refers to.
+/// The prototype of the shape.
 template <typename S>
 requires requires(const S& shape) {
     prototype(shape);
@@ -163,8 +165,9 @@ requires requires(const S& shape) {
     return prototype(moving.shape);
 }
 
-/// Refuses a non-finite displacement, and what check() of the shape refuses.
-/// \throws std::invalid_argument  with the name and the value.
+/// Refuses a moving shape if its displacement is not finite, or if check() refuses the
+/// shape.
+/// \throws std::invalid_argument  with the name and the value of the member.
 template <typename S>
 void check(const Moving<S>& moving) {
     check(moving.shape);

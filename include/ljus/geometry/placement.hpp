@@ -18,8 +18,8 @@
 namespace ljus {
 
 /// \defgroup placement Placing shapes
-/// \brief A shape is scaled, then turned, then displaced, once and before the scene is
-/// closed, so that rays pay nothing.
+/// \brief A shape is scaled, then rotated, then translated, before it is added to a
+/// scene.
 ///
 ///     const Placement flat{.rotate{{1, 0, 0}, -90}, .translate{0, 1, 0}};
 ///     scene.add(placed(Disc{}, flat), grey);
@@ -28,22 +28,23 @@ namespace ljus {
 /// A rotation about an axis through the origin.
 template <std::floating_point T>
 struct RotationT {
-    Vec3T<T> axis{T(0), T(1), T(0)}; ///< Of any length but 0.
-    T degrees = T(0);                ///< Counter-clockwise as seen against the axis.
+    Vec3T<T> axis{T(0), T(1), T(0)}; ///< The axis, of any length except 0.
+    T degrees = T(0); ///< Counter-clockwise for a viewer to whom the axis points.
 };
 
 /// Scaling, then rotation, then translation.
 template <std::floating_point T>
 struct PlacementT {
-    Vec3T<T> scale{T(1)};     ///< Along x, y and z; each above 0.
-    RotationT<T> rotate{};    ///< After the scaling.
-    Vec3T<T> translate{T(0)}; ///< After the rotation, in scene units.
+    Vec3T<T> scale{T(1)};     ///< Factors along x, y and z, each above 0.
+    RotationT<T> rotate{};    ///< The rotation, after the scaling.
+    Vec3T<T> translate{T(0)}; ///< The translation, after the rotation, in scene units.
 };
 using Placement = PlacementT<float>; ///< PlacementT in float.
 
-/// Refuses a placement with a scale that is not above 0, a non-finite member, or a
-/// rotation without an axis. Mirroring is refused, because it turns shapes inside out.
-/// \throws std::invalid_argument  with the name and the value.
+/// Refuses a placement if a factor of its scale is not above 0, if a member is not
+/// finite, or if the axis of its rotation is 0. A negative factor would turn shapes
+/// inside out.
+/// \throws std::invalid_argument  with the name and the value of the member.
 template <std::floating_point T>
 void check(const PlacementT<T>& placement) {
     require_finite("scale", placement.scale);
@@ -55,8 +56,8 @@ void check(const PlacementT<T>& placement) {
     require_finite("translate", placement.translate);
 }
 
-/// The matrix of a rotation, by Rodrigues' formula, in double. Quarter turns about the
-/// axes of coordinates are exact.
+/// The matrix of a rotation, by Rodrigues' formula, in double. Multiples of 90 degrees
+/// about a coordinate axis are exact.
 template <std::floating_point T>
 [[nodiscard]] glm::dmat3 matrix_of(const RotationT<T>& rotation) noexcept {
     const double turn = std::remainder(double(rotation.degrees), 360.0);
@@ -91,9 +92,10 @@ template <std::floating_point T>
                     glm::dvec3(placement.translate));
 }
 
-/// The unit normal of a surface after scaling and rotation: it is divided by the scale.
-/// \param normal     Of any length but 0.
-/// \param placement  What is done to the surface.
+/// The unit normal of a surface after scaling and rotation. Each component is divided
+/// by the factor of the scale before the rotation.
+/// \param normal     The normal before, of any length except 0.
+/// \param placement  The placement of the surface.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> placed_normal(const Vec3T<T>& normal,
                                      const PlacementT<T>& placement) noexcept {
@@ -103,7 +105,7 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The scale of a round shape, the same in all directions.
+/// The scale of a round shape, which must be the same along all axes.
 template <std::floating_point T>
 [[nodiscard]] T one_scale(const PlacementT<T>& placement, const char* shape) {
     const Vec3T<T>& s = placement.scale;
@@ -115,8 +117,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// \name Placed shapes
-/// The shape after scaling, rotation and translation. A sphere, a disc or a cylinder
-/// throws std::invalid_argument unless the scale is the same along all axes.
+/// A shape after scaling, rotation and translation. For a sphere, a disc or a cylinder,
+/// placed() throws std::invalid_argument unless the scale is the same along all axes.
 /// \{
 
 /// A placed quad.

@@ -17,8 +17,8 @@
 namespace ljus {
 
 /// \defgroup quad Quads
-/// \brief Section 3.1.5, with other bounds for u and v. One test replaces those of two
-/// triangles, and there is no diagonal through which rays could leak.
+/// \brief Section 3.1.5, with other bounds for u and v. One test replaces the tests of
+/// two triangles, and no ray can pass through a diagonal.
 /// \{
 
 /// The points \f$ V_1 + uE_1 + vE_2 \f$ with u and v in [0, 1].
@@ -32,7 +32,8 @@ using Quad = QuadT<float>; ///< QuadT in float.
 
 namespace detail {
 
-/// \f$ E_1 \times E_2 \f$: the normal, as long as the area, in double.
+/// \f$ E_1 \times E_2 \f$, in double. Its direction is the normal, and its length is
+/// the area.
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<WideT<T>> cross_of_edges(const QuadT<T>& quad) noexcept {
     return glm::cross(Vec3T<WideT<T>>{quad.edge_u}, Vec3T<WideT<T>>{quad.edge_v});
@@ -40,8 +41,8 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Whether a quad has an area that double's rounding does not hide; one without is
-/// never hit, and has no normal.
+/// Whether a quad has an area that is more than a rounding error in double. A quad
+/// without an area is never hit and has no normal.
 template <std::floating_point T>
 [[nodiscard]] bool has_area(const QuadT<T>& quad) noexcept {
     return detail::span_area(Vec3T<WideT<T>>{quad.edge_u},
@@ -50,10 +51,12 @@ template <std::floating_point T>
 
 /// Intersects a ray with a quad.
 /// \tparam Compute  The precision of the arithmetic; by default double, as for
-///                  triangles.
-/// \param ray   Its direction may have any length but zero; hits lie in [t_min, t_max].
-/// \param quad  Any two edges; a quad with parallel edges is never hit.
-/// \return t, and the coordinates u, v along the edges; nothing for a miss.
+/// triangles.
+/// \param ray   The ray. Its direction may have any length except zero. Hits lie in
+///              [t_min, t_max].
+/// \param quad  The quad. A quad with parallel edges is never hit.
+/// \return The distance t, and the coordinates u and v along the edges, in [0, 1].
+///         Nothing for a miss.
 /// \report{Section 3.1.5}
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
@@ -71,14 +74,14 @@ template <std::floating_point T>
     return Vec3T<T>(glm::normalize(detail::cross_of_edges(quad)));
 }
 
-/// The area, in squared scene units.
+/// The area of a quad, in squared scene units.
 template <std::floating_point T>
 [[nodiscard]] inline T area(const QuadT<T>& quad) noexcept {
     return static_cast<T>(glm::length(detail::cross_of_edges(quad)));
 }
 
-/// The point of a quad at the coordinates u, v along its edges: position, error bound,
-/// and `normal`, which is what normal() returned.
+/// The point of a quad at the coordinates u and v along its edges, with its error
+/// bound. `normal` must be the result of normal(quad).
 template <std::floating_point T>
 [[nodiscard]] inline SurfacePointT<T> point_at(const QuadT<T>& quad, T u, T v,
                                                const Vec3T<T>& normal) noexcept {
@@ -100,9 +103,11 @@ template <std::floating_point T>
     return point_at(quad, u, v, normal(quad));
 }
 
-/// Samples a point of a quad with an area, uniformly: its density is 1 / area per
-/// squared scene unit. `u` is a point of the unit square, `normal` is what normal()
-/// returned.
+/// Samples a point of a quad with an area, uniformly. Its density is 1 / area per
+/// squared scene unit.
+/// \param quad    The quad.
+/// \param u       Point of the unit square.
+/// \param normal  The result of normal(quad).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const QuadT<T>& quad, const Vec2T<T>& u,
                                            const Vec3T<T>& normal) noexcept {
@@ -131,14 +136,14 @@ template <std::floating_point T>
             quad.corner + quad.edge_u + quad.edge_v, quad.corner + quad.edge_v};
 }
 
-/// The facet of a quad; it faces along the normal.
+/// A quad as a facet, whose front is on the side of the normal.
 template <std::floating_point T>
 [[nodiscard]] Facet facet_of(const QuadT<T>& quad) noexcept {
     const glm::dvec3 c(quad.corner), u(quad.edge_u), v(quad.edge_v);
     return {{c, c + u, c + u + v, c + v}, 4};
 }
 
-/// A sphere around a quad, not always the smallest.
+/// A sphere around a quad.
 template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const QuadT<T>& quad) noexcept {
     return {.center = quad.corner + (quad.edge_u + quad.edge_v) / T(2),
@@ -147,7 +152,7 @@ template <std::floating_point T>
                       T(2)};
 }
 
-/// A box that contains a quad despite rounding; it is a few units in the last place too
+/// A box that contains a quad despite rounding, a few units in the last place too
 /// large.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const QuadT<T>& quad) noexcept {
@@ -161,8 +166,8 @@ template <std::floating_point T>
     return {box.low - size, box.high + size};
 }
 
-/// The six sides of a box along the axes, which face outwards: a solid.
-/// \param box  Its low corner must be below the high one along each axis.
+/// The six sides of an axis-aligned box, as quads that face outwards.
+/// \param box  The box. Its low corner must be below its high corner along each axis.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::array<QuadT<T>, 6> sides_of(const BoxT<T>& box) noexcept {
     const Vec3T<T> size = box.high - box.low;
@@ -171,7 +176,7 @@ template <std::floating_point T>
             {box.high, -z, -x},      {box.low, y, x},    {box.high, -x, -y}};
 }
 
-/// The edges of a quad: its texture coordinates grow along them.
+/// The edges of a quad, along which its texture coordinates u and v grow.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::array<Vec3T<T>, 2>
 texture_tangents(const QuadT<T>& quad, const ShapeHitT<T>& /*hit*/) noexcept {
@@ -186,8 +191,8 @@ template <std::floating_point T>
     return shape;
 }
 
-/// Refuses a quad with a non-finite member.
-/// \throws std::invalid_argument  with the name and the value.
+/// Refuses a quad if a member is not finite.
+/// \throws std::invalid_argument  with the name and the value of the member.
 template <std::floating_point T>
 void check(const QuadT<T>& quad) {
     require_finite("quad.corner", quad.corner);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/ray.hpp
-/// \brief The ray R(t) = O + tD, and the range of t that counts.
+/// \brief The ray R(t) = O + tD, limited to a range of t.
 
 #include <cstdint>
 #include <limits>
@@ -15,17 +15,18 @@ namespace ljus {
 /// \brief Section 3.1.1: the ray. Chapter: \ref ch_ray.
 /// \{
 
-/// The segment of a line from `t_min` to `t_max`.
+/// The points O + tD of a line with t from `t_min` to `t_max`.
 ///
-/// The report allows every t >= 0, so a ray that leaves a surface may hit that surface
-/// again at t = 0; spawn_ray() avoids this. A ray hits nothing if it contains a NaN or
-/// an infinity (other than t_max), if its direction is zero, or if t_min exceeds t_max.
+/// The report allows every t >= 0. A ray that leaves a surface may then hit the same
+/// surface again at t = 0. spawn_ray() avoids this. A ray hits nothing if its direction
+/// is zero, if t_min exceeds t_max, or if it contains a NaN or an infinity. Only t_max
+/// may be infinite.
 /// \report{Definition 3.1}
 // [ray]
 template <std::floating_point T>
 struct RayT {
     Vec3T<T> origin{T(0)};                        ///< O, in scene units.
-    Vec3T<T> direction{T(0), T(0), T(-1)};        ///< D: any length but zero.
+    Vec3T<T> direction{T(0), T(0), T(-1)};        ///< D, of any length except 0.
     T t_min = T(0);                               ///< First t that counts, >= 0.
     T t_max = std::numeric_limits<T>::infinity(); ///< Last t that counts.
     T time = T(0); ///< In [0, 1]: the shutter opens at 0 and closes at 1.
@@ -33,7 +34,7 @@ struct RayT {
 using Ray = RayT<float>; ///< RayT in float.
 // [ray]
 
-/// The point O + tD of a ray; t is any number, in units of the direction's length.
+/// The point O + tD of a ray. t is any number, in units of the direction's length.
 /// \report{Definition 3.1}
 // [at]
 template <std::floating_point T>
@@ -42,8 +43,8 @@ template <std::floating_point T>
 }
 // [at]
 
-/// The hit of a ray on a shape. On a flat shape, u and v are coordinates along its
-/// edges; other shapes may leave them 0.
+/// The hit of a ray on a shape. On a flat shape, u and v are coordinates along the
+/// edges. Other shapes may leave u and v at 0.
 template <std::floating_point T>
 struct ShapeHitT {
     T t = T(0);             ///< Distance, in units of the direction's length.
@@ -89,15 +90,14 @@ struct Unprepared {};
 
 } // namespace detail
 
-/// What a test computes once per ray and uses for every shape: in general nothing. See
-/// prepare<Watertight>() for a test that uses it.
+/// Computes, once per ray, the data that an intersection test uses for every shape.
+/// Most tests use none; prepare<Watertight>() returns some.
 template <typename Test = void, std::floating_point T>
 [[nodiscard]] constexpr detail::Unprepared prepare(const RayT<T>&) noexcept {
     return {};
 }
 
-/// Intersects a ray with a shape whose test needs no preparation: calls
-/// intersect(ray, shape).
+/// Intersects a ray with a shape by a test that needs no preparation.
 template <typename Test = void, std::floating_point T, typename Shape,
           typename Prepared>
 [[nodiscard]] constexpr auto intersect(const RayT<T>& ray, const Shape& shape,

@@ -21,22 +21,22 @@ namespace ljus {
 /// \brief The functions that a scene requires of a shape.
 ///
 /// A shape needs the functions of the concept Shape: intersect(), surface_point(),
-/// bounding_sphere() and check(). The table lists its optional functions, the purpose
-/// of each, and what happens without it:
+/// bounding_sphere() and check(). The table lists its optional functions. A row has the
+/// name of a function, its purpose, and what happens without it:
 ///
 /// \snippet{lineno} ljus/geometry/shape.hpp shape hooks
 ///
-/// The survey prints which of these each shape of a scene has. The functions belong
-/// in the shape's own namespace, where argument-dependent lookup finds them.
+/// The survey prints which of these functions each shape of a scene has. The functions
+/// belong in the shape's own namespace, where argument-dependent lookup finds them.
 /// \{
 
-/// Turns the result of a shape's intersect() into a hit. A bare t leaves u and v 0.
+/// Makes a hit of the distance t that a shape's intersect() returned. u and v are 0.
 template <std::floating_point T>
 [[nodiscard]] constexpr ShapeHitT<T> as_hit(T t) noexcept {
     return {.t = t};
 }
 
-/// Returns the hit of a flat shape unchanged.
+/// Returns the hit that a shape's intersect() returned.
 template <std::floating_point T>
 [[nodiscard]] constexpr ShapeHitT<T> as_hit(const ShapeHitT<T>& hit) noexcept {
     return hit;
@@ -46,8 +46,8 @@ template <std::floating_point T>
 template <typename S>
 using ScalarOf = decltype(bounding_sphere(std::declval<const S&>()).radius);
 
-/// Whether a type has a bounding sphere. Shape tests this first, to keep the compiler's
-/// message for other types short.
+/// Whether a type has a bounding sphere. The concept Shape tests this first. The
+/// compiler's message for a type that is not a shape is therefore short.
 template <typename S>
 concept HasBoundingSphere = !detail::is_stand_in<S> && requires(const S& shape) {
     bounding_sphere(shape);
@@ -77,17 +77,16 @@ concept Samplable = Shape<S> && HasArea<S> &&
     { sample_area(shape, u) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;
 };
 
-/// A shape that tells in which directions its texture coordinates grow, for normal
-/// maps: `texture_tangents(shape, hit)` returns the derivatives of the point by u and
-/// by v, of any length; 0 where there are none.
+/// A shape that can have a normal map. `texture_tangents(shape, hit)` returns two
+/// vectors along which the texture coordinates u and v grow: the derivatives of the
+/// point by u and by v, of any length. A vector is 0 where there is no derivative.
 template <typename S>
 concept HasTangents = requires(const S& shape, const ShapeHitT<ScalarOf<S>>& hit) {
     { texture_tangents(shape, hit) } -> std::same_as<std::array<Vec3T<ScalarOf<S>>, 2>>;
 };
 
-/// A plane shape: it has a single normal, `normal(shape)`. It fills little of its
-/// bounding sphere, and no ray hits it twice, so photons are aimed at points of its
-/// area.
+/// A plane shape, with a single normal, `normal(shape)`. Photons are aimed at points of
+/// its area, because it fills little of its bounding sphere.
 template <typename S>
 concept FlatShape = Samplable<S> && requires(const S& shape) {
     { normal(shape) } -> std::same_as<Vec3T<ScalarOf<S>>>;
@@ -95,8 +94,8 @@ concept FlatShape = Samplable<S> && requires(const S& shape) {
 
 namespace detail {
 
-/// Whether a flat shape accepts its normal() as an argument of point_at(). Then
-/// normal() is called only once, when the scene is made.
+/// Whether point_at() and sample_area() of a flat shape accept the result of normal()
+/// as an argument. If so, normal() is called only once, when the scene is closed.
 template <typename S>
 inline constexpr bool is_plane = requires(const S& shape, Vec2T<ScalarOf<S>> u) {
     requires FlatShape<S>;
@@ -110,8 +109,8 @@ inline constexpr bool is_plane = requires(const S& shape, Vec2T<ScalarOf<S>> u) 
 /// A shape's own function of the same name takes precedence.
 /// \{
 
-/// Lets lights of shapes without an area compile. A scene refuses such lights, so this
-/// function is never called.
+/// Lets the code for lights compile for a shape without an area. A scene refuses such a
+/// light, so that this function is never called.
 template <Shape S>
 requires(!HasArea<S>) [[nodiscard]] SurfacePointT<ScalarOf<S>> sample_area(
     const S&, const Vec2T<ScalarOf<S>>&) noexcept {
@@ -119,8 +118,8 @@ requires(!HasArea<S>) [[nodiscard]] SurfacePointT<ScalarOf<S>> sample_area(
 }
 
 /// Samples a point of any shape, uniformly over its area.
-/// \return The point and its density per steradian at the observer; the density is 0
-///         for a shape without an area, and if the observer is at that point.
+/// \return The point and its density per steradian at the observer `from`. The density
+///         is 0 for a shape without an area, and if the observer is at the point.
 template <Shape S, std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const S& shape, const Vec3T<T>& from,
                                            const Vec2T<T>& u) noexcept {
@@ -131,8 +130,8 @@ template <Shape S, std::floating_point T>
         return {};
 }
 
-/// The density of sample_towards() at a point of the shape, per steradian at `from`; 0
-/// for a shape without an area.
+/// The density of sample_towards() at a point of the shape, per steradian at `from`. It
+/// is 0 for a shape without an area.
 template <Shape S, std::floating_point T>
 [[nodiscard]] T pdf_towards(const S& shape, const Vec3T<T>& from,
                             const SurfacePointT<T>& point) noexcept {
@@ -149,7 +148,7 @@ template <Shape Lamp>
     return Vec2T<ScalarOf<Lamp>>{ScalarOf<Lamp>(0.5)};
 }
 
-/// The texture coordinates of a hit: its u and v, dimensionless. See the group
+/// The texture coordinates of a hit: the u and v of the hit itself. See the group
 /// \ref texture_coordinates.
 template <Shape S, std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const S& /*shape*/, const ShapeHitT<T>& hit,
@@ -157,13 +156,15 @@ template <Shape S, std::floating_point T>
     return {hit.u, hit.v};
 }
 
-/// The form factor from a point to a shape that has facet_of(): the cosine-weighted
-/// fraction of the point's hemisphere that the shape fills, in closed form.
+/// The form factor from a point to a shape that has facet_of(). It is the
+/// cosine-weighted fraction of the point's hemisphere that the shape fills, in closed
+/// form.
 /// \param from        The point.
 /// \param normal      Unit normal of the surface at the point.
-/// \param lamp        The shape; its normal's side emits.
-/// \param inside_out  The other side emits.
-/// \return In [0, 1]: the irradiance over pi times the lamp's radiance.
+/// \param lamp        The shape, which emits on the side of its normal.
+/// \param inside_out  True if the shape emits on the other side instead.
+/// \return The form factor, in [0, 1]. The irradiance at the point is pi times the form
+///         factor times the radiance of the lamp.
 template <Shape Flat, std::floating_point T>
 [[nodiscard]] auto form_factor_from(const Vec3T<T>& from, const Vec3T<T>& normal,
                                     const Flat& lamp, bool inside_out) noexcept
@@ -238,7 +239,8 @@ template <Shape S>
 /// \}
 
 /// \defgroup texture_coordinates Texture coordinates
-/// \brief A point of a shape in the shape's own coordinates, for images in a UvMap.
+/// \brief The coordinates (u, v) of a point on its own shape, for textures with a
+/// UvMap.
 ///
 /// | shape           | (u, v)                                                     |
 /// |-----------------|------------------------------------------------------------|

@@ -10,26 +10,28 @@
 namespace ljus {
 
 /// \defgroup solid_angle Shapes as an observer sees them
-/// \brief Section 3.2.3: shadow rays end at a point of a lamp. Its density per
-/// steradian contains the cosine and the inverse square that the report's program
-/// forgot.
+/// \brief Section 3.2.3: a shadow ray ends at a sampled point of a lamp. The density of
+/// the point per steradian contains a cosine and the squared distance, which the
+/// report's program forgot.
 ///
-/// A shape has its own sample_towards() and pdf_towards(), or uses those of shape.hpp.
+/// A shape may have its own sample_towards() and pdf_towards(). Otherwise the functions
+/// of shape.hpp are used.
 /// \{
 
 /// A sampled point of a shape, with its density.
 template <std::floating_point T>
 struct SeenPointT {
     SurfacePointT<T> point{}; ///< The point.
-    T pdf = T(0);             ///< Per steradian at the observer.
+    T pdf = T(0);             ///< Its density, per steradian at the observer.
 };
 
 namespace detail {
 
-/// Converts the density of a point, uniform over the area, to one per steradian at the
-/// observer `from`.
-/// \return distance^2 / (|cos| area); infinity if the surface is seen edge-on; 0 if the
-///         observer is at the point.
+/// Converts the density of a point that is uniform over an area to the density per
+/// steradian at the observer `from`.
+/// \return distance^2 / (|cos| area), with the cosine between the point's normal and
+///         the direction of the observer. Infinity if the surface is seen edge-on; 0 if
+///         the observer is at the point.
 /// \cite veach1997
 // [pdf from area]
 template <std::floating_point T>

@@ -47,13 +47,16 @@ struct ChordT {
 /// The line O + tD meets the sphere where
 /// \f[ t^2\,(D \cdot D) + 2t\,D \cdot (O - C) + |O - C|^2 - R^2 = 0. \f]
 /// The discriminant is computed as \f$ R^2 - |P|^2 \f$, where P is the vector from C to
-/// the nearest point of the line; \f$ b^2 - ac \f$ cancels for a small, distant sphere.
-/// The second root is \f$ c/q \f$, which does not cancel either \cite haines2019.
+/// the nearest point of the line. This form is accurate even for a small, distant
+/// sphere. The second root is computed from the first one, without cancellation
+/// \cite haines2019.
 /// \tparam Compute  The precision of the arithmetic; by default that of the data.
-/// \param ray     Its direction may have any length but zero; its range is ignored.
-/// \param sphere  The sphere. All lengths, and their products with the direction's,
-///                must be between 1e-18 and 1e18 in float, 1e-150 and 1e150 in double.
-/// \return Both roots, finite, in the precision of the arithmetic; nothing for a miss,
+/// \param ray     The ray. Its direction may have any length except zero. Its range is
+///                ignored.
+/// \param sphere  The sphere. All lengths, and their products with the length of the
+///                direction, must be between 1e-18 and 1e18 in float, and between
+///                1e-150 and 1e150 in double.
+/// \return Both roots, finite, in the precision of the arithmetic. Nothing for a miss,
 ///         a NaN, an infinity, a zero direction, a radius not above 0, or a length
 ///         whose square overflows.
 /// \cost One square root and two divisions; one division for a miss.
@@ -77,7 +80,7 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
     // False for NaN and for a radius of 0 or less.
     if (!(C(0) <= discriminant && r > C(0))) return std::nullopt;
 
-    // The root of larger magnitude comes first; by Vieta the other one is c/q.
+    // The root of larger magnitude is computed first. The other root is c/q (Vieta).
     const C q = b + std::copysign(std::sqrt(a * discriminant), b);
     const C c = glm::dot(oc, oc) - r * r;
     const C large = q * inverse_a;
@@ -91,12 +94,12 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
 // [chord ends]
 
 /// The distance at which a ray first hits a sphere, from outside or inside.
-/// \tparam Compute  The precision of the arithmetic; t is rounded to T once. In double,
-///                  every hit or miss of the tests' float data is decided correctly.
-/// \param ray     Hits lie within [t_min, t_max].
-/// \param sphere  The sphere. In float arithmetic, lengths between 1e-18 and 1e18.
-/// \return The smallest such t, in units of the direction's length; nothing for a miss
-///         or for data that chord() rejects.
+/// \tparam Compute  The precision of the arithmetic; t is rounded to T once.
+/// \param ray     The ray. Hits lie within [t_min, t_max].
+/// \param sphere  The sphere. In float arithmetic its lengths must be between 1e-18 and
+///                1e18.
+/// \return The smallest such t, in units of the direction's length. Nothing for a miss,
+///         or for data for which chord() returns nothing.
 /// \cost That of chord() and three comparisons.
 /// \report{Section 3.1.4, Eqs. (2) and (3)}
 // [intersect]
@@ -105,7 +108,7 @@ template <typename Compute = void, std::floating_point T>
                                          const SphereT<T>& sphere) noexcept {
     const auto hits = chord<Compute>(ray, sphere);
     if (!hits) return std::nullopt;
-    // A ray may be unbounded, but no hit is at infinity.
+    // t_max may be infinite, but a hit is finite.
     const T t_max = glm::min(ray.t_max, std::numeric_limits<T>::max());
     const T enter = static_cast<T>(hits->enter);
     if (ray.t_min <= enter && enter <= t_max) return enter;
@@ -120,10 +123,11 @@ template <typename Compute = void, std::floating_point T>
 /// \f[ t = -\frac{u}{2} \pm \sqrt{\frac{u^2}{4} - v},\quad
 ///     u = 2\,D \cdot (O - C),\quad v = |O - C|^2 - R^2 \f]
 ///
-/// Far away \f$ u^2/4 \f$ and \f$ v \f$ are large and nearly equal, and rounding
-/// destroys their difference.
+/// If the sphere is far away, \f$ u^2/4 \f$ and \f$ v \f$ are large and nearly equal,
+/// and rounding destroys their difference.
 /// \tparam Compute  The precision of the arithmetic; t is rounded to T once.
-/// \param ray     A ray with a direction of unit length; hits lie within its range.
+/// \param ray     A ray with a direction of unit length. Hits lie within [t_min,
+///                t_max].
 /// \param sphere  The sphere.
 /// \return As intersect() where the formula holds; otherwise undefined.
 /// \cost One square root, no division.
@@ -146,9 +150,9 @@ template <typename Compute = void, std::floating_point T>
 }
 // [as_printed]
 
-/// The outward unit normal of a sphere at a point on it or near it, except its centre.
-/// It is normalised instead of divided by R, because a computed hit lies only near the
-/// surface.
+/// The outward unit normal of a sphere at a point on or near the sphere, except the
+/// centre. The vector from the centre is normalised instead of divided by R, because a
+/// computed hit is only near the sphere.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> normal(const SphereT<T>& sphere,
                               const Vec3T<T>& point) noexcept {
@@ -168,11 +172,13 @@ template <std::floating_point T>
     return T(4) * std::numbers::pi_v<T> * sphere.radius * sphere.radius;
 }
 
-/// The point of a sphere that a ray hit: O + tD, projected onto the sphere.
+/// The point of a sphere that a ray hit: the point O + tD of the ray, projected onto
+/// the sphere.
 ///
-/// The vector from the centre is computed without the centre's coordinates, whose size
-/// far from the origin would round it away. If a sphere is so small and distant that
-/// nothing of that vector remains, the normal faces the ray.
+/// The vector from the centre C to the point is computed as (O - C) + tD. Without the
+/// large coordinates of the point it keeps its digits far from the scene's origin. If
+/// the sphere is so small and distant that nothing of that vector remains, the normal
+/// faces the ray.
 /// \return Position, error bound, outward normal.
 // [surface_point]
 template <std::floating_point T>
@@ -190,7 +196,7 @@ template <std::floating_point T>
 }
 // [surface_point]
 
-/// Samples a point of a sphere uniformly: its density is 1 / area per squared scene
+/// Samples a point of a sphere uniformly. Its density is 1 / area per squared scene
 /// unit. `u` is a point of the unit square.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const SphereT<T>& sphere,
@@ -211,8 +217,8 @@ struct ConeT {
     T one_minus_cos = T(2); ///< 1 - cos of the half angle; 2 for all directions.
 };
 
-/// The cone of directions in which an observer sees a sphere; all directions if the
-/// observer is inside.
+/// The cone of directions in which an observer sees a sphere. It contains all
+/// directions if the observer is inside.
 template <std::floating_point T>
 [[nodiscard]] ConeT<T> cone_towards(const SphereT<T>& sphere,
                                     const Vec3T<T>& from) noexcept {
@@ -222,9 +228,8 @@ template <std::floating_point T>
     return {.axis = glm::normalize(way), .one_minus_cos = one_minus_cosine(sin2)};
 }
 
-/// Whether an observer is outside a sphere beyond rounding, so that its cone can be
-/// sampled. From inside, and from a point on the sphere that may be rounded to either
-/// side, the area is sampled instead: then a spherical room sees its whole wall.
+/// Whether an observer is farther outside a sphere than rounding errors, so that the
+/// cone towards the sphere can be sampled. Otherwise the area of the sphere is sampled.
 template <std::floating_point T>
 [[nodiscard]] bool sees_cone(const SphereT<T>& sphere, const Vec3T<T>& from) noexcept {
     const T doubt = T(8) * std::numeric_limits<T>::epsilon() *
@@ -234,10 +239,10 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Samples a point of the visible side of a sphere, uniformly over its cone; from
-/// inside, uniformly over its area.
-/// \return The point and its density per steradian at the observer; the density is 0 if
-///         the observer is at that point.
+/// Samples a point of the visible side of a sphere, uniformly in solid angle. From
+/// inside, the point is uniform over the sphere's area.
+/// \return The point and its density per steradian at the observer `from`. The density
+///         is 0 if the observer is at the point.
 /// \cite shirley1996
 template <std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const SphereT<T>& sphere,
@@ -251,7 +256,7 @@ template <std::floating_point T>
     const detail::ConeT<T> cone = detail::cone_towards(sphere, from);
     const Vec3T<T> local = sample_uniform_cone(u, cone.one_minus_cos);
 
-    // The angle at the centre between the axis and the point.
+    // The first point of the sphere in the sampled direction, at the distance t.
     const Vec3T<T> direction = to_world(frame_around(cone.axis), local);
     const T distance = glm::distance(sphere.center, from);
     const T sine2 = local.x * local.x + local.y * local.y;
@@ -271,8 +276,8 @@ template <std::floating_point T>
     return pdf_uniform_cone(detail::cone_towards(sphere, from).one_minus_cos);
 }
 
-/// The u for which sample_towards() returns the point of the sphere nearest to the
-/// observer: (0, 0).
+/// The u for which sample_towards() returns the point of a sphere that is nearest to
+/// the observer: (0, 0).
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec2T<T> center_sample(const SphereT<T>& /*sphere*/) noexcept {
     return Vec2T<T>{T(0)};
@@ -282,10 +287,10 @@ template <std::floating_point T>
 /// point's hemisphere that the sphere fills, in closed form.
 /// \param from        The point.
 /// \param normal      Unit normal of the surface at the point.
-/// \param lamp        The sphere; its outside emits.
-/// \param inside_out  Its inside emits.
-/// \return In [0, 1]; nothing where the formula does not hold: if the horizon cuts the
-///         sphere, if the point lies inside it, or if the inside emits.
+/// \param lamp        The sphere, which emits on its outside.
+/// \param inside_out  True if the sphere emits on its inside instead.
+/// \return The form factor, in [0, 1]. Nothing if the horizon cuts the sphere, if the
+///         point lies inside the sphere, or if the inside emits.
 template <std::floating_point T>
 [[nodiscard]] std::optional<T>
 form_factor_from(const Vec3T<T>& from, const Vec3T<T>& normal, const SphereT<T>& lamp,
@@ -305,8 +310,8 @@ template <std::floating_point T>
     return sphere;
 }
 
-/// A box that contains a sphere despite rounding; it is a few units in the last place
-/// too large.
+/// A box that contains a sphere despite rounding, a few units in the last place too
+/// large.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const SphereT<T>& sphere) noexcept {
     const Vec3T<T> size =
@@ -324,8 +329,8 @@ template <std::floating_point T>
     return shape;
 }
 
-/// The texture coordinates of a point of a sphere: longitude and latitude, as in a
-/// GlobeMap at its centre, in [0, 1]. They are computed from the normal, which is
+/// The texture coordinates of a point of a sphere, in [0, 1]: longitude and latitude,
+/// as in a GlobeMap at the sphere's centre. They are computed from the normal, which is
 /// accurate even far from the origin.
 /// \cost Two arc tangents.
 template <std::floating_point T>
@@ -335,8 +340,9 @@ template <std::floating_point T>
     return globe_coordinates(point.normal);
 }
 
-/// Refuses a sphere with a non-finite centre or a radius not above 0.
-/// \throws std::invalid_argument  with the name and the value.
+/// Refuses a sphere if its centre is not finite or its radius is not finite and above
+/// 0.
+/// \throws std::invalid_argument  with the name and the value of the member.
 template <std::floating_point T>
 void check(const SphereT<T>& sphere) {
     require_finite("sphere.center", sphere.center);

@@ -23,10 +23,10 @@ namespace ljus {
 template <std::floating_point T>
 struct SurfacePointT {
     Vec3T<T> position{T(0)}; ///< In scene units.
-    Vec3T<T> error{T(0)};    ///< Bound of the rounding error of each coordinate.
-    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit, geometric, on the outside.
-    T tilt = T(0); ///< Condition number of the plane, in roundoffs; see
-                   ///< detail::add_tilt(). 0: not used.
+    Vec3T<T> error{T(0)};    ///< Bound on the rounding error of each coordinate.
+    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Geometric unit normal, on the outside.
+    T tilt = T(0); ///< Condition number of the plane of a flat shape; see
+                   // /< detail::add_tilt(). 0 if it is not used.
 };
 using SurfacePoint = SurfacePointT<float>; ///< SurfacePointT in float.
 
@@ -47,17 +47,18 @@ inline void set_point(SurfacePointT<T>& to, const SurfacePointT<T>& from) noexce
     to.tilt = from.tilt;
 }
 
-/// Adds to the error of a point on a flat shape the error of the plane that the next
-/// test of the same shape will see.
+/// Adds to the error of a point on a flat shape the error with which the next
+/// intersection test sees the plane of the shape.
 ///
 /// The sign of \f$ T \cdot (E_1 \times E_2) \f$ tells on which side of the plane a
-/// point lies, where T is its vector from the corner. This sum of products has 9
-/// roundings, and no term exceeds \f$ |T|\,|E_1|\,|E_2| \f$ with
-/// \f$ |X| = |X_x| + |X_y| + |X_z| \f$. Division by twice the area gives a height:
-/// \f[ \gamma_9 |T| \, \frac{|E_1|\,|E_2|}{|E_1 \times E_2|} . \f]
-/// The quotient is the tilt: 1 to 3 for a square, and 1 over the sine of the angle for
-/// two nearly parallel edges. If the arithmetic is wider than the data, as for float,
-/// the error is negligible and the point stays as it is.
+/// point lies. E_1 and E_2 are the edges, and T is the vector from a corner to the
+/// point. This sum of products has 9 roundings. No term exceeds
+/// \f$ |T|\,|E_1|\,|E_2| \f$, where |X| is \f$ |X_x| + |X_y| + |X_z| \f$. Division by
+/// the length of the cross product gives a height above the plane, with the error
+/// \f[ \gamma_9 |T| \, \frac{|E_1|\,|E_2|}{|E_1 \times E_2|} , \f]
+/// where \f$ \gamma_9 \f$ is rounding_bound(9). The fraction is the tilt: 1 to 3 for a
+/// square, and larger for edges that are nearly parallel. For float the function does
+/// nothing, because the test computes in double.
 // [add_tilt]
 template <std::floating_point T>
 void add_tilt(SurfacePointT<T>& point, const Vec3T<T>& e1,
@@ -72,10 +73,10 @@ void add_tilt(SurfacePointT<T>& point, const Vec3T<T>& e1,
 }
 // [add_tilt]
 
-/// Whether two edges span an area and so define a normal. An area that rounding alone
-/// may have produced does not count: an edge between doubles has one rounding, and a
-/// product has another unless it is fused with the subtraction; together 3 roundoffs.
-/// \param a, b  The edges, in double; lengths between 1e-150 and 1e150.
+/// Whether two edges span an area and so define a normal. An area that may stem from
+/// rounding alone does not count.
+/// \param a  An edge, in double, with a length between 1e-150 and 1e150.
+/// \param b  The other edge, with a length in the same range.
 /// \return False for parallel edges, and if the sine of their angle is below 1e-15.
 template <std::floating_point W>
 [[nodiscard]] bool span_area(const Vec3T<W>& a, const Vec3T<W>& b) noexcept {
@@ -87,7 +88,8 @@ template <std::floating_point W>
            differ(a.x * b.y, a.y * b.x);
 }
 
-/// The distance from a surface at which offset_ray_origin() lets a ray start.
+/// The distance from a surface at which offset_ray_origin() puts the origin of a ray,
+/// in scene units.
 // [leaving_distance]
 template <std::floating_point T>
 [[nodiscard]] inline T leaving_distance(const SurfacePointT<T>& point) noexcept {
@@ -100,18 +102,17 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The origin of a ray that leaves a surface: on the side to which `direction` points,
-/// and as close to the surface as rounding permits.
+/// The origin of a ray that leaves a surface. It is on the side to which `direction`
+/// points, and as close to the surface as rounding permits.
 ///
-/// A fixed offset (the report's program has four, from 0.0001 to 0.1) is too long for a
-/// small scene and too short far from the origin. Here the offset along the normal is
-/// twice the error of the point, plus 4 units in the last place of its largest
-/// coordinate for the rounding of the sum. All coordinates of a point on a wall through
-/// the origin may be 0; then the error within the wall's plane gives the scale.
+/// The report's program has four fixed offsets, from 0.0001 to 0.1. A fixed offset is
+/// too long for a small scene and too short far from the origin. Here the offset along
+/// the normal is twice the error of the point, plus 4 units in the last place of its
+/// largest coordinate.
 ///
-/// A double-precision ray that leaves a flat shape does not hit it again if its angle
-/// to the plane exceeds some 20 roundoffs times the tilt: 2e-9 for a sliver of 1 to
-/// 1e-6. Below that angle, double cannot tell to which side of the plane the ray goes.
+/// In double, a ray that leaves a flat shape may hit the shape again if its angle to
+/// the plane is below about 20 units of roundoff times the point's `tilt`. Below that
+/// angle, double cannot tell to which side of the plane the ray goes.
 /// \param point      A point of the surface, with its error.
 /// \param direction  Direction of the ray, of any length.
 /// \report{Definition 3.1}
@@ -138,9 +139,9 @@ template <std::floating_point T>
 /// A ray between two points on surfaces that hits neither surface.
 ///
 /// The rounding error of a hit grows with the length of the ray. The ray therefore ends
-/// short of `to` by this error; otherwise a lamp near the scene's origin would shadow
-/// itself from afar.
-/// \return The ray; it ends at t = 1, and its direction is as long as the distance.
+/// before `to`, by this error. Otherwise a lamp could shadow itself from a distant
+/// point.
+/// \return The ray. It ends at t = 1, and its direction is as long as the distance.
 // [spawn_ray_to]
 template <std::floating_point T>
 [[nodiscard]] RayT<T> spawn_ray_to(const SurfacePointT<T>& from,
@@ -166,11 +167,11 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Bound of the rounding errors of u, v and u + v in moller_trumbore().
+/// A bound on the rounding errors of u, v and u + v in moller_trumbore().
 ///
-/// Their numerators are sums of products with at most 8 roundings, and no term exceeds
-/// \f$ |D|\,|E|\,|T| \f$ with \f$ |X| = |X_x| + |X_y| + |X_z| \f$; u + v has both
-/// errors.
+/// The numerators of u and v are sums of products with at most 8 roundings. No term
+/// exceeds \f$ |D|\,|E|\,|T| \f$ for the ray's direction D, an edge E and the vector T
+/// from the corner to the ray's origin, where |X| is \f$ |X_x| + |X_y| + |X_z| \f$.
 /// \return The bound, dimensionless; 0 if it would exceed `most`.
 // [border]
 template <std::floating_point C>
@@ -197,27 +198,28 @@ enum class Spanned : std::uint8_t {
 /// \f[ t = \frac{Q \cdot E_2}{P \cdot E_1}, \quad u = \frac{P \cdot T}{P \cdot E_1},
 ///     \quad v = \frac{Q \cdot D}{P \cdot E_1} \f]
 ///
-/// No epsilon guards the determinant. If it is 0, the quotients are infinite or NaN and
-/// lie in no shape; if it overflows, they are 0, which is rejected as well.
+/// If the determinant \f$ P \cdot E_1 \f$ is 0, the quotients are infinite or NaN,
+/// which is a miss. If the determinant overflows, the ray misses as well.
 ///
-/// Two triangles round a hit on their common edge differently. If the arithmetic is
-/// wider than the data, the shape includes a border as wide as this rounding error, so
-/// that a ray hits at least one of the two. The border is left out if it exceeds the
-/// rounding of the data, as for slivers in whose plane the ray almost lies. See
+/// The rounding of a hit on the common edge of two triangles is different in each
+/// triangle. If the arithmetic is wider than the data, the shape includes a border as
+/// wide as this rounding error, so that a ray hits at least one of the two. The border
+/// is omitted if it would be wider than the rounding of the data. See
 /// border_of_rounding().
-/// \tparam shape    What the two edges span.
+/// \tparam shape  What the two edges span.
 /// \tparam Compute  The precision of the arithmetic; results are rounded to T once. In
-///                  float, shapes and distances must be between 1e-15 and 1e15.
-/// \param ray     Its direction may have any length but zero; hits lie in
-///                [t_min, t_max].
-/// \param v1      A corner.
-/// \param e1      Edge of the coordinate u.
-/// \param e2      Edge of the coordinate v.
-/// \return Distance and coordinates; nothing for a miss or a non-finite input.
+/// float, shapes and distances must be between 1e-15 and 1e15.
+/// \param ray  The ray. Its direction may have any length except zero. Hits lie in
+///             [t_min, t_max].
+/// \param v1   A corner.
+/// \param e1   Edge of the coordinate u.
+/// \param e2   Edge of the coordinate v.
+/// \return The distance t and the coordinates u and v; nothing for a miss or a
+///         non-finite input.
 /// \cost One division, 25 multiplications, and 6 more for t \cite moller1997.
 /// \report{Section 3.1.5}
-/// \erratum{The report leaves out u, v and their conditions; without them every ray
-///          that crosses the plane hits.}
+/// \erratum{The report omits u, v and the conditions on them. Without these conditions
+///          every ray that crosses the plane hits.}
 // [moller_trumbore]
 template <Spanned shape, typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>>
@@ -231,7 +233,8 @@ moller_trumbore(const RayT<T>& ray, const Vec3T<ComputeT<Compute, T>>& v1,
     const C inverse = C(1) / glm::dot(p, e1);
     const C u = glm::dot(p, to) * inverse;
     constexpr bool closed = sizeof(C) > sizeof(T);
-    // No wider than the data's own rounding, or points beside the shape would be hits.
+    // The border is no wider than the rounding of the data. Otherwise points beside the
+    // shape would be hits.
     constexpr C near = closed ? C(std::numeric_limits<T>::epsilon()) : C(0);
     if (!(u >= -near && u <= C(1) + near)) return std::nullopt; // most rays miss here
 
@@ -245,7 +248,7 @@ moller_trumbore(const RayT<T>& ray, const Vec3T<ComputeT<Compute, T>>& v1,
     };
     if (!(within(near) && inverse != C(0))) return std::nullopt;
 
-    // dot(q, e2) * inverse would overflow float earlier: it forms the cube of a length.
+    // dot(q, e2) is the cube of a length, and would overflow in float earlier.
     const C t = glm::dot(inverse * q, e2);
     constexpr C max{std::numeric_limits<T>::max()};
     if (!(C(ray.t_min) <= t && t <= C(ray.t_max) && t <= max)) return std::nullopt;

@@ -15,23 +15,25 @@
 namespace ljus {
 
 /// \defgroup touching Surfaces in one place
-/// \brief A slab that rests on a floor shares its plane. Chapter: \ref ch_refraction.
+/// \brief Finds where two surfaces coincide or touch, as a slab and the floor under it.
+/// Chapter: \ref ch_refraction.
 /// \{
 
-/// A piece of a surface: a convex polygon, a sphere, whose facet is its centre, or a
-/// tube, whose facet is the two ends of its axis.
+/// A piece of a surface: a convex polygon, a sphere or a tube. The facet of a sphere
+/// has one corner, its centre. The facet of a tube has two corners, the ends of its
+/// axis.
 struct SurfacePiece {
-    Facet facet{};           ///< Three corners or more; of a sphere one, of a tube two.
-    double radius = 0;       ///< Of a sphere or a tube; otherwise 0.
-    bool inside_out = false; ///< Whether its outside is opposite to its normal.
-    glm::dvec3 displacement{0}; ///< From time 0 to 1, in scene units.
+    Facet facet{};              ///< The polygon, the centre, or the axis.
+    double radius = 0;          ///< The radius of a sphere or a tube; 0 for a polygon.
+    bool inside_out = false;    ///< Whether the outside is opposite to the normal.
+    glm::dvec3 displacement{0}; ///< The motion from time 0 to 1, in scene units.
 };
 
-/// What two pieces have in common.
+/// The place that two pieces share.
 struct SharedPlace {
-    BoxT<double> box{};     ///< A box around it.
-    bool over_area = false; ///< False if they touch in a point.
-    bool alike = false;     ///< Whether both outsides are on the same side.
+    BoxT<double> box{};     ///< A box around the place.
+    bool over_area = false; ///< True if they share an area; false if they only touch.
+    bool alike = false;     ///< Whether the outsides of both are on the same side.
 };
 
 namespace detail {
@@ -60,8 +62,8 @@ heights_of(const SurfacePiece& piece, const glm::dvec3& point,
     return {low - piece.radius, high + piece.radius};
 }
 
-/// Whether an edge of a polygon separates it from another one in its plane. Polygons
-/// that share an edge are separated.
+/// Whether the line along an edge of a polygon separates it from another piece in its
+/// plane. Polygons that only share an edge are separated.
 [[nodiscard, gnu::cold]] inline bool
 separated(const Facet& facet, const SurfacePiece& other, double distance) noexcept {
     const glm::dvec3 normal = area_vector(facet);
@@ -74,21 +76,21 @@ separated(const Facet& facet, const SurfacePiece& other, double distance) noexce
     return false;
 }
 
-/// Whether a way is within a plane.
+/// Whether a displacement is parallel to the plane with a normal.
 [[nodiscard, gnu::cold]] inline bool slides(const glm::dvec3& normal,
                                             const glm::dvec3& way) noexcept {
     return std::abs(glm::dot(normal, way)) <=
            1e-6 * glm::length(normal) * glm::length(way);
 }
 
-/// Whether two directions or ways are parallel; 0 is parallel to all.
+/// Whether two vectors are parallel. The zero vector is parallel to every vector.
 [[nodiscard, gnu::cold]] inline bool parallel(const glm::dvec3& a,
                                               const glm::dvec3& b) noexcept {
     return glm::length(glm::cross(a, b)) <= 1e-6 * glm::length(a) * glm::length(b);
 }
 
-/// A rectangle around all places of a polygon that slides in its plane. It may be too
-/// large, because rays find what really touches.
+/// A rectangle around all positions of a polygon that is displaced within its plane. It
+/// may be larger than necessary, because rays later find what really touches.
 [[nodiscard, gnu::cold]] inline Facet around_way(const Facet& facet,
                                                  const glm::dvec3& way) noexcept {
     const glm::dvec3 normal = glm::normalize(area_vector(facet));
@@ -107,16 +109,20 @@ separated(const Facet& facet, const SurfacePiece& other, double distance) noexce
             .count = 4};
 }
 
-/// The part of a box that is close to a point where a sphere or a tube touches.
+/// A box around the point where a sphere or a tube touches another surface. In it the
+/// two surfaces are close to each other.
 [[nodiscard, gnu::cold]] inline BoxT<double>
 around_touch(const glm::dvec3& touch, double radius, double distance) noexcept {
     const double half = std::sqrt(8 * radius * distance) + distance;
     return {touch - half, touch + half};
 }
 
-/// What two polygons share; the first is the larger one.
-/// \param way  Of the other one, as the first one sees it.
-/// \return As shared_place(); the box may be as large as the other one.
+/// The place that two polygons share.
+/// \param one       The larger polygon.
+/// \param other     The smaller polygon.
+/// \param way       Displacement of `other` relative to `one`, from time 0 to 1.
+/// \param distance  Surfaces within this distance count as in one place; scene units.
+/// \return As shared_place(). The box may be as large as `other`.
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_by_polygons(const SurfacePiece& one, SurfacePiece other, const glm::dvec3& way,
                    double distance) noexcept {
@@ -135,7 +141,7 @@ shared_by_polygons(const SurfacePiece& one, SurfacePiece other, const glm::dvec3
                                 (one.inside_out == other.inside_out)};
 }
 
-/// What a polygon and a sphere or a tube share; as shared_by_polygons().
+/// The place that a polygon shares with a sphere or a tube; see shared_by_polygons().
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_with_polygon(const SurfacePiece& polygon, const SurfacePiece& round,
                     const glm::dvec3& way, double distance) noexcept {
@@ -158,7 +164,7 @@ shared_with_polygon(const SurfacePiece& polygon, const SurfacePiece& round,
     return touches ? std::optional(place) : std::nullopt;
 }
 
-/// What spheres and tubes share; as shared_by_polygons().
+/// The place that two spheres or tubes share; see shared_by_polygons().
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_by_round(const SurfacePiece& one, const SurfacePiece& other,
                 const glm::dvec3& way, double distance) noexcept {
@@ -169,7 +175,7 @@ shared_by_round(const SurfacePiece& one, const SurfacePiece& other,
     const glm::dvec3 a = axis_of(one), b = axis_of(other);
     const bool tubes = a != glm::dvec3(0) && b != glm::dvec3(0);
     const glm::dvec3 along = a != glm::dvec3(0) ? a : b;
-    // Otherwise they touch in one point, or for an instant.
+    // Otherwise they touch only in one point, or only for an instant.
     if (!parallel(a, b) || !parallel(along, way) ||
         (along == glm::dvec3(0) && way != glm::dvec3(0)))
         return std::nullopt;
@@ -182,7 +188,7 @@ shared_by_round(const SurfacePiece& one, const SurfacePiece& other,
     const bool at_high = std::abs(high - one.radius) <= distance;
     const bool outside = std::abs(low - one.radius) <= distance;
     if (!at_low && !at_high && !outside) return std::nullopt;
-    // Where they are along the axis; a sphere is somewhere in it.
+    // The interval along the axis that a piece covers at any time.
     const auto interval = [&](const SurfacePiece& piece, const glm::dvec3& moved) {
         std::array<double, 2> ends{std::numeric_limits<double>::infinity(),
                                    -std::numeric_limits<double>::infinity()};
@@ -196,7 +202,7 @@ shared_by_round(const SurfacePiece& one, const SurfacePiece& other,
     };
     const auto mine = interval(one, glm::dvec3(0)), its = interval(other, way);
     const double first = std::max(mine[0], its[0]), last = std::min(mine[1], its[1]);
-    // End to end, or beyond an end.
+    // They meet only end to end, or not at all.
     if (!(last - first > (tubes ? distance : -distance))) return std::nullopt;
     SharedPlace place{.box = box_of(other),
                       .over_area =
@@ -216,15 +222,16 @@ shared_by_round(const SurfacePiece& one, const SurfacePiece& other,
 
 } // namespace detail
 
-/// What two pieces of surfaces share, at any time.
-/// \param one, other  The pieces.
-/// \param distance    Surfaces within this distance count as in one place; scene units.
-/// \return The place; nothing if they cross, only share an edge or a corner, or meet
-///         for an instant.
+/// The place that two pieces of surfaces share at any time in [0, 1].
+/// \param one       A piece.
+/// \param other     The other piece.
+/// \param distance  Surfaces within this distance count as in one place; scene units.
+/// \return The place. Nothing if the pieces cross, if they share only an edge or a
+///         corner, or if they meet only for an instant.
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_place(const SurfacePiece& one, const SurfacePiece& other,
              double distance) noexcept {
-    // The larger polygon knows its plane better.
+    // The plane of the larger polygon is more accurate.
     if (one.radius > 0
             ? other.radius == 0
             : other.radius == 0 && glm::length(detail::area_vector(one.facet)) <

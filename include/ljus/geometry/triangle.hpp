@@ -37,9 +37,8 @@ using Triangle = TriangleT<float>; ///< TriangleT in float.
 
 namespace detail {
 
-/// \f$ E_1 \times E_2 \f$: the normal, as long as twice the area, in double. In float
-/// the normal of a thin triangle is inaccurate, and the fourth power of a length within
-/// its norm overflows beyond 1e9.
+/// \f$ E_1 \times E_2 \f$, in double. Its direction is the normal, and its length is
+/// twice the area. In float, the normal of a thin triangle would be inaccurate.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<WideT<T>> cross_of_edges(const TriangleT<T>& triangle) noexcept {
     const Vec3T<WideT<T>> v1{triangle.v1};
@@ -49,8 +48,8 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Whether a triangle has an area that double's rounding does not hide; one without is
-/// never hit, and has no normal.
+/// Whether a triangle has an area that is more than a rounding error in double. A
+/// triangle without an area is never hit and has no normal.
 template <std::floating_point T>
 [[nodiscard]] bool has_area(const TriangleT<T>& triangle) noexcept {
     const Vec3T<WideT<T>> v1{triangle.v1};
@@ -59,15 +58,14 @@ template <std::floating_point T>
 }
 
 /// Intersects a ray with a triangle.
-/// \tparam Compute  The precision of the arithmetic; by default double, in which no ray
-///                  passes between two neighbours. intersect<float>() is the report's
-///                  formula, which misses one in six rays aimed at edges.
-/// \param ray       Its direction may have any length but zero; hits lie in
+/// \tparam Compute  The precision of the arithmetic; by default double, with which no
+/// ray passes between two adjacent triangles. intersect<float>() is the report's
+/// formula, which misses one in six rays aimed at edges.
+/// \param ray       The ray. Its direction may have any length except zero. Hits lie in
 ///                  [t_min, t_max].
-/// \param triangle  Any three vertices. A triangle without an area, or whose area is
-///                  lost in double's rounding, is never hit: see has_area().
-/// \return t, and the barycentric u, v of the hit \f$(1-u-v)V_1 + uV_2 + vV_3\f$;
-///         nothing for a miss.
+/// \param triangle  The triangle. One without an area is never hit: see has_area().
+/// \return The distance t, and the barycentric coordinates u and v of the hit
+///         \f$(1-u-v)V_1 + uV_2 + vV_3\f$. Nothing for a miss.
 /// \report{Section 3.1.5}
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>>
@@ -76,29 +74,28 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
     const Vec3T<C> v1{triangle.v1};
     auto hit = moller_trumbore<Spanned::triangle, C>(
         ray, v1, Vec3T<C>{triangle.v2} - v1, Vec3T<C>{triangle.v3} - v1);
-    // Rounding may give collinear corners an area. (A single return of a single
-    // variable avoids a copy.)
+    // Rounding may give collinear corners an area. One variable and one return avoid a
+    // copy.
     if (hit && !has_area(triangle)) hit.reset();
     return hit;
 }
 
-/// The unit normal of a triangle with an area; the vertices turn counter-clockwise
-/// around it.
+/// The unit normal of a triangle with an area. The vertices turn counter-clockwise
+/// around the normal.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> normal(const TriangleT<T>& triangle) noexcept {
     return Vec3T<T>(glm::normalize(detail::cross_of_edges(triangle)));
 }
 
-/// The area, in squared scene units.
+/// The area of a triangle, in squared scene units.
 template <std::floating_point T>
 [[nodiscard]] T area(const TriangleT<T>& triangle) noexcept {
     return static_cast<T>(glm::length(detail::cross_of_edges(triangle)) / 2);
 }
 
-/// The point of a triangle with the barycentric coordinates u, v: position, error
-/// bound, and `normal`, which is what normal() returned. u and v are the weights of the
-/// second and the third vertex. The error of the position lies within the plane,
-/// whereas the error of t lies along the ray.
+/// The point of a triangle with the barycentric coordinates u and v, which are the
+/// weights of the second and the third vertex. The error bound of the position lies
+/// within the plane. `normal` must be the result of normal(triangle).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> point_at(const TriangleT<T>& triangle, T u, T v,
                                         const Vec3T<T>& normal) noexcept {
@@ -121,9 +118,11 @@ template <std::floating_point T>
     return point_at(triangle, u, v, normal(triangle));
 }
 
-/// Samples a point of a triangle with an area, uniformly: its density is 1 / area per
-/// squared scene unit. `u` is a point of the unit square, `normal` is what normal()
-/// returned.
+/// Samples a point of a triangle with an area, uniformly. Its density is 1 / area per
+/// squared scene unit.
+/// \param triangle  The triangle.
+/// \param u         Point of the unit square.
+/// \param normal    The result of normal(triangle).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const TriangleT<T>& triangle,
                                            const Vec2T<T>& u,
@@ -154,14 +153,14 @@ corners_of(const TriangleT<T>& triangle) noexcept {
     return {triangle.v1, triangle.v2, triangle.v3};
 }
 
-/// The facet of a triangle; it faces along the normal.
+/// A triangle as a facet, whose front is on the side of the normal.
 template <std::floating_point T>
 [[nodiscard]] Facet facet_of(const TriangleT<T>& triangle) noexcept {
     return {{glm::dvec3(triangle.v1), glm::dvec3(triangle.v2), glm::dvec3(triangle.v3)},
             3};
 }
 
-/// A sphere around a triangle, not always the smallest.
+/// A sphere around a triangle.
 template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const TriangleT<T>& triangle) noexcept {
     const Vec3T<T> center = (triangle.v1 + triangle.v2 + triangle.v3) / T(3);
@@ -171,14 +170,14 @@ template <std::floating_point T>
                                              glm::distance(center, triangle.v3)})};
 }
 
-/// The smallest box around a triangle; no rounding is involved.
+/// The smallest box around a triangle, without a rounding error.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const TriangleT<T>& triangle) noexcept {
     return {glm::min(glm::min(triangle.v1, triangle.v2), triangle.v3),
             glm::max(glm::max(triangle.v1, triangle.v2), triangle.v3)};
 }
 
-/// The edges of a triangle: its texture coordinates grow along them.
+/// The edges of a triangle, along which its texture coordinates u and v grow.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::array<Vec3T<T>, 2>
 texture_tangents(const TriangleT<T>& triangle, const ShapeHitT<T>& /*hit*/) noexcept {
@@ -192,8 +191,8 @@ template <std::floating_point T>
     return {.v1 = shape.v1 + by, .v2 = shape.v2 + by, .v3 = shape.v3 + by};
 }
 
-/// Refuses a triangle with a non-finite vertex.
-/// \throws std::invalid_argument  with the name and the value.
+/// Refuses a triangle if a vertex is not finite.
+/// \throws std::invalid_argument  with the name and the value of the vertex.
 template <std::floating_point T>
 void check(const TriangleT<T>& triangle) {
     require_finite("triangle.v1", triangle.v1);

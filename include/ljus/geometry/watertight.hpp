@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/watertight.hpp
-/// \brief A ray-triangle test that lets no ray pass between two neighbours.
+/// \brief A ray-triangle test that lets no ray pass between two adjacent triangles.
 
 #include <limits>
 #include <optional>
@@ -12,18 +12,19 @@
 namespace ljus {
 
 /// \defgroup watertight Watertight triangles
-/// \brief Section 3.1.5, with a guarantee for shared edges.
-/// Chapter: \ref ch_triangle.
+/// \brief Section 3.1.5: the ray-triangle intersection, with a guarantee for shared
+/// edges. Chapter: \ref ch_triangle.
 /// \{
 
-/// A test for triangles: `intersect<Watertight>(ray, triangle)`. It can replace a
-/// precision wherever a loop or a tree takes one. Spheres are then intersected in their
-/// usual precision, and quads in double.
+/// Selects the watertight test for triangles: `intersect<Watertight>(ray, triangle)`.
+/// It can be used in place of a precision wherever a loop or a tree takes one. Spheres
+/// are then intersected in their usual precision, and quads in double.
 struct Watertight {};
 
 namespace detail {
 
-/// The shear that maps a ray's direction to the z axis; the same for all triangles.
+/// The shear that maps a ray's direction D to the z axis. It is the same for all
+/// triangles.
 template <std::floating_point T>
 struct ShearT {
     int x = 0;     ///< The axis that becomes x.
@@ -31,15 +32,15 @@ struct ShearT {
     int z = 2;     ///< The axis of the direction's largest component.
     T sx = T(0);   ///< \f$ D_x / D_z \f$, in [-1, 1].
     T sy = T(0);   ///< \f$ D_y / D_z \f$, in [-1, 1].
-    double sz = 1; ///< \f$ 1 / D_z \f$; beyond the range of T for a denormal direction.
+    double sz = 1; ///< \f$ 1 / D_z \f$, which may exceed the range of T.
 };
 
 } // namespace detail
 
 /// Computes the shear that maps a ray to the z axis.
 /// \tparam Test  Watertight.
-/// \param ray    A ray. For a direction of zero, NaN or infinity the shear contains a
-///               NaN or an sz of 0, and nothing is hit.
+/// \param ray  A ray. If its direction is zero, NaN or infinite, the shear makes every
+///             test a miss.
 template <std::same_as<Watertight> Test, std::floating_point T>
 [[nodiscard]] detail::ShearT<T> prepare(const RayT<T>& ray) noexcept {
     const Vec3T<T> size = detail::sizes(ray.direction);
@@ -53,21 +54,22 @@ template <std::same_as<Watertight> Test, std::floating_point T>
             .sy = d[y] / d[z],
             .sz = 1 / static_cast<double>(d[z])};
 }
-/// Intersects a ray with a triangle, watertight: a ray at a common edge hits at least
-/// one of its two triangles, and a ray at the hub of a fan hits at least one of the
-/// fan.
+/// Intersects a ray with a triangle so that no ray passes between adjacent triangles. A
+/// ray at a common edge hits at least one of its two triangles. A ray at a common
+/// vertex hits at least one of the triangles around the vertex.
 ///
-/// The shear maps the ray to the z axis. The projected triangle then contains the
-/// origin if \f$ P_x Q_y - P_y Q_x \f$ has the same sign for all three edges. All
-/// triangles of a vertex round its \f$P\f$ in the same way. Products of two floats are
-/// exact in double, so the sign is exact, with or without fused multiply-adds.
-/// Triangles that share corners and decide exactly leave no gap \cite woop2013.
-/// \tparam Test     Watertight.
-/// \param ray       Its direction may have any length but zero; hits lie in
+/// The shear maps the ray to the z axis. The projected triangle contains the origin if
+/// \f$ P_x Q_y - P_y Q_x \f$ has the same sign for all three edges from P to Q. A
+/// vertex is rounded in the same way in all its triangles. The products of two floats
+/// are exact in double, so that the sign is exact. Triangles that share vertices and
+/// have exact signs leave no gap \cite woop2013.
+/// \tparam Test  Watertight.
+/// \param ray       The ray. Its direction may have any length except zero. Hits lie in
 ///                  [t_min, t_max].
-/// \param triangle  Any three vertices; a triangle without an area is never hit.
+/// \param triangle  The triangle. One without an area is never hit.
 /// \param shear     Result of prepare() for this ray.
-/// \return t, and the barycentric u, v; nothing for a miss or a non-finite input.
+/// \return The distance t, and the barycentric coordinates u and v. Nothing for a miss
+///         or a non-finite input.
 /// \cost 6 products for most misses; a hit needs 6 more for its edges, one division,
 ///       and 7 products for t, u and v.
 /// \report{Section 3.1.5}
@@ -114,17 +116,17 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle,
 }
 // [intersect]
 
-// Doxygen would take these two for the overloads with a precision.
+// Hidden, because Doxygen would confuse these two with the overloads for a precision.
 /// \cond
-// For a single triangle; prepares at each call, which costs two divisions.
+// For a single triangle. Each call prepares the ray, which costs two divisions.
 template <std::same_as<Watertight> Test, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>>
 intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
     return intersect<Test>(ray, triangle, prepare<Test>(ray));
 }
 
-// Two quads round a common edge differently, so no test can close the gap in their
-// data. Double keeps it as small as possible.
+// The common edge of two quads is rounded differently in each quad, so that no test can
+// close the gap between them. In double the gap is as small as possible.
 template <std::same_as<Watertight> Test, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
                                                     const QuadT<T>& quad) noexcept {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/detail/equal_points.hpp
-/// \brief Which points of a list are the same.
+/// \brief Finds equal points in a list.
 
 #include <bit>
 #include <cstddef>
@@ -16,13 +16,15 @@
 
 namespace ljus::detail {
 
-// Finds the points of a list by a hash table with linear probing, whose memory is at
-// most 16 bytes per different point. There are fewer than 2^31 points, without NaN.
+// Finds points of a list by a hash table with linear probing. The table needs at most
+// 16 bytes per different point. The list must have fewer than 2^31 points, none of them
+// NaN.
 template <std::floating_point T>
 class EqualPoints {
 public:
-    // The index of the point that was added first of those equal to `point`; if there
-    // is none, `next`, where the list has it when a point is looked for again.
+    // Returns the index of the point that was added first among those equal to `point`.
+    // If there is none, adds `point` with the index `next`, and returns `next`. The
+    // caller then stores the point at that index of the list.
     std::uint32_t find_or_add(const std::vector<Vec3T<T>>& points,
                               const Vec3T<T>& point, std::uint32_t next) {
         if (2 * count_ >= slots_.size()) reserve(points, 2 * count_);
@@ -33,7 +35,7 @@ public:
         }
         return slot;
     }
-    // Makes room for some different points.
+    // Makes room for `count` different points.
     void reserve(const std::vector<Vec3T<T>>& points, std::size_t count) {
         const auto before = std::exchange(
             slots_, std::vector<std::uint32_t>(std::bit_ceil(2 * count + 1), empty));
@@ -46,7 +48,7 @@ private:
 
     std::uint32_t& slot_of(const std::vector<Vec3T<T>>& points, const Vec3T<T>& point) {
         std::uint64_t hash = 0;
-        for (int axis = 0; axis < 3; ++axis) // -0 + 0 is 0
+        for (int axis = 0; axis < 3; ++axis) // adding 0 turns -0 into 0
             hash = mix_bits(hash ^ std::bit_cast<BitsOf<T>>(point[axis] + T(0)));
         std::size_t slot = hash & (slots_.size() - 1);
         while (slots_[slot] != empty && points[slots_[slot]] != point)
@@ -58,7 +60,8 @@ private:
     std::size_t count_ = 0;
 };
 
-// For each point the index of the first one that is equal to it. Expected O(n).
+// For each point, the index of the first point of the list that is equal to it. For n
+// points the expected cost is O(n).
 template <std::floating_point T>
 [[nodiscard]] std::vector<std::uint32_t>
 first_equal_points(const std::vector<Vec3T<T>>& points) {

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/geometry/detail/field_on_ray.hpp
-/// \brief Two solvers for the first zero of a function of t with known bounds: sphere
-/// tracing and interval bisection.
+/// \brief Two solvers for the first zero of a field along a ray: sphere tracing and
+/// interval bisection.
 
 #include <array>
 #include <cmath>
@@ -18,20 +18,21 @@
 namespace ljus {
 
 /// \defgroup isosurface Isosurfaces
-/// \brief Section 2.1: isosurfaces. A field is positive inside, negative outside.
-/// Chapter: \ref ch_metaballs.
+/// \brief Section 2.1: an isosurface is where a field is 0. The field is positive
+/// inside and negative outside. Chapter: \ref ch_metaballs.
 /// \{
 
 namespace detail {
 
 template <std::floating_point T>
 struct IntervalT {
-    T low = T(0);  ///< The least.
-    T high = T(0); ///< The largest.
+    T low = T(0);  ///< The smallest number.
+    T high = T(0); ///< The largest number.
 };
 
-/// A field along a ray: the function f(O + tD) of t. It is negative outside
-/// [enter, leave], and `steepest()` bounds its slope.
+/// A field f along a ray O + tD, as a function of t. It is negative outside [enter,
+/// leave]. `value(t)` is f, `steepest()` is a bound on the absolute slope of f, and
+/// `range(a, b)` contains all values of f for t in [a, b].
 template <typename L, typename T>
 concept FieldOnRay = requires(const L& line, T t) {
     { line.enter } -> std::convertible_to<T>;
@@ -41,7 +42,8 @@ concept FieldOnRay = requires(const L& line, T t) {
     { line.range(t, t) } -> std::same_as<IntervalT<T>>;
 };
 
-/// A field along a ray that also bounds its slope over an interval.
+/// A field along a ray with `slope(a, b)`, which contains all slopes of f for t in [a,
+/// b].
 template <typename L, typename T>
 concept SlopeOnRay = FieldOnRay<L, T> && requires(const L& line, T t) {
     { line.slope(t, t) } -> std::same_as<IntervalT<T>>;
@@ -49,25 +51,27 @@ concept SlopeOnRay = FieldOnRay<L, T> && requires(const L& line, T t) {
 
 } // namespace detail
 
-/// Solver: steps along the ray that cannot jump over the surface \cite hart1996.
+/// A solver that steps along the ray. No step is so long that it could jump over the
+/// surface \cite hart1996.
 struct SphereTracing {
-    double tolerance = 1e-9; ///< |f| at a hit is at most this.
-    int max_steps = 2000;    ///< After as many steps the ray misses.
+    double tolerance = 1e-9; ///< The largest |f| at a hit.
+    int max_steps = 2000;    ///< After this number of steps the ray misses.
 };
 
-/// Solver: halves the ray until each interval either cannot contain the surface or
-/// contains exactly one crossing \cite mitchell1990.
+/// A solver that halves the ray until each interval either cannot contain the surface
+/// or contains exactly one crossing \cite mitchell1990.
 struct Bisection {
-    int max_parts = 4096; ///< After as many intervals the ray misses.
+    int max_parts = 4096; ///< After this number of intervals the ray misses.
 };
 
 namespace detail {
 
-/// Finds the first zero of f along a ray by sphere tracing: f cannot reach 0 within a
-/// distance of |f| over the largest slope.
-/// \return The first t at which |f| is within the tolerance, always before the surface;
-///         nothing for a miss, for NaN, and if the steps run out.
-/// \cost One evaluation per step; rays closer to grazing take more steps.
+/// Finds the first zero of a field f along a ray by sphere tracing. Each step is |f|
+/// over the largest slope: within this distance f cannot reach 0.
+/// \return The first t at which |f| is at most the tolerance; it lies before the
+///         surface. Nothing for a miss, for NaN, or if the steps run out.
+/// \cost One evaluation per step. A ray that passes closer to the surface takes more
+///       steps.
 // [sphere_tracing]
 template <std::floating_point T, FieldOnRay<T> Line>
 [[nodiscard]] std::optional<T> first_meeting(const SphereTracing& solver,
@@ -86,7 +90,8 @@ template <std::floating_point T, FieldOnRay<T> Line>
 }
 // [sphere_tracing]
 
-/// The t between a and b where f changes its sign, to the last unit.
+/// Finds by bisection the t between a and b where f changes its sign, to the last bit.
+/// `side` is the sign of f at a.
 template <std::floating_point T, FieldOnRay<T> Line>
 [[nodiscard]] T bisect(const Line& line, T side, T a, T b) {
     for (int step = 0; step < 2 * std::numeric_limits<T>::digits; ++step) {
@@ -97,18 +102,19 @@ template <std::floating_point T, FieldOnRay<T> Line>
     return b;
 }
 
-/// Finds the first zero of f along a ray by interval bisection.
+/// Finds the first zero of a field f along a ray by interval bisection.
 ///
-/// An interval [a, b] is dropped if all its values have the sign of the start. If the
-/// slope has one sign, the values at the ends decide. Otherwise the interval is halved,
-/// and the nearer half comes first. The values are bounded by range() and by the mean
-/// value form f(m) + f'([a, b]) (b - a)/2.
-/// \return The first t at which f has changed its sign, to the last unit; nothing for a
-///         miss, for NaN, and if the intervals run out. A surface that the ray only
-///         touches is hit if f is not negative at the ends of an interval of two units
-///         in the last place.
-/// \cost Some 10 to 100 ranges, more if value and slope nearly vanish together. Without
-///       slope(), a ray that dips below the surface by d needs about 1/sqrt(d) of them.
+/// An interval [a, b] is dropped if all values of f in it have the sign of f at the
+/// start of the ray. If the slope has one sign in [a, b], the values at a and b decide.
+/// Otherwise the interval is halved, and the nearer half is tried first. The values are
+/// bounded by range(). If the field has a slope(), they are also bounded by f(m) +
+/// f'([a, b]) (b - a)/2, where m is the middle of the interval.
+/// \return The first t at which f has changed its sign, to the last bit. Nothing for a
+///         miss, for NaN, or if the intervals run out. A ray that only touches the
+///         surface may miss it.
+/// \cost Some 10 to 100 calls of range(), more where f and its slope are both almost 0.
+///       Without slope(), a ray that dips below the surface by d needs about 1/sqrt(d)
+///       calls.
 // [bisection]
 template <std::floating_point T, FieldOnRay<T> Line>
 [[nodiscard]] std::optional<T> first_meeting(const Bisection& solver, const Line& line,
@@ -128,7 +134,8 @@ template <std::floating_point T, FieldOnRay<T> Line>
         const T middle = a + (b - a) / T(2);
         const IntervalT<T> range = line.range(a, b);
         if (side > T(0) ? range.low > T(0) : range.high < T(0)) continue;
-        // All values have the other sign: rounding hid the surface just before a.
+        // All values have the other sign. The surface is just before a, but rounding
+        // hid it.
         if (side > T(0) ? range.high < T(0) : range.low > T(0)) return a;
         if constexpr (SlopeOnRay<Line, T>) {
             const IntervalT<T> slope = line.slope(a, b);

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/detail/metaball_quartic.hpp
-/// \brief The field of metaballs along a ray: a function of t with its bounds, and a
-/// quartic in each span between borders.
+/// \brief The field of metaballs along a ray: a quartic of t in each span of the ray.
 
 #include <array>
 #include <cmath>
@@ -26,46 +25,48 @@ namespace ljus {
 /// \ref ch_metaballs.
 /// \{
 
-/// A source of a field: \f$ w (1 - r^2/R^2)^2 \f$ within R, and 0 beyond.
+/// A source of a field. At the distance r from its centre, the field is
+/// \f$ w (1 - r^2/R^2)^2 \f$ for r < R, and 0 beyond.
 template <std::floating_point T>
 struct BlobT {
     Vec3T<T> center{T(0)}; ///< C, in scene units.
-    T radius = T(1);       ///< R, above 0: extent of its field, in scene units.
-    T weight = T(1);       ///< w; negative carves.
+    T radius = T(1);       ///< R, where the field ends, above 0, in scene units.
+    T weight = T(1);       ///< w; a negative weight removes volume.
 };
 using Blob = BlobT<float>; ///< BlobT in float.
 
-/// Solver: between two borders of blobs the field is a quartic, and the first sign
-/// change of its Bernstein form is the hit. The points nearest to a centre also split
-/// spans: a blob rises before and falls after, so most spans have at most one sign
-/// change.
+/// A solver. It splits the ray where the ray enters or leaves a blob and where it is
+/// nearest to a centre. In each span the field is a quartic, and the first sign change
+/// of this quartic is the hit. The field of a blob rises before the nearest point and
+/// falls after it, so that most spans have at most one sign change.
 struct QuarticPieces {};
 
-/// Solver: solves the same quartics by quartic_formula(), for comparison.
+/// A solver that finds the roots of the quartics by quartic_formula(), for comparison.
 struct Radicals {};
 
 namespace detail {
 
-/// The largest slope of \f$ (1 - q^2)^2 \f$, at \f$ q = 1/\sqrt 3 \f$.
+/// The largest absolute slope of \f$ (1 - q^2)^2 \f$, which it has at
+/// \f$ q = 1/\sqrt 3 \f$.
 template <std::floating_point T>
 inline constexpr T steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);
 
-/// A blob along a ray: its field is w s^2 where \f$ s(t) = h - k (t - m)^2 \f$ is
-/// positive.
+/// The field of a blob along a ray: w s^2 where \f$ s(t) = h - k (t - m)^2 \f$ is
+/// positive, and 0 elsewhere.
 template <std::floating_point C>
 struct StrandT {
     C enter = C(0);  ///< Where s becomes positive.
     C leave = C(0);  ///< Where s becomes negative again.
-    C middle = C(0); ///< m, nearest to the centre.
-    C height = C(0); ///< h = 1 - p^2/R^2; p is the distance at m.
-    C bend = C(0);   ///< k = D.D / R^2.
-    C weight = C(1); ///< w.
+    C middle = C(0); ///< m, where the ray is nearest to the centre.
+    C height = C(0); ///< h = 1 - p^2/R^2, for the distance p to the centre at m.
+    C bend = C(0);   ///< k = D.D / R^2, for the ray's direction D.
+    C weight = C(1); ///< w, the weight of the blob.
 };
 
-/// A blob along a ray. As in chord(), the vectors are subtracted before they are
-/// squared.
-/// \return In double; nothing for a miss, for non-finite data, a zero direction, or a
-///         radius not above 0.
+/// The field of a blob along a ray. As in chord(), the vectors are subtracted before
+/// they are squared, to avoid cancellation.
+/// \return The strand, in double. Nothing for a miss, for non-finite data, a zero
+///         direction, or a radius not above 0.
 template <std::floating_point T>
 [[nodiscard]] std::optional<StrandT<WideT<T>>> strand(const RayT<T>& ray,
                                                       const BlobT<T>& blob) noexcept {
@@ -90,7 +91,7 @@ template <std::floating_point T>
 /// The strands of a ray. Up to 16 need no heap memory.
 template <std::floating_point C>
 struct StrandsT {
-    std::array<StrandT<C>, 16> few; ///< Used for up to 16.
+    std::array<StrandT<C>, 16> few; ///< Holds all strands if there are at most 16.
     std::vector<StrandT<C>> many{}; ///< Holds all strands if there are more.
     std::size_t count = 0;          ///< Number of strands.
     void add(const StrandT<C>& strand) {
@@ -107,12 +108,11 @@ struct StrandsT {
     }
 };
 
-/// The field of metaballs along a ray: value, slope and their bounds, as the solvers
-/// for isosurfaces require.
+/// The field of metaballs along a ray. It satisfies FieldOnRay and SlopeOnRay.
 template <std::floating_point C>
 struct MetaballLineT {
-    std::span<const StrandT<C>> strands{}; ///< Blobs that the ray meets.
-    C level = C(0);                        ///< L.
+    std::span<const StrandT<C>> strands{}; ///< The blobs that the ray meets.
+    C level = C(0);                        ///< L, the level of the surface.
     C enter = C(0);                        ///< Where the first strand begins.
     C leave = C(-1);                       ///< Where the last strand ends.
 
@@ -124,20 +124,22 @@ struct MetaballLineT {
         }
         return sum;
     }
-    /// Bound of |df/dt| on this ray: each strand is a one-dimensional blob.
+    /// A bound on |df/dt| along this ray: the sum of the steepest slopes of all
+    /// strands.
     [[nodiscard]] C steepest() const noexcept {
         C sum = C(0);
         for (const auto& b : strands)
             sum += std::abs(b.weight) * b.height * std::sqrt(b.height * b.bend);
         return sum * steepest_blob<C>;
     }
-    /// Bound of the rounding error of value().
+    /// A bound on the rounding error of value().
     [[nodiscard]] C rounding() const noexcept {
         C sum = level;
         for (const auto& b : strands) sum += std::abs(b.weight);
         return C(8) * std::numeric_limits<C>::epsilon() * sum;
     }
-    /// An interval that contains all values in [from, to]; tight for a single strand.
+    /// An interval that contains all values in [from, to]. It is tight for a single
+    /// strand.
     [[nodiscard]] IntervalT<C> range(C from, C to) const noexcept {
         const C doubt = rounding();
         IntervalT<C> sum{-level - doubt, -level + doubt};
@@ -149,7 +151,8 @@ struct MetaballLineT {
         }
         return sum;
     }
-    /// An interval that contains all slopes df/dt = -4 w k (t - m) s in [from, to].
+    /// An interval that contains all slopes df/dt in [from, to]. The slope of a strand
+    /// is -4 w k (t - m) s.
     [[nodiscard]] IntervalT<C> slope(C from, C to) const noexcept {
         IntervalT<C> sum;
         for (const auto& b : strands) {
@@ -174,8 +177,8 @@ private:
     }
 };
 
-/// The field along a ray; it refers to `strands`.
-/// \return The field; without strands `leave` lies before `enter`.
+/// The field along a ray. The result refers to `strands`, which must outlive it.
+/// \return The field. If there are no strands, `leave` is below `enter`.
 template <std::floating_point C>
 [[nodiscard]] MetaballLineT<C> line_of(const StrandsT<C>& strands, C level) noexcept {
     constexpr C far = std::numeric_limits<C>::infinity();
@@ -198,14 +201,15 @@ struct QuarticRootsT {
 /// The real roots of c[0] + c[1] x + ... + c[4] x^4 by radicals (Ferrari 1545), for
 /// comparison. Use roots() of a BernsteinT instead.
 ///
-/// The substitution \f$ x = y - b/4 \f$ gives \f$ y^4 + p y^2 + q y + r = 0 \f$. A root
-/// z of the resolvent \f$ z^3 - \frac p2 z^2 - r z + \frac{pr}{2} - \frac{q^2}{8} \f$
-/// turns this into a difference of two squares, and so into two quadratics. Each step
-/// subtracts numbers that may be nearly equal, and decides by the sign of rounded
-/// numbers.
-/// \param c  The coefficients; the last is not 0.
-/// \return The roots, accurate to about half of T's digits or better if they are well
-///         separated and the last coefficient is not small; otherwise unreliable.
+/// The polynomial is divided by c[4]. Let b be the new coefficient of x^3. The
+/// substitution \f$ x = y - b/4 \f$ gives \f$ y^4 + p y^2 + q y + r = 0 \f$. A root z
+/// of the resolvent \f$ z^3 - \frac p2 z^2 - r z + \frac{pr}{2} - \frac{q^2}{8} \f$
+/// turns this equation into a difference of two squares, which is a product of two
+/// quadratics. The steps subtract numbers that may be nearly equal, so that the result
+/// can be inaccurate.
+/// \param c  The coefficients; c[4] is not 0.
+/// \return The roots. At least about half of their digits are correct if the roots are
+///         well separated and c[4] is not small; otherwise they are unreliable.
 /// \cost One cosine or cube root, and up to 4 square roots; no loop.
 /// \report{Section 2.1} \cite schwarze1990
 template <std::floating_point T>
@@ -230,7 +234,7 @@ template <std::floating_point T>
     }
 
     // (y^2 + z)^2 = (v y - w)^2
-    constexpr T nothing = T(1e-9); // Schwarze's, independent of the quartic's scale
+    constexpr T nothing = T(1e-9); // Schwarze's value for every quartic
     const auto positive = [](T x) { return std::abs(x) < nothing ? T(0) : x; };
     const T u2 = positive(z * z - r), v2 = positive(T(2) * z - p);
     QuarticRootsT<T> result;
@@ -246,13 +250,14 @@ template <std::floating_point T>
     return result;
 }
 
-/// The quartic of a span, as a function of u in [0, 1] from its start to its end.
+/// The field in a span [a, b] of a ray, as a quartic of u = (t - a)/(b - a).
 ///
-/// On [a, b] the Bernstein coefficients of \f$ s = h - k\tau^2 \f$, with
-/// \f$ \tau = t - m \f$, are \f$ h - k\tau_a^2,\ h - k\tau_a\tau_b,\ h - k\tau_b^2 \f$;
-/// those of s^2 are products of them, so no power of t is formed.
+/// On [a, b] the Bernstein coefficients of a strand's \f$ s = h - k\tau^2 \f$, with
+/// \f$ \tau = t - m \f$, are \f$ h - k\tau_a^2,\ h - k\tau_a\tau_b,\ h - k\tau_b^2 \f$.
+/// The coefficients of s^2 are sums of products of these.
+/// \param line  The field along the ray.
 /// \param a     Start of the span.
-/// \param b     Its end; no strand begins or ends between them.
+/// \param b     End of the span. No strand begins or ends between a and b.
 // [quartic]
 template <std::floating_point C>
 [[nodiscard]] BernsteinT<C, 4> quartic(const MetaballLineT<C>& line, C a,
@@ -282,7 +287,7 @@ template <std::floating_point C>
     return first_change(p);
 }
 
-/// The first sign change by the formula: the first of its roots in (0, 1].
+/// The first root in (0, 1] that quartic_formula() finds.
 template <std::floating_point C>
 [[nodiscard]] std::optional<C> first_change(const Radicals&,
                                             const BernsteinT<C, 4>& p) noexcept {
@@ -297,11 +302,11 @@ template <std::floating_point C>
     return first;
 }
 
-/// The first hit of a ray on metaballs, span by span.
+/// Finds the first hit of a ray on metaballs, span by span.
 /// \report{Section 2.1}
 /// \return The first t where f changes its sign; nothing for a miss.
-/// \cost n blobs have at most 3 n - 1 spans. A span costs n additions of a quartic and
-///       at most 10 roots of first_change().
+/// \cost A ray that meets n blobs has at most 3 n - 1 spans. A span costs n additions
+///       of a quartic and at most 10 roots of first_change().
 // [first meeting]
 template <typename Solver, std::floating_point C>
 requires(std::same_as<Solver, QuarticPieces> || std::same_as<Solver, Radicals>)

@@ -20,20 +20,20 @@ namespace ljus::detail {
 
 template <std::floating_point T>
 struct FlatShapesT {
-    std::vector<QuadT<T>> quads; ///< Pairs, in the order in which they are completed.
-    std::vector<TriangleT<T>> triangles; ///< Those without a partner, in their order.
+    std::vector<QuadT<T>> quads; ///< Pairs, in the order of their second triangles.
+    std::vector<TriangleT<T>> triangles; ///< The others, in the order of the input.
 };
 
 /// Joins two triangles if they share an edge, face the same side and form a
-/// parallelogram. Files often split each wall and each lamp in two; one quad costs half
-/// as much, and the lamp becomes a single light.
+/// parallelogram. Files often split a wall or a lamp into two triangles. One quad costs
+/// half as much, and the lamp becomes a single light.
 ///
-/// The vertices are doubles, as read from a file. A fourth corner may differ from
-/// \f$ B + C - A \f$ by the rounding of the file's decimals: a few units in the last
-/// place of a double, which vanish in float.
-/// \tparam T        The precision of the shapes.
-/// \return Every triangle, as itself or as half of a quad with the same normal.
-/// \cost O(n log n).
+/// A parallelogram with the corners A, B and C has the fourth corner \f$ B + C - A \f$.
+/// The fourth vertex may differ from it by a few units in the last place of a double,
+/// because the decimals of a file are rounded.
+/// \tparam T  The precision of the shapes.
+/// \return Every triangle, unchanged or as half of a quad with the same normal.
+/// \cost O(n log n) for n triangles.
 template <std::floating_point T>
 [[nodiscard]] FlatShapesT<T>
 pair_triangles(const std::vector<glm::dvec3>& vertices,
@@ -50,7 +50,7 @@ pair_triangles(const std::vector<glm::dvec3>& vertices,
             return number[indices[triangle][static_cast<std::size_t>(k % 3)]];
         };
         for (int k = 0; k < 3 && !paired[i]; ++k) {
-            // The partner runs along the edge in the opposite direction.
+            // The partner has the same edge in the opposite direction.
             const auto found = waiting.find({corner(i, k + 2), corner(i, k + 1)});
             if (found == waiting.end() || paired[found->second.first]) continue;
             const auto [partner, opposite] = found->second;

@@ -19,20 +19,22 @@
 
 namespace ljus::detail {
 
-// The triangles of a polygon, as three indices of corners each.
+// The triangles of a polygon. Each is given by the indices of its three corners.
 struct CutPolygon {
     std::vector<std::array<std::uint32_t, 3>> triangles{};
     bool crossed = false; // the polygon crosses itself, so its triangles overlap
 };
 
-// Triangulates a polygon by cutting off ears: corners whose triangle contains no other
-// corner \cite meisters1975. A polygon that is not flat is projected along its area
-// vector. A polygon that crosses itself is cut arbitrarily, and `crossed` is set.
+// Triangulates a polygon by cutting off ears \cite meisters1975. An ear is a corner
+// that forms, with its two neighbours, a triangle without another corner. A polygon
+// that is not flat is projected along its area vector. A polygon that crosses itself is
+// cut arbitrarily, and `crossed` is set.
 //
-// The corners are given counter-clockwise; n of them give n - 2 triangles. Fewer than
-// three corners, or no area, give none. Corners may coincide, as where a bridge
-// connects a hole. The cost is O(n h) for h hollow corners: they alone can lie in an
-// ear, and cutting one off only affects its two neighbours.
+// The corners are given counter-clockwise. A polygon of n corners gives n - 2
+// triangles, and one without an area gives none. Corners may coincide, for example
+// where a bridge connects a hole to the border. The cost is O(n h) if h of the corners
+// are hollow: only a hollow corner can lie in an ear, and cutting an ear off affects
+// only its two neighbours.
 [[nodiscard]] inline CutPolygon cut_polygon(std::span<const glm::dvec3> corners) {
     CutPolygon result;
     if (corners.size() < 3) return result;
@@ -42,7 +44,7 @@ struct CutPolygon {
     if (!(glm::dot(across, across) > 0)) return result;
     if (corners.size() == 3) return {.triangles = {{0, 1, 2}}};
 
-    // Seen along the area vector, on the plane of two axes.
+    // The corners, projected along the area vector onto the plane of two axes.
     const glm::dvec3 size = glm::abs(across);
     const int axis = size.x >= size.y && size.x >= size.z ? 0
                      : size.y >= size.z                   ? 1
@@ -63,7 +65,7 @@ struct CutPolygon {
     };
     std::vector<std::uint32_t> left(corners.size());
     std::iota(left.begin(), left.end(), 0u);
-    // The corners before, at and behind a place in `left`.
+    // The corners before, at and after position i of `left`.
     const auto at = [&](std::size_t i) {
         const std::size_t n = left.size();
         return std::array{left[(i + n - 1) % n], left[i % n], left[(i + 1) % n]};
@@ -81,14 +83,15 @@ struct CutPolygon {
         for (const std::uint32_t p : hollow)
             if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0 &&
                 corners[p] != corners[a] && corners[p] != corners[b] &&
-                corners[p] != corners[c]) // where a bridge begins it is not within
+                corners[p] != corners[c]) // a coinciding corner is not inside
                 return false;
         return true;
     };
     std::vector<char> ears; // of the corners in `left`
     for (std::size_t i = 0; i < left.size(); ++i) ears.push_back(is_ear(i) ? 1 : 0);
     while (left.size() > 3) {
-        // The first one from 1 on; if there is none, the polygon crosses itself.
+        // The first ear from position 1 on. If there is no ear, the polygon crosses
+        // itself.
         const auto found = std::find(ears.begin() + 1, ears.end(), 1);
         const auto ear = found != ears.end() ? found - ears.begin() : 1 - ears[0];
         const auto i = static_cast<std::size_t>(ear);
@@ -102,7 +105,7 @@ struct CutPolygon {
         for (const std::size_t k : beside) ears[k] = is_ear(k) ? 1 : 0;
     }
     result.triangles.push_back({left[0], left[1], left[2]});
-    // The areas add up to that of the polygon; those of flipped triangles are negative.
+    // A triangle that is flipped has a negative area.
     const double least = -1e-9 * size[axis];
     result.crossed =
         std::any_of(result.triangles.begin(), result.triangles.end(),
