@@ -14,28 +14,28 @@ namespace ljus {
 /// partition". Chapter: \ref ch_bvh.
 /// \{
 
-/// The default observer of a traversal: does nothing.
+/// The default observer of a traversal. It does nothing.
 struct NoTrace {
     /// Called with the index of each visited node.
     constexpr void operator()(std::uint32_t) const noexcept {}
 };
 
-/// The nearest hit so far. Of several equally near hits it is that of the primitive
-/// with the lowest index, as in a loop over all primitives.
+/// The nearest hit that a search has found so far. If several hits are equally near,
+/// the primitive with the lowest index counts, as in a loop over all primitives.
 // [nearest]
 template <std::floating_point T>
 struct NearestHitT {
     ShapeHitT<T> at{};                                                ///< The hit.
-    std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Index.
+    std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Its index.
     bool found = false;     ///< Whether there is a hit.
-    std::uint32_t slot = 0; ///< The primitive's position in a tree: see nearest_hit().
+    std::uint32_t slot = 0; ///< The primitive's slot, set by nearest_hit().
 
-    /// Accepts a nearer hit and sets the ray's t_max one ulp beyond it, so that a
-    /// primitive at the same t is still tested.
-    /// \return Whether the hit was nearer.
+    /// Accepts a nearer hit. It then sets the ray's t_max one ulp beyond the hit, so
+    /// that a primitive at the same t is still tested.
+    /// \return Whether the hit was accepted.
     bool offer(const ShapeHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
         if (found && !(hit.t < at.t || (hit.t == at.t && of < number))) return false;
-        at.t = hit.t; // by component: a wide copy would stall
+        at.t = hit.t; // by component, because a wide copy would stall
         at.u = hit.u;
         at.v = hit.v;
         at.part = hit.part;
@@ -52,9 +52,10 @@ using NearestHit = NearestHitT<float>; ///< NearestHitT in float.
 
 /// The nearest hit among all primitives in a tree.
 /// \param tree  A BvhT, a Bvh8 or a TriangleBvh.
-/// \param ray   Hits lie within [t_min, t_max].
+/// \param ray   The ray. Hits lie within [t_min, t_max].
 /// \param ask   Called as ask(slot, ray) for primitives that the ray may hit, with a
-///              ray that ends at the nearest hit so far; returns an optional ShapeHitT.
+///              ray that ends at the nearest hit so far. It returns an optional
+///              ShapeHitT.
 /// \return The same hit as a loop over all primitives.
 template <typename Tree, std::floating_point T, typename Ask>
 [[nodiscard]] NearestHitT<T> nearest_hit(const Tree& tree, const RayT<T>& ray,
@@ -70,7 +71,7 @@ template <typename Tree, std::floating_point T, typename Ask>
 
 /// A binary bounding volume hierarchy over primitives that have boxes \cite rubin1980.
 /// The caller keeps the primitives. A traversal calls back with a *slot*, a position in
-/// the tree's order, and primitive_ids() maps it to the index of the primitive.
+/// the order of the tree. primitive_ids() maps a slot to the index of a primitive.
 ///
 ///     std::vector<Box> boxes;
 ///     for (const Triangle& triangle : triangles) boxes.push_back(bounds(triangle));
@@ -86,15 +87,18 @@ public:
     BvhT() = default;
 
     /// Builds the tree from the top, by the surface area heuristic.
-    /// \param boxes     Fewer than 2^31; they may be equal or flat.
-    /// \param settings  Leaves and threads; the tree does not depend on the threads.
-    /// \throws std::invalid_argument  if a box is not finite, or there are too many.
-    /// \cost O(n log n); in float at most 68 bytes per box, and 36 more during the
-    ///       build.
+    /// \param boxes     The boxes of fewer than 2^31 primitives. Boxes may be equal or
+    ///                  flat.
+    /// \param settings  The settings. The tree does not depend on the number of
+    ///                  threads.
+    /// \throws std::invalid_argument  if a box is not finite, or if there are too many
+    ///         boxes.
+    /// \cost O(n log n) for n boxes; in float at most 68 bytes per box, and 36 more
+    ///       during the build.
     explicit BvhT(std::span<const BoxT<T>> boxes, const BvhSettings& settings = {})
         : tree_(detail::build_bvh(boxes, settings)) {}
 
-    /// primitive_ids()[slot] is the index of a primitive in the span of the boxes.
+    /// The index of the primitive at each slot, in the span of the boxes.
     [[nodiscard]] const std::vector<std::uint32_t>& primitive_ids() const noexcept {
         return tree_.primitive_ids;
     }
@@ -116,10 +120,11 @@ public:
     /// Visits the primitives that a ray may hit, nearer nodes first.
     /// \param ray    The ray.
     /// \param test   Called as test(slot, ray) for primitives in leaves that the ray
-    ///               enters. It may shorten the ray, as NearestHitT does, to prune
-    ///               farther nodes; nodes at exactly t_max are still visited.
+    ///               enters. It may shorten the ray, as NearestHitT does, so that
+    ///               farther nodes are skipped. Nodes at exactly t_max are still
+    ///               visited.
     /// \param watch  Called with the index of each visited node.
-    /// \cost O(log n) calls on average, n in the worst case.
+    /// \cost O(log n) calls on average for n primitives, n in the worst case.
     template <typename Test, typename Watch = NoTrace>
     void closest(RayT<T> ray, Test&& test, Watch&& watch = {}) const {
         walk(
@@ -131,9 +136,9 @@ public:
             watch);
     }
 
-    /// Whether a test of the primitives that a ray may hit succeeds.
+    /// Whether a test succeeds for any primitive that a ray may hit.
     /// \param ray    The ray.
-    /// \param test   Called as test(slot); true ends the traversal.
+    /// \param test   Called as test(slot). If it returns true, the traversal ends.
     /// \param watch  Called with the index of each visited node.
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const RayT<T>& ray, Test&& test, Watch&& watch = {}) const {
@@ -178,7 +183,7 @@ private:
                     continue;
                 }
             }
-            // A hit found since may lie in front of nodes on the stack.
+            // A hit that was found later may be nearer than nodes on the stack.
             do {
                 if (waiting == 0) return false;
                 --waiting;

@@ -13,18 +13,18 @@ namespace ljus {
 /// searches and results. Chapter: \ref ch_bvh.
 /// \{
 
-/// The plain tree with up to eight children per node, collapsed as in
-/// \ref bvh_collapse.
+/// A tree with up to eight children per node. It is made from the plain tree, as
+/// described in \ref bvh_collapse.
 class Bvh8 {
 public:
     /// An empty tree.
     Bvh8() = default;
 
     /// Builds the tree.
-    /// \param boxes     As for BvhT, but fewer than 2^27.
-    /// \param settings  As for BvhT; at most 16 primitives per leaf.
-    /// \param multiple  Leaves start at multiples of this number of slots; padding
-    ///                  fills the gaps.
+    /// \param boxes     The boxes of fewer than 2^27 primitives, as for BvhT.
+    /// \param settings  As for BvhT, with at most 16 primitives per leaf.
+    /// \param multiple  The first slot of each leaf is a multiple of this number.
+    ///                  Unused slots between leaves are padding.
     /// \throws std::invalid_argument  as BvhT.
     template <typename Boxes>
     requires std::convertible_to<const Boxes&, std::span<const Box>>
@@ -34,16 +34,16 @@ public:
             detail::build_bvh(std::span<const Box>(boxes), checked(settings)),
             multiple);
     }
-    /// The same; frees the boxes before the tree is built.
+    /// Builds the same tree, but frees the boxes before the build.
     explicit Bvh8(std::vector<Box>&& boxes, const BvhSettings& settings = {},
                   std::uint32_t multiple = 1)
         : wide_(detail::make_bvh8(
               detail::build_bvh(std::move(boxes), checked(settings)), multiple)) {}
 
-    /// The primitive_ids() entry of an unused slot between leaves.
+    /// The entry of primitive_ids() for an unused slot between leaves.
     static constexpr std::uint32_t padding = detail::Bvh8Nodes::padding;
 
-    /// primitive_ids()[slot] is the index of a primitive, or padding.
+    /// The index of the primitive at each slot, or padding.
     [[nodiscard]] const std::vector<std::uint32_t>& primitive_ids() const noexcept {
         return wide_.primitive_ids;
     }
@@ -61,7 +61,7 @@ public:
                wide_.primitive_ids.capacity() * 4;
     }
 
-    /// Visits the primitives that a ray may hit, nearer nodes first; as
+    /// Visits the primitives that a ray may hit, nearer nodes first; see
     /// BvhT::closest().
     template <typename Test, typename Watch = NoTrace>
     void closest(Ray ray, Test&& test, Watch&& watch = {}) const {
@@ -72,7 +72,7 @@ public:
         detail::walk<false>(wide_, ray, each_slot(ask), watch);
     }
 
-    /// Whether a test of the primitives that a ray may hit succeeds; as BvhT::any().
+    /// Whether a test succeeds for any primitive that a ray may hit; see BvhT::any().
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
         return detail::walk<true>(wide_, ray, each_slot(test), watch);

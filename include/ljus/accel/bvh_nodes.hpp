@@ -12,15 +12,15 @@
 namespace ljus {
 
 /// \defgroup bvh_nodes Nodes
-/// \brief Boxes within boxes \cite rubin1980. Chapter: \ref ch_bvh.
+/// \brief The nodes of a tree of boxes \cite rubin1980. Chapter: \ref ch_bvh.
 /// \{
 
 /// Settings of a tree's construction.
 struct BvhSettings {
-    std::uint32_t leaf_size = 4; ///< Most primitives per leaf; at least 1.
-    std::uint32_t at_a_time = 1; ///< Primitives per test, side by side.
-    float node_cost = 1;         ///< Cost of a traversal step, in tests.
-    int threads = 0;             ///< 0: all processors.
+    std::uint32_t leaf_size = 4; ///< Largest number of primitives per leaf; at least 1.
+    std::uint32_t at_a_time = 1; ///< Number of primitives that one test covers.
+    float node_cost = 1;         ///< Cost of a traversal step, in units of one test.
+    int threads = 0;             ///< Number of threads; 0 for all processors.
 };
 
 namespace detail {
@@ -30,7 +30,7 @@ namespace detail {
 // [tree node]
 template <std::floating_point T>
 struct BvhNodeT {
-    BoxT<T> box{};           ///< Around the whole subtree.
+    BoxT<T> box{};           ///< The box around the whole subtree.
     std::uint32_t first = 0; ///< The first primitive, or the first of two children.
     std::uint32_t count = 0; ///< Number of primitives; 0 for an inner node.
 };
@@ -46,7 +46,7 @@ struct BvhNodesT {
         primitive_ids{}; ///< primitive_ids[slot] is the index of a primitive.
 };
 
-/// Bound of a tree's depth, and so of a traversal's stack.
+/// The largest depth of a tree, and so the largest size of a traversal's stack.
 inline constexpr int bvh_depth = 64;
 
 } // namespace detail

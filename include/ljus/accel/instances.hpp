@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/instances.hpp
-/// \brief A mesh that is placed many times by affine maps, one tree below another.
+/// \brief Instances: a mesh that is placed many times by affine maps.
 
 #include <array>
 #include <string>
@@ -15,10 +15,10 @@ namespace ljus {
 /// \defgroup instances Instances
 /// \brief One mesh in many places. Chapter: \ref ch_instances.
 ///
-/// An instance is a reference to a mesh and an affine map; the ray is taken to the mesh
-/// by the inverse map \cite rubin1980. A scene that lists Instance keeps the meshes:
+/// An instance is a reference to a mesh with an affine map. The inverse map transforms
+/// a ray to the mesh \cite rubin1980. A scene that lists Instance keeps the meshes:
 ///
-///     const auto knot = scene.add(Mesh(data)); // kept once, and itself unseen
+///     const auto knot = scene.add(Mesh(data)); // kept once, and not visible itself
 ///     for (const Affine& place : places) scene.add(Instance(knot, place), glass);
 /// \{
 
@@ -32,15 +32,16 @@ template <std::floating_point T>
     return size.x * sizes(map[0]) + size.y * sizes(map[1]) + size.z * sizes(map[2]);
 }
 
-/// The size of a vector after the inverse map and then the map, if no terms cancelled.
-/// Times a relative error between the two, it bounds the error of the result.
+/// A bound on the components of a vector after the inverse map and then the map, if no
+/// terms cancel. Multiplied by the relative error of a step between the two maps, it
+/// bounds the error of the result.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> there_and_back(const AffineT<T>& map, const AffineT<T>& back,
                                       const Vec3T<T>& size) noexcept {
     return transform_sizes(map, transform_sizes(back, size));
 }
 
-/// The prefix sums of the areas of a mesh's triangles behind a map.
+/// For each triangle of a mesh, the sum of the areas up to that triangle, in the scene.
 template <std::floating_point T>
 [[nodiscard]] std::vector<double> placed_areas(const MeshT<T>& mesh,
                                                const AffineT<T>& place) {
@@ -65,26 +66,29 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// A mesh in another place. In float it takes 168 bytes, whatever the mesh.
+/// A mesh placed by an affine map. In float an instance takes 168 bytes, whatever the
+/// size of the mesh.
 template <std::floating_point T>
 class InstanceT {
 public:
-    using Wide = WideT<T>; ///< For the inverse map: double for float.
+    using Wide = WideT<T>; ///< Precision of the inverse map: double for float.
 
-    /// What an instance is made of.
+    /// The data of an instance.
     struct Data {
         const MeshDataT<T>& mesh;          ///< Vertices and triangles.
-        std::array<Vec3T<T>, 4> columns{}; ///< Of the map.
+        std::array<Vec3T<T>, 4> columns{}; ///< The columns of the map.
     };
 
     /// Places a mesh.
-    /// \param mesh   It must outlive the instance; a scene keeps it by Scene::add().
-    /// \param place  From the mesh to the scene. A map that mirrors keeps the outside
-    ///               of the mesh outside.
-    /// \throws std::invalid_argument  if the mesh was moved from; if the map is not
-    ///         finite, or has no inverse, or one that is lost in rounding; if no area
-    ///         is left.
-    /// \cost O(n) for the area, unless the map stretches all directions alike.
+    /// \param mesh   The mesh, which must outlive the instance; a scene keeps a mesh
+    ///               that was given to Scene::add().
+    /// \param place  The map from the mesh to the scene. If it mirrors, the outside of
+    ///               the mesh remains outside.
+    /// \throws std::invalid_argument  if the mesh was moved from, if the map is not
+    ///         finite or has no inverse, if the map's condition number is above 1e8, or
+    ///         if the area is not above 0.
+    /// \cost O(n) for the area of n triangles, unless the map stretches all directions
+    ///       by the same factor.
     explicit InstanceT(Ref<MeshT<T>> mesh, const AffineT<T>& place = AffineT<T>(1))
         : mesh_(mesh), place_(place) {
         check(mesh.get());
@@ -100,8 +104,9 @@ public:
         const Wide condition =
             max_component(detail::there_and_back(wide, inverse_, Vec3T<Wide>(1)));
         require(condition <= Wide(1e8), "the condition number of an instance's map",
-                condition, "at most 1e8: flatten a mesh along its own axes");
-        // A similarity, but for the rounding of the map.
+                condition, "at most 1e8; flatten a mesh only along its own axes");
+        // The map is a similarity, up to rounding, if its determinant is the cube of
+        // its largest stretch.
         scale_ = largest_stretch(wide);
         const Wide cube = scale_ * scale_ * scale_;
         if (!(std::abs(volume) >= cube * (1 - 16 * std::numeric_limits<T>::epsilon())))
@@ -121,18 +126,20 @@ public:
     [[nodiscard]] const AffineT<Wide>& inverse_place() const noexcept {
         return inverse_;
     }
-    /// The factor of lengths, if it is the same in all directions; otherwise 0.
+    /// The factor by which lengths grow, if it is the same in all directions; otherwise
+    /// 0.
     [[nodiscard]] Wide scale() const noexcept { return scale_; }
     /// The area in the scene, in squared scene units.
     [[nodiscard]] T area() const noexcept { return area_; }
-    /// What it is made of, for the key of a light map.
+    /// The data of the instance, for the key of a light map.
     [[nodiscard]] Data data() const noexcept {
         return {mesh().data(), {place_[0], place_[1], place_[2], place_[3]}};
     }
     /// The number of triangles.
     [[nodiscard]] std::uint32_t size() const noexcept { return mesh().size(); }
-    /// The triangle of a hit's `part`, in the scene, rounded to T. It faces outwards;
-    /// if the map mirrors, its second and third vertex change places.
+    /// The triangle with the index `part` in the scene, rounded to T. If the map
+    /// mirrors, the second and the third vertex are exchanged, so that the triangle
+    /// faces outwards.
     [[nodiscard]] TriangleT<T> triangle(std::uint32_t part) const noexcept {
         const TriangleT<T> local = mesh().triangle(part);
         const AffineT<Wide> wide(place_);
@@ -165,8 +172,8 @@ using Instance = InstanceT<float>; ///< InstanceT in float.
 
 namespace detail {
 
-/// A ray as the mesh sees it. Its direction is not normalized, so that t is the same in
-/// both places.
+/// A ray transformed to the mesh. The direction is not normalised, so that t is the
+/// same for the mesh and in the scene.
 // [ray_at_mesh]
 template <std::floating_point T>
 [[nodiscard]] RayT<T> ray_at_mesh(const InstanceT<T>& instance,
@@ -181,12 +188,14 @@ template <std::floating_point T>
 }
 // [ray_at_mesh]
 
-/// A point of a triangle of the mesh, in the scene.
+/// Transforms a point of the mesh to the scene.
 ///
-/// Its error includes that of a ray that leaves it. The mesh sees this ray rounded once
-/// more, in its origin and in its direction, over the length of the triangle; and the
-/// inverse map has the errors that its condition allows.
-/// \param local  The point at the mesh; its normal is not used.
+/// The error of the result includes the rounding of a ray that leaves the point. When
+/// this ray is transformed to the mesh, its origin and its direction are rounded, and
+/// the inverse map is inexact.
+/// \param instance  The instance.
+/// \param part      The index of the triangle.
+/// \param local     The point on the mesh; its normal is not used.
 // [placed_point]
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> placed_point(const InstanceT<T>& instance,
@@ -217,7 +226,7 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The nearest hit of a ray on an instance: that of its mesh, with the same t.
+/// The nearest hit of a ray on an instance. t is the same as for the mesh.
 /// \cost That of the mesh, and 18 multiplications.
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
@@ -241,8 +250,10 @@ template <std::floating_point T>
                                 point_at(triangle, hit.u, hit.v, Vec3T<T>(0)));
 }
 
-/// The shading normal: that of the mesh, mapped as a normal.
-/// \return As for a mesh.
+/// The shading normal of the mesh, transformed to the scene. `geometric` is the
+/// triangle's normal in the scene.
+/// \return Unit vector within 90 degrees of `geometric`; `geometric` itself if the mesh
+///         has no shading normal there.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> shading_normal(const InstanceT<T>& instance,
                                       const ShapeHitT<T>& hit,
@@ -265,7 +276,7 @@ template <std::floating_point T>
     return texture_coordinates(instance.mesh(), hit, point);
 }
 
-/// The texture tangents of the mesh, mapped.
+/// The texture tangents of the mesh, transformed to the scene.
 template <std::floating_point T>
 [[nodiscard]] std::array<Vec3T<T>, 2>
 texture_tangents(const InstanceT<T>& instance, const ShapeHitT<T>& hit) noexcept {
@@ -274,10 +285,11 @@ texture_tangents(const InstanceT<T>& instance, const ShapeHitT<T>& hit) noexcept
             transform_vector(instance.place(), along_v)};
 }
 
-/// The prefix sums of the triangles' areas in the scene, for sample_area(); a lamp
-/// keeps them. If the map stretches all directions alike, those of the mesh serve, and
-/// nothing is returned.
-/// \cost O(n) time and 8 bytes per triangle.
+/// For each triangle, the sum of the areas up to that triangle, in the scene. A lamp
+/// keeps these sums for sample_area().
+/// \return The sums. Empty if the map stretches all directions by the same factor;
+///         sample_area() then uses the sums of the mesh.
+/// \cost O(n) time for n triangles, and 8 bytes per triangle.
 template <std::floating_point T>
 [[nodiscard]] std::vector<double> area_sums(const InstanceT<T>& instance) {
     if (instance.scale() > 0) return {};
@@ -290,12 +302,12 @@ template <std::floating_point T>
     return instance.area();
 }
 
-/// Samples a point uniformly over the area in the scene.
+/// Samples a point of an instance, uniformly over its area in the scene.
 /// \param instance  The instance.
 /// \param u         Point of the unit square.
-/// \param sums      What area_sums() returned; a lamp keeps it.
-/// \return The point; its density is 1 / area per squared scene unit.
-/// \cost O(log n).
+/// \param sums      The result of area_sums().
+/// \return The point. Its density is 1 / area per squared scene unit.
+/// \cost O(log n) for n triangles.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const InstanceT<T>& instance,
                                            const Vec2T<T>& u,
@@ -315,8 +327,9 @@ template <std::floating_point T>
     return sample_area(instance, u, area_sums(instance));
 }
 
-/// Samples a point for an observer, by sample_area(). The point's error includes how
-/// far a shadow ray from there misses it: at the mesh, the ray is rounded once more.
+/// Samples a point by sample_area(), for an observer at `from`. The error of the point
+/// includes the rounding of a shadow ray that is transformed to the mesh.
+/// \return The point and its density per steradian at the observer.
 template <std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const InstanceT<T>& instance,
                                            const Vec3T<T>& from, const Vec2T<T>& u,
@@ -331,9 +344,9 @@ template <std::floating_point T>
     return {point, pdf};
 }
 
-/// A box around an instance: what two boxes share, that around the corners of the
-/// mesh's box and that around the ellipsoid that its sphere becomes. It is exact for a
-/// box along its own axes and for a ball.
+/// A box around an instance: the intersection of a box around the transformed box of
+/// the mesh and a box around the ellipsoid into which the sphere of the mesh is
+/// transformed.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const InstanceT<T>& instance) noexcept {
     using Wide = Vec3T<WideT<T>>;
@@ -366,13 +379,13 @@ template <std::floating_point T>
     return {.center = Vec3T<T>(center), .radius = static_cast<T>(radius + slack)};
 }
 
-/// The mesh, for a scene that keeps it.
+/// The mesh of an instance, which its scene keeps.
 template <std::floating_point T>
 [[nodiscard]] const MeshT<T>& prototype(const InstanceT<T>& instance) noexcept {
     return instance.mesh();
 }
 
-/// Refuses an instance of a mesh that was moved from; the constructor refuses all other
+/// Refuses an instance of a mesh that was moved from. The constructor refuses all other
 /// invalid data.
 /// \throws std::invalid_argument  as check() of the mesh.
 template <std::floating_point T>

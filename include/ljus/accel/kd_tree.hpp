@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/kd_tree.hpp
-/// \brief The plain k-d tree: points near a point.
+/// \brief The plain k-d tree, which finds the points near a position.
 
 #include <algorithm>
 #include <limits>
@@ -21,10 +21,10 @@ namespace ljus {
 
 /// A balanced k-d tree without pointers \cite bentley1975. Each range of the array is
 /// split at the median of its longest axis, down to leaves of a few points. Each range
-/// has its box, so that a search far from all points ends at once.
+/// has a box, so that a search far from all points ends at once.
 ///
-/// The tree stores the positions only. The caller sorts their payload into the tree's
-/// order, so that a search reads contiguous memory:
+/// The tree stores positions only. The caller sorts the data of the points into the
+/// tree's order, so that a search reads contiguous memory:
 ///
 ///     std::vector<Vec3> positions;
 ///     for (const MyPhoton& photon : photons) positions.push_back(photon.position);
@@ -44,9 +44,10 @@ public:
     KdTreeT() = default;
 
     /// Builds the tree.
-    /// \param points  Fewer than 2^32; they may be equal.
-    /// \throws std::invalid_argument  if a point is not finite.
-    /// \cost O(n log n) for any points; in float 16 bytes per point, and 3 to 12 for
+    /// \param points  Fewer than 2^32 points; points may be equal.
+    /// \throws std::invalid_argument  if a point is not finite, or if there are too
+    ///         many.
+    /// \cost O(n log n) for any n points; in float 16 bytes per point, and 3 to 12 for
     ///       the boxes.
     explicit KdTreeT(std::span<const Vec3T<T>> points) {
         require(points.size() <= std::numeric_limits<std::uint32_t>::max(),
@@ -76,13 +77,13 @@ public:
     /// The number of points.
     [[nodiscard]] std::size_t size() const noexcept { return points_.size(); }
 
-    /// The traversal of every search, also of your own. It visits the nearer half of a
-    /// range first.
+    /// The traversal of every search; a caller can use it for other searches. It visits
+    /// the nearer half of a range first.
     /// \param center   Centre of the search.
     /// \param offer    Called as offer(index, distance2) with each visited point.
     /// \param reaches  Called as reaches(distance2) with the squared distance to the
-    ///                 box of a range; no point in it is nearer. False prunes the
-    ///                 range.
+    ///                 box of a range. If it returns false, the points of the range are
+    ///                 skipped.
     template <typename Offer, typename Reaches>
     void walk(const Vec3T<T>& center, Offer&& offer, Reaches&& reaches) const {
         if (!points_.empty() && reaches(distance2_to(0, center)))
@@ -91,10 +92,10 @@ public:
 
     /// Calls `visit(index, distance2)` for each point within a closed ball.
     /// \param center  Centre of the ball.
-    /// \param radius  Not squared; may be infinite. If it is negative, or if it or the
-    ///                centre is NaN, the ball is empty.
+    /// \param radius  The radius, not squared; it may be infinite. If the radius is
+    ///                negative or NaN, or if the centre is NaN, the ball is empty.
     /// \param visit   Takes the index in the tree's order and the squared distance.
-    /// \cost On average O(log n) and one step per point found.
+    /// \cost On average O(log n) for n points, and one step per point found.
     // [within]
     template <typename Visit>
     void visit_within(const Vec3T<T>& center, T radius, Visit&& visit) const {
@@ -121,8 +122,8 @@ public:
     }
 
     /// The nearest point within a closed ball, given as for visit_within().
-    /// \return A tie is broken arbitrarily, but always in the same way; nothing if the
-    ///         ball is empty.
+    /// \return The nearest point; nothing if the ball has no point. Among equally near
+    ///         points the choice is arbitrary, but always the same.
     [[nodiscard]] std::optional<Neighbor>
     nearest(const Vec3T<T>& center,
             T radius = std::numeric_limits<T>::infinity()) const {
@@ -134,14 +135,14 @@ public:
     /// The nearest points within a closed ball.
     /// \param center  Centre of the ball.
     /// \param radius  As for visit_within().
-    /// \param found   Has one element per wanted point; filled as a heap, farthest
-    ///                first.
-    /// \param wanted  Called with an index in the tree's order; false skips the point.
-    ///                By default all points are wanted.
-    /// \return The number of points found. A tie is broken arbitrarily, but always in
-    ///         the same way.
-    /// \cost On average O(log n) and some steps per wanted point, even if many points
-    ///       are equal; more if few of the points nearby are wanted.
+    /// \param found   One element per wanted point. It is filled as a heap, whose first
+    ///                element is the farthest point.
+    /// \param wanted  Called with an index in the tree's order. If it returns false,
+    ///                the point is skipped. By default all points are wanted.
+    /// \return The number of points found. Among equally near points the choice is
+    ///         arbitrary, but always the same.
+    /// \cost On average O(log n) for n points, and some steps per wanted point; more if
+    ///       few of the points nearby are wanted.
     // [nearest]
     template <typename Wanted = detail::AnyPoint>
     [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,
@@ -177,7 +178,7 @@ private:
         boxes_[node] = box;
         if (last - first <= leaf_size) return;
 
-        // The median moves to the middle; the index breaks ties.
+        // The median moves to the middle. Equal coordinates are ordered by index.
         const int axis = detail::longest_axis(box.low, box.high);
         const auto less = [&](std::uint32_t a, std::uint32_t b) {
             const T x = points[a][axis], y = points[b][axis];
@@ -209,7 +210,7 @@ private:
         const double to_low = distance2_to(low, center);
         const double to_high = distance2_to(high, center);
 
-        // Points found in the nearer half may rule out the other one.
+        // Points found in the nearer half may make the other half unnecessary.
         const bool low_first = to_low <= to_high;
         if (low_first && reaches(to_low))
             descend(low, first, middle, center, offer, reaches);

@@ -22,22 +22,22 @@ struct FoundBlockT {
     std::uint32_t found = 0; ///< Bit i: whether point i was found.
     const detail::Lanes3T<T>&
         points;                  ///< Positions; NaN beyond the last point of the tree.
-    detail::LanesT<T> distance2; ///< Squared, in T; may be infinite.
+    detail::LanesT<T> distance2; ///< Squared distances; may be infinite.
 };
 
 } // namespace detail
 
 /// The fast counterpart of KdTreeT, with the same results: a k-d tree without pointers
-/// \cite bentley1975. Each node holds eight tight boxes; each leaf holds 16 to 32
-/// points in lanes of eight.
+/// \cite bentley1975. Each node has eight tight boxes. Each leaf has 16 to 32 points,
+/// stored in blocks of eight.
 ///
 /// Distances are computed in T, eight at a time. Where the precision of T cannot tell
 /// whether a point is within the limit of a search, the distance of that point is
 /// computed again in double; see detail::ReachT.
 ///
-/// It is used as KdTreeT, has its searches, and visit_blocks() for callers that process
-/// eight points at a time. Every search is the traversal detail::walk() with its own
-/// result set. Searches are const, allocate nothing, and may run in parallel.
+/// The class has the searches of KdTreeT. In addition it has visit_blocks(), for
+/// callers that process eight points at a time. Searches are const, allocate nothing,
+/// and may run in parallel.
 template <std::floating_point T>
 class KdTree8T {
 public:
@@ -45,22 +45,23 @@ public:
     KdTree8T() = default;
 
     /// Builds the tree.
-    /// \param points   Fewer than 2^32; they may be equal.
-    /// \param threads  As in ParallelSettings; the tree does not depend on it.
-    /// \throws std::invalid_argument  if a point is not finite.
-    /// \cost O(n log n) for any points; in float 16 bytes per point, about 1 for the
-    ///       boxes, and some more during the build; see detail::GrowingArray.
+    /// \param points   Fewer than 2^32 points; points may be equal.
+    /// \param threads  As in ParallelSettings. The tree does not depend on it.
+    /// \throws std::invalid_argument  if a point is not finite, or if there are too
+    ///         many.
+    /// \cost O(n log n) for any n points; in float 16 bytes per point, about 1 for the
+    ///       boxes, and some more during the build.
     explicit KdTree8T(std::span<const Vec3T<T>> points, int threads = 0)
         : KdTree8T(detail::kd_tree8_items(points), threads) {}
 
-    /// Builds the tree of items, which it consumes.
+    /// Builds the tree from a list of items, which is empty afterwards.
     KdTree8T(detail::KdTree8ItemsT<T> items, int threads) {
         if (items.size() == 0) return;
         detail::KdTree8Builder<T> builder(items.size());
         parts_ = builder.build(std::move(items), threads);
     }
 
-    /// Makes a tree of data that were built or loaded.
+    /// Makes a tree from data that were built or loaded.
     explicit KdTree8T(detail::KdTree8PartsT<T> parts) : parts_(std::move(parts)) {}
 
     /// The i-th point of the tree has the index point_ids()[i] in the span from which
@@ -87,14 +88,14 @@ public:
     /// The number of points.
     [[nodiscard]] std::size_t size() const noexcept { return parts_.order.size(); }
 
-    /// How often the points were halved, from all of them down to a leaf.
+    /// The number of halvings from all points down to a leaf.
     [[nodiscard]] int halvings() const noexcept { return parts_.shape.halvings; }
 
     /// The index of the first point of a range, in the tree's order. After `depth`
-    /// halvings there are 2^depth ranges, each of which has a box of its own; a range
-    /// ends where the next one begins.
-    /// \param depth   0 to halvings().
-    /// \param number  0 to 2^depth; the last one is the end, size().
+    /// halvings there are 2^depth ranges. A range ends where the next one begins.
+    /// \param depth   The number of halvings, 0 to halvings().
+    /// \param number  The number of the range, 0 to 2^depth. For 2^depth the result is
+    ///                size().
     [[nodiscard]] std::size_t first_point(int depth,
                                           std::uint64_t number) const noexcept {
         return std::min(size(),
@@ -107,12 +108,12 @@ public:
                parts_.nodes.span().size_bytes();
     }
 
-    /// Calls `visit(found)` with a FoundBlockT for each block of eight that has points
-    /// within a closed ball.
+    /// Calls `visit(found)` with a FoundBlockT for each block of eight points of which
+    /// some are within a closed ball.
     /// \param center  Centre of the ball.
-    /// \param radius  Not squared; may be infinite. If it is negative, or if it or the
-    ///                centre is NaN, the ball is empty.
-    /// \param visit   Takes the block; its indices are those of the payload.
+    /// \param radius  The radius, not squared; it may be infinite. If the radius is
+    ///                negative or NaN, or if the centre is NaN, the ball is empty.
+    /// \param visit   Takes the block.
     template <typename Visit>
     void visit_blocks(const Vec3T<T>& center, T radius, Visit&& visit) const {
         within(center, radius, [&](std::size_t first, std::uint32_t found) {
@@ -125,16 +126,16 @@ public:
         });
     }
 
-    /// Finds the blocks of visit_blocks() for many balls of one radius together; see
+    /// Finds the blocks of visit_blocks() for many balls of one radius; see
     /// detail::find_in_balls().
     template <typename Center, typename Expect>
     void find_in_balls(std::size_t balls, Center center, T radius, Expect expect,
                        detail::BallBlocks& found) const {
         detail::find_in_balls(parts_, balls, center, radius, expect, found);
     }
-    /// Calls `visit(index, distance2)` for each point within a closed ball: its index
-    /// in the tree's order and its squared distance. The ball is given as in
-    /// visit_blocks().
+    /// Calls `visit(index, distance2)` for each point within a closed ball, with the
+    /// point's index in the tree's order and its squared distance. The ball is given as
+    /// for visit_blocks().
     template <typename Visit>
     void visit_within(const Vec3T<T>& center, T radius, Visit&& visit) const {
         within(center, radius, [&](std::size_t first, std::uint32_t found) {
@@ -153,8 +154,8 @@ public:
     }
 
     /// The nearest point within a closed ball, given as for visit_blocks().
-    /// \return A tie is broken arbitrarily, but always in the same way; nothing if the
-    ///         ball is empty.
+    /// \return The nearest point; nothing if the ball has no point. Among equally near
+    ///         points the choice is arbitrary, but always the same.
     [[nodiscard]] std::optional<Neighbor>
     nearest(const Vec3T<T>& center,
             T radius = std::numeric_limits<T>::infinity()) const {
@@ -167,15 +168,16 @@ public:
     /// The k nearest points within a closed ball.
     /// \param center  Centre of the ball.
     /// \param radius  As for visit_blocks().
-    /// \param found   Has one element per wanted point; the farthest is first, the
-    ///                others are unsorted.
-    /// \param wanted  Called with an index in the tree's order; false skips the point.
-    /// \tparam Most   Upper bound of found.size(); up to 512 no code for a heap is
-    ///                generated, nor for a single point.
-    /// \return The number of points found. A tie is broken arbitrarily, but always in
-    ///         the same way.
-    /// \cost On average O(log n) and some steps per wanted point, even if many points
-    ///       are equal; more if few of the points nearby are wanted.
+    /// \param found   One element per wanted point. The first element is the farthest
+    ///                point, and the others are unsorted.
+    /// \param wanted  Called with an index in the tree's order. If it returns false,
+    ///                the point is skipped. By default all points are wanted.
+    /// \tparam Most  An upper bound on found.size(). If it is at most 512, less code is
+    /// compiled.
+    /// \return The number of points found. Among equally near points the choice is
+    ///         arbitrary, but always the same.
+    /// \cost On average O(log n) for n points, and some steps per wanted point; more if
+    ///       few of the points nearby are wanted.
     template <std::size_t Most = std::numeric_limits<std::size_t>::max(),
               typename Wanted = detail::AnyPoint>
     [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,

@@ -14,27 +14,28 @@ namespace ljus {
 /// \defgroup mesh Meshes
 /// \brief Triangles that form one shape. Chapter: \ref ch_triangle.
 ///
-/// A mesh is one object with one material, one light, and one target for the photons of
-/// the caustics map. The winding of a triangle determines its sides and the origins of
-/// spawned rays; the normals of the vertices only turn the frame of the material, see
-/// vertex_at() and scatter().
+/// A mesh is one object: it has one material, can be one light, and is one target for
+/// the photons of the caustics map. The order of a triangle's vertices determines its
+/// outside and the origins of spawned rays. The normals of the vertices affect only the
+/// shading; see vertex_at() and scatter().
 /// \{
 
 /// An immutable mesh. In float, a closed mesh with normals takes about 90 bytes per
-/// triangle, including the tree; below 120 if no vertex is shared. See bytes().
+/// triangle, including the tree, and below 120 bytes if no vertex is shared. See
+/// bytes().
 template <std::floating_point T>
 class MeshT {
 public:
-    /// The fast tree in float, otherwise the plain one.
+    /// The type of the tree: the fast tree in float, otherwise the plain one.
     using Tree = std::conditional_t<std::is_same_v<T, float>, TriangleBvh, BvhT<T>>;
 
     /// Builds the tree.
     /// \param data     Vertices and triangles. Triangles without an area are kept, but
-    ///                 never hit.
-    /// \param threads  Threads that build the tree; 0: all processors.
-    /// \throws std::invalid_argument  with the index and the value: no area, an index
-    ///         of a missing vertex, or a coordinate that is not finite.
-    /// \cost O(n log n).
+    ///                 are never hit.
+    /// \param threads  The number of threads that build the tree; 0 for all processors.
+    /// \throws std::invalid_argument  if check() refuses the data, or if the area is
+    ///         not finite and above 0.
+    /// \cost O(n log n) for n triangles.
     explicit MeshT(MeshDataT<T> data, int threads = 0) : data_(std::move(data)) {
         check(data_);
         area_up_to_.reserve(size());
@@ -70,12 +71,12 @@ public:
     [[nodiscard]] std::uint32_t size() const noexcept {
         return static_cast<std::uint32_t>(data_.triangles.size());
     }
-    /// The triangle of a hit's `part`.
+    /// The triangle with the index `part`, as in a ShapeHitT.
     [[nodiscard]] TriangleT<T> triangle(std::uint32_t part) const noexcept {
         return detail::triangle_of(data_, part);
     }
     /// The triangle at a slot of the tree: triangle(tree().primitive_ids()[slot]). The
-    /// fast tree stores it, which saves two reads of distant memory.
+    /// fast tree stores its triangles, which saves two reads of distant memory.
     [[nodiscard]] TriangleT<T> triangle_at(std::uint32_t slot) const noexcept {
         if constexpr (std::is_same_v<T, float>)
             return tree_.triangle(slot);
@@ -84,9 +85,9 @@ public:
     }
     /// The vertices and triangles.
     [[nodiscard]] const MeshDataT<T>& data() const noexcept { return data_; }
-    /// The tree over its triangles.
+    /// The tree over the triangles.
     [[nodiscard]] const Tree& tree() const noexcept { return tree_; }
-    /// Prefix sums of the triangles' areas, each with its own; empty for no triangle.
+    /// For each triangle, the sum of the areas up to and including that triangle.
     [[nodiscard]] const std::vector<double>& area_up_to() const noexcept {
         return area_up_to_;
     }
@@ -104,15 +105,16 @@ public:
 private:
     MeshDataT<T> data_;
     Tree tree_;
-    std::vector<double> area_up_to_; // double: in float the last of 1e5 would be lost
+    std::vector<double> area_up_to_; // double, because float would lose small areas
     SphereT<T> sphere_;
 };
 using Mesh = MeshT<float>; ///< MeshT in float.
 
-/// The nearest hit of a ray on a mesh; the same as in a loop over all triangles.
+/// The nearest hit of a ray on a mesh, the same as in a loop over all triangles.
 /// \tparam Compute  The precision of the arithmetic, or Watertight.
-/// \return The hit; `part` is the triangle, the first one on a tie.
-/// \cost O(log n) triangles on average.
+/// \return The hit. `part` is the index of the triangle, the lowest one if several hits
+///         are equally near.
+/// \cost Tests of O(log n) triangles on average, for n triangles.
 // [intersect]
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] LJUS_CORE_CLONES std::optional<ShapeHitT<T>>
@@ -128,9 +130,10 @@ intersect(const RayT<T>& ray, const MeshT<T>& mesh) {
 }
 // [intersect]
 
-/// Whether a ray hits a mesh, for shadow rays: any triangle ends the search.
+/// Whether a ray hits a mesh, for shadow rays. The first triangle that is found to be
+/// hit ends the search.
 /// \return Whether intersect() would return a hit.
-/// \cost O(log n) triangles on average, fewer than intersect().
+/// \cost Tests of O(log n) triangles on average, fewer than for intersect().
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] LJUS_CORE_CLONES bool meets(const RayT<T>& ray, const MeshT<T>& mesh) {
     const auto prepared = prepare<Compute>(ray);
@@ -139,18 +142,19 @@ template <typename Compute = void, std::floating_point T>
     });
 }
 
-/// The point of a mesh that a ray hit: position, error bound, and the normal of the
-/// triangle.
+/// The point of a mesh that a ray hit: position, error bound, and the triangle's
+/// normal.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const MeshT<T>& mesh, const RayT<T>&,
                                              const ShapeHitT<T>& hit) noexcept {
     return point_at(mesh.triangle(hit.part), hit.u, hit.v);
 }
 
-/// The shading normal: interpolated between the vertices \cite phong1975. `geometric`
-/// is the triangle's normal.
+/// The shading normal, interpolated between the normals of the vertices
+/// \cite phong1975. `geometric` is the triangle's normal.
 /// \return Unit vector within 90 degrees of `geometric`; `geometric` itself if the mesh
-///         has no normals, or where they point to the triangle's inside.
+///         has no normals, or where the interpolated normal points to the triangle's
+///         inside.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> shading_normal(const MeshT<T>& mesh, const ShapeHitT<T>& hit,
                                       const Vec3T<T>& geometric) noexcept {
@@ -163,8 +167,8 @@ template <std::floating_point T>
     return Vec3T<T>(glm::normalize(Vec3T<WideT<T>>(n)));
 }
 
-/// The texture coordinates of a hit, interpolated between the vertices; `hit.u` and
-/// `hit.v` if the mesh has none.
+/// The texture coordinates of a hit, interpolated between the vertices. If the mesh has
+/// no texture coordinates, they are `hit.u` and `hit.v`.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const MeshT<T>& mesh,
                                            const ShapeHitT<T>& hit,
@@ -176,8 +180,8 @@ template <std::floating_point T>
            hit.v * uv[corner[2]];
 }
 
-/// The directions in which a triangle's texture coordinates grow: its edges, if the
-/// mesh has none.
+/// The directions in which the texture coordinates of a triangle grow. If the mesh has
+/// no texture coordinates, they are the edges of the triangle.
 /// \return The derivatives of the point by u and by v; 0 on a triangle whose texture
 ///         coordinates span no area.
 template <std::floating_point T>
@@ -204,18 +208,20 @@ namespace detail {
 /// A triangle that was chosen in proportion to its area.
 template <std::floating_point T>
 struct ChosenPartT {
-    std::uint32_t part = 0; ///< Its index.
-    T left = T(0);          ///< What the choice left of u, in [0, 1).
+    std::uint32_t part = 0; ///< The index of the triangle.
+    T left = T(0);          ///< The position of u within the interval chosen.
 };
 
-/// Chooses a triangle.
-/// \param sums  Prefix sums of the areas, of which the last is above 0.
+/// Chooses a triangle with a probability proportional to its area.
+/// \param sums  For each triangle, the sum of the areas up to that triangle. The last
+///              sum is above 0.
+/// \param u     A random number in [0, 1).
 template <std::floating_point T>
 [[nodiscard]] ChosenPartT<T> choose_part(const std::vector<double>& sums,
                                          T u) noexcept {
     const double wanted = double(u) * sums.back();
-    // The first triangle whose prefix sum exceeds u times the area. Rounding may give
-    // u = 1; then it is the last triangle that has an area.
+    // The first triangle whose sum exceeds u times the whole area. If rounding has made
+    // u equal to 1, the result is the last triangle that has an area.
     const auto first = [&](auto enough) {
         std::size_t low = 0, high = sums.size();
         while (low < high) {
@@ -234,10 +240,10 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Samples a point of a mesh uniformly over its area: first a triangle in proportion to
-/// its area, then a point on it by the remapped u.x.
-/// \return The point; its density is 1 / area per squared scene unit.
-/// \cost O(log n).
+/// Samples a point of a mesh, uniformly over its area. First a triangle is chosen in
+/// proportion to its area, then a point on the triangle.
+/// \return The point. Its density is 1 / area per squared scene unit.
+/// \cost O(log n) for n triangles.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const MeshT<T>& mesh,
                                            const Vec2T<T>& u) noexcept {
@@ -245,7 +251,7 @@ template <std::floating_point T>
     return sample_area(mesh.triangle(part), Vec2T<T>{left, u.y});
 }
 
-/// The area, in squared scene units.
+/// The area of a mesh, in squared scene units.
 template <std::floating_point T>
 [[nodiscard]] T area(const MeshT<T>& mesh) noexcept {
     return static_cast<T>(mesh.area_up_to().back());

@@ -14,15 +14,16 @@
 namespace ljus {
 
 /// \defgroup mesh_data The data of meshes
-/// \brief Triangles that share vertices. Chapter: \ref ch_triangle.
+/// \brief A list of vertices, and triangles that share them. Chapter: \ref ch_triangle.
 /// \{
 
-/// Vertices, and triangles as indices of vertices.
+/// Vertices and triangles. The vertices of a triangle turn counter-clockwise as seen
+/// from outside.
 template <std::floating_point T>
 struct MeshDataT {
     std::vector<Vec3T<T>> positions{}; ///< Positions of vertices.
-    std::vector<Vec3T<T>> normals{};   ///< Unit, one per vertex; empty: flat triangles.
-    std::vector<std::array<std::uint32_t, 3>> triangles{}; ///< Counter-clockwise.
+    std::vector<Vec3T<T>> normals{};   ///< Unit normals, one per vertex; or empty.
+    std::vector<std::array<std::uint32_t, 3>> triangles{}; ///< Indices of vertices.
     std::vector<Vec2T<T>> uv{}; ///< Texture coordinates, one per vertex; or empty.
 };
 using MeshData = MeshDataT<float>; ///< MeshDataT in float.
@@ -39,8 +40,9 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Refuses data from which no mesh can be built.
-/// \throws std::invalid_argument  with the index and the value.
+/// Refuses data from which no mesh can be built: a missing vertex, a number that is not
+/// finite, or lists whose lengths do not match.
+/// \throws std::invalid_argument  with the name, the index and the value.
 template <std::floating_point T>
 void check(const MeshDataT<T>& data) {
     const auto place = [](const char* list, std::size_t i) {
@@ -73,13 +75,13 @@ void check(const MeshDataT<T>& data) {
                             std::to_string(data.positions.size()));
 }
 
-/// Sets the normal of each vertex to the mean of its triangles' normals, weighted by
-/// their angles at the vertex; the mean does not depend on the tessellation of flat
-/// regions \cite thurmer1998. Vertices with different indices stay separate, even at
-/// the same position, so edges between them stay sharp.
-/// \param data  The data; old normals are replaced. A vertex of no triangle with an
-///              area gets (0, 0, 0), which counts as no normal.
-/// \cost O(n).
+/// Sets the normal of each vertex to the mean of the normals of its triangles, weighted
+/// by their angles at the vertex. This mean does not depend on how flat regions are
+/// divided into triangles \cite thurmer1998. Vertices with different indices stay
+/// separate, even at the same position, so that edges between them stay sharp.
+/// \param data  The data, whose old normals are replaced. A vertex that belongs to no
+///              triangle with an area gets (0, 0, 0), which counts as no normal.
+/// \cost O(n) for n triangles.
 template <std::floating_point T>
 void smooth_normals(MeshDataT<T>& data) {
     using Wide = Vec3T<WideT<T>>;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/neighbor.hpp
-/// \brief The results of searches among points, and their distances.
+/// \brief The points that a search finds, and their distances.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace ljus {
 
 /// A point found by a search. Neighbors are ordered by distance.
 struct Neighbor {
-    double distance2 = 0;    ///< Squared, in double.
+    double distance2 = 0;    ///< The squared distance.
     std::uint32_t index = 0; ///< Index in the tree's order.
 
     /// Compares the distances, then the indices.
@@ -28,9 +28,9 @@ struct Neighbor {
 
 namespace detail {
 
-/// \f$ x^2 + y^2 + z^2 \f$, rounded in the same way everywhere. A compiler may fuse a
-/// product with a sum in one call and not in another; then a point on the border of a
-/// ball would lie inside for one caller only. Machines that can fuse do so explicitly.
+/// \f$ x^2 + y^2 + z^2 \f$, rounded in the same way everywhere. Otherwise a compiler
+/// could fuse a product with a sum for one caller and not for another, and a point on
+/// the border of a ball would be inside for one of them only.
 [[nodiscard]] inline double sum_of_squares(double x, double y, double z) noexcept {
 #ifdef FP_FAST_FMA
     return std::fma(z, z, std::fma(y, y, x * x));
@@ -44,8 +44,9 @@ namespace detail {
 
 } // namespace detail
 
-/// |a - b|^2 in double, within three roundings; it decides whether a point lies within
-/// a ball. For floats no term underflows or overflows.
+/// The squared distance of two points in double, with at most three rounding errors. It
+/// decides whether a point lies within a ball. For floats no term underflows or
+/// overflows.
 template <std::floating_point T>
 [[nodiscard]] double distance2(const Vec3T<T>& a, const Vec3T<T>& b) noexcept {
     return detail::sum_of_squares(double(a.x) - double(b.x), double(a.y) - double(b.y),
@@ -54,8 +55,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The squared distance from a point to a box, rounded so that no point of the box is
-/// nearer: 0 within the box; NaN if the point has a NaN.
+/// The squared distance from a point to a box. It is rounded so that no point of the
+/// box is nearer. It is 0 inside the box, and NaN if the point has a NaN.
 template <std::floating_point T>
 [[nodiscard]] double box_distance2(const Vec3T<T>& low, const Vec3T<T>& high,
                                    const Vec3T<T>& point) noexcept {
@@ -68,8 +69,8 @@ template <std::floating_point T>
     return sum_of_squares(outside(0), outside(1), outside(2));
 }
 
-/// The longest axis of a box, at which a range of points is split: 0, 1 or 2; the first
-/// one on a tie.
+/// The longest axis of a box: 0, 1 or 2. If several are equally long, the first one
+/// counts.
 template <std::floating_point T>
 [[nodiscard]] constexpr int longest_axis(const Vec3T<T>& low,
                                          const Vec3T<T>& high) noexcept {
@@ -80,21 +81,21 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The nearest points of a search so far: a heap in the caller's memory with the
-/// farthest of them on top, at `found[0]`.
+/// The nearest points that a search has found so far. They form a heap in the caller's
+/// memory, with the farthest point at `found[0]`.
 struct Nearest {
-    std::span<Neighbor> found; ///< Has one element per wanted point; at least one.
-    double limit2 = 0;         ///< The search's radius, squared.
+    std::span<Neighbor> found; ///< One element per wanted point; at least one.
+    double limit2 = 0;         ///< The squared radius of the search.
     std::size_t count = 0;     ///< Number of points so far.
 
-    /// Whether a point at this distance would be taken. Once `found` is full, it must
-    /// be nearer than the farthest: then equal points are not all tried.
+    /// Whether a point at this squared distance would be taken. Once `found` is full,
+    /// the point must be nearer than the farthest one.
     [[nodiscard]] bool reaches(double distance2) const noexcept {
         return count < found.size() ? distance2 <= limit2
                                     : distance2 < found[0].distance2;
     }
 
-    /// Takes a point; it replaces the farthest one if `found` is full.
+    /// Takes a point. If `found` is full, the point replaces the farthest one.
     void take(const Neighbor& neighbor) {
         const auto last = [&] {
             return found.begin() + static_cast<std::ptrdiff_t>(count);

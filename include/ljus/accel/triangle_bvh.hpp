@@ -2,7 +2,7 @@
 
 /// \file ljus/accel/triangle_bvh.hpp
 /// \brief A wide tree over triangles. A conservative filter tests eight triangles
-/// together; only undecided ones are tested one by one.
+/// together. The triangles that it cannot decide are tested one by one.
 
 #include "ljus/accel/bvh8.hpp"
 #include "ljus/geometry/triangle.hpp"
@@ -15,24 +15,25 @@ namespace ljus {
 
 namespace detail {
 
-/// Up to eight triangles, by coordinate.
+/// Up to eight triangles, stored coordinate by coordinate.
 struct alignas(64) TriangleLanes {
     Lanes3 v1{};  ///< First corners.
     Lanes3 v2{};  ///< Second corners.
     Lanes3 v3{};  ///< Third corners.
-    Lanes size{}; ///< The largest component of both edges; negative: no triangle.
+    Lanes size{}; ///< Largest absolute component of two edges; negative if unused.
 };
 
-/// The result of the conservative filter for eight triangles, in lanes as from
+/// The result of the conservative filter for eight triangles, in the form of
 /// yes_lanes().
 struct FilteredTriangles {
-    std::uint64_t possible = 0; ///< Those that the ray may hit.
-    std::uint64_t definite = 0; ///< Those that the ray certainly hits.
+    std::uint64_t possible = 0; ///< The triangles that the ray may hit.
+    std::uint64_t definite = 0; ///< The triangles that the ray certainly hits.
 };
 
-/// A conservative filter for eight triangles: the test of Moeller and Trumbore
-/// \cite moller1997 in float and without its division, with a bound of each number's
-/// rounding error. If the error could change a sign, the triangle's own test decides.
+/// A conservative filter for eight triangles. It computes the test of Moeller and
+/// Trumbore \cite moller1997 in float, without the division, and bounds the rounding
+/// error of each number. If the error could change a sign, the triangle is possible but
+/// not definite.
 /// \cost Some 90 operations for all eight together.
 // [conservative_filter]
 template <typename Caller>
@@ -79,8 +80,8 @@ template <typename Caller>
         const float deep = rounding * size * scale + min;
         const float near = deep + across * t_min * size * size;
         const float far = deep + across * t_max * size * size;
-        // Overflow gives NaN, which the triangle's own test decides: where u or v is
-        // NaN, so is w, and then `inner` is w.
+        // An overflow gives NaN, which makes the triangle possible but not definite. If
+        // u or v is NaN, then w is NaN, and so is `inner`.
         const float uv = u < v ? u : v;
         const float inner = uv < w ? uv : w;
         const bool out =
@@ -110,9 +111,10 @@ public:
     TriangleBvh() = default;
 
     /// Builds the tree.
-    /// \param count     Number of triangles, below 2^26.
+    /// \param count     The number of triangles, below 2^26.
     /// \param triangle  Called as triangle(i); returns a Triangle.
-    /// \param threads   0: all processors.
+    /// \param threads   The number of threads that build the tree; 0 for all
+    ///                  processors.
     /// \throws std::invalid_argument  as BvhT.
     template <typename TriangleOf>
     TriangleBvh(std::uint32_t count, TriangleOf&& triangle, int threads = 0) {
@@ -132,7 +134,7 @@ public:
                     triangle(primitive_ids()[slot]));
     }
 
-    /// primitive_ids()[slot] is the index of a triangle, or Bvh8::padding.
+    /// The index of the triangle at each slot, or Bvh8::padding.
     [[nodiscard]] const std::vector<std::uint32_t>& primitive_ids() const noexcept {
         return tree_.primitive_ids();
     }
@@ -151,7 +153,7 @@ public:
         return tree_.bytes() + blocks_.capacity() * sizeof(detail::TriangleLanes);
     }
 
-    /// As BvhT::closest(), for the triangles that pass the filter.
+    /// See BvhT::closest(). Only triangles that pass the filter are tested.
     template <typename Test, typename Watch = NoTrace>
     void closest(Ray ray, Test&& test, Watch&& watch = {}) const {
         const auto ask = [&](std::uint32_t slot) {
@@ -161,7 +163,8 @@ public:
         detail::walk<false>(tree_.wide(), ray, filtered_leaf<false>(ray, ask), watch);
     }
 
-    /// As BvhT::any(); a triangle that is certainly hit is not tested.
+    /// See BvhT::any(). A triangle that is certainly hit ends the search without a
+    /// test.
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
         return detail::walk<true>(tree_.wide(), ray, filtered_leaf<true>(ray, test),

@@ -16,17 +16,17 @@
 namespace ljus::detail {
 
 /// \defgroup bvh_collapse Collapsing a tree
-/// \brief Reduces two children per node to up to eight, so that rays visit fewer nodes.
-/// Chapter: \ref ch_bvh.
+/// \brief Turns a tree with two children per node into a tree with up to eight, so that
+/// rays visit fewer nodes. Chapter: \ref ch_bvh.
 /// \{
 
-/// Chooses the children of wide nodes so that the sum of all wide nodes' surface areas
-/// is least: the probability that a ray visits a node is proportional to its area
-/// \cite ylitie2017.
+/// Chooses which nodes of a plain tree become the children of wide nodes. The sum of
+/// the surface areas of all wide nodes is as small as possible, because the probability
+/// that a ray visits a node is proportional to the node's area \cite ylitie2017.
 ///
-/// A plain node becomes either one wide node or a row of at most i nodes; then its two
-/// children share the i slots. Dynamic programming finds the least cost of each case
-/// from the leaves up.
+/// A plain node gets i slots of a wide node. Either it becomes a wide node of its own
+/// in one slot, or its two children share the i slots. Dynamic programming finds the
+/// cheaper choice for each i, from the leaves up.
 template <std::floating_point T>
 class BvhCollapse {
 public:
@@ -39,10 +39,10 @@ public:
     };
 
     /// Computes the costs of a tree, which must outlive this object.
-    /// \cost O(n), 56 bytes per node.
+    /// \cost O(n) for n nodes; 56 bytes per node.
     explicit BvhCollapse(const BvhNodesT<T>& tree)
         : tree_(tree), cost_(tree.nodes.size()) {
-        // Children follow their parents.
+        // Children come after their parents in the array.
         for (std::size_t i = tree.nodes.size(); i-- > 0;) {
             const BvhNodeT<T>& node = tree.nodes[i];
             if (node.count != 0) continue; // a leaf cannot be opened
@@ -56,8 +56,8 @@ public:
     }
 
     /// The children of a wide node.
-    /// \param from  The plain node that becomes one. It is no leaf, except a root,
-    ///              which becomes its own only child.
+    /// \param from  The plain node that becomes the wide node. It is an inner node, or
+    ///              a root without children, which becomes its own only child.
     [[nodiscard]] Children children(std::uint32_t from) const {
         Children result;
         const BvhNodeT<T>& node = tree_.nodes[from];
@@ -78,7 +78,7 @@ private:
         return cost_[node][std::size_t(slots) - 1];
     }
 
-    // The cheapest distribution of slots between two children.
+    // The cheapest distribution of slots between the two children of a node.
     // [share]
     Share share(const BvhNodeT<T>& parent, int slots) const noexcept {
         Share best;
@@ -114,22 +114,24 @@ private:
 /// \brief Nodes with up to eight children. Chapter: \ref ch_bvh.
 /// \{
 
-/// A node with up to eight children, by coordinate \cite wald2008.
+/// A node with up to eight children. The boxes of the children are stored coordinate by
+/// coordinate \cite wald2008.
 struct Bvh8Node {
     std::array<Lanes, 6> plane;                  ///< Low x, y, z, then high x, y, z.
     std::array<std::uint32_t, lane_count> child; ///< Encoded as in Bvh8Child.
 };
-/// The encoding of a child in 32 bits. An inner node is its offset in units of lanes; a
-/// leaf is its first slot and its number of primitives.
+/// The encoding of a child in 32 bits. An inner node is encoded as its position in the
+/// array of nodes, in units of Lanes. A leaf is encoded as its first slot and its
+/// number of primitives.
 struct Bvh8Child {
-    static constexpr std::uint32_t leaf = 1u << 31; ///< Set for a leaf.
-    static constexpr int count_shift = 27;          ///< Then follow the count minus one
-    static constexpr std::uint32_t first = (1u << count_shift) - 1; ///< and the slot.
+    static constexpr std::uint32_t leaf = 1u << 31; ///< The bit that marks a leaf.
+    static constexpr int count_shift = 27;          ///< Position of count - 1.
+    static constexpr std::uint32_t first = (1u << count_shift) - 1; ///< The slot.
     /// The number of primitives of a leaf.
     static constexpr std::uint32_t count(std::uint32_t child) noexcept {
         return ((child >> count_shift) & 15u) + 1;
     }
-    /// The size of a node in units of 32 bytes; a shift gives its address.
+    /// The size of a node in units of Lanes, which are 32 bytes.
     static constexpr std::uint32_t stride = sizeof(Bvh8Node) / sizeof(Lanes);
 };
 
@@ -139,16 +141,17 @@ struct Bvh8Child {
 struct Bvh8Nodes {
     GrowingArray<Bvh8Node> nodes{}; ///< Empty for an empty tree.
     std::vector<std::uint32_t>
-        primitive_ids{}; ///< primitive_ids[slot] is a primitive's index, or padding.
-    Box box{};           ///< Around all primitives.
-    Vec3 middle{0};      ///< Centre of the box.
+        primitive_ids{}; ///< The index of the primitive at each slot, or padding.
+    Box box{};           ///< The box around all primitives.
+    Vec3 middle{0};      ///< The centre of the box.
     Vec3 half{0};        ///< Half the size of the box.
 
-    /// The primitive_ids entry of an unused slot between leaves.
+    /// The entry of primitive_ids for an unused slot between leaves.
     static constexpr std::uint32_t padding = std::numeric_limits<std::uint32_t>::max();
 };
 
-// Adds a wide node for a plain node, and its subtree.
+// Writes the wide node for the plain node `from` to position `to`, and adds its
+// subtree.
 template <std::floating_point T>
 void add_wide_node(Bvh8Nodes& wide, const BvhNodesT<T>& tree,
                    const BvhCollapse<T>& collapse, std::uint32_t from, std::size_t to,
@@ -185,10 +188,10 @@ void add_wide_node(Bvh8Nodes& wide, const BvhNodesT<T>& tree,
             add_wide_node(wide, tree, collapse, open[i],
                           node.child[i] / Bvh8Child::stride, multiple);
 }
-/// Collapses a tree into a wide one.
-/// \param tree      The plain tree; its leaves have at most 16 primitives.
-/// \param multiple  Leaves start at multiples of this number of slots; padding fills
-///                  the gaps.
+/// Collapses a plain tree into a wide tree.
+/// \param tree      The plain tree. Its leaves have at most 16 primitives.
+/// \param multiple  The first slot of each leaf is a multiple of this number. Unused
+///                  slots between leaves are padding.
 /// \throws std::invalid_argument  if there are 2^27 slots or more.
 template <std::floating_point T>
 [[nodiscard]] Bvh8Nodes make_bvh8(const BvhNodesT<T>& tree,

@@ -17,21 +17,21 @@ namespace ljus::detail {
 
 /// A ray prepared for wide nodes.
 struct Bvh8Ray {
-    Vec3 inverse{1};                   ///< 1 / D, finite.
-    Vec3 near_shift{0};                ///< A bit early: t = plane * inverse - shift.
-    Vec3 far_shift{0};                 ///< The same, a bit late.
-    std::array<std::size_t, 3> near{}; ///< By axis, the plane that it meets first.
-    std::array<std::size_t, 3> far{};  ///< By axis, the plane that it meets last.
-    float length = 0;                  ///< The largest component of D.
-    float last = 0;                    ///< Largest t to be searched.
-    bool moderate = false; ///< Products of three such lengths cannot overflow.
+    Vec3 inverse{1};                   ///< 1 over the direction, made finite.
+    Vec3 near_shift{0};                ///< Near planes: t = plane * inverse - shift.
+    Vec3 far_shift{0};                 ///< The same for far planes.
+    std::array<std::size_t, 3> near{}; ///< Per axis, the plane that it meets first.
+    std::array<std::size_t, 3> far{};  ///< Per axis, the plane that it meets last.
+    float length = 0;                  ///< The direction's largest absolute component.
+    float last = 0;                    ///< The largest t that is searched.
+    bool moderate = false; ///< Whether a product of three lengths cannot overflow.
 };
 
-/// Prepares a ray. Boxes grow by the margin of box_ray(). A direction component close
-/// to 0 is replaced by a small one, which moves the ray within the box by less than the
-/// margin.
-/// \return False if the squares of the direction's length or of the distance to the box
-///         leave the range of float.
+/// Prepares a ray. The two shifts enlarge the boxes by the margin of box_ray(). A
+/// component of the direction that is close to 0 is replaced by a small number. Within
+/// the box this moves the ray by less than the margin.
+/// \return False if the square of the direction's length or of the distance to the box
+///         is outside the range of float.
 [[nodiscard]] inline bool make_ready(Bvh8Ray& r, const Ray& ray, const Vec3& middle,
                                      const Vec3& half) noexcept {
     const Vec3 origin = ray.origin - middle;
@@ -62,7 +62,8 @@ struct Bvh8Ray {
            is_finite(r.near_shift) && is_finite(r.far_shift);
 }
 
-// The start of a search: a prepared ray; or its result, if no ray can be prepared.
+// The start of a search: the prepared ray, or the result of the search if the ray
+// cannot be prepared.
 struct Bvh8Start {
     Bvh8Ray ray{};
     bool done = true;   // the search has ended
@@ -82,8 +83,9 @@ inline Bvh8Start begin_walk(const Bvh8Nodes& wide, const Ray& ray, Leaf& leaf) {
     return start;
 }
 
-// Tests eight boxes at once: which of them the ray enters, and where. Each search has
-// its own instance, because compilers inline functions that are called once.
+// Tests eight boxes at once. Returns the boxes that the ray enters, as yes_lanes()
+// does, and sets `t` to the distances at which it enters. Each type of search has its
+// own instance, because compilers inline a function that is called once.
 template <typename Search>
 inline std::uint64_t entered_lanes(Lanes& t, const Bvh8Nodes& wide, std::uint32_t node,
                                    const Bvh8Ray& r, float t_min,
@@ -114,13 +116,16 @@ inline std::uint64_t entered_lanes(Lanes& t, const Bvh8Nodes& wide, std::uint32_
     t = entry;
     return yes_lanes(entered);
 }
-// The stack of a search for the nearest hit: children, each packed below the t at which
-// the ray enters it. The bits of non-negative floats are ordered like their values, so
-// integers can be compared. Each search has its own type, as for entered_lanes().
+// The stack of a search for the nearest hit. An entry is a 64-bit integer: in its upper
+// half the bits of the t at which the ray enters a child, in its lower half the child.
+// The bits of non-negative floats are ordered like the floats, so that entries are
+// compared as integers. Each type of search has its own type of stack; see
+// entered_lanes().
 template <typename Search>
 class NearestFirst {
 public:
-    // Pushes the children that the ray enters, at least one, and returns the nearest.
+    // Returns the nearest of the children that the ray enters, and pushes the others.
+    // There is at least one.
     std::uint32_t enter(const Bvh8Nodes& wide, std::uint32_t node,
                         std::uint64_t entered, const Lanes& t) {
         const auto& child = wide.nodes[node / Bvh8Child::stride].child;
@@ -135,7 +140,8 @@ public:
             later_[size_++] = later;
         };
         std::uint64_t nearest = key(take_lane(entered));
-        // Three are sorted exactly, more approximately: without unpredictable branches.
+        // Up to three children are sorted exactly, and more only approximately, to
+        // avoid unpredictable branches.
         if (entered != 0) {
             const std::uint64_t other = key(take_lane(entered));
             std::uint64_t second = glm::max(nearest, other);
@@ -169,8 +175,8 @@ private:
     std::size_t size_ = 0;
 };
 
-// The stack of a search for any hit. Order does not matter, so it only stores the lanes
-// of a node.
+// The stack of a search for any hit. The order of the children does not matter, so that
+// an entry is a node and the lanes that remain to be visited.
 template <typename Search>
 class AnyOrder {
 public:
@@ -209,13 +215,16 @@ private:
     std::uint32_t node_ = 0;
 };
 
-/// The traversal of every search: test eight boxes of a node, then visit a child
-/// \cite wald2008.
-/// \tparam any   True: the first leaf that returns true ends the search, and children
-///               are unsorted. False: nearer children come first, and leaves shorten
-///               the ray.
-/// \param leaf   Called as leaf(first slot, count, prepared ray); true ends the search.
-///               Called once with a null pointer if the ray cannot be prepared.
+/// The traversal of every search. It tests the eight boxes of a node together and then
+/// visits a child \cite wald2008.
+/// \tparam any  If true, children are visited in any order. If false, nearer children
+/// come first, and the leaf function shortens the ray.
+/// \param wide   The tree.
+/// \param ray    The ray.
+/// \param leaf   Called as leaf(first slot, count, prepared ray). If it returns true,
+///               the search ends. If the ray cannot be prepared, `leaf` is called once
+///               for all slots, with a null pointer.
+/// \param watch  Called with the index of each visited node.
 template <bool any, typename Leaf, typename Watch>
 bool walk(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& watch) {
     const Bvh8Start start = begin_walk(wide, ray, leaf);

@@ -20,11 +20,11 @@
 namespace ljus::detail {
 
 /// \defgroup bvh_build Building trees of boxes
-/// \brief How to split a range in two. Chapter: \ref ch_bvh.
+/// \brief Splitting a range of primitives in two. Chapter: \ref ch_bvh.
 /// \{
 
-// A box for construction: the lower bounds, and the negated upper ones. Growing the box
-// is then the same operation in all lanes, which compilers vectorise.
+// A box during construction, stored as the lower bounds and the negated upper bounds.
+// To grow the box is then the same operation in all lanes, which compilers vectorise.
 template <std::floating_point T>
 struct BoundsT {
     T side[8];
@@ -57,7 +57,7 @@ template <std::floating_point T>
 struct PrimitiveRefT {
     BoundsT<T> bounds;
     std::uint32_t id;
-    // Each bound is halved first, because their sum could overflow.
+    // Each bound is halved before they are added, because their sum could overflow.
     [[nodiscard]] T center(int axis) const noexcept {
         return T(0.5) * bounds.side[axis] - T(0.5) * bounds.side[axis + 4];
     }
@@ -88,7 +88,7 @@ struct PrimitiveRangeT {
     }
 };
 
-// The number of tests for a leaf, if one test covers `at_a_time` primitives.
+// The number of tests for `count` primitives, if one test covers `at_a_time` of them.
 [[nodiscard]] constexpr double tests_of(std::uint32_t count,
                                         std::uint32_t at_a_time) noexcept {
     return (count + at_a_time - 1) / at_a_time;
@@ -96,7 +96,7 @@ struct PrimitiveRangeT {
 
 // A split between two bins along an axis, and its cost.
 struct Split {
-    int axis = -1; // none
+    int axis = -1; // -1 for no split
     int bin = 0;   // first bin of the upper half
     double cost = std::numeric_limits<double>::infinity();
 };
@@ -118,9 +118,9 @@ struct ToBinT {
     }
 };
 
-// The split with the least expected cost \cite macdonald1990: a ray that hits a box
-// hits a box within it with the ratio of their areas as probability. 15 candidate
-// planes per axis are tried, the borders of 16 bins \cite wald2007.
+// The split with the least expected cost \cite macdonald1990. A ray that hits a box
+// hits a smaller box inside it with a probability equal to the ratio of the surface
+// areas. The candidates are the 15 planes per axis between 16 bins \cite wald2007.
 // [best_split]
 template <std::floating_point T>
 [[nodiscard]] Split best_split(const GrowingArray<PrimitiveRefT<T>>& refs,
@@ -130,7 +130,8 @@ template <std::floating_point T>
         BoundsT<T> bounds = BoundsT<T>::none();
         std::uint32_t count = 0;
     };
-    // All axes in one loop: their bins do not wait for each other.
+    // One loop for all axes is faster, because the bins of different axes do not wait
+    // for each other.
     const std::array<ToBinT<T>, 3> bin_of{
         {ToBinT<T>(range, 0), ToBinT<T>(range, 1), ToBinT<T>(range, 2)}};
     Bin bins[3][bin_count];
@@ -147,7 +148,8 @@ template <std::floating_point T>
               size < std::numeric_limits<T>::max()))
             continue; // all centres in one plane
         const Bin* const all = bins[axis];
-        // One sweep from above for the costs of the upper halves, then one from below.
+        // A sweep from above computes the costs of the upper halves. A sweep from below
+        // adds the costs of the lower halves.
         double above[bin_count] = {};
         Bin upper, lower;
         for (int i = bin_count - 1; i > 0; --i) {
@@ -177,7 +179,7 @@ struct HalvesT {
     PrimitiveRangeT<T> high;
 };
 
-// Partitions a range into its halves; without a split, by index.
+// Partitions a range at a split. Without a split, the range is halved by index.
 template <std::floating_point T>
 [[nodiscard]] HalvesT<T> divide(GrowingArray<PrimitiveRefT<T>>& refs,
                                 const PrimitiveRangeT<T>& range, const Split& split) {
@@ -227,7 +229,8 @@ public:
         PrimitiveRangeT<T> all{.last = static_cast<std::uint32_t>(refs_.size())};
         for (const PrimitiveRefT<T>& ref : refs_) all.take(ref);
         // One thread builds the top. Subtrees of at most `alone` primitives are built
-        // separately and appended in order: the tree does not depend on the threads.
+        // separately and appended in order, so that the tree does not depend on the
+        // number of threads.
         GrowingArray<Job> jobs;
         tree.nodes.reserve(refs_.size());
         tree.nodes.push_back({all.bounds.box(), 0, 0});
@@ -262,7 +265,7 @@ private:
             return;
         }
         const std::uint32_t count = range.size();
-        const bool deep = range.depth >= bvh_depth / 2; // then halving bounds the depth
+        const bool deep = range.depth >= bvh_depth / 2; // then halve by index
         const Split split = count == 1 || deep
                                 ? Split{}
                                 : best_split(refs_, range, settings_.at_a_time);
@@ -282,7 +285,8 @@ private:
         grow(nodes, children, low, jobs);
         grow(nodes, children + 1, high, jobs);
     }
-    // Appends a separately built subtree; its root replaces the placeholder.
+    // Appends a subtree that was built separately. The root of the subtree replaces the
+    // node `root`.
     static void append(GrowingArray<BvhNodeT<T>>& nodes, std::size_t root,
                        const GrowingArray<BvhNodeT<T>>& part) {
         const auto shift = static_cast<std::uint32_t>(nodes.size()) - 1;
@@ -298,7 +302,7 @@ private:
     GrowingArray<PrimitiveRefT<T>> refs_;
 };
 
-/// Refuses what no tree can be built of; see BvhT's constructor.
+/// Refuses arguments from which no tree can be built; see BvhT's constructor.
 inline void require_buildable(std::size_t boxes, const BvhSettings& settings) {
     require(boxes < (std::size_t{1} << 31), "the number of boxes in a tree",
             static_cast<long long>(boxes), "below 2^31");
@@ -306,8 +310,9 @@ inline void require_buildable(std::size_t boxes, const BvhSettings& settings) {
     require_at_least("at_a_time", settings.at_a_time, 1);
 }
 
-/// Builds a tree over boxes; BvhT's constructor documents the arguments and the cost.
-/// \return The tree, the same for any number of threads; no deeper than bvh_depth.
+/// Builds a tree over boxes. BvhT's constructor documents the arguments and the cost.
+/// \return The tree. It is the same for any number of threads, and at most bvh_depth
+///         deep.
 template <std::floating_point T>
 [[nodiscard]] BvhNodesT<T> build_bvh(std::span<const BoxT<T>> boxes,
                                      const BvhSettings& settings = {}) {
@@ -315,7 +320,7 @@ template <std::floating_point T>
     return BvhBuilder<T>(boxes, settings).build();
 }
 
-/// The same; frees the boxes before the tree is built.
+/// Builds the same tree, but frees the boxes before the build.
 template <std::floating_point T>
 [[nodiscard]] BvhNodesT<T> build_bvh(std::vector<BoxT<T>>&& boxes,
                                      const BvhSettings& settings) {

@@ -25,28 +25,30 @@ namespace ljus::detail {
 /// \addtogroup kd_tree8
 /// \{
 
-/// The boxes of a node's eight children, side by side.
+/// The boxes of a node's eight children, stored coordinate by coordinate.
 template <std::floating_point T>
 struct KdTree8NodeT {
-    Lanes3T<T> low;  ///< Corners with the least coordinates.
-    Lanes3T<T> high; ///< Opposite corners.
+    Lanes3T<T> low;  ///< The corners with the smallest coordinates.
+    Lanes3T<T> high; ///< The corners with the largest coordinates.
 };
 
-/// The layout of a wide tree; arithmetic replaces pointers.
+/// The layout of a wide tree. The positions of nodes and leaves are computed, so that
+/// the tree needs no pointers.
 ///
 /// The points are grouped into blocks of eight, and the blocks into leaves of at most
-/// `leaf_blocks`. The number of leaves is a power of two, and they share the blocks
-/// evenly. A node with eight children combines three halvings; the root may have fewer
+/// `leaf_blocks` blocks. The number of leaves is a power of two, and the blocks are
+/// distributed evenly among the leaves. The points are halved repeatedly down to the
+/// leaves. A node with eight children combines three halvings; the root may have fewer
 /// children.
 struct KdTree8Shape {
-    static constexpr int leaf_blocks = 4; ///< Most blocks per leaf: 32 points.
+    static constexpr int leaf_blocks = 4; ///< Largest number of blocks per leaf.
 
     std::uint64_t points = 0; ///< Number of points.
     std::uint64_t blocks = 0; ///< Number of blocks.
-    int halvings = 0;         ///< From the root to a leaf.
+    int halvings = 0;         ///< Number of halvings from the root to a leaf.
     int levels = 0;           ///< Number of levels of nodes.
     std::array<std::uint32_t, 12>
-        first{}; ///< The first node of each level, then the end.
+        first{}; ///< The index of each level's first node, then the end.
 
     /// The layout for a number of points.
     [[nodiscard]] static constexpr KdTree8Shape of(std::uint64_t points) noexcept {
@@ -78,7 +80,7 @@ struct KdTree8PartsT {
     KdTree8Shape shape{};                 ///< The layout.
     StoredArray<KdTree8NodeT<T>> nodes{}; ///< Level by level.
     StoredArray<Lanes3T<T>> blocks{};     ///< The points, in blocks of eight.
-    StoredArray<std::uint32_t> order{};   ///< Where each point was in the list given.
+    StoredArray<std::uint32_t> order{};   ///< Each point's index in the given list.
 
     /// The point at an index.
     [[nodiscard]] Vec3T<T> point(std::size_t index) const noexcept {
@@ -86,7 +88,7 @@ struct KdTree8PartsT {
     }
 };
 
-/// A point during construction: 16 bytes in float, moved as a unit.
+/// A point and its index during construction. In float they take 16 bytes.
 template <std::floating_point T>
 struct KdTree8ItemT {
     using Index = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
@@ -97,25 +99,26 @@ struct KdTree8ItemT {
         : v{point.x, point.y, point.z}, index(static_cast<Index>(number)) {}
 };
 
-/// A list of items in pieces, each of which is freed when it has been read: what is
-/// made of a list needs no memory beside it.
+/// A list of items, stored in pieces. A piece can be freed as soon as it has been read,
+/// so that the list and the result made from it are not in memory at the same time.
 template <std::floating_point T>
 class KdTree8ItemsT {
 public:
-    using Item = KdTree8ItemT<T>;                 ///< What it holds.
+    using Item = KdTree8ItemT<T>;                 ///< The type of its elements.
     static constexpr std::size_t piece = 1 << 13; ///< Items per piece.
 
-    /// Pieces that were read. Lists of the same thread use them again, because memory
-    /// that one thread frees may stay out of the reach of others.
+    /// Pieces that were read. Other lists of the same thread use them again, because
+    /// memory that one thread frees may not be available to other threads.
     using Spare = std::vector<GrowingArray<Item>>;
 
     /// The number of items.
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
-    /// An item that is still there.
+    /// Item number i, which has not been drained.
     [[nodiscard]] const Item& operator[](std::size_t i) const noexcept {
         return pieces_[i / piece][i % piece];
     }
-    /// Some places behind the last item, at least one; take() makes them items.
+    /// Room for at least one item behind the last one. take() adds the items that were
+    /// written there.
     [[nodiscard]] std::span<Item> room() {
         if (size_ == piece * pieces_.size()) {
             if (spare_ != nullptr && !spare_->empty()) {
@@ -127,23 +130,23 @@ public:
         }
         return {pieces_.back().data() + size_ % piece, piece - size_ % piece};
     }
-    /// Adds the first places of room().
+    /// Adds the first `count` items that were written into room().
     void take(std::size_t count) noexcept { size_ += count; }
-    /// Adds a point, numbered in the order of adding.
-    /// \throws std::invalid_argument  if it is not finite.
+    /// Adds a point. Its index is the number of items before it.
+    /// \throws std::invalid_argument  if the point is not finite.
     void add(const Vec3T<T>& point) {
         require_finite("a point of the k-d tree", point);
         push({point, size_});
     }
-    /// Shares pieces with other lists; without, each piece is freed.
+    /// Collects pieces that were read in `spare`. If it is null, each piece is freed.
     void share(Spare* spare) noexcept { spare_ = spare; }
     /// Adds an item.
     void push(const Item& item) {
         room()[0] = item;
         take(1);
     }
-    /// Calls use(items) for each piece, from the first one, or from the last one; frees
-    /// it after that.
+    /// Calls use(items) for each piece, and frees the piece afterwards. If `backwards`
+    /// is true, the last piece comes first. The list is empty at the end.
     void drain(FunctionRef<void(std::span<const Item>)> use, bool backwards = false) {
         const std::size_t count = pieces_.size();
         for (std::size_t n = 0; n < count; ++n) {
@@ -154,7 +157,7 @@ public:
         }
         *this = {};
     }
-    /// All items in one array; the list is empty then.
+    /// Moves all items into one array. The list is empty at the end.
     [[nodiscard]] GrowingArray<Item> joined() {
         GrowingArray<Item> all(size_);
         Item* end = all.data();
@@ -178,7 +181,7 @@ inline void require_point_count(std::size_t count) {
             "below 2^32");
 }
 
-/// The items of points.
+/// Makes a list of items from points.
 /// \throws std::invalid_argument  as KdTree8T.
 template <std::floating_point T>
 [[nodiscard]] KdTree8ItemsT<T> kd_tree8_items(std::span<const Vec3T<T>> points) {
@@ -200,8 +203,9 @@ public:
         std::fill_n(nodes_.data(), nodes_.size(), KdTree8NodeT<T>{});
     }
 
-    // The upper ranges are built level by level, in lists, then whole subtrees in
-    // parallel, in arrays; the tree grows as the items of its subtrees are freed.
+    // Divides the points level by level, in lists, into the ranges of whole subtrees.
+    // Then builds the subtrees in parallel, in arrays. The tree grows while the items
+    // of its subtrees are freed.
     [[nodiscard]] KdTree8PartsT<T> build(Items items, int threads) {
         if (shape_.points < 4 * Items::piece) threads = 1; // too few to wake threads
         int depth = 0;
@@ -248,7 +252,7 @@ public:
     }
 
 private:
-    void pad() { // the places behind the last point
+    void pad() { // fills the last block with NaN
         constexpr T nan = std::numeric_limits<T>::quiet_NaN();
         for (std::uint64_t i = shape_.points; i < 8 * shape_.blocks; ++i)
             blocks_[i / 8].set(i % 8, Vec3T<T>{nan});
@@ -277,7 +281,7 @@ private:
         write(depth, number, box_low, box_high);
         const int axis = longest_axis(box_low, box_high);
         const Extremes<T> pivot = pivots(from, count, rank, axis);
-        // No structured binding: clang 14 lets no lambda use one.
+        // clang 14 does not let a lambda use a structured binding.
         const T least = pivot.low, most = pivot.high;
         Items above, between;
         typename Items::Spare spare;
@@ -344,7 +348,7 @@ private:
         };
         above.drain(push_reversed, true);
     }
-    // Builds a subtree; `from` has its items, and `to` the room for as many.
+    // Builds a subtree from the items in `from`. `to` has room for the same number.
     void finish(int depth, std::uint64_t number, Item* from, Item* to) {
         const std::uint64_t first = first_point(depth, number);
         const std::uint64_t count = first_point(depth, number + 1) - first;
@@ -396,8 +400,9 @@ private:
                           int axis) {
         while (count > 0) {
             const auto [low, high] = pivots(from, count, rank, axis);
-            // Items below the pivots go to the front, those above to the back, and the
-            // band between to the front of `from`: three writes and no branch.
+            // Items below the pivots go to the front of `to`, items above to its back,
+            // and the band between to the front of `from`. Each item is written three
+            // times, without a branch.
             std::uint64_t front = 0, back = count, band = 0;
             for (std::uint64_t i = 0; i < count; ++i) {
                 const Item item = from[i];
@@ -431,8 +436,9 @@ private:
             [axis](const Item& a, const Item& b) { return a.v[axis] < b.v[axis]; });
     }
 
-    // Two numbers that are likely to enclose the item of a rank. For a few items both
-    // are that item's coordinate; for many they are estimated from a sample.
+    // Two numbers that are likely to enclose the coordinate of the item with a given
+    // rank. For few items both are that coordinate. For many items they are estimated
+    // from a sample.
     template <typename List>
     static Extremes<T> pivots(const List& items, std::uint64_t count,
                               std::uint64_t rank, int axis) {

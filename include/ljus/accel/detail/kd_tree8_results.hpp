@@ -16,9 +16,9 @@
 
 namespace ljus::detail {
 
-/// All points within reach, leaf by leaf.
-/// \tparam Visit  Called as visit(first block, bits of the points); true ends the
-///                search.
+/// A result set that visits all points within reach, leaf by leaf.
+/// \tparam Visit  Called as visit(first block, bits of the points). If it returns true,
+/// the search ends.
 template <std::floating_point T, typename Visit>
 struct WithinT {
     static constexpr bool nearest_first = false;
@@ -35,13 +35,13 @@ struct WithinT {
 template <std::floating_point T>
 struct NearestOneT {
     static constexpr bool nearest_first = true;
-    ReachT<T> reach;                ///< Below the distance of the nearest so far.
-    std::optional<Neighbor> best{}; ///< The nearest so far.
+    ReachT<T> reach;                ///< Ends below the distance of the nearest so far.
+    std::optional<Neighbor> best{}; ///< The nearest point so far.
 
     bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
               std::size_t last) {
-        // The least distance in T without its last bits: only points that are as near
-        // may be the nearest.
+        // The smallest distance in T, without its last bits. Only points within this
+        // distance can be the nearest.
         LanesT<T> least = distances2(tree.blocks[first], center);
         for (std::size_t b = first + 1; b < last; ++b) {
             const LanesT<T> d2 = distances2(tree.blocks[b], center);
@@ -68,7 +68,7 @@ struct NearestOneT {
     }
 };
 
-// Up to this number, selection counts; beyond it uses a heap.
+// For up to this number of points NearestCountedT is used, for more NearestHeapT.
 inline constexpr std::size_t max_counted = 512;
 
 // The candidates of a search for the k nearest.
@@ -88,9 +88,9 @@ struct CandidatesT {
     }
 };
 
-// Drops the candidates that are certainly not among the k nearest, and shortens the
-// reach to the others: k of them, and up to `spare` more.
-// Returns the number left; it is larger if many distances are equal in T.
+// Drops candidates that are certainly not among the k nearest, and shortens the reach
+// to the others. Returns the number of candidates left. It is between k and k +
+// `spare`, or larger if many distances are equal in T.
 template <std::floating_point T>
 [[nodiscard]] std::size_t thin_out(CandidatesT<T>& all, std::size_t count,
                                    std::size_t k, std::size_t spare,
@@ -109,8 +109,9 @@ template <std::floating_point T>
     return kept;
 }
 
-// Keeps exactly the k nearest, and shortens the reach to below the k-th. Candidates
-// that T cannot tell from the k-th are compared in double.
+// Keeps exactly the k nearest candidates, and shortens the reach to below the k-th
+// distance. Candidates whose distances in T are too close to the k-th are compared in
+// double.
 template <std::floating_point T>
 void keep_nearest(CandidatesT<T>& all, std::size_t count, std::size_t k,
                   const KdTree8PartsT<T>& tree, const Vec3T<T>& center,
@@ -142,19 +143,20 @@ void keep_nearest(CandidatesT<T>& all, std::size_t count, std::size_t k,
     reach = ReachT<T>::up_to(limit2, true);
 }
 
-/// The k nearest points, up to max_counted. It gathers candidates. When there are more
-/// than enough, counting finds the distance of the k-th, which becomes the reach.
+/// A result set of the k nearest points, for k up to max_counted. It gathers
+/// candidates. When there are `enough` candidates, select_smallest() finds the k-th
+/// distance, which becomes the reach.
 template <std::floating_point T, typename Wanted>
 struct NearestCountedT {
     static constexpr bool nearest_first = true;
-    ReachT<T> reach;        ///< About the distance of the k-th so far.
+    ReachT<T> reach;        ///< About the k-th distance so far.
     Wanted& wanted;         ///< Whether a point counts.
     const std::size_t k;    ///< Number of points wanted.
-    std::size_t enough = k; ///< Number of candidates that shortens the reach.
+    std::size_t enough = k; ///< Number of candidates at which the reach is shortened.
     std::size_t count = 0;  ///< Number of candidates.
     CandidatesT<T> all;     ///< The candidates.
 
-    // A constructor, because an aggregate would be filled with 8 kB of zeros.
+    // Without this constructor, 8 kB would be filled with zeros.
     NearestCountedT(const ReachT<T>& most, Wanted& which, std::size_t number) noexcept
         : reach(most), wanted(which), k(number) {}
 
@@ -204,13 +206,13 @@ struct NearestCountedT {
     }
 };
 
-/// The k nearest points for any k, by the heap of the plain tree.
+/// A result set of the k nearest points for any k. It uses the heap of the plain tree.
 template <std::floating_point T, typename Wanted>
 struct NearestHeapT {
     static constexpr bool nearest_first = true;
-    ReachT<T> reach; ///< Below the distance of the k-th so far.
+    ReachT<T> reach; ///< Ends below the k-th distance so far.
     Wanted& wanted;  ///< Whether a point counts.
-    Nearest best;    ///< The nearest so far.
+    Nearest best;    ///< The nearest points so far.
 
     bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
               std::size_t last) {

@@ -13,8 +13,9 @@
 
 namespace ljus::detail {
 
-/// The squared distances of eight points from `center`, in the precision of their
-/// coordinates: within five roundings of the exact ones, unless they leave T's range.
+/// The squared distances of eight points from `center`, in the precision of the
+/// coordinates. They have at most five rounding errors, unless they exceed the range of
+/// T.
 template <std::floating_point T>
 [[nodiscard]] constexpr LanesT<T> distances2(const Lanes3T<T>& points,
                                              const Vec3T<T>& center) noexcept {
@@ -28,25 +29,26 @@ template <std::floating_point T>
     return result;
 }
 
-/// The radius of a search: the limit itself in double, and two bounds in T that decide
+/// The limit of a search: the squared radius in double, and two bounds in T that decide
 /// for nearly all points.
 ///
-/// A squared distance computed in T has at most five roundings of half an ulp. A
-/// distance up to `sure` is within the limit; one above `last` is beyond it. 16
-/// roundings separate each bound from the limit. Between the two, distance2() decides.
+/// A squared distance computed in T has at most five rounding errors. Each bound
+/// differs from the limit by 16 rounding errors. A distance up to `sure` is therefore
+/// within the limit, and a distance above `last` is beyond the limit. For a distance
+/// between the bounds, distance2() decides in double.
 template <std::floating_point T>
 struct ReachT {
-    double limit2 = -1; ///< Squared; negative: nothing is within reach.
+    double limit2 = -1; ///< The squared limit; if negative, nothing is within reach.
     bool open = false;  ///< Whether the limit itself is excluded.
-    T sure = T(-1);     ///< Up to this: within the limit.
-    T last = T(-1);     ///< Above this: beyond the limit.
+    T sure = T(-1);     ///< A squared distance up to this is within the limit.
+    T last = T(-1);     ///< A squared distance above this is beyond the limit.
 
     /// The reach up to a limit.
-    /// \param limit   Squared; at least 0, or infinite.
+    /// \param limit   The squared limit, at least 0; it may be infinite.
     /// \param beyond  Whether the limit itself is excluded.
     [[nodiscard]] static constexpr ReachT up_to(double limit, bool beyond) noexcept {
         using Numbers = std::numeric_limits<T>;
-        // Processors may flush denormals to 0, so they decide nothing.
+        // The bounds keep `tiny` apart, because processors may flush denormals to 0.
         constexpr double margin = 8 * double(Numbers::epsilon());
         constexpr double tiny = 4 * double(Numbers::min());
         constexpr double most = double(Numbers::max());
@@ -66,7 +68,8 @@ struct ReachT {
     [[nodiscard]] constexpr bool holds(double d2) const noexcept {
         return open ? d2 < limit2 : d2 <= limit2;
     }
-    /// The points within reach, exactly; bit i stands for point i.
+    /// Decides exactly which of eight points are within reach. Bit i stands for point
+    /// i.
     // [within]
     [[nodiscard]] constexpr std::uint32_t within(const Lanes3T<T>& points,
                                                  const Vec3T<T>& center,
@@ -89,8 +92,8 @@ struct ReachT {
     // [within]
 };
 
-// The squared distances to eight boxes. Each caller has its own instance, because
-// compilers inline functions that are called once.
+// The squared distances from `center` to eight boxes. Each caller has its own instance,
+// because compilers inline a function that is called once.
 template <typename Caller, std::floating_point T>
 [[nodiscard]] constexpr LanesT<T> near2(const KdTree8NodeT<T>& node,
                                         const Vec3T<T>& center) noexcept {
@@ -100,7 +103,7 @@ template <typename Caller, std::floating_point T>
         const T above = x < low ? low : x;
         return x - (above > high ? high : above);
     };
-    // One axis at a time: compilers may fail to inline and vectorise a longer body.
+    // One axis per loop, because compilers may fail to vectorise a longer body.
     LanesT<T> x, y, z;
     for_lanes(
         [&](int i) { x.lane[i] = outside(node.low.x[i], node.high.x[i], center.x); });
@@ -115,7 +118,7 @@ template <typename Caller, std::floating_point T>
     return result;
 }
 
-// The points of a leaf within reach, exactly; one bit each.
+// Decides exactly which points of a leaf are within reach. Bit i stands for point i.
 template <std::floating_point T>
 [[nodiscard]] std::uint32_t in_leaf(const KdTree8PartsT<T>& tree, std::size_t first,
                                     std::size_t last, const Vec3T<T>& center,
@@ -149,9 +152,9 @@ template <std::floating_point T>
     return found;
 }
 
-/// The traversal of every search: depth first, over leaves whose boxes are within
-/// reach. The argument `results` is a result set, as in nanoflann \cite blanco2014. It
-/// has
+/// The traversal of every search. It visits the leaves whose boxes are within reach,
+/// depth first. The argument `results` is a result set, as in nanoflann
+/// \cite blanco2014. It has these members:
 ///
 ///     ReachT<T> reach;                     // may shrink during the search
 ///     static constexpr bool nearest_first; // false: in the tree's order
@@ -161,7 +164,7 @@ template <std::floating_point T, typename Results>
 bool walk(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, Results& results) {
     const KdTree8Shape& shape = tree.shape;
     if (shape.levels == 0) return results.leaf(tree, center, 0, tree.blocks.size());
-    // For the open node of each level: its children that have not been visited, and
+    // For the current node of each level: its children that have not been visited, and
     // their distances.
     struct Open {
         std::uint32_t number, left;
@@ -223,10 +226,10 @@ bool walk(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, Results& results
 struct BallBlock {
     std::uint32_t ball = 0;  ///< Index of the ball.
     std::uint32_t block = 0; ///< Index of the block in the tree.
-    std::uint32_t found = 0; ///< Its points in the ball, one bit each.
+    std::uint32_t found = 0; ///< The block's points in the ball, one bit each.
 };
 
-/// The blocks that a search for many balls finds, and its reusable buffers.
+/// The blocks that find_in_balls() finds, and buffers that it uses again.
 struct BallBlocks {
     /// A node or a leaf that a ball touches.
     struct Place {
@@ -238,16 +241,20 @@ struct BallBlocks {
     GrowingArray<BallBlock> blocks{}; ///< The result, sorted by ball.
 };
 
-/// Finds the points within many balls together. All balls visit one level of the tree
-/// before the next, and finally the leaves. In the traversal of a single ball each step
-/// waits for the memory that the previous step requested; different balls do not wait
-/// for each other, so that the processor overlaps their reads.
+/// Finds the points within many balls of one radius. All balls visit one level of the
+/// tree before the next level, and at last the leaves. The search for a single ball
+/// waits for memory at each step. Different balls do not depend on each other, so that
+/// the processor can read memory for many of them at once.
 ///
-/// Each ball finds the same points as by walk(), in the same order.
-/// \param expect  Called as expect(block) for each block that will be found, to
-///                prefetch its payload.
-/// \param found   Receives the blocks: for each ball those of visit_blocks(), in its
-///                order.
+/// For each ball the result is the same as that of KdTree8T::visit_blocks(), in the
+/// same order.
+/// \param tree    The tree.
+/// \param balls   The number of balls.
+/// \param center  Called as center(ball); returns the centre of a ball.
+/// \param radius  The radius of all balls, not squared.
+/// \param expect  Called as expect(block) for each block that is found, so that the
+///                caller can prefetch its data.
+/// \param found   Receives the blocks.
 template <std::floating_point T, typename Center, typename Expect>
 void find_in_balls(const KdTree8PartsT<T>& tree, std::size_t balls, Center center,
                    T radius, Expect expect, BallBlocks& found) {

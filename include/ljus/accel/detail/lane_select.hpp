@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/detail/lane_select.hpp
-/// \brief The k-th smallest of many numbers, by counting eight at a time.
+/// \brief Finds the k-th smallest of many numbers, by counting eight at a time.
 
 #include <bit>
 #include <cstddef>
@@ -13,8 +13,9 @@
 
 namespace ljus::detail {
 
-/// The midpoint of two numbers in the order of all floats. Repeated halving of an
-/// interval ends after at most as many steps as T has bits.
+/// The number in the middle between two others in the list of all values of T. Repeated
+/// halving of an interval at this number ends after at most as many steps as T has
+/// bits.
 template <std::floating_point T>
 [[nodiscard]] constexpr T middle_in_bits(T low, T high) noexcept {
     using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
@@ -31,8 +32,9 @@ template <std::floating_point T>
 }
 
 /// The number of values that do not exceed a threshold.
-/// \param values     Padded to a multiple of eight with infinity.
-/// \param threshold  Below infinity.
+/// \param values     The values, padded to a multiple of eight with infinity.
+/// \param count      The number of values.
+/// \param threshold  The threshold, below infinity.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::size_t count_up_to(const T* values, std::size_t count,
                                                 T threshold) noexcept {
@@ -51,10 +53,11 @@ struct Extremes {
     T high;
 };
 
-/// The smallest value above a bound, and the largest finite one up to another bound.
-/// \param values  Padded to a multiple of eight with infinity.
+/// The smallest value above one bound, and the largest value up to another bound.
+/// \param values  The values, padded to a multiple of eight with infinity.
+/// \param count   The number of values.
 /// \param above   Exclusive lower bound of the smallest.
-/// \param up_to   Inclusive upper bound of the largest.
+/// \param up_to   Inclusive upper bound of the largest; finite or minus infinity.
 /// \return Both; infinity and minus infinity if there are none.
 template <std::floating_point T>
 [[nodiscard]] constexpr Extremes<T>
@@ -80,18 +83,20 @@ smallest_and_largest(const T* values, std::size_t count, T above, T up_to) noexc
 
 /// The k-th smallest value.
 ///
-/// No value moves. Interpolation between two bounds of the result gives a threshold,
-/// and the values below it are counted. Every third threshold is the middle in bits,
-/// which bounds the number of passes for any values.
-/// \param values  Without NaN, above minus infinity; padded to a multiple of eight with
-///                infinity.
-/// \param count   Number of values, at least 1.
+/// The values stay in place. The function keeps a lower and an upper bound of the
+/// result. In each pass it interpolates a threshold between the bounds, counts the
+/// values up to the threshold, and moves one bound there. Every third threshold is
+/// middle_in_bits(), which limits the number of passes.
+/// \param values  The values, without NaN and above minus infinity; padded to a
+///                multiple of eight with infinity.
+/// \param count   The number of values, at least 1.
 /// \param k       The rank, in [1, count].
-/// \param spare   How far the rank of the result may exceed k, for an earlier end.
-/// \return The smallest value that k values do not exceed; with `spare`, possibly
-///         another one that k to k + spare values do not exceed.
-/// \cost About five passes, at most a hundred (in double two hundred); a pass is a
-///       comparison and an addition per eight values.
+/// \param spare   By how much the rank of the result may exceed k. A larger number
+///                saves passes.
+/// \return The smallest number that at least k values do not exceed. If `spare` is
+///         above 0, it may be any number that k to k + spare values do not exceed.
+/// \cost About five passes, and at most a hundred in float or two hundred in double. A
+///       pass has a comparison and an addition per eight values.
 // [select]
 template <std::floating_point T>
 [[nodiscard]] constexpr T select_smallest(const T* values, std::size_t count,
@@ -99,7 +104,7 @@ template <std::floating_point T>
                                           std::size_t spare = 0) noexcept {
     constexpr T infinity = std::numeric_limits<T>::infinity();
     constexpr T most = std::numeric_limits<T>::max();
-    // Fewer than k values are up to `low`, at least k up to `high`.
+    // Fewer than k values are at most `low`, and at least k values are at most `high`.
     auto [low, high] = smallest_and_largest(values, count, -infinity, most);
     std::size_t up_to_low = count_up_to(values, count, low);
     if (up_to_low >= k) return low;

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/accel/detail/stored_array.hpp
-/// \brief Large arrays: one that grows without being in memory twice, and one that is
-/// not changed any more, in memory or in a mapped file.
+/// \brief Two types of large arrays. A GrowingArray can grow without being in memory
+/// twice. A StoredArray is constant, in memory or in a mapped file.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,29 +21,29 @@
 
 namespace ljus::detail {
 
-/// Gives freed memory back to the system. glibc keeps small pieces that were freed for
-/// further small pieces, and does not make a large array of them.
+/// Gives freed memory back to the system. glibc would keep freed small pieces, and
+/// cannot use them for a large array.
 inline void give_back_memory() noexcept {
 #ifdef __GLIBC__
     ::malloc_trim(0);
 #endif
 }
 
-/// Memory of std::malloc() with an aligned place in it.
+/// Memory from std::malloc(), and an aligned address in it.
 struct AlignedMemory {
-    static constexpr std::size_t alignment = 32; ///< A pointer of malloc() has less.
-    char* start = nullptr;                       ///< Of malloc(), to be freed.
-    char* place = nullptr;                       ///< In it, aligned.
+    static constexpr std::size_t alignment = 32; ///< In bytes.
+    char* start = nullptr;                       ///< The result of malloc().
+    char* place = nullptr;                       ///< The first aligned address.
 
-    /// Changes its size. One function for arrays of all types, since each would
-    /// otherwise compile its own.
-    /// \param kept  Bytes of the aligned place that are in use.
-    /// \param size  Of the new one, not smaller.
-    /// \throws std::bad_alloc  if there is no such memory.
+    /// Changes the size. This function is not a template, so that arrays of all types
+    /// share it.
+    /// \param kept  Bytes in use, from `place` on.
+    /// \param size  The new size in bytes, at least `kept`.
+    /// \throws std::bad_alloc  if there is not enough memory.
     void take(std::size_t kept, std::size_t size);
 };
 
-// The distance from a pointer to the next one that is aligned.
+// The distance in bytes from a pointer to the next aligned address.
 [[nodiscard]] inline std::size_t to_aligned(const void* pointer) noexcept {
     return (~reinterpret_cast<std::uintptr_t>(pointer) + 1) % AlignedMemory::alignment;
 }
@@ -59,10 +59,9 @@ struct AlignedMemory {
     if (place != start + before) std::memmove(place, start + before, kept);
 }
 
-/// An array of numbers. It grows by std::realloc(), which in Linux moves the pages of a
-/// large array instead of copying them. A std::vector is in memory twice while it
-/// grows, or reserves all its memory before any of it is used. For each type of
-/// elements, a compiler instantiates half as many functions as for a std::vector.
+/// An array of trivially copyable elements. It grows by std::realloc(), which in Linux
+/// moves the pages of a large array instead of copying them. A std::vector is in memory
+/// twice while it grows. A GrowingArray also compiles faster.
 template <typename Element>
 class GrowingArray {
     static_assert(std::is_trivially_copyable_v<Element> &&
@@ -70,7 +69,7 @@ class GrowingArray {
 
 public:
     GrowingArray() = default;
-    /// Elements that are not initialised.
+    /// Makes `count` elements that are not initialised.
     explicit GrowingArray(std::size_t count) { resize(count); }
     explicit GrowingArray(std::span<const Element> elements) {
         resize(elements.size());
@@ -98,20 +97,20 @@ public:
         if (count > room_) take(count < room_ + room_ / 8 ? room_ + room_ / 8 : count);
         size_ = count;
     }
-    /// Makes room for some elements.
+    /// Makes room for `count` elements.
     void reserve(std::size_t count) {
         if (count > room_) take(count);
     }
-    /// A further element that is not initialised.
+    /// Adds an element that is not initialised.
     [[nodiscard]] Element& add() {
         if (size_ == room_) take(room_ < 16 ? 16 : 2 * room_);
         return data()[size_++];
     }
-    /// Adds an element, not one of its own.
+    /// Adds a copy of an element that is not in this array.
     void push_back(const Element& element) { add() = element; }
     /// Removes all elements, and keeps their memory.
     void clear() noexcept { size_ = 0; }
-    /// Gives the memory behind the last element back.
+    /// Frees the memory behind the last element.
     void shrink_to_fit() {
         if (size_ < room_) take(size_);
     }
@@ -135,7 +134,7 @@ public:
     }
 
 private:
-    // Makes room for some elements, not fewer than there are.
+    // Changes the capacity to `room` elements, at least size().
     void take(std::size_t room) {
         constexpr std::size_t all = static_cast<std::size_t>(-1);
         memory_.take(size_ * sizeof(Element),
@@ -148,12 +147,12 @@ private:
     std::size_t room_ = 0;
 };
 
-/// Elements in memory, or in a mapped file, which the array unmaps when it ends. A copy
-/// of it is in memory.
+/// A constant array, in memory or in a mapped file. The destructor unmaps the file. A
+/// copy of the array is always in memory.
 template <typename Element>
 class StoredArray {
 public:
-    /// Unmaps elements; nothing else does.
+    /// A function that unmaps the elements of a file.
     using Unmap = void (*)(std::span<const Element>) noexcept;
 
     StoredArray() = default;
