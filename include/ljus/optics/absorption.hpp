@@ -13,14 +13,14 @@ namespace ljus {
 /// \defgroup absorption Absorption
 /// \brief The colour of glass deepens with the distance through it.
 ///
-/// The report's program tints once per boundary, so that thin and thick glass look
-/// alike.
+/// The report's program applies the colour once per boundary, so that thin and thick
+/// glass look alike.
 /// \{
 
-/// The fraction of light that remains after a distance.
+/// The fraction T of light that remains after a distance d in a medium.
 /// \f[ T(d) = e^{-\sigma d} \f]
 /// \param sigma     Absorption coefficient per scene unit, >= 0.
-/// \param distance  In scene units, >= 0, finite.
+/// \param distance  The distance d in scene units, >= 0 and finite.
 /// \return T in [0, 1] for each channel; 1 without absorption.
 /// \cost Three exponentials; none if `sigma` is 0.
 template <std::floating_point T>
@@ -33,9 +33,11 @@ template <std::floating_point T>
 /// The absorption coefficient that turns white light into a colour after a distance.
 /// \param color     Linear colour after `distance`, each channel in (0, 1]. A channel
 ///                  of 0 would need infinite absorption.
-/// \param distance  In scene units, > 0: a ball's diameter, say.
+/// \param distance  In scene units, > 0; for a ball of glass, for example, the
+///                  diameter.
 /// \return sigma = -log(color)/distance, per scene unit.
-/// \throws std::invalid_argument for a colour or a distance outside these ranges.
+/// \throws std::invalid_argument  if the colour or the distance is outside these
+///         ranges.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> absorption_from_color(const RgbT<T>& color, T distance) {
     require_unit("absorption.color", color);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/optics/cie_observer.hpp
-/// \brief Converts a spectrum to three channels, by the CIE's observer of 1931.
+/// \brief Converts a spectrum to three channels by the CIE's standard observer of 1931.
 
 #include <algorithm>
 #include <array>
@@ -12,17 +12,17 @@
 namespace ljus {
 
 /// \defgroup cie_observer The standard observer
-/// \brief The red, green and blue of a spectrum.
+/// \brief Converts a spectrum to red, green and blue.
 /// \{
 
 namespace detail {
 
-/// The range of wavelengths that sums cover, in nm; the rest is invisible.
+/// The range of wavelengths over which spectra are integrated, in nm.
 template <std::floating_point T>
 inline constexpr std::array<T, 2> visible{T(360), T(830)};
 
-/// A Gaussian, at most 1, with inverse widths `left` and `right` (1/nm) below and above
-/// its centre.
+/// A Gaussian with the maximum 1. Its inverse width, in 1/nm, is `left` below the
+/// centre and `right` above the centre.
 template <std::floating_point T>
 [[nodiscard]] T piecewise_gaussian(T wavelength, T center, T left, T right) noexcept {
     const T x = (wavelength - center) * (wavelength < center ? left : right);
@@ -31,9 +31,10 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The colour matching functions of the CIE's standard observer of 1931 (2 degrees), by
-/// a fit with seven Gaussians: within 0.03 of the table, whose values go up to 1.8.
-/// \param wavelength  In nm; visible light has 380 to 780.
+/// The colour matching functions of the CIE's standard observer of 1931 (2 degrees),
+/// fitted by seven Gaussians. The fit is within 0.03 of the table, whose values go up
+/// to 1.8.
+/// \param wavelength  In nm; visible light is between 380 and 780.
 /// \return \f$ \bar x, \bar y, \bar z \f$. The integral of each is 106.9 nm.
 /// \cost Seven exponentials.
 /// \cite wyman2013
@@ -53,12 +54,13 @@ template <std::floating_point T>
 }
 // [observer]
 
-/// Linear sRGB of a colour. Equal energy at all wavelengths, X = Y = Z = 1, becomes the
-/// screen's white (1, 1, 1), because a surface that reflects all light must look white
-/// under any lamp: X, Y and Z are scaled by those of the screen's white before the
-/// standard's matrix.
-/// \param xyz  Relative to equal energy.
-/// \return Linear sRGB. A pure colour has a negative channel: no screen shows it.
+/// Converts XYZ to linear sRGB. Light of equal energy at all wavelengths, X = Y = Z =
+/// 1, becomes the screen's white (1, 1, 1), so that a surface that reflects all light
+/// looks white. For this purpose X, Y and Z are multiplied by those of the screen's
+/// white before the matrix of the standard.
+/// \param xyz  X, Y and Z relative to light of equal energy.
+/// \return Linear sRGB. A pure colour has a negative channel, because no screen can
+///         show it.
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<T> xyz_to_rgb(const Vec3T<T>& xyz) noexcept {
     // The rows of IEC 61966-2-1 times (0.95047, 1, 1.08883); each adds up to 1.
@@ -71,11 +73,12 @@ template <std::floating_point T>
     return {row(r), row(g), row(b)};
 }
 
-/// Moves a colour into the range that a screen can show and a surface can reflect: it
-/// is mixed with just enough grey of the same luminance to bring all channels into
-/// [0, 1]. Clamping the channels would add light.
+/// Moves a colour into the range that a screen can show and a surface can reflect. The
+/// colour is mixed with just enough grey of the same luminance to bring all channels
+/// into [0, 1]. If the channels were clamped instead, the colour would become brighter.
 /// \param c  Linear sRGB.
-/// \return The same luminance, clamped to [0, 1]; each channel in [0, 1].
+/// \return The colour, with each channel in [0, 1] and the luminance of `c`, clamped to
+///         [0, 1].
 // [into_gamut]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> into_gamut(const RgbT<T>& c) noexcept {

@@ -13,11 +13,12 @@
 namespace ljus {
 
 /// \defgroup conductor Metals
-/// \brief Fresnel's equations with a complex index: what makes gold yellow.
+/// \brief Fresnel's equations with a complex index, which explain the colours of
+/// metals.
 ///
-/// A metal's index is complex, \f$ \bar n = n + ik \f$: the wave that enters decays
-/// within a fraction of its wavelength, and nothing is refracted. n and k depend on the
-/// wavelength, which gives the metal its colour.
+/// The index of a metal is complex, \f$ \bar n = n + ik \f$. A wave that enters the
+/// metal decays within a fraction of its wavelength, so that no light is refracted. n
+/// and k depend on the wavelength, which gives the metal its colour.
 /// \{
 
 /// The complex index of a metal at three wavelengths, for red, green and blue.
@@ -42,16 +43,19 @@ inline constexpr ConductorIndexT<T> silver{{T(0.04803), T(0.05168), T(0.052)},
                                            {T(4.164), T(3.483), T(2.765)}};
 /// \}
 
-/// The reflectance of a metal in air, at one wavelength.
+/// The reflectance R of a metal in air, at one wavelength. R is the mean of the
+/// reflectances of the two polarisations:
 ///
 /// \f[ R_s = \left|\frac{c - q}{c + q}\right|^2, \quad
 ///     R_p = R_s \left|\frac{q c - s^2}{q c + s^2}\right|^2, \quad
 ///     q = \sqrt{\bar n^2 - s^2}, \quad c = \cos\theta,\ s = \sin\theta \f]
 ///
-/// and R is their mean. The root is computed without cancellation.
+/// theta is the angle between the ray and the normal. The root q is computed without
+/// cancellation.
 /// \param cos_theta  Cosine between ray and normal, in [0, 1].
 /// \param n          Real part of the index, >= 0.
-/// \param k          Imaginary part, >= 0. With k = 0 this is fresnel(cos_theta, 1, n).
+/// \param k          Imaginary part of the index, >= 0. If it is 0, R is
+///                   fresnel(cos_theta, 1, n).
 /// \return R in [0, 1].
 /// \cost Three square roots (one of them a hypot) and three divisions.
 /// \report{Section 3.2.5; the complex index: \cite pharr2023, section 9.3}

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/optics/dispersion.hpp
-/// \brief Indices of refraction that depend on the wavelength; the wavelength of a
-/// path, and its colour.
+/// \brief Indices of refraction that depend on the wavelength, and random wavelengths
+/// for paths.
 
 #include <array>
 #include <cmath>
@@ -19,29 +19,32 @@ namespace ljus {
 /// \brief Beyond the report: violet light is refracted more than red light. Chapter:
 /// \ref ch_dispersion.
 ///
-/// Wavelengths are in nm, and are those in air.
+/// Wavelengths are in nm, in air.
 /// \{
 
-/// Sellmeier's formula, with the wavelength in micrometres \cite sellmeier1871 :
+/// Sellmeier's formula for the index n at the wavelength lambda, in micrometres
+/// \cite sellmeier1871 :
 /// \f[ n^2(\lambda) = 1 + \sum_i \frac{B_i \lambda^2}{\lambda^2 - C_i} \f]
 template <std::floating_point T>
 struct SellmeierT {
-    std::array<T, 4> b{}; ///< Strengths of up to four resonances, no unit.
-    std::array<T, 4> c{}; ///< Squares of their wavelengths, micrometres^2.
+    std::array<T, 4> b{}; ///< B: strengths of up to four resonances, no unit.
+    std::array<T, 4> c{}; ///< C: squares of their wavelengths, micrometres^2.
 };
 using Sellmeier = SellmeierT<float>; ///< SellmeierT in float.
 
-/// Cauchy's formula, with the wavelength in micrometres:
+/// Cauchy's formula for the index n at the wavelength lambda, in micrometres:
 /// \f$ n(\lambda) = A + B/\lambda^2 \f$. It holds for visible light only.
 template <std::floating_point T>
 struct CauchyT {
-    T a = T(1.5); ///< The index for long waves.
-    T b = T(0);   ///< Micrometres^2; 0: no dispersion.
+    T a = T(1.5); ///< A: the index for long waves.
+    T b = T(0);   ///< B, in micrometres^2; 0 for no dispersion.
 };
 using Cauchy = CauchyT<float>; ///< CauchyT in float.
 
 /// The index of refraction by Sellmeier's formula.
-/// \return NaN if the medium is opaque at the wavelength.
+/// \param law  The medium.
+/// \param nm   The wavelength in nm, > 0.
+/// \return The index; NaN if the medium is opaque at the wavelength.
 /// \cost Four divisions and a square root.
 // [refractive_index]
 template <std::floating_point T>
@@ -56,22 +59,23 @@ template <std::floating_point T>
 
 /// The index of refraction by Cauchy's formula.
 /// \param law  The medium.
-/// \param nm   The wavelength, > 0.
+/// \param nm   The wavelength in nm, > 0.
 template <std::floating_point T>
 [[nodiscard]] constexpr T refractive_index(const CauchyT<T>& law, T nm) noexcept {
     return law.a + law.b / (nm * nm * T(1e-6));
 }
 
-/// Abbe's number, \f$ V = (n_d - 1)/(n_F - n_C) \f$: 64 for crown glass, 21 for heavy
-/// flint. The smaller it is, the wider is the spectrum; infinite without dispersion.
+/// Abbe's number \f$ V = (n_d - 1)/(n_F - n_C) \f$, with the indices at the lines d, F
+/// and C. It is 64 for crown glass and 21 for heavy flint. A smaller number gives a
+/// wider spectrum; without dispersion the number is infinite.
 template <std::floating_point T, template <typename> typename Law>
 [[nodiscard]] T abbe_number(const Law<T>& law) noexcept {
     return (refractive_index(law, line_d<T>) - T(1)) /
            (refractive_index(law, line_F<T>) - refractive_index(law, line_C<T>));
 }
 
-/// Cauchy's formula for a medium of which two numbers are known.
-/// \param index  n_d: the index at the d line, > 1.
+/// Cauchy's formula for a medium with a given index and Abbe's number.
+/// \param index  n_d, the index at the d line, > 1.
 /// \param abbe   Abbe's number, > 0.
 // [cauchy_from_abbe]
 template <std::floating_point T>
@@ -110,9 +114,9 @@ namespace detail {
 // The eye's response in bands of 5 nm.
 struct WavelengthTable {
     static constexpr int size = 94;
-    std::array<RgbT<double>, size> colors{}; // of a band: its response over the mean
-                                             // of the three channels
-    std::array<double, size> sums{}; // of that mean up to each band; the last one is 1
+    std::array<RgbT<double>, size> colors{}; // of each band: the response over the mean
+                                             // of its three channels
+    std::array<double, size> sums{}; // of these means up to each band; the last is 1
 };
 
 // [wavelength table]
@@ -150,22 +154,23 @@ struct WavelengthTable {
 
 } // namespace detail
 
-/// The colour of one wavelength that stands for all: its response over the density with
-/// which sample_wavelength() chooses it.
+/// The weight of a path with a single wavelength, as a colour. It is the eye's response
+/// to the wavelength over pdf_wavelength().
 ///
-/// The response of a channel is that of linear sRGB where it is positive. Pure light is
-/// outside of what a screen can show, and has a negative channel there; that is set to
-/// 0, and each channel is then scaled so that a constant spectrum is white. In bands of
-/// 5 nm both the response and the density are constant.
-/// \param nm  The wavelength, in [360, 830].
-/// \return At least 0, and the three channels add up to 3. The mean over
+/// The response is the wavelength's colour in linear sRGB. Pure light has a negative
+/// channel, which is set to 0. Each channel is then scaled so that a constant spectrum
+/// is white. The response and the density are constant in bands of 5 nm.
+/// \param nm  The wavelength in nm, in [360, 830].
+/// \return Three channels of at least 0 that add up to 3. The mean over
 ///         sample_wavelength() is (1, 1, 1).
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> wavelength_color(T nm) {
     return RgbT<T>(detail::wavelength_table().colors[detail::band_of(double(nm))]);
 }
 
-/// The density of sample_wavelength(): the mean of the three responses.
+/// The density of sample_wavelength(): the mean over the three channels of the eye's
+/// response.
+/// \param nm  The wavelength in nm.
 /// \return Per nm; 0 outside [360, 830].
 template <std::floating_point T>
 [[nodiscard]] T pdf_wavelength(T nm) {
@@ -177,9 +182,9 @@ template <std::floating_point T>
     return T((sums[band] - before) * double(sums.size()) / (last - first));
 }
 
-/// Chooses a wavelength as often as the eye responds to it.
-/// \param u  In [0, 1); neighbours become neighbours.
-/// \return In nm, in [360, 830].
+/// Samples a wavelength in proportion to the eye's response.
+/// \param u  A random number in [0, 1). Close u give close wavelengths.
+/// \return The wavelength in nm, in [360, 830].
 /// \cost A binary search among 94 bands.
 template <std::floating_point T>
 [[nodiscard]] T sample_wavelength(T u) {

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/optics/energy_loss.hpp
-/// \brief The energy that one reflection at a rough surface loses, and the fraction of
-/// it that multiple scattering returns.
+/// \brief The energy that a single reflection at a rough surface loses, and a lobe that
+/// returns it.
 
 #include <algorithm>
 #include <array>
@@ -18,21 +18,23 @@ namespace ljus {
 
 namespace detail {
 
-/// The energy that white facets lose after one reflection \cite kulla2017, tabulated
-/// over the cosine mu. Cells are small near the horizon and smallest below alpha, where
-/// the loss is steep.
+/// The fraction of light that white facets lose if light is reflected only once
+/// \cite kulla2017. It is tabulated over mu, the cosine between the direction of the
+/// light and the normal. The cells of the table are small near the horizon, where the
+/// loss is steep.
 template <std::floating_point T>
 struct EnergyLossT {
-    static constexpr int cells = 128; ///< Cells of the table.
-    T alpha = T(0);                   ///< Roughness; 0: a mirror, without a loss.
-    std::array<T, cells + 1> at{};    ///< 1 - E(mu), in [0, 1).
+    static constexpr int cells = 128; ///< Number of cells of the table.
+    T alpha = T(0);                   ///< Roughness; 0 for a mirror, without loss.
+    std::array<T, cells + 1> at{};    ///< The loss 1 - E(mu), in [0, 1).
     std::array<T, cells + 1> below{}; ///< Fraction of the whole loss at smaller
                                       ///< cosines; from 0 to 1.
     T mean = T(0);                    ///< 1 minus the mean of E over the hemisphere.
 };
 
-/// The cosine at a position of the table, from 0 to EnergyLossT::cells:
-/// \f$ \alpha s^2 / (\alpha + 1 - s^2) \f$, with s from 0 to 1.
+/// The cosine at a position of the table, \f$ \alpha s^2 / (\alpha + 1 - s^2) \f$. The
+/// position goes from 0 to EnergyLossT::cells, and s is the position over
+/// EnergyLossT::cells.
 template <std::floating_point T>
 [[nodiscard]] constexpr T facet_cosine(T alpha, T place) noexcept {
     const T s = place / T(EnergyLossT<T>::cells);
@@ -46,7 +48,8 @@ template <std::floating_point T>
     return std::sqrt(std::min(x, T(1))) * T(EnergyLossT<T>::cells);
 }
 
-/// The loss of white facets at an angle: 1 - E(mu), in [0, 1); 0 for a mirror.
+/// The loss of white facets, 1 - E(mu), at the cosine mu. It is in [0, 1), and 0 for a
+/// mirror.
 /// \cost A square root, a division and two adjacent table entries.
 // [lost at]
 template <std::floating_point T>
@@ -60,7 +63,7 @@ template <std::floating_point T>
 // [lost at]
 
 /// Samples a cosine with a density proportional to the loss times the cosine. Within a
-/// cell of the table it is cosine-weighted.
+/// cell of the table, the loss is taken as constant.
 /// \cost A binary search and a square root.
 template <std::floating_point T>
 [[nodiscard]] T sample_lost(const EnergyLossT<T>& loss, T u) noexcept {
@@ -86,8 +89,10 @@ template <std::floating_point T>
            std::numbers::inv_pi_v<T> / ((high - low) * (high + low));
 }
 
-// The mean of 1 - G2/G1 over the visible facets: the light that other facets intercept.
-// Most of it is at u.y close to 1, where facets are steep; the grid is fine there.
+// The loss at the cosine mu: the mean of 1 - G2/G1 over the visible facets, which is
+// the fraction of light that other facets intercept. See ggx_lambda(). The grid of
+// samples is fine where u.y is close to 1, because facets are steep there and intercept
+// most light.
 inline double energy_loss(double alpha, double mu) {
     constexpr int rows = 96, columns = 48;
     const Vec3T<double> out{std::sqrt((1 - mu) * (1 + mu)), 0, mu};
@@ -111,8 +116,8 @@ inline double energy_loss(double alpha, double mu) {
 
 /// Makes the table of one roughness, in double.
 /// \param alpha  Roughness: 0 for a mirror, otherwise in [1e-4, 1].
-/// \return The table. It is at most 4e-4 below the loss, so that interpolation adds no
-///         light; at the horizon it is less than 1e-5 above.
+/// \return The table. Its values are up to 4e-4 below the loss, so that interpolation
+///         adds no light. At the horizon they are less than 1e-5 above the loss.
 /// \cost 0.6 million visible normals: about 50 ms.
 template <std::floating_point T = float>
 [[nodiscard]] EnergyLossT<T> bake_energy_loss(T alpha) {
@@ -126,7 +131,8 @@ template <std::floating_point T = float>
         const double lost = detail::energy_loss(double(alpha), mu) - 2e-4;
         loss.at[i] = static_cast<T>(std::max(0.0, lost));
     }
-    // The mean of the table itself, so that exactly the loss is returned.
+    // The mean of the table itself. The lobe of multiple scattering then returns
+    // exactly the loss in the table.
     constexpr int parts = 16;
     std::array<double, EnergyLossT<T>::cells + 1> sum{};
     for (std::size_t i = 1; i < sum.size(); ++i) {
@@ -150,23 +156,26 @@ template <std::floating_point T = float>
 /// \}
 
 /// \defgroup multiple_scattering Multiple scattering
-/// \brief Further reflections return what the first one at a rough surface loses.
+/// \brief A lobe that returns the energy which a single reflection at a rough surface
+/// loses.
 ///
-/// White facets return the fraction E(mu) of light at a cosine mu, and lose 1 - E(mu).
-/// A second, reciprocal lobe returns the loss \cite kulla2017 :
+/// White facets reflect the fraction E(mu) of light at a cosine mu, and lose 1 - E(mu).
+/// A second, reciprocal lobe is added to the BRDF f_1 of a single reflection and
+/// returns the loss \cite kulla2017 :
 ///
 /// \f[ f = f_1 + \frac{\rho_m}{\pi}
 ///     \frac{(1 - E(\mu_i))\,(1 - E(\mu_o))}{1 - \bar E}, \qquad
 ///     \rho_m = \frac{\rho^2 \bar E}{1 - \rho (1 - \bar E)} \f]
 ///
-/// with the mean \f$ \bar E = 2 \int E(\mu)\,\mu\,d\mu \f$. For white facets its
-/// integral over one direction is exactly what f_1 has lost. EON and CompensatedGlossy
-/// use this lobe.
+/// \f$ \mu_i \f$ and \f$ \mu_o \f$ are the cosines of the two directions, \f$ \rho \f$
+/// is the mean reflectance of a facet, and \f$ \bar E = 2 \int E(\mu)\,\mu\,d\mu \f$ is
+/// the mean of E. For white facets the second lobe reflects exactly the light that f_1
+/// loses. EON and CompensatedGlossy use it.
 /// \{
 
 namespace detail {
 
-/// The albedo of the lobe of multiple scattering.
+/// The albedo rho_m of the lobe of multiple scattering.
 /// \param reflectance  Reflectance of a facet, averaged over the angles, in [0, 1].
 /// \param loss         1 minus the mean of E, in [0, 1).
 /// \return rho_m in [0, 1]; 1 for white.

@@ -13,15 +13,16 @@
 namespace ljus {
 
 /// \defgroup film_color Colours of thin films
-/// \brief A film's reflectance varies within the band of one channel: it must be
+/// \brief The reflectance of a film varies quickly with the wavelength and must be
 /// integrated over the spectrum.
 /// \{
 
 /// The colour of a spectrum.
-/// \param spectrum  Called with a wavelength in nm; 1 for white.
-/// \param step      Distance of the samples, nm.
-/// \return Linear sRGB, (1, 1, 1) for a spectrum of 1; it may be outside the range of a
-///         screen.
+/// \param spectrum  Called with a wavelength in nm; returns a value relative to white
+///                  light.
+/// \param step      Distance between samples, in nm.
+/// \return Linear sRGB, which is (1, 1, 1) for a spectrum of 1. It may be outside the
+///         range of a screen.
 /// \cost 470 nm / step calls, each with seven exponentials.
 // [spectrum color]
 template <std::floating_point T, typename Spectrum>
@@ -41,17 +42,19 @@ template <std::floating_point T, typename Spectrum>
 }
 // [spectrum color]
 
-/// The colour of a film: the reference. The samples of the spectrum resolve the film's
-/// fringes.
-/// \param cos_theta  Cosine outside, in [0, 1].
+/// The colour of a film by integration over the spectrum; the reference for the other
+/// functions. The samples are so close that they resolve the fringes of the film.
+/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
 /// \param index      Index of the film, >= 1.
 /// \param thickness  In nm, >= 0.
-/// \return R as linear sRGB; it may be outside the range of a screen.
-/// \cost 470 wavelengths for a film of 400 nm, 10 000 times that for one of 1 mm.
+/// \return The reflectance as linear sRGB. It may be outside the range of a screen.
+/// \cost 470 wavelengths for a film of 400 nm, and 10 000 times as many for a film of 1
+///       mm.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_spectral(T cos_theta, T index, T thickness) {
     const T path = thickness * std::sqrt(film_cosine2(cos_theta, index));
-    // At the shortest wavelength the phase 4 pi path / lambda advances 1/2 per sample.
+    // At the shortest wavelength lambda the phase 4 pi path / lambda advances by 1/2
+    // per sample.
     const T finest = detail::visible<T>[0] * detail::visible<T>[0] /
                      (T(8) * std::numbers::pi_v<T> * path); // infinite without a film
     return spectrum_color<T>(
@@ -70,10 +73,11 @@ inline constexpr Vec3T<T> screen_wavelengths{T(611.4), T(549.1), T(464.3)};
 } // namespace detail
 
 /// The colour of a film by three wavelengths, one per channel.
-/// \param cos_theta  Cosine outside, in [0, 1].
+/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
 /// \param index      Index of the film, > 0.
 /// \param thickness  In nm, >= 0.
-/// \return R in [0, 1] for each channel; the fringes of a thick film do not fade.
+/// \return The reflectance in [0, 1] for each channel. Unlike real ones, the fringes of
+///         a thick film do not fade.
 /// \cost Three times thin_film().
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_three(T cos_theta, T index, T thickness) noexcept {
@@ -86,10 +90,11 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The mean of cos(2 pi delay / wavelength) over the eye's sensitivity: its Fourier
-/// transform, by four Gaussians over the wave number.
-/// \param delay  Difference of the optical paths of two waves, nm.
-/// \return As linear sRGB: 1 for no delay, approaching 0 for a large one.
+/// The mean of cos(2 pi delay / wavelength) over all wavelengths, weighted by the eye's
+/// response. It is the Fourier transform of the response, which is fitted by four
+/// Gaussians over the wave number.
+/// \param delay  Difference of the optical paths of two waves, in nm.
+/// \return The mean as linear sRGB: 1 for no delay, approaching 0 for a large one.
 /// \cost Four cosines and four exponentials.
 /// \cite belcour2017
 template <std::floating_point T>
@@ -116,17 +121,18 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The colour of a film, preintegrated over the spectrum. A film's reflectance is a sum
-/// over waves that have crossed the film k times,
+/// The colour of a film, integrated over the spectrum in closed form. The reflectance
+/// of a film is a sum over k,
 ///
 /// \f[ R = \frac{2R_1}{1 + R_1} - 2\,\frac{1 - R_1}{1 + R_1} \sum_{k \ge 1} R_1^k
-///     \cos 2k\varphi \f]
+///     \cos 2k\varphi . \f]
 ///
-/// and the eye's mean of each cosine is known; the sum is cut after k = 3.
-/// \param cos_theta  Cosine outside, in [0, 1].
+/// R_1 is the reflectance of one surface, and phi is the phase that thin_film()
+/// defines. visible_swing() gives the eye's mean of each cosine. The sum ends at k = 3.
+/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
 /// \param index      Index of the film, >= 1.
 /// \param thickness  In nm, >= 0.
-/// \return R as linear sRGB; it may be outside the range of a screen.
+/// \return The reflectance as linear sRGB. It may be outside the range of a screen.
 /// \cost Three times visible_swing().
 /// \cite belcour2017
 // [preintegrated]

@@ -14,19 +14,20 @@ namespace ljus {
 /// \addtogroup film_color
 /// \{
 
-/// The colours of films of one index, over angle and optical path. It is evenly spaced
-/// in the square root of the cosine, because a film turns into a mirror just before
-/// grazing incidence, and in the square root of the path n d cos(theta_t), because
-/// fringes fade with longer paths.
+/// A table of the colours of films of one index n, over the angle of the ray and the
+/// optical path n d cos(theta_t). d is the thickness, and theta_t is the angle inside
+/// the film. The columns are evenly spaced in the square root of the cosine outside,
+/// because the reflectance is steep near grazing incidence. The rows are evenly spaced
+/// in the square root of the path, because fringes fade with longer paths.
 template <std::floating_point T>
 struct FilmTableT {
     T index = T(0);               ///< Index of the films; 0 if there is no table.
-    int cosines = 0;              ///< Columns: square root of the cosine, from 0 to 1.
-    int paths = 0;                ///< Rows: square root of the path; then the mean.
+    int cosines = 0;              ///< Columns, for cosines from 0 to 1.
+    int paths = 0;                ///< Rows, for paths from 0 to `longest`.
     T longest = T(0);             ///< Path in nm above which colours have faded.
-    std::vector<RgbT<T>> cells{}; ///< Row by row; in [0, 1].
-    int greyed = 0;               ///< Cells that into_gamut() has changed.
-    T worst = T(0);               ///< The most negative channel before that.
+    std::vector<RgbT<T>> cells{}; ///< Row by row, and a row of means; in [0, 1].
+    int greyed = 0;               ///< Number of cells that into_gamut() has changed.
+    T worst = T(0);               ///< The most negative channel before into_gamut().
 };
 using FilmTable = FilmTableT<float>; ///< FilmTableT in float.
 
@@ -36,7 +37,7 @@ namespace detail {
 struct FilmTableSize {
     int cosines = 65;      ///< At least 2.
     int paths = 641;       ///< At least 2, not counting the row of the mean.
-    double longest = 4000; ///< In nm.
+    double longest = 4000; ///< Longest path, in nm.
 };
 
 // Wavelengths evenly spaced over the visible range, in nm, and the eye's response to
@@ -47,7 +48,8 @@ struct FilmSpectrum {
     Vec3T<double> white{0}; // the sum of `eye`
 };
 
-// The spacing resolves the fringes of the longest path: see film_spectral().
+// The spacing of the wavelengths resolves the fringes of the longest path; see
+// film_spectral().
 [[nodiscard]] inline FilmSpectrum film_spectrum(double longest) {
     const double first = visible<double>[0], last = visible<double>[1];
     const double finest = first * first / (4 * std::numbers::pi * longest);
@@ -63,7 +65,7 @@ struct FilmSpectrum {
     return spectrum;
 }
 
-// Appends a colour to a table, moved into the range of a screen.
+// Moves a colour into the range of a screen and appends it to a table.
 template <std::floating_point T>
 void add_cell(FilmTableT<T>& table, const RgbT<double>& color) {
     const RgbT<double> shown = into_gamut(color);
@@ -75,10 +77,10 @@ void add_cell(FilmTableT<T>& table, const RgbT<double>& color) {
 } // namespace detail
 
 /// Makes the table of one index, in double.
-/// \param index  In [1, 1000].
-/// \param size   The resolution; the default has 42 000 colours, half a megabyte in
+/// \param index  The index of the films, in [1, 1000].
+/// \param size   The resolution. The default has 42 000 colours, half a megabyte in
 ///               float.
-/// \throws std::invalid_argument  for an index or a size out of range.
+/// \throws std::invalid_argument  if the index or a size is out of range.
 /// \cost With the default size 10 million samples: about 0.1 s.
 template <std::floating_point T = float>
 [[nodiscard]] FilmTableT<T> bake_film_table(T index,
@@ -123,8 +125,12 @@ template <std::floating_point T = float>
     return table;
 }
 
-/// The colour of a film by its table: bilinear, and the mean beyond the longest path.
-/// \return R as linear sRGB, each channel in [0, 1].
+/// The colour of a film, interpolated in a table. Beyond the longest path it is the
+/// mean over all phases.
+/// \param table      The table.
+/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
+/// \param thickness  In nm, >= 0.
+/// \return The reflectance as linear sRGB, each channel in [0, 1].
 /// \cost Three square roots, a division and four table entries.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> look_up(const FilmTableT<T>& table, T cos_theta,

@@ -18,14 +18,14 @@ namespace ljus {
 
 /// The formula for the reflectance of a dielectric.
 enum class FresnelModel : std::uint8_t {
-    exact,   ///< fresnel()
-    schlick, ///< schlick_dielectric()
+    exact,   ///< Fresnel's equations, by fresnel().
+    schlick, ///< Schlick's approximation, by schlick_dielectric().
 };
 
 namespace detail {
 
-/// ((a - b)/(a + b))^2, in [0, 1], evaluated as 1 - 4ab/(a + b)^2 where that is more
-/// precise; a and b are at least 0, and not both 0.
+/// Computes ((a - b)/(a + b))^2, in [0, 1]. Where it is more precise, the form 1 -
+/// 4ab/(a + b)^2 is used. a and b are at least 0, and not both 0.
 template <std::floating_point T>
 [[nodiscard]] constexpr T squared_contrast(T a, T b) noexcept {
     const T sum = a + b;
@@ -37,7 +37,8 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The reflectance of the boundary between two transparent media.
+/// The reflectance R of the boundary between two transparent media. It is the mean over
+/// the two polarisations:
 ///
 /// \f[ R = \frac{1}{2} \left(
 ///     \left|\frac{n_i \cos\theta_i - n_t \cos\theta_t}
@@ -45,10 +46,11 @@ template <std::floating_point T>
 ///     \left|\frac{n_t \cos\theta_i - n_i \cos\theta_t}
 ///                {n_t \cos\theta_i + n_i \cos\theta_t}\right|^2 \right) \f]
 ///
-/// is the mean over the two polarisations. The other cosine comes from Snell's law as
-/// in refract(), in a form without cancellation for n_i <= n_t:
-/// \f$ (n_t \cos\theta_t)^2 = (n_t \cos\theta_i)^2 + (n_t - n_i)(n_t + n_i)
-/// \sin^2\theta_i \f$.
+/// theta_i is the angle of the incoming ray, and theta_t that of the refracted ray.
+/// Snell's law gives, without cancellation for n_i <= n_t,
+///
+/// \f[ (n_t \cos\theta_t)^2 = (n_t \cos\theta_i)^2 +
+///     (n_t - n_i)(n_t + n_i) \sin^2\theta_i. \f]
 /// \param cos_theta_i  Cosine between incoming ray and normal, in [0, 1].
 /// \param n_i          Index on the side of the incoming ray, in [1e-9, 1e9].
 /// \param n_t          Index on the other side, in [1e-9, 1e9].
@@ -74,7 +76,11 @@ template <std::floating_point T>
 // [fresnel]
 
 /// Schlick's approximation with the interface of fresnel().
-/// \return R in [0, 1]; for n = 1.5 within 0.036 of fresnel(), from either side.
+/// \param cos_theta_i  Cosine between incoming ray and normal, in [0, 1].
+/// \param n_i          Index on the side of the incoming ray, in [1e-9, 1e9].
+/// \param n_t          Index on the other side, in [1e-9, 1e9].
+/// \return The reflectance, in [0, 1]. Between indices 1 and 1.5 it is within 0.036 of
+///         fresnel(), from either side.
 /// \cost One square root if n_i > n_t, otherwise none.
 /// \report{Section 3.2.5}
 template <std::floating_point T>
@@ -87,7 +93,7 @@ template <std::floating_point T>
     return square <= T(0) ? T(1) : schlick(r0, std::sqrt(square));
 }
 
-/// The reflectance by a material's model.
+/// The reflectance by the formula that `model` selects.
 template <std::floating_point T>
 [[nodiscard]] T fresnel(FresnelModel model, T cos_theta_i, T n_i, T n_t) noexcept {
     return model == FresnelModel::exact ? fresnel(cos_theta_i, n_i, n_t)

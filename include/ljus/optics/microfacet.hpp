@@ -12,18 +12,20 @@
 namespace ljus {
 
 /// \defgroup microfacet Microfacets
-/// \brief Section 3.2.4, between the mirror and Lambert: a surface of small mirrors.
+/// \brief Section 3.2.4, between the mirror and Lambert: a rough surface of small
+/// mirrors.
 ///
-/// The distribution is GGX \cite walter2007 : it has the normals of an ellipsoid,
-/// flattened by alpha. All directions are unit vectors in the local frame with z > 0,
-/// and alpha > 0.
+/// The distribution of the facets' normals is GGX \cite walter2007. It is that of an
+/// ellipsoid flattened by the factor alpha, the roughness. All directions are unit
+/// vectors in the local frame with z > 0, and alpha > 0.
 /// \{
 
 namespace detail {
 
-/// The normal of the facet that reflects one direction into another. Their sum is
-/// scaled first, so that its squares do not underflow.
-/// \param wo, wi  Unit vectors in the surface's frame, both with z > 0.
+/// The normal of the facet that reflects one direction into another. The sum of the
+/// directions is scaled before it is normalised, so that its squares do not underflow.
+/// \param wo  Unit vector in the surface's frame, with z > 0.
+/// \param wi  The other unit vector, also with z > 0.
 /// \return Unit vector with z > 0.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> half_vector(const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
@@ -33,14 +35,14 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The area of the facets with normal h, per area of the surface and per steradian.
+/// The area of the facets with the normal h, per area of the surface and per steradian.
 ///
 /// \f[ D(h) = \frac{1}{\pi \alpha^2 \left( h_z^2 + (h_x^2 + h_y^2)/\alpha^2 \right)^2},
 ///     \qquad \int D(h)\, h_z\, dh = 1 \f]
 ///
-/// \param alpha  Roughness; half of the facets have a larger slope.
-/// \param h      Normal of the facets.
-/// \return Per steradian; at most 1/(pi alpha^2), or alpha^2/pi if alpha > 1.
+/// \param alpha  Roughness. Half of the facets have a slope above alpha.
+/// \param h      Normal of the facets, a unit vector.
+/// \return D(h), per steradian; at most 1/(pi alpha^2), or alpha^2/pi if alpha > 1.
 /// \cite walter2007
 template <std::floating_point T>
 [[nodiscard]] T ggx_distribution(T alpha, const Vec3T<T>& h) noexcept {
@@ -52,15 +54,15 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Twice the projected area of the ellipsoid, minus that of the surface itself.
+/// The function r(w), from which the visibility of facets is computed.
 ///
 /// \f[ r(w) = \sqrt{w_z^2 + \alpha^2 (w_x^2 + w_y^2)}, \quad
 ///     G_1(w) = \frac{2 w_z}{w_z + r(w)}, \quad
 ///     G_2(w_o, w_i) = \frac{2\, w_{o,z} w_{i,z}}
 ///                          {w_{i,z}\, r(w_o) + w_{o,z}\, r(w_i)} \f]
 ///
-/// G1 is the fraction of facets that are visible, G2 the fraction that are visible and
-/// lit (height-correlated Smith \cite heitz2014).
+/// G1 is the fraction of facets that are visible from w. G2 is the fraction that are
+/// both visible from w_o and lit from w_i (height-correlated Smith \cite heitz2014).
 /// \return r(w), from alpha to 1.
 /// \cost One square root.
 template <std::floating_point T>
@@ -68,13 +70,13 @@ template <std::floating_point T>
     return std::sqrt(w.z * w.z + alpha * alpha * (w.x * w.x + w.y * w.y));
 }
 
-/// Samples the normal of a visible facet, with the density
-/// \f$ G_1(w_o) \max(0, w_o \cdot h) D(h) / w_{o,z} \f$ \cite heitz2018.
-/// Stretching turns the facets into a hemisphere. The mirror directions of the
-/// stretched `wo` fill a spherical cap uniformly \cite dupuy2023, so that one point of
-/// it gives the normal. The cap is parametrised by the distance t from its top, which
-/// avoids cancellation: it is a hemisphere at grazing angles, and the whole sphere at
-/// normal incidence.
+/// Samples the normal h of a facet that is visible from `wo`. The density per steradian
+/// is \f$ G_1(w_o) \max(0, w_o \cdot h) D(h) / w_{o,z} \f$ \cite heitz2018.
+///
+/// If the surface is stretched along z, its facets form a hemisphere. The mirror
+/// directions of the stretched `wo` then fill a spherical cap uniformly
+/// \cite dupuy2023. The function samples a point of the cap, takes the half vector
+/// between the point and `wo`, and undoes the stretch.
 /// \return Unit vector with z >= 0.
 /// \cost One sine, one cosine, three square roots.
 // [visible normals]

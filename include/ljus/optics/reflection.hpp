@@ -30,7 +30,7 @@ template <std::floating_point T>
 // [reflect]
 
 /// The mirror direction in a material's frame, where N = +z and both directions point
-/// *away* from the surface. It is exact.
+/// *away* from the surface. The result is exact.
 /// \report{Section 3.2.4, Eq. (4)}
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec3T<T> reflect(const Vec3T<T>& wo) noexcept {

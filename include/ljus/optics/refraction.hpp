@@ -14,22 +14,25 @@ namespace ljus {
 /// \defgroup refraction Refraction
 /// \brief Section 3.2.5: the direction of a ray after a boundary between two media.
 ///
-/// Let \f$ \eta = n_1/n_2 \f$, the index of the medium that the ray leaves over that of
-/// the one that it enters. Snell's law multiplies P, the component of D along the
-/// surface, by \f$ \eta \f$. The cosine behind the boundary follows from unit length:
+/// Let \f$ \eta = n_1/n_2 \f$, where n_1 is the index of the medium that the ray leaves
+/// and n_2 the index of the medium that the ray enters. Snell's law multiplies P, the
+/// component of the direction D along the surface, by \f$ \eta \f$. The refracted
+/// direction T has unit length, which gives the cosine of the angle theta_2 between T
+/// and the normal N:
 ///
 /// \f[ T = \eta P \pm N \cos\theta_2, \qquad
 ///     \cos^2\theta_2 = \cos^2\theta_1 + (1 - \eta)(1 + \eta)\,|P|^2 \f]
 ///
-/// For \f$ \eta \le 1 \f$ nothing cancels in this form; for \f$ \eta = 1 \f$ the
+/// For \f$ \eta \le 1 \f$ nothing cancels in this form. For \f$ \eta = 1 \f$ the
 /// direction is unchanged. A negative square means total internal reflection.
-/// \erratum{theta_1 is the angle between -D and N; D and N form an obtuse one. The case
-/// without a refracted ray, sin(theta_1) n_1/n_2 > 1, is not mentioned.}
+/// \erratum{theta_1 must be the angle between -D and N, not between D and N. The report
+///          does not mention the case without a refracted ray, sin(theta_1) n_1/n_2 >
+///          1.}
 /// \{
 
 namespace detail {
 
-/// The difference of two products without cancellation: Kahan's form, with FMA.
+/// The difference of two products without cancellation, by Kahan's form with FMA.
 /// \return a b - c d, within 1.5 units of roundoff.
 template <std::floating_point T>
 [[nodiscard]] T difference_of_products(T a, T b, T c, T d) noexcept {
@@ -45,12 +48,13 @@ template <std::floating_point T>
 /// \param direction  The direction in which the ray *travels*, towards the surface;
 ///                   unit vector.
 /// \param normal     Unit normal, on either side.
-/// \param eta        n_1/n_2: index of the medium that the ray leaves over index of the
-///                   one that it enters, > 0.
-/// \return The refracted unit direction; nothing under total internal reflection, and
-///         nothing if an input is NaN.
-/// \cost Two square roots, one division, two cross products by FMA. The sine comes from
-///       a cross product, because D - (D.N)N loses it near normal incidence.
+/// \param eta        n_1/n_2, > 0: index of the medium that the ray leaves over index
+///                   of the medium that the ray enters.
+/// \return The refracted unit direction. Nothing under total internal reflection, or if
+///         an input is NaN.
+/// \cost Two square roots, one division, two cross products by FMA. The component along
+///       the surface is a cross product, because D - (D.N)N is inaccurate near normal
+///       incidence.
 /// \report{Section 3.2.5}
 // [refract]
 template <std::floating_point T>
@@ -74,11 +78,11 @@ template <std::floating_point T>
 // [refract]
 
 /// Refraction in a material's frame, where N = +z and directions point *away* from the
-/// surface: P is then (x, y), exactly.
+/// surface.
 /// \param wo   Unit vector in the surface's frame, the outgoing direction.
-/// \param eta  n_1/n_2: index on the side of `wo` over index on the other side, > 0.
-/// \return wi, the unit vector on the other side; nothing under total internal
-///         reflection, and nothing if an input is NaN.
+/// \param eta  n_1/n_2, > 0: index on the side of `wo` over index on the other side.
+/// \return wi, the unit vector on the other side. Nothing under total internal
+///         reflection, or if an input is NaN.
 /// \cost Two square roots and one division.
 /// \report{Section 3.2.5}
 // [refract local]

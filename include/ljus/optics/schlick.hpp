@@ -1,20 +1,22 @@
 #pragma once
 
 /// \file ljus/optics/schlick.hpp
-/// \brief Schlick's approximation to Fresnel. This header includes nothing: copy it.
+/// \brief Schlick's approximation to Fresnel's equations. This header includes no other
+/// header.
 
 namespace ljus {
 
 /// \defgroup schlick Schlick's approximation
 /// \brief Section 3.2.5: the reflectance of a boundary, by multiplications only.
 ///
-/// \erratum{The cosine is the one in the medium of *lower* index. With the angle of the
-/// incoming light, as printed, glass reflects 0.04 at 42 degrees from inside, where
-/// reflection is total.}
+/// \erratum{The cosine must be that in the medium of *lower* index. With the cosine of
+///          the incoming light, as printed, glass reflects 0.04 of the light from
+///          inside at 42 degrees, where reflection is total.}
 /// \{
 
 /// The reflectance at normal incidence.
-/// \param n1, n2  The two indices of refraction, in [1e-9, 1e9], in either order.
+/// \param n1  An index of refraction, in [1e-9, 1e9].
+/// \param n2  The other index, in [1e-9, 1e9].
 /// \return ((n1 - n2)/(n1 + n2))^2, in [0, 1].
 /// \report{Section 3.2.5}
 template <typename T>
@@ -23,12 +25,12 @@ template <typename T>
     return r * r;
 }
 
-/// The reflectance at an angle.
+/// The reflectance at the angle theta, by Schlick's formula \cite schlick1994.
 ///
 /// \f[ R(\theta) = R_0 + (1 - R_0)(1 - \cos\theta)^5 \f]
 ///
-/// by Schlick (1994) \cite schlick1994.
-/// \param r0         Reflectance at normal incidence, in [0, 1]; see schlick_r0().
+/// \param r0         R_0, the reflectance at normal incidence, in [0, 1]; see
+///                   schlick_r0().
 /// \param cos_theta  Cosine in the medium of lower index, in [0, 1].
 /// \return The reflectance, from r0 to exactly 1 at grazing incidence.
 /// \cost Seven additions and multiplications; no square root, no division.
@@ -42,14 +44,14 @@ template <typename T>
 }
 // [schlick]
 
-/// The reflectance of a boundary crossed in either direction. It uses the cosine in the
-/// medium of lower index. The second cosine needs a square root, which a caller who
-/// refracts has already; otherwise use schlick_dielectric() in fresnel.hpp.
+/// The reflectance of a boundary crossed in either direction. The function uses the
+/// cosine in the medium of lower index. It suits a caller who has both cosines;
+/// otherwise use schlick_dielectric() in fresnel.hpp.
 /// \param n_i    Index on the side of the incoming ray, in [1e-9, 1e9].
 /// \param n_t    Index on the other side, in [1e-9, 1e9].
 /// \param cos_i  Cosine of the incoming ray, in [0, 1].
-/// \param cos_t  Cosine of the refracted ray, in [0, 1]; 0 under total reflection,
-///               which gives 1.
+/// \param cos_t  Cosine of the refracted ray, in [0, 1]. Under total reflection it must
+///               be 0, and the result is 1.
 /// \return The reflectance, in [0, 1].
 /// \report{Section 3.2.5}
 template <typename T>

@@ -13,32 +13,32 @@ namespace ljus {
 /// \defgroup thin_film Thin films
 /// \brief The soap bubble of figure 4.
 ///
-/// A film has two surfaces. The wave that the second one reflects is delayed against
-/// that of the first, and the two interfere.
+/// A film has two surfaces, which both reflect light. The wave from the second surface
+/// is delayed against the wave from the first surface, and the two waves interfere.
 /// \{
 
 namespace detail {
 
 template <std::floating_point T>
 struct FilmSharesT {
-    T reflected = T(0);   ///< R.
-    T transmitted = T(1); ///< T: R + T = 1.
+    T reflected = T(0);   ///< The reflectance R.
+    T transmitted = T(1); ///< The transmittance T = 1 - R.
 };
 
 } // namespace detail
 
-/// \f$ (n_t \cos\theta_t)^2 \f$, the square of index times cosine *inside* the film:
-/// \f$ \cos^2\theta + (n - 1)(n + 1) \f$, without cancellation.
+/// The square of the film's index n times the cosine *inside* the film. It is
+/// \f$ \cos^2\theta + (n - 1)(n + 1) \f$ for the angle theta outside, which does not
+/// cancel.
 /// \return Negative if nothing is refracted into the film.
 template <std::floating_point T>
 [[nodiscard]] constexpr T film_cosine2(T cos_theta, T index) noexcept {
     return cos_theta * cos_theta + (index - T(1)) * (index + T(1));
 }
 
-/// Reflectance and transmittance, averaged over two polarisations, from the amplitude
-/// of interference.
-/// \param cos_theta  Cosine outside, in [0, 1].
-/// \param index      Index of the film, > 0.
+/// The reflectance and transmittance of a film, averaged over the two polarisations.
+/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
+/// \param index      Index n of the film, > 0.
 /// \param beat       \f$ q = (n^2 - 1) \sin\varphi / g \f$; see thin_film().
 /// \return R and T.
 /// \cost Four divisions.
@@ -54,7 +54,8 @@ template <std::floating_point T>
         if (q == T(0)) return detail::FilmSharesT<T>{};
         const T root = T(2) * cos_theta / q, ratio = root * root;
         const T reflected = T(1) / (T(1) + ratio);
-        // The smaller one needs no subtraction; the ratio may be infinite.
+        // The smaller of the two is computed without a subtraction. The ratio may be
+        // infinite.
         return detail::FilmSharesT<T>{reflected, ratio < T(1) ? ratio * reflected
                                                               : T(1) - reflected};
     };
@@ -65,23 +66,27 @@ template <std::floating_point T>
 }
 // [film_shares]
 
-/// The reflectance and transmittance of a film in air at one wavelength, with all
-/// reflections inside it: the sum of Airy's series,
+/// The reflectance R and the transmittance T = 1 - R of a film in air at one
+/// wavelength, with all reflections inside the film. For each polarisation, R is the
+/// sum of Airy's series:
 ///
 /// \f[ R = \frac{F \sin^2\varphi}{1 + F \sin^2\varphi}, \quad
 ///     F = \frac{4 R_1}{(1 - R_1)^2}, \quad
 ///     \varphi = \frac{2\pi}{\lambda}\, n\, d \cos\theta_t \f]
 ///
-/// for each polarisation, where R_1 belongs to one surface. It is evaluated as
-/// \f$ F \sin^2\varphi = q^2 / 4\cos^2\theta \f$ with
-/// \f$ q = (n^2 - 1) \sin\varphi / g \f$, \f$ g = n \cos\theta_t \f$, for waves
-/// polarised perpendicular to the plane of incidence; for the others q is multiplied by
-/// \f$ \cos^2\theta - \sin^2\theta/n^2 \f$. Nothing cancels, and R + T = 1. Where
-/// nothing is refracted (n < 1) the sine becomes hyperbolic: light tunnels.
-/// \param cos_theta   Cosine between ray and normal, outside, in [0, 1].
+/// R_1 is the reflectance of one surface, n the index, d the thickness, lambda the
+/// wavelength, and theta_t the angle inside the film.
+///
+/// The function computes \f$ F \sin^2\varphi = q^2 / 4\cos^2\theta \f$, in which
+/// nothing cancels, for the angle theta outside. For waves polarised perpendicular to
+/// the plane of incidence, \f$ q = (n^2 - 1) \sin\varphi / g \f$ with
+/// \f$ g = n \cos\theta_t \f$. For the other waves q is multiplied by
+/// \f$ \cos^2\theta - \sin^2\theta/n^2 \f$. If nothing is refracted, which needs n < 1,
+/// the sine becomes hyperbolic: light tunnels through the film.
+/// \param cos_theta   Cosine between ray and normal outside the film, in [0, 1].
 /// \param index       Index of the film, > 0.
-/// \param thickness   >= 0, in the unit of the wavelength.
-/// \param wavelength  In air, > 0.
+/// \param thickness   Thickness, >= 0, in the unit of the wavelength.
+/// \param wavelength  Wavelength in air, > 0.
 /// \return R and T; R = 0 for a film without thickness.
 /// \cost A square root, a sine and five divisions.
 /// \cite bornwolf1999
@@ -99,12 +104,12 @@ template <std::floating_point T>
 }
 // [thin_film]
 
-/// The mean of a film's reflectance over all phases: the reflectance of a film too
-/// thick for interference. For each polarisation it is \f$ 1 - 1/\sqrt{1 + F} =
-/// 2R_1/(1 + R_1) \f$.
-/// \param cos_theta  Cosine outside, in [0, 1].
+/// The mean of a film's reflectance over all phases. It is the reflectance of a film
+/// too thick for interference. For each polarisation it is
+/// \f$ 1 - 1/\sqrt{1 + F} = 2R_1/(1 + R_1) \f$, with F and R_1 as for thin_film().
+/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
 /// \param index      Index of the film, >= 1.
-/// \return In [0, 1].
+/// \return The mean, in [0, 1].
 template <std::floating_point T>
 [[nodiscard]] T thick_film(T cos_theta, T index) noexcept {
     const T c = cos_theta;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/optics/wavelength.hpp
-/// \brief The wavelength of a path, as far as programs without dispersion know it.
+/// \brief Declarations about wavelengths that programs without dispersion need as well.
 
 #include <concepts>
 
@@ -12,12 +12,13 @@ namespace ljus {
 /// \addtogroup dispersion
 /// \{
 
-/// Three of Fraunhofer's lines, at which catalogues state indices.
+/// Three of Fraunhofer's lines, in nm. Catalogues state the indices of glasses at these
+/// lines.
 /// \{
 template <std::floating_point T>
 inline constexpr T line_F = T(486.13); ///< Hydrogen, blue.
 template <std::floating_point T>
-inline constexpr T line_d = T(587.56); ///< Helium, yellow; its index is *the* index.
+inline constexpr T line_d = T(587.56); ///< Helium, yellow; the line of a nominal index.
 template <std::floating_point T>
 inline constexpr T line_C = T(656.27); ///< Hydrogen, red.
 /// \}
