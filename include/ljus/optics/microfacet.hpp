@@ -73,10 +73,10 @@ template <std::floating_point T>
 /// Samples the normal h of a facet that is visible from `wo`. The density per steradian
 /// is \f$ G_1(w_o) \max(0, w_o \cdot h) D(h) / w_{o,z} \f$ \cite heitz2018.
 ///
-/// If the surface is stretched along z, its facets form a hemisphere. The mirror
-/// directions of the stretched `wo` then fill a spherical cap uniformly
-/// \cite dupuy2023. The function samples a point of the cap, takes the half vector
-/// between the point and `wo`, and undoes the stretch.
+/// A stretch by alpha along x and y turns the facets into a hemisphere. The mirror
+/// directions of the stretched `wo` fill a spherical cap uniformly \cite dupuy2023. The
+/// function samples a point of the cap, takes the half vector between the point and
+/// `wo`, and undoes the stretch.
 /// \return Unit vector with z >= 0.
 /// \cost One sine, one cosine, three square roots.
 // [visible normals]

@@ -22,10 +22,10 @@ template <std::floating_point T>
 struct CameraT {
     using Scalar = T;                    ///< The precision.
     Vec3T<T> position{T(0)};             ///< The pinhole, in scene units.
-    Vec3T<T> right{T(1), T(0), T(0)};    ///< Unit, to the right of the picture.
-    Vec3T<T> up{T(0), T(1), T(0)};       ///< Unit, to the top of the picture.
-    Vec3T<T> forward{T(0), T(0), T(-1)}; ///< Unit, into the picture.
-    T half_height = T(1); ///< tan(vfov / 2): half the picture at distance 1.
+    Vec3T<T> right{T(1), T(0), T(0)};    ///< Unit vector to the right of the picture.
+    Vec3T<T> up{T(0), T(1), T(0)};       ///< Unit vector to the top of the picture.
+    Vec3T<T> forward{T(0), T(0), T(-1)}; ///< Unit vector into the picture.
+    T half_height = T(1); ///< tan(vfov / 2): half the picture's height at distance 1.
 };
 using Camera = CameraT<float>; ///< CameraT in float.
 
@@ -49,7 +49,7 @@ template <std::floating_point T>
     require_finite("camera.up", view.up);
     require(view.vfov_degrees > T(0) && view.vfov_degrees < T(180),
             "camera.vfov_degrees", view.vfov_degrees, "above 0 and below 180");
-    // In double, for a target 1e25 away or an angle of 179.99 degrees.
+    // In double, so that a target 1e25 away or an angle of 179.99 degrees is possible.
     using W = WideT<T>;
     const Vec3T<W> way = Vec3T<W>{view.target} - Vec3T<W>{view.position};
     require(glm::dot(way, way) > W(0), "camera.target", view.target,
@@ -75,10 +75,11 @@ template <std::floating_point T>
 
 /// The primary ray through a point of the picture.
 /// \param camera  The camera.
-/// \param pixel   From the upper left corner: x in [0, width], y in [0, height].
+/// \param pixel   Position in pixels from the upper left corner: x in [0, width], y in
+///                [0, height].
 /// \param width   Width of the picture, in pixels.
 /// \param height  Height of the picture, in pixels.
-/// \return A ray from the pinhole, its direction of unit length.
+/// \return A ray from the pinhole, with a direction of unit length.
 /// \report{Section 3.2, Fig. 3}
 // [primary_ray]
 template <std::floating_point T>
@@ -101,8 +102,9 @@ template <std::floating_point T, StreamLike Stream>
     return primary_ray(camera, pixel, width, height);
 }
 
-/// A camera: a struct with a member type `Scalar`, and a free function that returns the
-/// ray through a point of the picture and may draw random numbers,
+/// A camera is a struct with a member type `Scalar`, and with a free function that
+/// returns the ray through a point of the picture. The function may draw random
+/// numbers:
 ///
 ///     Ray camera_ray(const MyCamera&, const Vec2& pixel, int width, int height,
 ///                    auto& stream);
@@ -118,8 +120,9 @@ concept CameraLike = requires {
 };
 
 /// The position of a point in the picture: the inverse of primary_ray().
-/// \return In pixels from the upper left corner, possibly outside the picture; nothing
-///         for a point beside or behind the camera, or a result that is not finite.
+/// \return The position in pixels from the upper left corner, possibly outside the
+///         picture. Nothing for a point beside or behind the camera, or if the result
+///         is not finite.
 /// \report{Section 3.2, Fig. 3}
 template <std::floating_point T>
 [[nodiscard]] std::optional<Vec2T<T>> project(const CameraT<T>& camera,

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/scene/contacts.hpp
-/// \brief Which objects of a scene have surfaces in one place, and which surface counts
-/// there.
+/// \brief Finds objects whose surfaces are in the same place, and decides which surface
+/// a path meets there.
 
 #include <algorithm>
 #include <array>
@@ -23,24 +23,27 @@
 namespace ljus {
 
 /// \defgroup contacts Contacts
-/// \brief A slab of glass that rests on a floor. Chapter: \ref ch_refraction.
+/// \brief Surfaces of several objects in one place, as where a slab of glass rests on a
+/// floor. Chapter: \ref ch_refraction.
 ///
-/// A ray that leaves a surface starts beyond all that lies in the same place. So of
-/// several surfaces in one place a path meets one, and it must not depend on the order
-/// in which they were added which one that is:
+/// A ray that leaves a surface starts beyond all surfaces in the same place. A path
+/// therefore meets only one of several surfaces in one place. Which one it meets must
+/// not depend on the order in which the objects were added:
 ///
 /// | in one place                             | what a path meets                   |
 /// |------------------------------------------|-------------------------------------|
-/// | a lamp and anything                      | the lamp; of two the brighter one   |
-/// | something opaque and a body              | what is opaque, no air between      |
+/// | a lamp and any other surface             | the lamp; the brighter of two lamps |
+/// | an opaque surface and a body             | the opaque surface, without air     |
+/// |                                          | between them                        |
 /// | two bodies, one on each side             | one boundary of the relative index  |
-/// | two bodies, on the same side             | the one of the higher index         |
-/// | two opaque surfaces                      | the one whose material covers less  |
-/// | a thin surface and anything              | anything but the thin surface       |
+/// | two bodies, on the same side             | the body of the higher index        |
+/// | two opaque surfaces                      | the surface whose material covers   |
+/// |                                          | less area                           |
+/// | a thin surface and any other surface     | the other surface                   |
 ///
-/// A World looks for contacts once, when it is made. They are found between flat
-/// shapes, meshes, spheres and cylinders, also if they move together or along each
-/// other. Other shapes are met in the order of addition, as where two cylinders cross.
+/// A World looks for contacts once, when it is made. It compares flat shapes, meshes,
+/// spheres and cylinders, even if they move together or along each other. In all other
+/// cases, as where two cylinders cross, a path meets the object that was added first.
 /// \{
 
 template <std::floating_point T>
@@ -48,52 +51,55 @@ struct DiscT;
 template <std::floating_point T>
 struct CylinderT;
 
-/// What a surface is in a contact. The first in this list is met.
+/// The kind of a surface in a contact. Of two kinds, a path meets the one that stands
+/// first in this list.
 enum class ContactKind : std::uint8_t {
-    lamp,   ///< It emits.
-    opaque, ///< None of the others.
+    lamp,   ///< A surface that emits.
+    opaque, ///< An opaque surface.
     body,   ///< The boundary of a transparent body: refractive_index(), or a medium.
     sheet   ///< A thin surface.
 };
 
-/// The material of air, which is none.
+/// Stands for air, which has no material.
 inline constexpr MaterialId no_body{0xffffffffu, 0};
 
-/// Decides which of several surfaces in one place a ray meets: the one whose key comes
-/// first in lexicographical order. The numbers of a key describe, in this order, the
-/// object's kind, emission, index of refraction, absorption, area, what it reflects,
-/// and its number.
+/// The key of a surface. Of several surfaces in one place, a ray meets the surface
+/// whose key comes first in lexicographical order. The numbers of a key describe, in
+/// this order: the kind of the surface, its emission, index of refraction and
+/// absorption, the area that its material covers, the light that it reflects, and the
+/// number of the object.
 using ContactKey = std::array<double, 16>;
 
-/// The position of an object without contacts, and of what follows the last contact.
+/// Stands for the position of an object without contacts, and for the end of a list of
+/// contacts.
 inline constexpr std::uint32_t no_contact = 0xffffffffu;
 
 /// Two objects that share an area or a point.
 struct Contact {
     std::array<std::uint32_t, 2> pair{}; ///< Positions in Contacts::objects.
     std::array<std::uint32_t, 2>
-        next{};             ///< Of each, its next contact in Contacts::pairs.
-    BoxT<double> box{};     ///< A box around what they share.
-    bool over_area = false; ///< False if they touch in points.
-    bool alike = false;     ///< Whether they share an area with outsides on one side.
-    bool opposed = false;   ///< Whether they share one with outsides on opposite sides.
+        next{};             ///< The next contact of each in Contacts::pairs.
+    BoxT<double> box{};     ///< A box around the shared place.
+    bool over_area = false; ///< Whether they share an area, not only points.
+    bool alike = false;     ///< Whether their outsides are on the same side there.
+    bool opposed = false;   ///< Whether their outsides are on opposite sides there.
 };
 
 /// An object that shares a place with others.
 struct TouchingObject {
     ObjectId object{};                      ///< The object.
-    ContactKind kind = ContactKind::opaque; ///< What it is.
-    ContactKey key{};                       ///< The least one is met.
-    std::uint32_t contact = no_contact;     ///< The first of its contacts.
+    ContactKind kind = ContactKind::opaque; ///< The kind of its surface.
+    ContactKey key{};                       ///< The smallest key is met.
+    std::uint32_t contact = no_contact;     ///< The object's first contact.
 };
 
 /// All contacts of a scene.
 struct Contacts {
     detail::GrowingArray<Contact> pairs{};          ///< Each pair of objects once.
-    detail::GrowingArray<TouchingObject> objects{}; ///< Those that take part.
-    BoxT<double> box{};   ///< A box around all that objects share.
+    detail::GrowingArray<TouchingObject> objects{}; ///< All objects with contacts.
+    BoxT<double> box{};                             ///< A box around all shared places.
     bool complete = true; ///< False if more objects overlap than can be compared.
-    /// The number of objects of the types before each type of shape.
+    /// For each type of shape, the number of objects of the types before it.
     std::vector<std::uint32_t> first{};
     /// The position in `objects` of each object of the scene, or no_contact.
     std::vector<std::uint32_t> position{};
@@ -119,7 +125,7 @@ template <std::floating_point T>
     return within(0) && within(1) && within(2);
 }
 
-/// The bounding box of a shape: its own bounds(), or those of its bounding sphere.
+/// The bounding box of a shape: bounds() of the shape or of its bounding sphere.
 template <Shape S>
 [[nodiscard]] auto box_around(const S& shape) {
     if constexpr (requires { bounds(shape); })
@@ -194,7 +200,7 @@ template <Shape G>
         return {};
 }
 
-/// What a surface that does not emit is in a contact.
+/// The kind of a surface that does not emit.
 template <Material M>
 [[nodiscard]] ContactKind kind_of([[maybe_unused]] const M& m) {
     using T = typename M::Scalar;
@@ -206,7 +212,7 @@ template <Material M>
         return MayAbsorb<M> ? ContactKind::body : ContactKind::opaque;
 }
 
-/// Writes a colour into a key: the brighter one is smaller.
+/// Writes a colour into a key. A brighter colour gives smaller numbers.
 template <std::floating_point T>
 void put_color(ContactKey& key, std::size_t at, const RgbT<T>& color) {
     key[at] = -double(color.x) - double(color.y) - double(color.z);
@@ -231,20 +237,20 @@ template <Material M>
 struct ContactObject {
     ObjectId id{};
     ContactKind kind = ContactKind::opaque;
-    std::uint32_t material = 0; ///< Its number; of another one it differs.
-    std::uint32_t pieces = 0;   ///< 0: it is not compared.
-    double area = 0;            ///< 0 if the shape does not know it.
+    std::uint32_t material = 0; ///< The number of its material.
+    std::uint32_t pieces = 0;   ///< Number of pieces; 0 if it is not compared.
+    double area = 0;            ///< Its area; 0 if it is unknown.
     BoxT<double> box{};
 };
 
 struct ContactSearch {
     std::span<const ContactObject> objects; ///< In the order of types and indices.
-    double epsilon;                         ///< Of the scene's precision.
+    double epsilon;                         ///< Machine epsilon of the precision.
     FunctionRef<SurfacePiece(ObjectId, std::uint32_t)> piece;
-    FunctionRef<void(ContactKey&, ObjectId)> put; ///< Emission and material.
+    FunctionRef<void(ContactKey&, ObjectId)> put; ///< Writes emission and material.
 };
 
-/// Finds the contacts of a scene, whose types it need not know.
+/// Finds the contacts of a scene, without knowing the scene's types.
 [[nodiscard, gnu::cold]] LJUS_CORE_INLINE Contacts
 contacts_of(const ContactSearch& search);
 
@@ -253,13 +259,14 @@ contacts_of(const ContactSearch& search);
            b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
-/// Boxes, each with the number of a look, and a tree over them.
+/// A tree over boxes. Each box has a *look*, a number. Boxes of the same look are not
+/// compared with each other.
 class LookTree {
 public:
-    /// \param boxes  In units of the scene's largest coordinate, so that floats can
-    ///               hold them; each is larger than its piece by the distance that
-    ///               counts.
-    /// \param looks  The look of each box. Boxes of the same look are not compared.
+    /// \param boxes  The boxes, in units of the scene's largest coordinate, so that
+    ///               floats can represent them. Each box is enlarged by
+    ///               contact_distance().
+    /// \param looks  The look of each box.
     LookTree(std::vector<Box> boxes, std::vector<std::uint32_t> looks)
         : boxes_(std::move(boxes)), looks_(std::move(looks)),
           tree_(build_bvh<float>(boxes_)), below_(tree_.nodes.size(), several) {
@@ -282,8 +289,11 @@ public:
     }
     [[nodiscard]] const Box& box(std::uint32_t i) const noexcept { return boxes_[i]; }
 
-    /// Calls f(k) for the boxes of other looks that overlap box i.
-    /// \param budget  Nodes that may still be visited.
+    /// Calls f(k) for the boxes k of other looks that overlap box i.
+    /// \param i       The index of a box.
+    /// \param budget  The number of nodes that may still be visited; it is counted
+    ///                down.
+    /// \param f       Called with the index of a box.
     /// \return False if the budget is spent.
     template <typename F>
     bool each_overlap(std::uint32_t i, long long& budget, F&& f) const {
@@ -311,17 +321,17 @@ private:
     std::vector<std::uint32_t> looks_;
     BvhNodesT<float> tree_;
     std::vector<std::uint32_t>
-        below_; // by node, the look of all; several if they differ
+        below_; // per node, the look of all its boxes, or `several`
 };
 
 #ifndef LJUS_CORE // otherwise defined in ljus::core
 
-/// The largest coordinate of a box.
+/// The largest absolute coordinate of a box.
 [[nodiscard, gnu::cold]] inline double reach_of(const BoxT<double>& box) noexcept {
     return max_component(glm::max(glm::abs(box.low), glm::abs(box.high)));
 }
 
-/// Surfaces within a box that are closer than this are in one place.
+/// The distance within which two surfaces in a box count as in one place.
 [[nodiscard, gnu::cold]] inline double contact_distance(const BoxT<double>& box,
                                                         double epsilon) noexcept {
     return 8 * epsilon * reach_of(box);
@@ -331,11 +341,12 @@ private:
 struct ContactPieces {
     std::vector<Box> boxes{};
     std::vector<std::uint32_t> looks{};
-    std::vector<std::uint32_t> object{}; ///< Whose each one is.
-    std::vector<std::uint32_t> number{}; ///< Within the object.
+    std::vector<std::uint32_t> object{}; ///< The object of each piece.
+    std::vector<std::uint32_t> number{}; ///< The piece's number within the object.
 };
 
-/// Lists the pieces of all objects; of meshes those that are close to other objects.
+/// Lists the pieces of all objects. Of a mesh, only pieces close to other objects are
+/// listed.
 [[nodiscard, gnu::cold]] inline ContactPieces
 list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks,
             long long& budget) {
@@ -354,7 +365,7 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
     for (std::uint32_t i = 0; i < whole.size(); ++i) {
         const ContactObject& object = search.objects[i];
         const Box& mine = whole.box(i);
-        Box near; // what other objects have of the box
+        Box near; // around the parts of `mine` in other boxes
         if (object.pieces == 1)
             near = mine;
         else if (object.pieces > 1)
@@ -376,14 +387,15 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
     return pieces;
 }
 
-/// Finds the pairs of objects with pieces in one place; a `pair` holds their numbers.
+/// Finds the pairs of objects with pieces in one place. Contact::pair then has the
+/// numbers of the two objects.
 [[gnu::cold]] inline void find_pairs(Contacts& contacts, const ContactSearch& search,
                                      const std::vector<std::uint32_t>& looks) {
     long long budget = 1'000'000'000; // nodes
     ContactPieces pieces = list_pieces(search, looks, budget);
     const LookTree tree(std::move(pieces.boxes), std::move(pieces.looks));
-    // The pair that was found last with each object; those of an object are found
-    // one after another.
+    // For each object, the last pair in which it comes second. All pairs with the same
+    // first object are found one after another.
     std::vector<std::uint32_t> last(looks.size(), no_contact);
     const auto compare = [&](std::uint32_t i, std::uint32_t k) {
         const std::uint32_t one = pieces.object[i], other = pieces.object[k];
@@ -412,19 +424,20 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
 }
 
 /// The area that each material covers, in units of 2^-30 of the largest area of an
-/// object: sums of whole numbers do not depend on an order.
+/// object. The areas are rounded to whole numbers, because a sum of whole numbers does
+/// not depend on the order.
 [[nodiscard, gnu::cold]] inline std::vector<double>
 covered_areas(std::span<const ContactObject> objects, std::size_t materials) {
     std::vector<double> covered(materials);
     double most = 0;
     for (const ContactObject& object : objects) most = std::max(most, object.area);
     for (const ContactObject& object : objects)
-        if (const double part = object.area / most; part <= 1) // not where most is 0
+        if (const double part = object.area / most; part <= 1) // not if most is 0
             covered[object.material] += std::round(part * 0x1p30);
     return covered;
 }
 
-/// Lists the objects that take part, with their keys and their contacts.
+/// Lists the objects that have contacts, with their keys and their contacts.
 [[gnu::cold]] inline void list_touching(Contacts& contacts, const ContactSearch& search,
                                         std::size_t materials) {
     const std::vector<double> covered = covered_areas(search.objects, materials);
@@ -463,7 +476,7 @@ LJUS_CORE_INLINE Contacts contacts_of(const ContactSearch& search) {
     std::vector<std::uint32_t> looks(search.objects.size(), materials);
     bool one_look = true;
     for (std::uint32_t i = 0; i < looks.size(); ++i) {
-        const ContactObject& object = search.objects[i]; // opaque: as its material
+        const ContactObject& object = search.objects[i]; // opaque: by material
         looks[i] = object.kind == ContactKind::opaque ? object.material : materials + i;
         one_look = one_look && looks[i] == looks[0];
     }
@@ -478,10 +491,12 @@ LJUS_CORE_INLINE Contacts contacts_of(const ContactSearch& search) {
 } // namespace detail
 
 /// Finds the contacts of a scene.
-/// \param world  A World; of its members, shapes, objects and materials are used.
+/// \param world  A World whose shapes, objects and materials are complete.
 /// \param boxes  The box of each object, in the order of types and indices.
-/// \return The contacts; only their own order depends on the order of addition.
-/// \cost O(n log n) boxes; less where neighbours are opaque and of one material.
+/// \return The contacts. The order in which objects were added affects only the order
+///         of the contacts.
+/// \cost O(n log n) for n boxes; less if neighbouring objects are opaque and have the
+///       same material.
 template <typename W>
 [[nodiscard, gnu::cold]] Contacts
 find_contacts(const W& world, const std::vector<BoxT<typename W::Scalar>>& boxes) {

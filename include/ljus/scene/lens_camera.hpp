@@ -14,21 +14,21 @@ namespace ljus {
 /// \ref ch_distributed_rays.
 /// \{
 
-/// A camera with a thin lens instead of a pinhole: a point of the plane of focus
-/// appears as one point of the picture. with_lens() makes one.
+/// A camera with a thin lens instead of a pinhole. Only the points of the plane of
+/// focus appear sharp in the picture. with_lens() makes such a camera.
 template <std::floating_point T>
 struct LensCameraT {
     using Scalar = T;     ///< The precision.
     CameraT<T> pinhole{}; ///< The same camera with a pinhole.
-    T radius = T(0);      ///< Radius of the lens, in scene units; 0: a pinhole.
-    T focus = T(1);       ///< Distance of the plane of focus along the view.
+    T radius = T(0);      ///< Radius of the lens, in scene units; 0 for a pinhole.
+    T focus = T(1);       ///< Distance of the plane of focus, in scene units.
 };
 using LensCamera = LensCameraT<float>; ///< LensCameraT in float.
 
 /// Replaces the pinhole of a camera by a thin lens.
-/// \param camera  Made by look_at().
-/// \param radius  Radius of the lens, at least 0.
-/// \param focus   Distance of the plane of focus, above 0.
+/// \param camera  A camera made by look_at().
+/// \param radius  Radius of the lens in scene units, at least 0.
+/// \param focus   Distance of the plane of focus in scene units, above 0.
 /// \return The camera.
 /// \throws std::invalid_argument  if `radius` or `focus` is out of range.
 template <std::floating_point T>
@@ -41,14 +41,15 @@ template <std::floating_point T>
     return {camera, radius, focus};
 }
 
-/// The primary ray through a point of the lens. It intersects the pinhole's ray in the
-/// plane of focus.
+/// The primary ray from a point of the lens. In the plane of focus it meets the ray
+/// through the pinhole.
 /// \param camera  The camera.
-/// \param pixel   From the upper left corner: x in [0, width], y in [0, height].
+/// \param pixel   Position in pixels from the upper left corner: x in [0, width], y in
+///                [0, height].
 /// \param width   Width of the picture, in pixels.
 /// \param height  Height of the picture, in pixels.
-/// \param u       Point of the unit square; maps uniformly to the area of the lens.
-/// \return A ray from the lens, its direction of unit length.
+/// \param u       Point of the unit square, which gives a uniform point of the lens.
+/// \return A ray from the lens, with a direction of unit length.
 /// \cite cook1984
 // [lens ray]
 template <std::floating_point T>
@@ -64,8 +65,9 @@ template <std::floating_point T>
 }
 // [lens ray]
 
-/// The primary ray from a random point of the lens, as in CameraLike. Two random
-/// numbers are drawn; for a lens of radius 0 none, and the ray is the pinhole's.
+/// The primary ray from a random point of the lens, as in CameraLike. The function
+/// draws two random numbers. For a lens of radius 0 it draws none and returns the ray
+/// through the pinhole.
 template <std::floating_point T, StreamLike Stream>
 [[nodiscard]] RayT<T> camera_ray(const LensCameraT<T>& camera, const Vec2T<T>& pixel,
                                  int width, int height, Stream& stream) noexcept {
@@ -73,17 +75,18 @@ template <std::floating_point T, StreamLike Stream>
     return primary_ray(camera, pixel, width, height, next_2d<T>(stream));
 }
 
-/// The circle of confusion: the size in the picture of a point that is out of focus.
+/// The diameter of the circle of confusion: the disc in the picture that a point out of
+/// focus becomes.
 /// \param camera  The camera.
-/// \param depth   Distance of the point along the view, above 0.
+/// \param depth   Distance of the point along the view in scene units, above 0.
 /// \param height  Height of the picture, in pixels.
-/// \return Its diameter, in pixels.
+/// \return The diameter, in pixels.
 /// \cite cook1984
 // [circle of confusion]
 template <std::floating_point T>
 [[nodiscard]] T circle_of_confusion(const LensCameraT<T>& camera, T depth,
                                     int height) noexcept {
-    const T diameter = T(2) * camera.radius; // at distance 1, where the picture is:
+    const T diameter = T(2) * camera.radius; // of the lens; `there` is at distance 1:
     const T there = diameter * std::abs(depth - camera.focus) / (depth * camera.focus);
     return there * T(height) / (T(2) * camera.pinhole.half_height);
 }

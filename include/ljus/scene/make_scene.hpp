@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/scene/make_scene.hpp
-/// \brief A scene in one expression, its lists of types deduced.
+/// \brief Makes a scene in one expression, and deduces its lists of types.
 
 #include <type_traits>
 
@@ -26,13 +26,14 @@ namespace ljus {
 template <Shape S, Material M>
 struct Placed {
     S shape;                       ///< The shape.
-    M material;                    ///< Its material.
+    M material;                    ///< The material.
     RgbT<ScalarOf<S>> emission{0}; ///< Radiance along the normal, W/(m^2 sr).
     bool inside_out = false;       ///< Whether the normal points inwards.
 };
 
 /// Pairs a shape with its material, for make_scene(). The emission is the radiance on
-/// the side of its normal, W/(m^2 sr); inside_out turns the normal inwards.
+/// the side of the shape's normal, in W/(m^2 sr). If `inside_out` is true, the normal
+/// points inwards.
 template <Shape S, Material M>
 [[nodiscard]] Placed<S, M>
 placed(const S& shape, const M& material,
@@ -43,11 +44,11 @@ placed(const S& shape, const M& material,
 
 namespace detail {
 
-/// Types in order of first appearance.
+/// A list of types.
 template <typename... T>
 struct TypeList {};
 
-/// A list with one more type, unless it holds the type already.
+/// A list with one more type, unless the list already contains the type.
 template <typename... T, typename Next>
 [[nodiscard]] constexpr auto operator+(TypeList<T...>, TypeList<Next>) noexcept {
     if constexpr ((std::is_same_v<T, Next> || ...))
@@ -68,8 +69,8 @@ struct PartOf;
 
 template <typename S, typename M>
 struct PartOf<Placed<S, M>> {
-    using Shape = TypeList<S>;    ///< Its shape.
-    using Material = TypeList<M>; ///< Its material.
+    using Shape = TypeList<S>;    ///< The type of the shape.
+    using Material = TypeList<M>; ///< The type of the material.
     using Light = TypeList<>;     ///< None.
 };
 
@@ -77,7 +78,7 @@ template <LightSource L>
 struct PartOf<L> {
     using Shape = TypeList<>;    ///< None.
     using Material = TypeList<>; ///< None.
-    using Light = TypeList<L>;   ///< Its own type.
+    using Light = TypeList<L>;   ///< The type of the light.
 };
 
 /// Adds a placed() shape to a scene that lists its types.
@@ -98,7 +99,8 @@ concept ScenePart = requires {
     typename PartOf<Part>::Shape;
 };
 
-/// An argument with a shape; a scene needs one for its precision.
+/// An argument with a shape. A scene needs at least one, which determines its
+/// precision.
 template <typename Part>
 concept PlacedPart =
     ScenePart<Part> && !std::is_same_v<typename PartOf<Part>::Shape, TypeList<>>;
@@ -112,10 +114,11 @@ scene_of(TypeList<S...>, TypeList<M...>, TypeList<L...>) {
 
 } // namespace detail
 
-/// A scene of these shapes and lights, added in order. Types are listed in order of
-/// first appearance. Each placed() shape has its own material: to share one, use
-/// Scene::add().
-/// \param parts  placed() shapes, at least one, and lights; of one precision.
+/// Makes a scene of shapes and lights, which are added in the order of the arguments. A
+/// type is listed where it first occurs. Each placed() shape gets a material of its
+/// own. Shapes that share a material are added by Scene::add().
+/// \param parts  Lights and placed() shapes, with at least one shape. All have the same
+///               precision.
 /// \return The scene.
 /// \throws std::invalid_argument  as Scene::add().
 template <detail::ScenePart... Part>

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/scene/nested_bodies.hpp
-/// \brief Transparent bodies that overlap: whose medium holds, and which surfaces are
-/// there.
+/// \brief Transparent bodies that overlap: which medium counts at a point, and which
+/// surfaces a path meets.
 
 #include <cstdint>
 #include <limits>
@@ -13,33 +13,35 @@
 namespace ljus {
 
 /// \defgroup nested_bodies Bodies in each other
-/// \brief Water in a glass, a bubble in the water. Chapter: \ref ch_rough_glass.
+/// \brief Transparent bodies that overlap, such as water in a glass and a bubble in the
+/// water. Chapter: \ref ch_rough_glass.
 ///
-/// Where bodies overlap, the one of the highest `priority` holds
-/// \cite schmidt2002. A path knows in which bodies it is. Of a surface only the highest
-/// body before it and the highest one behind it count:
+/// Where bodies overlap, the medium of the body with the highest `priority` counts
+/// \cite schmidt2002. A path keeps a list of the bodies around it. At a surface, only
+/// the highest body before the surface and the highest body behind it count:
 ///
-/// | these two     | the surface                                                    |
+/// | these bodies  | the surface                                                    |
 /// |---------------|----------------------------------------------------------------|
-/// | are the same  | is not there: paths, photons and shadow rays go straight on    |
-/// | are different | is one boundary, of their relative index, to the second medium |
+/// | are the same  | is ignored: paths, photons and shadow rays go straight on      |
+/// | are different | is one boundary, with the relative index of the two bodies     |
 ///
-/// So water may reach a little into its glass, and a bubble, of index 1, may stand out
-/// of the water. Priorities hold if any material of the scene has one that is not 0;
-/// otherwise each surface counts as one between its body and air. Of equal priorities
-/// the higher index holds, and the survey says so.
+/// Water may therefore extend a little into its glass, and a bubble, of index 1, may
+/// stick out of the water. Priorities are used if any material of the scene has a
+/// priority other than 0. Otherwise each surface is a boundary between its body and
+/// air. Among bodies of equal priority, the one of the higher index counts, and the
+/// survey says so.
 /// \{
 
-/// What a path crosses at a surface, if it goes through.
+/// The boundary that a path crosses if it passes through a surface.
 template <std::floating_point T>
 struct CrossingT {
-    SceneHitT<T> hit{};   ///< The surface; of several in one place the boundary.
-    BodyList before{};    ///< The bodies before it, and
-    BodyList behind{};    ///< behind it; the same at what is opaque or thin.
-    bool hidden = false;  ///< Whether it is not there.
-    bool entered = false; ///< Whether it is that of the body behind it.
+    SceneHitT<T> hit{};   ///< The surface, chosen from all surfaces in the place.
+    BodyList before{};    ///< The bodies before the surface.
+    BodyList behind{};    ///< The bodies behind it; unchanged if it is opaque or thin.
+    bool hidden = false;  ///< Whether the surface is ignored.
+    bool entered = false; ///< Whether the surface belongs to the body behind it.
 
-    /// The rank of the body on its outside; 0: air.
+    /// The rank of the body outside the surface; 0 for air.
     [[nodiscard]] std::uint8_t outside() const noexcept {
         return entered ? before.top() : behind.top();
     }
@@ -48,9 +50,9 @@ struct CrossingT {
 namespace detail {
 
 /// Calls f(rank, hit, front) for each surface of a transparent body at a hit of
-/// closest_hit(); `front` is whether the ray arrives from its outside.
-/// \return The point of the hit, with an error that lets a ray start beyond all of
-///         them.
+/// closest_hit(). `front` is whether the ray arrives from outside the body.
+/// \return The point of the hit, with an error so large that a ray spawned there starts
+///         beyond all these surfaces.
 template <AnyWorld W, std::floating_point T, typename F>
 SurfacePointT<T> each_body_at(const W& world, const RayT<T>& ray,
                               const SceneHitT<T>& hit, F&& f) {
@@ -74,13 +76,14 @@ SurfacePointT<T> each_body_at(const W& world, const RayT<T>& ray,
 
 } // namespace detail
 
-/// What a ray crosses at a hit.
+/// The boundary that a ray crosses at a hit.
 /// \param world  The closed scene.
-/// \param ray    Its direction may have any length.
+/// \param ray    The ray, with a direction of any length.
 /// \param hit    A hit of closest_hit().
-/// \param known  The bodies before the hit, as far as they are known. A body that ends
-///               at the hit is among them.
-/// \cost Two surface points; in contact with others two searches of the place.
+/// \param known  The bodies before the hit, as far as they are known. If a body ends at
+///               the hit but is not in the list, it is added to CrossingT::before.
+/// \cost Two surface points. If objects are in contact at the hit, two searches for the
+///       other surfaces.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] CrossingT<T> crossing_at(const W& world, const RayT<T>& ray,
                                        const SceneHitT<T>& hit, const BodyList& known) {
@@ -112,10 +115,10 @@ template <AnyWorld W, std::floating_point T>
     return crossing;
 }
 
-/// All bodies around a ray's origin: those whose surface the ray leaves without having
-/// entered it. Bodies are closed, and consist of one shape or several.
+/// All bodies around the origin of a ray: the bodies that the ray leaves without having
+/// entered them. Each body must be closed. It may consist of several shapes.
 /// \param world  The closed scene.
-/// \param ray    Its t_max does not matter.
+/// \param ray    The ray; its t_max is ignored.
 /// \cost A ray per surface up to the end of the scene.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] BodyList bodies_around(const W& world, RayT<T> ray) {
@@ -138,8 +141,8 @@ template <AnyWorld W, std::floating_point T>
     return around;
 }
 
-/// The bodies around the start of a path: bodies_around(), or none where priorities do
-/// not hold.
+/// The bodies around the start of a path, by bodies_around(). In a scene without
+/// priorities the list is empty.
 /// \cost A comparison outside the bounding box of all bodies.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] BodyList bodies_at(const W& world, const RayT<T>& ray) {

@@ -14,10 +14,10 @@ namespace ljus {
 /// screen. Chapter: \ref ch_lamps.
 /// \{
 
-/// The material of a textured lamp: a quad or a disc that emits its own radiance times
-/// the picture. The lower left corner of the picture is at (u, v) = (0, 0), the upper
-/// right one at (1, 1); see \ref texture_coordinates. A pixel is one radiance, without
-/// interpolation. On the back it is dark.
+/// The material of a textured lamp. A quad or a disc of this material emits the
+/// radiance of the object times the picture. The lower left corner of the picture is at
+/// (u, v) = (0, 0), and the upper right corner at (1, 1); see \ref texture_coordinates.
+/// The radiance is constant over each pixel. The back of the lamp does not emit.
 ///
 ///     const auto window = scene.add(PictureLamp{.picture = load_hdr("window.hdr")});
 ///     scene.add(quad, window, Rgb{1});
@@ -25,20 +25,20 @@ template <std::floating_point T>
 struct PictureLampT {
     using Scalar = T;                     ///< The precision of its numbers.
     static constexpr bool uses_uv = true; ///< The picture lies in the shape's (u, v).
-    /// Factors of the radiance, at least 0; of any width and height, not black
-    /// everywhere.
+    /// The factors of the radiance, at least 0 and not all black. The picture may have
+    /// any width and height.
     ImageT<T> picture{.width = 1, .height = 1, .pixels = {RgbT<T>(T(1))}};
-    RgbT<T> albedo{T(0)}; ///< Reflected fraction of the light that falls on it.
+    RgbT<T> albedo{T(0)}; ///< Fraction of the incident light that is reflected.
 };
 using PictureLamp = PictureLampT<float>; ///< PictureLampT in float.
 
-/// The picture, as ShowsPicture asks for it.
+/// The picture of the lamp. The concept ShowsPicture requires this function.
 template <std::floating_point T>
 [[nodiscard]] const ImageT<T>& emission_picture(const PictureLampT<T>& lamp) noexcept {
     return lamp.picture;
 }
 
-/// What it reflects by: a matt surface, the same everywhere.
+/// The material that reflects light: a matt surface, the same at every point.
 template <std::floating_point T>
 [[nodiscard]] LambertianT<T> at_point(const PictureLampT<T>& lamp, const Vec3T<T>&,
                                       const Vec2T<T>&) noexcept {
@@ -54,14 +54,14 @@ template <std::floating_point T>
     return Lobes::diffuse;
 }
 
-/// As of a LambertianT; in 1/sr, without the cosine.
+/// As for a LambertianT, in 1/sr, without the cosine.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const PictureLampT<T>& lamp, const Vec3T<T>& wo,
                                const Vec3T<T>& wi) noexcept {
     return evaluate(LambertianT<T>{lamp.albedo}, wo, wi);
 }
 
-/// As of a LambertianT; per steradian.
+/// As for a LambertianT, per steradian.
 template <std::floating_point T>
 [[nodiscard]] T pdf(const PictureLampT<T>& lamp, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
@@ -78,9 +78,9 @@ sample(const PictureLampT<T>& lamp, const Vec3T<T>& wo, const Vec3T<T>& u,
 
 /// \}
 
-/// Refuses an invalid picture or albedo.
-/// \throws std::invalid_argument  if the albedo is not within [0, 1], or the picture
-///         empty, black in every pixel, or in some pixel negative or not finite.
+/// Refuses a lamp with an invalid picture or albedo.
+/// \throws std::invalid_argument  if the albedo is not within [0, 1], if the picture is
+///         empty or black in every pixel, or if a pixel is negative or not finite.
 template <std::floating_point T>
 void check(const PictureLampT<T>& lamp) {
     require_unit("picture lamp.albedo", lamp.albedo);

@@ -66,10 +66,10 @@ struct ObjectT {
     MaterialId material{};          ///< Its material.
     RgbT<T> emission{T(0)};         ///< Radiance on the side of the normal, W/(m^2 sr).
     bool inside_out = false;        ///< Whether the normal points inwards.
-    std::uint32_t light = no_light; ///< Its number among a World's lights, if it emits.
+    std::uint32_t light = no_light; ///< Its number among the lights of a World.
 };
 
-/// An object or a light, in the order of addition.
+/// An object or a light, as an element of Scene::order.
 struct AddedId {
     std::uint32_t type = 0;  ///< Position in Shapes<...> or in Lights<...>.
     std::uint32_t index = 0; ///< Index in that type's array.
@@ -78,7 +78,8 @@ struct AddedId {
 
 namespace detail {
 
-/// The index of a type in a list; that of the last type if no other one matches.
+/// The index of the type X in a list. If no other type matches, it is the index of the
+/// last type.
 template <typename X, typename First, typename... List>
 inline constexpr std::uint32_t type_number = 0;
 /// The case of at least two types.
@@ -95,7 +96,7 @@ inline constexpr bool each_once<First, T...> =
     !(std::is_same_v<First, T> || ...) && each_once<T...>;
 
 /// Calls f(element) with one element of a tuple of arrays, in the element's own type.
-/// The last type is not tested for, so that a list of one type needs no comparison.
+/// The last type is not tested, so that a list of one type needs no comparison.
 template <std::size_t I = 0, typename Tuple, typename F>
 decltype(auto) visit_element(const Tuple& arrays, std::uint32_t type,
                              std::uint32_t index, F& f) {
@@ -111,13 +112,15 @@ void each_array([[maybe_unused]] const std::tuple<A...>& arrays, F&& f) {
     (f(std::get<A>(arrays)), ...);
 }
 
-/// Whether f(array) is true for an array of a tuple; those after it are not asked.
+/// Whether f(array) is true for any array of a tuple. The arrays after the first such
+/// array are not tested.
 template <typename... A, typename F>
 [[nodiscard]] bool any_array([[maybe_unused]] const std::tuple<A...>& arrays, F&& f) {
     return (f(std::get<A>(arrays)) || ...);
 }
 
-/// The type that a type of shape refers to by prototype(); void if it does not.
+/// The type of object to which a shape refers by prototype(); void if it refers to
+/// none.
 template <typename S>
 struct PrototypeOf : std::type_identity<void> {};
 template <typename S>
@@ -128,7 +131,7 @@ struct PrototypeOf<S>
     : std::type_identity<std::remove_cvref_t<decltype(prototype(std::declval<S>()))>> {
 };
 
-/// The one type to which the shapes of a list refer, or void.
+/// The type of object to which the shapes of a list refer, or void.
 template <typename... S>
 struct PrototypeIn : std::type_identity<void> {};
 template <typename First, typename... S>
@@ -136,7 +139,8 @@ struct PrototypeIn<First, S...>
     : std::conditional_t<std::is_void_v<typename PrototypeOf<First>::type>,
                          PrototypeIn<S...>, PrototypeOf<First>> {};
 
-/// What the shapes of a scene refer to, at addresses that last when the scene is moved.
+/// Keeps the objects to which the shapes of a scene refer. Their addresses stay the
+/// same when the scene is moved.
 template <typename P>
 class Prototypes {
 public:
@@ -147,7 +151,8 @@ public:
         kept_.push_back(std::move(one));
         return kept_.back();
     }
-    /// \throws std::invalid_argument  if a shape refers to what is not kept.
+    /// \throws std::invalid_argument  if a shape refers to an object that is not kept
+    ///         here.
     template <typename S>
     void require_kept(const S& shape) const {
         if constexpr (!std::is_void_v<typename PrototypeOf<S>::type>) {
@@ -162,9 +167,9 @@ public:
     }
 
 private:
-    std::list<P> kept_; // which are not moved when one is added
+    std::list<P> kept_; // a list, because its elements are never moved
 };
-/// Shapes that refer to nothing.
+/// For shapes that refer to nothing.
 template <>
 class Prototypes<void> {
 public:
@@ -179,8 +184,9 @@ template <typename ShapeList, typename MaterialList, typename LightList = Lights
           typename MediumList = Media<>>
 struct Scene;
 
-/// Shapes with their materials, and lights, in one contiguous array per type. A World
-/// is made from the finished scene; renderers and photon passes take the World.
+/// A scene: shapes with their materials, lights and media, in one contiguous array per
+/// type. A World is made from the finished scene. Renderers and photon passes take the
+/// World.
 ///
 ///     Scene<Shapes<Sphere>, Materials<Lambertian, Glass>, Lights<PointLight>> scene;
 ///     const auto grey = scene.add(Lambertian{.albedo = Rgb{0.5f}});
@@ -207,7 +213,8 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
                       detail::each_once<L...> && detail::each_once<P...>,
                   "A scene lists each type once.");
 
-    /// What its shapes refer to: MeshT if it lists instances, otherwise void.
+    /// The type of object to which shapes refer: MeshT if instances are listed,
+    /// otherwise void.
     using Prototype = typename detail::PrototypeIn<FirstShape, S...>::type;
 
     /// Whether a type of shape, material, light or medium is listed.
@@ -233,7 +240,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     detail::Prototypes<Prototype> prototypes;
 
     /// Adds a material.
-    /// \return Its number, to add shapes with.
+    /// \return The number of the material, for adding shapes.
     /// \throws std::invalid_argument  if a value lies outside the material's range.
     template <Material B>
     requires lists<B> MaterialId add(B material) {
@@ -244,9 +251,9 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
                 static_cast<std::uint32_t>(array.size() - 1)};
     }
 
-    /// Keeps a mesh for instances; by itself it is not seen.
-    /// \return A reference, to make instances with.
-    /// \throws std::invalid_argument  if it was moved from.
+    /// Keeps a mesh for instances. The mesh itself is not visible.
+    /// \return A reference, for making instances.
+    /// \throws std::invalid_argument  if the mesh was moved from.
     template <typename X>
     requires std::is_same_v<X, Prototype> Ref<X> add(X mesh) {
         check(mesh);
@@ -254,15 +261,15 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     }
 
     /// Adds a shape.
-    /// \param shape     One of the listed types.
-    /// \param material  The number that add() returned.
-    /// \param radiance  The radiance that it emits on the side of its normal,
-    ///                  W/(m^2 sr), in addition to the emission of the material.
+    /// \param shape       The shape, of a listed type.
+    /// \param material    The number that add() returned for the material.
+    /// \param radiance    The radiance that the shape emits on the side of its normal,
+    ///                    W/(m^2 sr), in addition to the emission of the material.
     /// \param inside_out  Whether the normal points inwards, as in a room made of a
-    ///                  sphere.
-    /// \return Its number.
-    /// \throws std::invalid_argument  if a value is out of range, or the material
-    ///                                unknown.
+    ///                    sphere.
+    /// \return The number of the object.
+    /// \throws std::invalid_argument  if a value is out of range, or if the material is
+    ///         unknown.
     template <Shape G>
     requires lists<G>
     [[gnu::cold]] ObjectId add(G shape, MaterialId material, RgbT<Scalar> radiance = {},
@@ -280,7 +287,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
         return id;
     }
 
-    /// Adds a light that is not an object; a black light is ignored.
+    /// Adds a light that is not an object. A black light is ignored.
     /// \throws std::invalid_argument  if a value or the flux is out of range.
     template <LightSource X>
     requires lists<X>
@@ -295,7 +302,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
         array.push_back(light);
     }
 
-    /// Adds a medium. Where several overlap, their coefficients add up.
+    /// Adds a medium. Where several media overlap, their coefficients add up.
     /// \throws std::invalid_argument  if a value is out of range.
     template <Medium X>
     requires lists<X>
@@ -330,8 +337,8 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     /// The emission of an object, including that of its material.
     /// \param object  An object with a material of this scene.
     /// \return W/(m^2 sr).
-    /// \throws std::invalid_argument  if the material is unknown, the radiance is out
-    ///         of range, or a thin surface or one with holes emits.
+    /// \throws std::invalid_argument  if the material is unknown, if the radiance is
+    ///         out of range, or if a surface that is thin or has holes emits.
     [[nodiscard]] RgbT<Scalar> emission_of(const ObjectT<Scalar>& object) const {
         const MaterialId id = object.material;
         require_radiance("emission", object.emission);
@@ -361,12 +368,12 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
         return f.template operator()<FirstShape>() ||
                (f.template operator()<S>() || ...);
     }
-    /// As any_shape(), for materials.
+    /// The same as any_shape(), for materials.
     template <typename F>
     [[nodiscard]] static constexpr bool any_material(F f) noexcept {
         return (f.template operator()<M>() || ...);
     }
-    /// As any_shape(), for the types of lights that a World makes of them.
+    /// The same as any_shape(), for the types that lights have within a World.
     template <typename F>
     [[nodiscard]] static constexpr bool any_light([[maybe_unused]] F f) noexcept {
         return (f.template operator()<InSceneT<L>>() || ...);

@@ -34,11 +34,12 @@ struct LightChoice {
 /// One chosen light.
 template <std::floating_point T>
 struct ChosenLightT {
-    std::uint32_t light = 0; ///< Its number.
+    std::uint32_t light = 0; ///< The number of the light.
     T probability = T(0);    ///< The probability of this choice.
 };
 
-/// The distribution for choose_light(); a light's power is the sum of its channels.
+/// The distribution for choose_light(). The power of a light is the sum of its
+/// channels.
 /// \param powers  The flux of each light, in W.
 /// \return The cumulative sums, one per light.
 template <std::floating_point T>
@@ -54,8 +55,8 @@ template <std::floating_point T>
 
 /// The probability that choose_light() returns a light.
 /// \param choice  The distribution of the scene's lights.
-/// \param light   Its number.
-/// \return Its fraction of the total power.
+/// \param light   The number of the light.
+/// \return The light's fraction of the total power.
 template <std::floating_point T>
 [[nodiscard]] T probability_of(const LightChoice& choice,
                                std::uint32_t light) noexcept {
@@ -66,8 +67,8 @@ template <std::floating_point T>
 
 /// Chooses a light with a probability proportional to its power.
 /// \param choice  The distribution of the scene's lights; at least one.
-/// \param u       In [0, 1).
-/// \return Its number and the probability, which is never 0.
+/// \param u       A random number in [0, 1).
+/// \return The number of the light, and its probability, which is never 0.
 /// \cost A binary search.
 template <std::floating_point T>
 [[nodiscard]] ChosenLightT<T> choose_light(const LightChoice& choice, T u) noexcept {
@@ -75,8 +76,8 @@ template <std::floating_point T>
     const auto place =
         std::upper_bound(choice.cumulative.begin(), choice.cumulative.end() - 1, power);
     const auto light = static_cast<std::uint32_t>(place - choice.cumulative.begin());
-    // The probability may underflow in T if another light is 1e38 times as strong, but
-    // it must not be 0: the flux of the light is divided by it.
+    // The probability may underflow in T if another light is 1e38 times as strong. It
+    // must not be 0, because the flux of the light is divided by it.
     return {light,
             std::max(probability_of<T>(choice, light), std::numeric_limits<T>::min())};
 }
@@ -91,19 +92,20 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The largest number of shapes that a loop tests; more shapes are put in a tree. In
-/// the report's room, reduced to its first n objects, the tree is no slower than the
-/// loop for n >= 3 (benchmarks/rays_room.cpp; \ref ch_bvh).
+/// The largest number of shapes that are tested in a loop. More shapes are put in a
+/// tree. In parts of the report's room with 3 objects or more, the tree is no slower
+/// than the loop (benchmarks/rays_room.cpp; \ref ch_bvh).
 inline constexpr std::size_t flat_loop_limit = 2;
 
-/// Whether this number of shapes needs a tree; a loop tests fewer shapes.
+/// Whether this number of shapes needs a tree.
 [[nodiscard]] constexpr bool needs_tree(std::size_t shapes) noexcept {
     return shapes > flat_loop_limit;
 }
 
-/// Intersects a ray with a shape of any type, in a given arithmetic if the shape offers
-/// a choice.
-/// \param ray    Hits count in [t_min, t_max].
+/// Intersects a ray with a shape of any type. Compute selects the arithmetic, if the
+/// shape offers a choice.
+/// \param ray    The ray. Hits lie in [t_min, t_max].
+/// \param shape  The shape.
 /// \return The hit; nothing for a miss.
 template <typename Compute, std::floating_point T, typename S>
 [[nodiscard]] std::optional<ShapeHitT<T>> hit_of(const RayT<T>& ray, const S& shape) {
@@ -122,9 +124,10 @@ template <typename Compute, std::floating_point T, typename S>
     }
 }
 
-/// Whether a ray meets a shape of any type. It uses the shape's any-hit test meets(),
-/// if there is one.
-/// \param ray    Hits count in [t_min, t_max].
+/// Whether a ray meets a shape of any type. The function uses the shape's any-hit test
+/// meets(), if there is one.
+/// \param ray    The ray. Hits lie in [t_min, t_max].
+/// \param shape  The shape.
 /// \return Whether hit_of() would return a hit.
 template <typename Compute, std::floating_point T, typename S>
 [[nodiscard]] bool is_met(const RayT<T>& ray, const S& shape) {
@@ -134,7 +137,7 @@ template <typename Compute, std::floating_point T, typename S>
         return hit_of<Compute>(ray, shape).has_value();
 }
 
-/// The lights of a list in their form within a World.
+/// The types that a list of lights has within a World.
 template <typename LightList>
 struct KeptLights;
 /// One array per type.
@@ -152,7 +155,8 @@ inline constexpr bool is_scene<Scene<G, M, L, P>> = true;
 
 } // namespace detail
 
-/// Declared only: programs without such a lamp do not compile lights/picture_light.hpp.
+/// A textured lamp. It is only declared here, so that programs without such a lamp do
+/// not compile lights/picture_light.hpp.
 template <std::floating_point T>
 struct PictureLightT;
 
@@ -162,13 +166,13 @@ namespace detail {
 template <std::floating_point T>
 struct KeptPicturesT {
     std::vector<PictureLightT<T>> lights{}; ///< The lamps.
-    std::vector<std::uint32_t> shown{};     ///< In lights, for each lamp; or no_light.
+    std::vector<std::uint32_t> shown{};     ///< Each lamp's index in lights, if any.
 };
 
 } // namespace detail
 
-/// Selects the arithmetic of a world's intersections in its constructor:
-/// `World world(std::move(scene), compute_in<double>)`.
+/// Selects the arithmetic of intersections, as an argument of the constructor: `World
+/// world(std::move(scene), compute_in<double>)`.
 template <typename Compute>
 inline constexpr std::type_identity<Compute> compute_in{};
 
@@ -176,7 +180,7 @@ inline constexpr std::type_identity<Compute> compute_in{};
 template <std::floating_point T>
 struct SceneHitT {
     ShapeHitT<T> at{};   ///< Distance, and the shape's own coordinates.
-    ObjectId object{};   ///< Which object.
+    ObjectId object{};   ///< The object.
     bool shared = false; ///< Whether other objects have surfaces in the same place.
 };
 
@@ -193,13 +197,14 @@ class World {
 
 public:
     using Scalar = typename S::Scalar; ///< The precision, from the shapes' types.
-    /// The wide tree for float; the plain tree for other precisions.
+    /// The type of the tree: the wide tree for float, the plain tree for other
+    /// precisions.
     using Tree = std::conditional_t<std::is_same_v<Scalar, float>, Bvh8, BvhT<Scalar>>;
 
     /// Closes a scene.
-    /// \param scene  Moved in, or copied if it has no instances.
+    /// \param scene  The scene. It is moved, or copied if it has no instances.
     /// \throws std::invalid_argument  if the scene contains data that add() would
-    ///         refuse, or its arrays are inconsistent.
+    ///         refuse, or if its arrays are inconsistent.
     [[gnu::cold]] explicit World(S scene, std::type_identity<Compute> = {})
         : shapes_(std::move(scene.shapes)), objects_(std::move(scene.objects)),
           prototypes_(std::move(scene.prototypes)), fog_(std::move(scene.media)) {
@@ -235,14 +240,16 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     /// The bounding box of the bounding spheres of all shapes.
     [[nodiscard]] const BoxT<Scalar>& box() const noexcept { return box_; }
-    /// Whether a point lies in the common bounding box of all absorbing bodies, and so
-    /// may be in one; with fog or priorities, in that of all transparent bodies.
+    /// Whether a point may be in an absorbing body: whether it lies in the bounding box
+    /// of all such bodies. With fog or priorities, it is the box of all transparent
+    /// bodies.
     [[nodiscard]] bool may_be_in_medium(const Vec3T<Scalar>& point) const noexcept {
         return glm::all(glm::lessThanEqual(media_.low, point)) &&
                glm::all(glm::lessThanEqual(point, media_.high));
     }
-    /// Whether the bounding box of an absorbing body overlaps that of another body with
-    /// a medium: a path that leaves one of them may still be in the other.
+    /// Whether the bounding box of an absorbing body overlaps that of another
+    /// transparent body. A path that leaves one of the two bodies may then still be in
+    /// the other.
     [[nodiscard]] bool has_nested_media() const noexcept { return nested_media_; }
     /// Whether the scene lists a type of material that may have a priority.
     static constexpr bool lists_priorities =
@@ -251,8 +258,8 @@ public:
     [[nodiscard]] bool has_priorities() const noexcept {
         return lists_priorities && ranks_.prioritized;
     }
-    /// The place of a material among the transparent ones: a higher rank holds where
-    /// bodies overlap. 0 for an opaque one.
+    /// The rank of a material among the transparent materials; 0 for an opaque
+    /// material. Where bodies overlap, the body of the highest rank counts.
     [[nodiscard]] std::uint8_t rank_of(MaterialId id) const noexcept {
         return ranks_.ranks.empty() ? std::uint8_t(0) : ranks_.ranks[id.type][id.index];
     }
@@ -260,15 +267,16 @@ public:
     [[nodiscard]] MaterialId material_of_rank(std::uint8_t rank) const noexcept {
         return ranks_.materials[rank - 1u];
     }
-    /// Which objects have surfaces in one place.
+    /// The contacts: which objects have surfaces in one place.
     [[nodiscard]] const Contacts& contacts() const noexcept { return contacts_; }
-    /// Whether surfaces of several objects may lie at a point of a ray.
+    /// Whether surfaces of several objects may lie at the point t of a ray.
     /// \cost A comparison in a scene without contacts.
     [[nodiscard]] bool may_share_place(const RayT<Scalar>& ray,
                                        Scalar t) const noexcept {
         return has_contacts_ && detail::may_be_in(contact_box_, ray, t);
     }
-    /// The number of lights, including emissive objects; numbered in order of addition.
+    /// The number of lights, including emissive objects. Lights are numbered in the
+    /// order in which they were added.
     [[nodiscard]] std::size_t light_count() const noexcept { return lights_.size(); }
     /// The flux of each light, W.
     [[nodiscard]] const auto& powers() const noexcept { return powers_; }
@@ -276,7 +284,7 @@ public:
     [[nodiscard]] const LightChoice& light_choice() const noexcept { return choice_; }
     /// The objects in the tree's order; empty without a tree.
     [[nodiscard]] std::span<const ObjectId> ids() const noexcept { return ids_; }
-    /// The tree over the shapes; empty if there are few.
+    /// The tree over the shapes; empty if there are too few for a tree.
     [[nodiscard]] const Tree& tree() const noexcept { return tree_; }
 
     /// Whether the scene lists a type of medium, such as Fog.
@@ -309,13 +317,14 @@ public:
     static_assert(
         !lists_pictures || requires { sizeof(PictureLightT<Scalar>); },
         "A material with emission_picture() needs ljus/lights/picture_light.hpp.");
-    /// The textured lamp that an object is; null if it is none.
+    /// The textured lamp of an object; null if the object is not such a lamp.
     [[nodiscard]] const PictureLightT<Scalar>*
     picture_of(const ObjectT<Scalar>& object) const noexcept {
         return object.light == no_light ? nullptr
                                         : picture_of(lights_[object.light].index);
     }
-    /// Whether a path can meet a light: whether it has a surface or fills the sky.
+    /// Whether a path can meet a light. It can if the light has a surface or fills the
+    /// sky.
     [[nodiscard]] bool can_be_met(std::uint32_t light) const {
         if constexpr (any_light([]<typename L>() { return FillsSky<L>; }))
             if (lights_[light].is_light)
@@ -333,8 +342,9 @@ public:
     decltype(auto) visit_material(MaterialId id, F&& f) const {
         return detail::visit_element(materials_, id.type, id.index, f);
     }
-    /// Calls f(light) with a light, in its own type: an AreaLightT or a PictureLightT
-    /// for an emissive object, otherwise its form within a World.
+    /// Calls f(light) with a light, in its own type. This is an AreaLightT or a
+    /// PictureLightT for an emissive object; for other lights it is the result of
+    /// in_scene().
     template <typename F>
     decltype(auto) visit_light(std::uint32_t number, F&& f) const {
         const AddedId& id = lights_[number];
@@ -358,7 +368,8 @@ public:
     [[nodiscard]] static constexpr bool any_material(F f) noexcept {
         return S::any_material(f);
     }
-    /// As any_material(), for the types of which the scene has a material.
+    /// The same as any_material(), for only those types of which the scene has a
+    /// material.
     template <typename F>
     [[nodiscard]] bool has_material([[maybe_unused]] F f) const noexcept {
         return detail::any_array(materials_,
@@ -405,8 +416,8 @@ private:
         return boxes;
     }
 
-    // Computed once per flat shape: a normal costs a cross product in double and a
-    // square root.
+    // The frames of flat shapes are computed only once, because a normal costs a cross
+    // product in double and a square root.
     [[gnu::cold]] void make_frames() {
         std::size_t type = 0;
         const auto add = [&]<typename G>(const std::vector<G>& list) {
@@ -500,7 +511,7 @@ private:
     [[gnu::cold]] void find_media(const std::vector<BoxT<Scalar>>& boxes) {
         struct Body {
             BoxT<Scalar> box;
-            bool absorbs; // or keeps out fog, or may overlap
+            bool absorbs; // also true with fog or priorities
         };
         std::vector<Body> bodies;
         auto next = boxes.begin();
@@ -517,7 +528,7 @@ private:
             if (!absorbs) continue;
             media_.low = glm::min(media_.low, box.low);
             media_.high = glm::max(media_.high, box.high);
-            // Assumed for very many bodies, because the test is quadratic.
+            // For very many bodies it is true without the test, which is quadratic.
             nested_media_ = nested_media_ || bodies.size() > 4096;
             for (std::size_t k = 0; k < bodies.size() && !nested_media_; ++k)
                 nested_media_ =
@@ -527,7 +538,8 @@ private:
         }
     }
 
-    // Larger by 0.1 %, so that rounding does not exclude a corner from a sun's light.
+    // The sphere around everything. It is 0.1 % larger, so that rounding does not
+    // exclude a corner from a sun's light.
     [[nodiscard]] SphereT<Scalar> around() const {
         BoxT<Scalar> all = box_;
         const auto add = [&](const auto& list) {
@@ -573,7 +585,7 @@ private:
         add_light({0, static_cast<std::uint32_t>(lamps_.size() - 1), false});
     }
 
-    // The textured lamp that a lamp is, or null.
+    // The textured lamp of a lamp, or null.
     [[nodiscard]] const PictureLightT<Scalar>*
     picture_of(std::uint32_t lamp) const noexcept {
         if constexpr (lists_pictures)
@@ -616,7 +628,7 @@ private:
         frames_;
     std::size_t size_ = 0;
     BoxT<Scalar> box_{};
-    BoxT<Scalar> media_{}; // of absorbing bodies, in fog of all; empty if none
+    BoxT<Scalar> media_{}; // see may_be_in_medium(); empty if there are none
     bool nested_media_ = false;
     BodyRanks ranks_{};
     bool has_contacts_ = false;
@@ -626,7 +638,7 @@ private:
     std::vector<ObjectId> ids_{};
     Kept kept_{};
     std::vector<Lamp> lamps_{};
-    std::vector<AddedId> lights_{}; // of kept_; of a lamp the index is that in lamps_
+    std::vector<AddedId> lights_{}; // the index is in kept_, or in lamps_
     std::vector<RgbT<Scalar>> powers_{};
     LightChoice choice_{};
     Contacts contacts_{};
@@ -664,11 +676,11 @@ inline constexpr bool lists_cut_outs = W::any_material([]<typename M>() {
     return CutOutMaterial<M>;
 });
 
-/// A ray that meets more holes than this in one object counts as one that misses it.
+/// If a ray meets more holes than this in one object, it misses the object.
 inline constexpr int max_holes = 1000;
 
-/// The first hit of a ray on a shape of this material that is not in a hole.
-/// \cost An intersection more for each hole, and its place in the mask.
+/// The first hit of a ray on a shape that is not in a hole of the shape's material.
+/// \cost One more intersection and one more look-up in the mask for each hole.
 // [solid_hit]
 template <typename Compute, std::floating_point T, typename G, CutOutMaterial M>
 [[nodiscard]] std::optional<ShapeHitT<T>> solid_hit(RayT<T> ray, const G& shape,
@@ -686,9 +698,9 @@ template <typename Compute, std::floating_point T, typename G, CutOutMaterial M>
 }
 // [solid_hit]
 
-/// Calls f() for an object without holes, or f(material) with its material. A scene
-/// that lists no material with holes compiles f() only; one that has none pays a
-/// comparison.
+/// Calls f() for an object without holes, or f(material) for an object whose material
+/// may have holes. If the scene lists no such material, only f() is compiled. If it has
+/// none, the cost is one comparison.
 template <AnyWorld W, typename F>
 [[nodiscard]] decltype(auto) with_holes(const W& world, ObjectId id, F&& f) {
     if constexpr (lists_cut_outs<W>) {
@@ -705,7 +717,7 @@ template <AnyWorld W, typename F>
     }
 }
 
-/// As hit_of(), for an object of a scene: what lies in a hole is no hit.
+/// As hit_of(), for an object of a scene. A point in a hole is not a hit.
 template <typename Compute, AnyWorld W, std::floating_point T, typename G>
 [[nodiscard]] std::optional<ShapeHitT<T>> hit_on(const W& world, ObjectId id,
                                                  const RayT<T>& ray, const G& shape) {
@@ -731,9 +743,9 @@ template <typename Compute, AnyWorld W, std::floating_point T, typename G>
 
 } // namespace detail
 
-/// Refuses a scene with fog, for what carries no light through it.
+/// Refuses a scene with fog, for a method that does not compute light in fog.
 /// \param world  The closed scene.
-/// \param what   What that is, such as "photon maps".
+/// \param what   The name of the method, such as "photon maps".
 /// \throws std::invalid_argument  if the scene has a medium.
 template <AnyWorld W>
 void require_no_fog([[maybe_unused]] const W& world,
@@ -745,17 +757,18 @@ void require_no_fog([[maybe_unused]] const W& world,
                  "; render it by path tracing, or remove the fog."}));
 }
 
-/// A renderer's reference to its world. An unclosed scene gives an error with a remedy.
+/// A renderer's reference to its world. For a scene that is not closed, the compiler's
+/// message says how to close it.
 template <typename W>
 using WorldRef = Ref<typename detail::Closed<W>::Type>;
 
-/// What a ray meets at a hit: one surface, or one of several in one place.
+/// The surface that a ray meets at a hit, chosen from all surfaces in the place.
 template <std::floating_point T>
 struct PlaceHitT {
     SceneHitT<T> met{};           ///< The surface that counts; see \ref contacts.
-    MaterialId left = no_body;    ///< Of a body that ends there for the ray.
-    MaterialId entered = no_body; ///< Of a body that begins there.
-    T depth = T(0);               ///< Distance of the other surfaces, in scene units.
+    MaterialId left = no_body;    ///< The material of a body that ends there.
+    MaterialId entered = no_body; ///< The material of a body that begins there.
+    T depth = T(0); ///< The largest distance of the other surfaces, in scene units.
 };
 
 namespace detail {
@@ -771,12 +784,15 @@ template <typename S, typename Compute, std::floating_point T>
     return point;
 }
 
-/// Calls f(object, hit, front) for each surface in one place, if the box around what
-/// objects share holds it; `front` is whether the ray arrives from its outside.
-/// \param hit   A hit of the ray; first of all f is called with it.
-/// \param here  Its object.
-/// \return The largest distance of the other surfaces, in scene units; nothing if the
-///         hit is alone.
+/// Calls f(object, hit, front) for each surface in the place of a hit, if the place is
+/// in the box of a contact. `front` is whether the ray arrives from outside the object.
+/// \param world  The closed scene.
+/// \param ray    The ray.
+/// \param hit    A hit of the ray. f is called with this hit first.
+/// \param here   The object of the hit.
+/// \param f      The function.
+/// \return The largest distance of the other surfaces, in scene units; nothing if there
+///         are no other surfaces.
 template <typename S, typename Compute, std::floating_point T, typename F>
 [[nodiscard]] std::optional<T> visit_place(const World<S, Compute>& world,
                                            const RayT<T>& ray, const SceneHitT<T>& hit,
@@ -824,9 +840,10 @@ template <typename S, typename Compute, std::floating_point T, typename F>
 
 /// Decides which of several surfaces in one place a ray meets.
 /// \param world  The closed scene.
-/// \param ray    Its direction may have any length.
+/// \param ray    The ray, with a direction of any length.
 /// \param hit    A hit of the ray.
-/// \return The hit itself, and no bodies, unless its object shares the place.
+/// \return The surface that counts. If no other object has a surface in the place, it
+///         is the hit itself, without bodies.
 /// \cost One intersection for each object that may share the place.
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard, gnu::noinline]] PlaceHitT<T>
@@ -853,7 +870,7 @@ place_of(const World<S, Compute>& world, const RayT<T>& ray, const SceneHitT<T>&
         }
     };
     const std::optional<T> depth = detail::visit_place(world, ray, hit, *here, pass);
-    // Of a body that ends and one that begins, the path meets the one that begins.
+    // If one body ends and another begins, the path meets the one that begins.
     if (entered != nullptr && met->kind == ContactKind::body) place.met = into;
     place.depth = depth.value_or(T(0));
     place.met.shared = depth.has_value();
@@ -863,9 +880,9 @@ place_of(const World<S, Compute>& world, const RayT<T>& ray, const SceneHitT<T>&
 /// The first object that a ray meets, by a loop over all shapes: the plain twin of
 /// closest_hit().
 /// \param world  The closed scene.
-/// \param asked  The ray; hits count in [t_min, t_max].
-/// \return The nearest hit; of several in one place see \ref contacts; nothing for a
-///         miss.
+/// \param asked  The ray. Hits lie in [t_min, t_max].
+/// \return The nearest hit; nothing for a miss. For several surfaces in one place see
+///         \ref contacts.
 /// \cost One intersection per shape.
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] std::optional<SceneHitT<T>>
@@ -889,10 +906,10 @@ closest_hit_plain(const World<S, Compute>& world, const RayT<T>& asked) {
     return closest;
 }
 
-/// The plain twin of occluded().
+/// Whether any object intersects a ray, by a loop over all shapes: the plain twin of
+/// occluded().
 /// \param world  The closed scene.
-/// \param ray    Hits count in [t_min, t_max].
-/// \return True at the first hit found, whichever it is.
+/// \param ray    The ray. Hits lie in [t_min, t_max].
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] bool occluded_plain(const World<S, Compute>& world, const RayT<T>& ray) {
     std::uint32_t type = 0;
@@ -910,9 +927,9 @@ template <typename S, typename Compute, std::floating_point T>
 /// The first object that a ray meets, found by the tree. The result is the same as that
 /// of closest_hit_plain(), to the last bit.
 /// \param world  The closed scene.
-/// \param ray    Hits count in [t_min, t_max].
-/// \return The nearest hit; of several in one place see \ref contacts; nothing for a
-///         miss.
+/// \param ray    The ray. Hits lie in [t_min, t_max].
+/// \return The nearest hit; nothing for a miss. For several surfaces in one place see
+///         \ref contacts.
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] inline std::optional<SceneHitT<T>>
 closest_hit(const World<S, Compute>& world, const RayT<T>& ray) {
@@ -929,10 +946,10 @@ closest_hit(const World<S, Compute>& world, const RayT<T>& ray) {
     return place_of(world, ray, hit).met;
 }
 
-/// Whether any object intersects a ray, for shadow rays.
+/// Whether any object intersects a ray, for shadow rays. The first hit that is found
+/// ends the search.
 /// \param world  The closed scene.
-/// \param ray    Hits count in [t_min, t_max].
-/// \return True at the first hit found, whichever it is.
+/// \param ray    The ray. Hits lie in [t_min, t_max].
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] bool occluded(const World<S, Compute>& world, const RayT<T>& ray) {
     if (world.ids().empty()) return occluded_plain(world, ray);
@@ -945,8 +962,9 @@ template <typename S, typename Compute, std::floating_point T>
 
 /// Samples a point of a light, for a shadow ray.
 /// \param world  The closed scene.
-/// \param light  The number of one of its lights.
-/// \param from   The lit point; under a sun, within the sphere around the scene.
+/// \param light  The number of the light.
+/// \param from   The lit point. Under a sun it must be within the sphere around the
+///               scene.
 /// \param u      Point of the unit square.
 /// \param time   Time of the path, in [0, 1].
 /// \return The sample; nothing if the light does not shine in this direction.
