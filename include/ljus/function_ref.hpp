@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/function_ref.hpp
-/// \brief A reference to anything that can be called.
+/// \brief A reference to an object that can be called.
 
 #include <concepts>
 #include <type_traits>

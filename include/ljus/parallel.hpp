@@ -29,7 +29,8 @@ namespace ljus {
 inline constexpr int max_threads_allowed = 1024;
 
 /// The callback of a long loop: any object with a name that can be called as
-/// `bool progress(long long done, long long total)`. A loop stops if it returns false.
+/// `bool progress(long long done, long long total)`. The loop stops if the callback
+/// returns false.
 ///
 ///     auto progress = [&](long long done, long long total) { return !stopped; };
 ///     parallel_blocks(count, body, {.progress = progress});
@@ -69,13 +70,13 @@ struct ParallelSettings {
 namespace detail {
 
 /// The number of blocks of `size` items that cover `total` items; the last block may
-/// have fewer.
+/// have fewer items.
 [[nodiscard]] constexpr long long block_count(long long total,
                                               long long size) noexcept {
     return total / size + (total % size != 0 ? 1 : 0);
 }
 
-/// The items of a block: first <= i < last.
+/// The items i of a block, with first <= i < last.
 struct BlockRange {
     long long first = 0; ///< The first item.
     long long last = 0;  ///< One past the last item.

@@ -26,12 +26,12 @@ struct NoTrace {
 template <std::floating_point T>
 struct NearestHitT {
     ShapeHitT<T> at{};                                                ///< The hit.
-    std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Its index.
+    std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Primitive.
     bool found = false;     ///< Whether there is a hit.
     std::uint32_t slot = 0; ///< The primitive's slot, set by nearest_hit().
 
-    /// Accepts a nearer hit. It then sets the ray's t_max one ulp beyond the hit, so
-    /// that a primitive at the same t is still tested.
+    /// Accepts a hit if it is nearer than the nearest so far. The ray's t_max is then
+    /// set one ulp beyond the hit, so that a primitive at the same t is still tested.
     /// \return Whether the hit was accepted.
     bool offer(const ShapeHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
         if (found && !(hit.t < at.t || (hit.t == at.t && of < number))) return false;

@@ -32,16 +32,16 @@ template <std::floating_point T>
     return size.x * sizes(map[0]) + size.y * sizes(map[1]) + size.z * sizes(map[2]);
 }
 
-/// A bound on the components of a vector after the inverse map and then the map, if no
-/// terms cancel. Multiplied by the relative error of a step between the two maps, it
-/// bounds the error of the result.
+/// A bound on the components of a vector that is transformed by the inverse map and
+/// then by the map, if no terms cancel. The bound times the relative rounding error of
+/// the inverse map is a bound on the error of the result.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> there_and_back(const AffineT<T>& map, const AffineT<T>& back,
                                       const Vec3T<T>& size) noexcept {
     return transform_sizes(map, transform_sizes(back, size));
 }
 
-/// For each triangle of a mesh, the sum of the areas up to that triangle, in the scene.
+/// For each triangle of a mesh, the sum of the areas in the scene up to that triangle.
 template <std::floating_point T>
 [[nodiscard]] std::vector<double> placed_areas(const MeshT<T>& mesh,
                                                const AffineT<T>& place) {
@@ -285,7 +285,7 @@ texture_tangents(const InstanceT<T>& instance, const ShapeHitT<T>& hit) noexcept
             transform_vector(instance.place(), along_v)};
 }
 
-/// For each triangle, the sum of the areas up to that triangle, in the scene. A lamp
+/// For each triangle, the sum of the areas in the scene up to that triangle. A lamp
 /// keeps these sums for sample_area().
 /// \return The sums. Empty if the map stretches all directions by the same factor;
 ///         sample_area() then uses the sums of the mesh.

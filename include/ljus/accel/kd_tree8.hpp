@@ -173,7 +173,7 @@ public:
     /// \param wanted  Called with an index in the tree's order. If it returns false,
     ///                the point is skipped. By default all points are wanted.
     /// \tparam Most  An upper bound on found.size(). If it is at most 512, less code is
-    /// compiled.
+    ///               compiled.
     /// \return The number of points found. Among equally near points the choice is
     ///         arbitrary, but always the same.
     /// \cost On average O(log n) for n points, and some steps per wanted point; more if

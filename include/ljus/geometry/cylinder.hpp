@@ -26,7 +26,7 @@ namespace ljus {
 /// \{
 
 /// The points at the distance R from an axis, between the two ends of the axis. The
-/// outside is away from the axis.
+/// outside faces away from the axis.
 template <std::floating_point T>
 struct CylinderT {
     Vec3T<T> base{T(0)};             ///< One end of the axis, in scene units.
@@ -45,8 +45,7 @@ template <std::floating_point T>
 ///
 /// Projected along the axis, the ray is a line and the cylinder is a circle. The
 /// intersection is computed as in chord(), without cancellation.
-/// \tparam Compute  The precision of the arithmetic; by default double, as for
-/// triangles.
+/// \tparam Compute  The precision of the arithmetic; by default double.
 /// \param ray       The ray. Its direction may have any length except zero. Hits lie in
 ///                  [t_min, t_max].
 /// \param cylinder  The cylinder. In float arithmetic its lengths must be between 1e-15

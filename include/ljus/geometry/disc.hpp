@@ -19,7 +19,7 @@
 namespace ljus {
 
 /// \defgroup disc Discs
-/// \brief Section 3.1.5, with a circle as the border instead of a triangle.
+/// \brief Section 3.1.5: a flat shape, here with a circle as its border.
 /// \{
 
 /// The points of a plane within the distance R of a centre.
@@ -40,8 +40,7 @@ template <std::floating_point T>
 /// Intersects a ray O + tD with a disc. The ray meets the plane of the disc at
 /// \f$ t = N \cdot (C - O) / N \cdot D \f$. It hits the disc if the point O + tD lies
 /// within R of C.
-/// \tparam Compute  The precision of the arithmetic; by default double, as for
-/// triangles.
+/// \tparam Compute  The precision of the arithmetic; by default double.
 /// \param ray   The ray. Its direction may have any length except zero. Hits lie in
 ///              [t_min, t_max].
 /// \param disc  The disc. In float arithmetic its lengths must be between 1e-18 and

@@ -78,7 +78,7 @@ template <std::floating_point T>
 /// The distance at which a ray first hits metaballs, from outside or inside, within the
 /// ray's [t_min, t_max].
 /// \tparam Solver  QuarticPieces, Bisection, SphereTracing or Radicals. The default,
-/// QuarticPieces, is the fastest and the most accurate.
+///                 QuarticPieces, is the fastest and the most accurate.
 /// \return The smallest t at which f crosses 0, in units of the direction's length. It
 ///         is computed in double and rounded to T once. Nothing for a miss, a NaN, an
 ///         infinity, or a zero direction. A point with f >= 0 is inside.

@@ -23,7 +23,7 @@ concept Movable = Shape<S> && requires(const S& shape, const Vec3T<ScalarOf<S>>&
 /// A shape in linear motion. The shutter opens at time 0 and closes at time 1. A ray
 /// sees the shape at the ray's time.
 /// \tparam S  A sphere, a triangle, a quad, a disc, a cylinder or an instance of a
-/// mesh.
+///            mesh.
 // [moving]
 template <Movable S>
 struct Moving {
@@ -50,7 +50,7 @@ template <typename S, std::floating_point T>
 }
 // [at_time]
 
-/// The shape itself, because it does not move.
+/// A shape that does not move, at any time: the shape itself.
 template <typename S, std::floating_point T>
 requires(!detail::is_moving<S>)
     [[nodiscard]] constexpr const S& at_time(const S& shape, T) noexcept {
@@ -156,7 +156,7 @@ requires requires(const S& shape) {
     return area_sums(moving.shape);
 }
 
-/// The prototype of the shape.
+/// The object to which the shape refers, such as the mesh of an instance.
 template <typename S>
 requires requires(const S& shape) {
     prototype(shape);

@@ -94,7 +94,7 @@ template <std::floating_point T>
 
 /// The unit normal of a surface after scaling and rotation. Each component is divided
 /// by the factor of the scale before the rotation.
-/// \param normal     The normal before, of any length except 0.
+/// \param normal     The normal before scaling and rotation, of any length except 0.
 /// \param placement  The placement of the surface.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> placed_normal(const Vec3T<T>& normal,

@@ -50,8 +50,7 @@ template <std::floating_point T>
 }
 
 /// Intersects a ray with a quad.
-/// \tparam Compute  The precision of the arithmetic; by default double, as for
-/// triangles.
+/// \tparam Compute  The precision of the arithmetic; by default double.
 /// \param ray   The ray. Its direction may have any length except zero. Hits lie in
 ///              [t_min, t_max].
 /// \param quad  The quad. A quad with parallel edges is never hit.

@@ -19,8 +19,8 @@ namespace ljus {
 ///
 /// The report allows every t >= 0. A ray that leaves a surface may then hit the same
 /// surface again at t = 0. spawn_ray() avoids this. A ray hits nothing if its direction
-/// is zero, if t_min exceeds t_max, or if it contains a NaN or an infinity. Only t_max
-/// may be infinite.
+/// is zero, if t_min exceeds t_max, or if a member is NaN or infinite. Only t_max may
+/// be infinite.
 /// \report{Definition 3.1}
 // [ray]
 template <std::floating_point T>

@@ -98,8 +98,8 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
 /// \param ray     The ray. Hits lie within [t_min, t_max].
 /// \param sphere  The sphere. In float arithmetic its lengths must be between 1e-18 and
 ///                1e18.
-/// \return The smallest such t, in units of the direction's length. Nothing for a miss,
-///         or for data for which chord() returns nothing.
+/// \return The smallest t of a hit, in units of the direction's length. Nothing for a
+///         miss, or for data for which chord() returns nothing.
 /// \cost That of chord() and three comparisons.
 /// \report{Section 3.1.4, Eqs. (2) and (3)}
 // [intersect]
@@ -175,10 +175,10 @@ template <std::floating_point T>
 /// The point of a sphere that a ray hit: the point O + tD of the ray, projected onto
 /// the sphere.
 ///
-/// The vector from the centre C to the point is computed as (O - C) + tD. Without the
-/// large coordinates of the point it keeps its digits far from the scene's origin. If
-/// the sphere is so small and distant that nothing of that vector remains, the normal
-/// faces the ray.
+/// The vector from the centre C to the point is computed as (O - C) + tD. It is
+/// accurate even far from the scene's origin, where the coordinates of the point are
+/// large. If the sphere is so small and distant that nothing of that vector remains,
+/// the normal faces the ray.
 /// \return Position, error bound, outward normal.
 // [surface_point]
 template <std::floating_point T>
@@ -228,8 +228,9 @@ template <std::floating_point T>
     return {.axis = glm::normalize(way), .one_minus_cos = one_minus_cosine(sin2)};
 }
 
-/// Whether an observer is farther outside a sphere than rounding errors, so that the
-/// cone towards the sphere can be sampled. Otherwise the area of the sphere is sampled.
+/// Whether an observer is outside a sphere by more than the rounding error. Then the
+/// cone of directions to the sphere is sampled. Otherwise the area of the sphere is
+/// sampled.
 template <std::floating_point T>
 [[nodiscard]] bool sees_cone(const SphereT<T>& sphere, const Vec3T<T>& from) noexcept {
     const T doubt = T(8) * std::numeric_limits<T>::epsilon() *

@@ -22,11 +22,11 @@ namespace ljus {
 /// A point of a surface.
 template <std::floating_point T>
 struct SurfacePointT {
-    Vec3T<T> position{T(0)}; ///< In scene units.
+    Vec3T<T> position{T(0)}; ///< The position, in scene units.
     Vec3T<T> error{T(0)};    ///< Bound on the rounding error of each coordinate.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Geometric unit normal, on the outside.
     T tilt = T(0); ///< Condition number of the plane of a flat shape; see
-                   // /< detail::add_tilt(). 0 if it is not used.
+                   ///< detail::add_tilt(). 0 if it is not used.
 };
 using SurfacePoint = SurfacePointT<float>; ///< SurfacePointT in float.
 
@@ -126,8 +126,8 @@ template <std::floating_point T>
 }
 // [offset_ray_origin]
 
-/// A ray that leaves a surface and does not hit it again at its start. Its range is
-/// unbounded.
+/// A ray that leaves a surface and does not hit the surface again where it starts. Its
+/// t_max is infinite.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> spawn_ray(const SurfacePointT<T>& point,
                                 const Vec3T<T>& direction, T time = T(0)) noexcept {
@@ -206,9 +206,9 @@ enum class Spanned : std::uint8_t {
 /// wide as this rounding error, so that a ray hits at least one of the two. The border
 /// is omitted if it would be wider than the rounding of the data. See
 /// border_of_rounding().
-/// \tparam shape  What the two edges span.
+/// \tparam shape    What the two edges span.
 /// \tparam Compute  The precision of the arithmetic; results are rounded to T once. In
-/// float, shapes and distances must be between 1e-15 and 1e15.
+///                  float, shapes and distances must be between 1e-15 and 1e15.
 /// \param ray  The ray. Its direction may have any length except zero. Hits lie in
 ///             [t_min, t_max].
 /// \param v1   A corner.

@@ -62,8 +62,8 @@ heights_of(const SurfacePiece& piece, const glm::dvec3& point,
     return {low - piece.radius, high + piece.radius};
 }
 
-/// Whether the line along an edge of a polygon separates it from another piece in its
-/// plane. Polygons that only share an edge are separated.
+/// Whether the line along an edge of a polygon separates the polygon from another piece
+/// in the same plane. Polygons that only share an edge are separated.
 [[nodiscard, gnu::cold]] inline bool
 separated(const Facet& facet, const SurfacePiece& other, double distance) noexcept {
     const glm::dvec3 normal = area_vector(facet);
@@ -76,7 +76,7 @@ separated(const Facet& facet, const SurfacePiece& other, double distance) noexce
     return false;
 }
 
-/// Whether a displacement is parallel to the plane with a normal.
+/// Whether a displacement is parallel to the plane that has the given normal.
 [[nodiscard, gnu::cold]] inline bool slides(const glm::dvec3& normal,
                                             const glm::dvec3& way) noexcept {
     return std::abs(glm::dot(normal, way)) <=

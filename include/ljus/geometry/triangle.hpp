@@ -59,11 +59,12 @@ template <std::floating_point T>
 
 /// Intersects a ray with a triangle.
 /// \tparam Compute  The precision of the arithmetic; by default double, with which no
-/// ray passes between two adjacent triangles. intersect<float>() is the report's
-/// formula, which misses one in six rays aimed at edges.
+///                  ray passes between two adjacent triangles. intersect<float>() is
+///                  the report's formula, which misses one in six rays aimed at edges.
 /// \param ray       The ray. Its direction may have any length except zero. Hits lie in
 ///                  [t_min, t_max].
-/// \param triangle  The triangle. One without an area is never hit: see has_area().
+/// \param triangle  The triangle. A triangle without an area is never hit; see
+///                  has_area().
 /// \return The distance t, and the barycentric coordinates u and v of the hit
 ///         \f$(1-u-v)V_1 + uV_2 + vV_3\f$. Nothing for a miss.
 /// \report{Section 3.1.5}

@@ -66,7 +66,7 @@ template <std::same_as<Watertight> Test, std::floating_point T>
 /// \tparam Test  Watertight.
 /// \param ray       The ray. Its direction may have any length except zero. Hits lie in
 ///                  [t_min, t_max].
-/// \param triangle  The triangle. One without an area is never hit.
+/// \param triangle  The triangle. A triangle without an area is never hit.
 /// \param shear     Result of prepare() for this ray.
 /// \return The distance t, and the barycentric coordinates u and v. Nothing for a miss
 ///         or a non-finite input.

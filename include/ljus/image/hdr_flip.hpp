@@ -18,8 +18,8 @@ namespace detail {
 
 /// The range of exposures of HDR-FLIP.
 struct Exposures {
-    double first = 0; ///< In stops: here the brightest pixel is nearly white.
-    double last = 0;  ///< In stops: here half of the pixels are nearly white.
+    double first = 0; ///< In stops; at this one the brightest pixel is nearly white.
+    double last = 0;  ///< In stops; at this one half of the pixels are nearly white.
     int count = 2;    ///< Number of exposures, about one per stop, at least 2.
 };
 

@@ -58,7 +58,8 @@ template <std::floating_point T = float>
 }
 
 /// Requires that an image has width * height pixels.
-/// \throws std::invalid_argument  unless it has, and as require_image_size().
+/// \throws std::invalid_argument  if the number is another one, and as
+///         require_image_size().
 template <std::floating_point T>
 void check(const ImageT<T>& image) {
     require_image_size(image.width, image.height);
@@ -110,8 +111,8 @@ template <std::floating_point T>
     return image.pixels[detail::pixel_index(image, x, y)];
 }
 
-/// Requires an image of radiances that are finite and at least 0. One of them at least
-/// must be above 0.
+/// Requires an image of radiances that are finite and at least 0. At least one pixel
+/// must not be black.
 /// \param what   The name of the image, for the message.
 /// \param image  The image.
 /// \throws std::invalid_argument  as check(); if a pixel is negative or not finite,

@@ -34,7 +34,7 @@ template <std::floating_point T>
 struct PlaneMapT {
     Vec3T<T> origin{T(0)};             ///< The point with (u, v) = (0, 0).
     Vec3T<T> edge_u{T(1), T(0), T(0)}; ///< From u = 0 to u = 1, in scene units.
-    Vec3T<T> edge_v{T(0), T(0), T(1)}; ///< From v = 0 to v = 1; normal to edge_u.
+    Vec3T<T> edge_v{T(0), T(0), T(1)}; ///< From v = 0 to v = 1; at a right angle.
 };
 using PlaneMap = PlaneMapT<float>; ///< PlaneMapT in float.
 
@@ -113,7 +113,7 @@ void check(const PlaneMapT<T>& map) {
 }
 
 /// Requires a finite centre.
-/// \throws std::invalid_argument  with the centre.
+/// \throws std::invalid_argument  with the name of the member and its value.
 template <std::floating_point T>
 void check(const GlobeMapT<T>& map) {
     require_finite("globe_map.center", map.center);

@@ -20,7 +20,8 @@ namespace ljus {
 
 /// An affine map, as a GLM matrix of four columns. The first three columns form L: they
 /// are the images of the axes. The last column is b, the image of the origin. GLM's
-/// functions make such a matrix: `Affine(glm::translate(glm::mat4(1), by))`.
+/// functions make such a matrix, for example `Affine(glm::translate(glm::mat4(1), by))`
+/// for a translation by a vector.
 template <std::floating_point T>
 using AffineT = glm::mat<4, 3, T>;
 using Affine = AffineT<float>; ///< AffineT in float.

@@ -26,7 +26,7 @@ using Frame = FrameT<float>; ///< FrameT in float.
 /// \param n  Unit vector.
 /// \return A right-handed frame. For n from glm::normalize(), each length is within 3
 ///         units of roundoff of 1, and the dot product of each two vectors is within 8
-///         of 0.
+///         units of 0.
 /// \cost One division, no square root, no branch.
 template <std::floating_point T>
 [[nodiscard]] FrameT<T> frame_around(const Vec3T<T>& n) noexcept {

@@ -71,7 +71,7 @@ struct alignas(32) LaneMask {
 };
 
 /// Packs a mask into an integer with one byte per lane, for take_lane().
-/// \return The byte is 1 for a lane that is true, and 0 for the others.
+/// \return An integer. The byte of a lane is 1 if the lane is true, and 0 otherwise.
 [[nodiscard]] constexpr std::uint64_t yes_lanes(const LaneMask& mask) noexcept {
     std::array<std::int8_t, lane_count> bytes{};
     for (std::size_t i = 0; i < lane_count; ++i)
@@ -96,11 +96,10 @@ template <std::floating_point T>
     return bits;
 }
 
-/// The index of the smallest of eight numbers. Numbers that differ in their last three
-/// bits only count as equal.
-/// As integers, the bits of numbers >= 0 are ordered like the numbers. The function
-/// replaces the last three bits of each number by the index of its lane. The smallest
-/// integer then contains the index of the smallest number.
+/// The index of the smallest of eight numbers. Numbers that differ only in their last
+/// three bits count as equal. As integers, the bits of numbers >= 0 are ordered like
+/// the numbers. The function replaces the last three bits of each number by the index
+/// of its lane. The smallest integer then contains the index of the smallest number.
 /// \param numbers  The numbers; those in `among` must be >= 0.
 /// \param among    Bit mask of the lanes that count, with lane 0 in the lowest bit.
 /// \param bound    Numbers above `bound` and NaN do not count.

@@ -14,8 +14,8 @@ namespace ljus {
 ///
 /// The error of a mean over N random points falls like \f$N^{-1/2}\f$. For a smooth
 /// function of few dimensions, the error with scrambled Sobol points falls almost like
-/// \f$N^{-3/2}\f$. For a function with edges it falls more slowly, but remains below
-/// the error with random points.
+/// \f$N^{-3/2}\f$. For a function with edges the error falls more slowly, but remains
+/// below the error with random points.
 /// \{
 
 namespace detail {
@@ -90,9 +90,9 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 /// the halves of [0, 1), the halves of each half, and so on. The points therefore stay
 /// evenly spread, and each point alone becomes uniform over [0, 1).
 ///
-/// In a sum or a product, a bit depends on lower bits and not on higher ones. The
-/// function therefore reverses the bits, hashes them by sums and products, and reverses
-/// them again.
+/// A bit of a sum or a product depends only on lower bits of the operands, but here a
+/// bit must depend on the higher ones. The function therefore reverses the bits, hashes
+/// them by sums and products, and reverses them again.
 /// \param bits  The coordinate times 2^32.
 /// \param seed  The seed, different for each dimension. Seeds that differ only in their
 ///              last bits give correlated dimensions.
@@ -112,12 +112,13 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 
 } // namespace detail
 
-/// The numbers of one path. The numbers of all paths of a pass are spread evenly
-/// together. The first sobol_dimensions numbers of a path are a scrambled Sobol point,
-/// and all further ones are random. A SobolStream is used like a RandomStream.
+/// The random numbers of one path. Together, the numbers of all paths of a pass fill
+/// the unit cube evenly. The first sobol_dimensions numbers of a path are a scrambled
+/// Sobol point, and all further ones are random. A SobolStream is used like a
+/// RandomStream.
 ///
-/// Each number alone is uniform, so that means stay the same. The numbers of one path
-/// are independent of each other.
+/// Each number alone is uniform, so that the points do not change a mean. The numbers
+/// of one path are independent of each other.
 struct SobolStream {
     std::uint64_t seed = 0;      ///< Seed of the scrambling; the same for all paths.
     std::uint32_t index = 0;     ///< Index of the Sobol point.

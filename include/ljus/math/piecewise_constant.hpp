@@ -80,8 +80,8 @@ struct ChosenIntervalT {
 template <std::floating_point T>
 [[nodiscard]] ChosenIntervalT<T> choose_interval(std::span<const double> sums,
                                                  T u) noexcept {
-    // The place stays below the sum. It is therefore in an interval whose length is not
-    // 0.
+    // The position stays below the sum of all lengths, and so within an interval whose
+    // length is not 0.
     const double place =
         std::min(double(u) * sums.back(), std::nextafter(sums.back(), 0.0));
     const auto end = std::upper_bound(sums.begin(), sums.end(), place);

@@ -26,8 +26,8 @@ struct Strata {
 };
 
 /// Chooses the grid for a number of rays. It has one cell per ray, and the cells are as
-/// square as possible. If there would be more than four rows per column, as for a prime
-/// above 4, the function chooses n rooks.
+/// square as possible. If the grid would have more than four times as many rows as
+/// columns, as for a prime above 4, the function chooses n rooks.
 /// \erratum{The report's program steps by 1/sqrt(n) and drops the remainder: of 8 rays
 ///          it traced 4, and of 10 it traced 9 in nine tenths of the pixel.}
 [[nodiscard]] constexpr Strata strata_for(int rays) noexcept {
@@ -97,11 +97,11 @@ template <std::floating_point T>
 /// \{
 
 /// How the rays of a pixel are spread over the pixel. Every pattern has exactly the
-/// requested number of points. Each point alone is uniform over the pixel, so that the
-/// pattern does not change the mean of a pixel.
+/// requested number n of points. Each point alone is uniform over the pixel, so that
+/// the pattern does not change the mean of a pixel.
 enum class Sampling : std::uint8_t {
     random,         ///< Independent points.
-    jittered,       ///< One point in each cell of a grid; n rooks for a prime above 4.
+    jittered,       ///< One point per cell of a grid, or one per column and row.
     multi_jittered, ///< Jittered, with one point in each of n strips along x and y.
     sobol           ///< Sobol points with Owen's scrambling.
 };

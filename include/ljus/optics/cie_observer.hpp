@@ -56,8 +56,8 @@ template <std::floating_point T>
 
 /// Converts XYZ to linear sRGB. Light of equal energy at all wavelengths, X = Y = Z =
 /// 1, becomes the screen's white (1, 1, 1), so that a surface that reflects all light
-/// looks white. For this purpose X, Y and Z are multiplied by those of the screen's
-/// white before the matrix of the standard.
+/// looks white. For this purpose X, Y and Z are multiplied by the X, Y and Z of the
+/// screen's white before the matrix of the standard is applied.
 /// \param xyz  X, Y and Z relative to light of equal energy.
 /// \return Linear sRGB. A pure colour has a negative channel, because no screen can
 ///         show it.

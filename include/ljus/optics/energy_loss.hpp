@@ -18,10 +18,10 @@ namespace ljus {
 
 namespace detail {
 
-/// The fraction of light that white facets lose if light is reflected only once
-/// \cite kulla2017. It is tabulated over mu, the cosine between the direction of the
-/// light and the normal. The cells of the table are small near the horizon, where the
-/// loss is steep.
+/// The fraction of light that white facets lose if light is reflected only once: 1 -
+/// E(mu), where E(mu) is the fraction that they reflect \cite kulla2017. mu is the
+/// cosine between the direction of the light and the normal. The cells of the table are
+/// small near the horizon, where the loss is steep.
 template <std::floating_point T>
 struct EnergyLossT {
     static constexpr int cells = 128; ///< Number of cells of the table.
@@ -48,8 +48,8 @@ template <std::floating_point T>
     return std::sqrt(std::min(x, T(1))) * T(EnergyLossT<T>::cells);
 }
 
-/// The loss of white facets, 1 - E(mu), at the cosine mu. It is in [0, 1), and 0 for a
-/// mirror.
+/// The fraction of light that white facets lose at the cosine mu: 1 - E(mu), in [0, 1).
+/// It is 0 for a mirror.
 /// \cost A square root, a division and two adjacent table entries.
 // [lost at]
 template <std::floating_point T>
@@ -177,7 +177,8 @@ namespace detail {
 
 /// The albedo rho_m of the lobe of multiple scattering.
 /// \param reflectance  Reflectance of a facet, averaged over the angles, in [0, 1].
-/// \param loss         1 minus the mean of E, in [0, 1).
+/// \param loss         1 minus the mean fraction of light that white facets reflect, in
+///                     [0, 1).
 /// \return rho_m in [0, 1]; 1 for white.
 /// \cite kulla2017
 template <std::floating_point T>

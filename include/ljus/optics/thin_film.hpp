@@ -27,9 +27,9 @@ struct FilmSharesT {
 
 } // namespace detail
 
-/// The square of the film's index n times the cosine *inside* the film. It is
-/// \f$ \cos^2\theta + (n - 1)(n + 1) \f$ for the angle theta outside, which does not
-/// cancel.
+/// The square of \f$ n \cos\theta_t \f$, where n is the index of the film and theta_t
+/// the angle *inside* the film. It is computed without cancellation as
+/// \f$ \cos^2\theta + (n - 1)(n + 1) \f$, where theta is the angle outside.
 /// \return Negative if nothing is refracted into the film.
 template <std::floating_point T>
 [[nodiscard]] constexpr T film_cosine2(T cos_theta, T index) noexcept {

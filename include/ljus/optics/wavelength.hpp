@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/optics/wavelength.hpp
-/// \brief Declarations about wavelengths that programs without dispersion need as well.
+/// \brief Declarations about wavelengths that programs without dispersion also need.
 
 #include <concepts>
 

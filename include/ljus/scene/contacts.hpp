@@ -43,7 +43,8 @@ namespace ljus {
 ///
 /// A World looks for contacts once, when it is made. It compares flat shapes, meshes,
 /// spheres and cylinders, even if they move together or along each other. In all other
-/// cases, as where two cylinders cross, a path meets the object that was added first.
+/// cases, as where two cylinders cross, a path meets the object that comes first in the
+/// order of types and indices.
 /// \{
 
 template <std::floating_point T>

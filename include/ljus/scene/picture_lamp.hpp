@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/scene/picture_lamp.hpp
-/// \brief A matt surface whose lamp shows a picture: the material with its light.
+/// \brief The material of a matt surface that emits a picture.
 
 #include "ljus/image/image.hpp"
 #include "ljus/lights/picture_light.hpp"
@@ -48,7 +48,7 @@ template <std::floating_point T>
 /// \name Functions of the matt surface
 /// \{
 
-/// As of a LambertianT.
+/// As for a LambertianT.
 template <std::floating_point T>
 [[nodiscard]] constexpr Lobes lobes(const PictureLampT<T>&) noexcept {
     return Lobes::diffuse;
@@ -68,7 +68,7 @@ template <std::floating_point T>
     return pdf(LambertianT<T>{lamp.albedo}, wo, wi, which);
 }
 
-/// As of a LambertianT.
+/// As for a LambertianT.
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const PictureLampT<T>& lamp, const Vec3T<T>& wo, const Vec3T<T>& u,

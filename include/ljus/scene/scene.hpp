@@ -106,7 +106,7 @@ decltype(auto) visit_element(const Tuple& arrays, std::uint32_t type,
     return f(std::get<I>(arrays)[index]);
 }
 
-/// Calls f(array) with each array of a tuple. All have different types.
+/// Calls f(array) with each array of a tuple. All arrays have different types.
 template <typename... A, typename F>
 void each_array([[maybe_unused]] const std::tuple<A...>& arrays, F&& f) {
     (f(std::get<A>(arrays)), ...);

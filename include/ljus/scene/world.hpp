@@ -171,8 +171,8 @@ struct KeptPicturesT {
 
 } // namespace detail
 
-/// Selects the arithmetic of intersections, as an argument of the constructor: `World
-/// world(std::move(scene), compute_in<double>)`.
+/// Selects the arithmetic of intersections, as an argument of the constructor:
+/// `World world(std::move(scene), compute_in<double>)`.
 template <typename Compute>
 inline constexpr std::type_identity<Compute> compute_in{};
 

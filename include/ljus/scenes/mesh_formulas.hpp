@@ -56,8 +56,8 @@ struct UnitTriangles {
     return solid;
 }
 
-// Splits each triangle into four at the midpoints of its edges, which are moved onto
-// the sphere.
+// Splits each triangle into four at the midpoints of its edges. The midpoints are then
+// moved onto the sphere.
 inline void cut_in_four(UnitTriangles& mesh) {
     using Triple = UnitTriangles::Triple;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;

@@ -219,8 +219,8 @@ template <std::floating_point T = float>
 }
 
 /// The room of figures 11 and 13, with one lamp and four glass balls. No stored version
-/// of the report's program contains this room. Two of the balls were therefore fitted
-/// to the report's picture.
+/// of the report's program contains this room. Two of the balls were therefore
+/// estimated from the report's picture.
 /// \report{Figures 11 and 13, Tables 2 and 4}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> four_glass_room() {

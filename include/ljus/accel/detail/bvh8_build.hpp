@@ -30,7 +30,7 @@ namespace ljus::detail {
 template <std::floating_point T>
 class BvhCollapse {
 public:
-    static constexpr int width = 8; ///< Children of a wide node.
+    static constexpr int width = 8; ///< Largest number of children of a wide node.
 
     /// The children of one wide node, as nodes of the plain tree.
     struct Children {
@@ -126,7 +126,7 @@ struct Bvh8Node {
 struct Bvh8Child {
     static constexpr std::uint32_t leaf = 1u << 31; ///< The bit that marks a leaf.
     static constexpr int count_shift = 27;          ///< Position of count - 1.
-    static constexpr std::uint32_t first = (1u << count_shift) - 1; ///< The slot.
+    static constexpr std::uint32_t first = (1u << count_shift) - 1; ///< Slot bits.
     /// The number of primitives of a leaf.
     static constexpr std::uint32_t count(std::uint32_t child) noexcept {
         return ((child >> count_shift) & 15u) + 1;

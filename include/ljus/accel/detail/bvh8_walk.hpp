@@ -24,7 +24,7 @@ struct Bvh8Ray {
     std::array<std::size_t, 3> far{};  ///< Per axis, the plane that it meets last.
     float length = 0;                  ///< The direction's largest absolute component.
     float last = 0;                    ///< The largest t that is searched.
-    bool moderate = false; ///< Whether a product of three lengths cannot overflow.
+    bool moderate = false; ///< Whether a product of three such lengths is finite.
 };
 
 /// Prepares a ray. The two shifts enlarge the boxes by the margin of box_ray(). A
@@ -218,7 +218,7 @@ private:
 /// The traversal of every search. It tests the eight boxes of a node together and then
 /// visits a child \cite wald2008.
 /// \tparam any  If true, children are visited in any order. If false, nearer children
-/// come first, and the leaf function shortens the ray.
+///              come first, and the leaf function shortens the ray.
 /// \param wide   The tree.
 /// \param ray    The ray.
 /// \param leaf   Called as leaf(first slot, count, prepared ray). If it returns true,

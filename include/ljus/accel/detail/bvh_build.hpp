@@ -24,7 +24,7 @@ namespace ljus::detail {
 /// \{
 
 // A box during construction, stored as the lower bounds and the negated upper bounds.
-// To grow the box is then the same operation in all lanes, which compilers vectorise.
+// Growing the box is then the same operation in all lanes, which compilers vectorise.
 template <std::floating_point T>
 struct BoundsT {
     T side[8];
@@ -57,7 +57,7 @@ template <std::floating_point T>
 struct PrimitiveRefT {
     BoundsT<T> bounds;
     std::uint32_t id;
-    // Each bound is halved before they are added, because their sum could overflow.
+    // The bounds are halved before they are added, because their sum could overflow.
     [[nodiscard]] T center(int axis) const noexcept {
         return T(0.5) * bounds.side[axis] - T(0.5) * bounds.side[axis + 4];
     }

@@ -78,7 +78,7 @@ struct KdTree8Shape {
 template <std::floating_point T>
 struct KdTree8PartsT {
     KdTree8Shape shape{};                 ///< The layout.
-    StoredArray<KdTree8NodeT<T>> nodes{}; ///< Level by level.
+    StoredArray<KdTree8NodeT<T>> nodes{}; ///< The nodes, level by level.
     StoredArray<Lanes3T<T>> blocks{};     ///< The points, in blocks of eight.
     StoredArray<std::uint32_t> order{};   ///< Each point's index in the given list.
 

@@ -16,9 +16,9 @@
 
 namespace ljus::detail {
 
-/// A result set that visits all points within reach, leaf by leaf.
+/// A result set for walk() that visits all points within reach, leaf by leaf.
 /// \tparam Visit  Called as visit(first block, bits of the points). If it returns true,
-/// the search ends.
+///                the search ends.
 template <std::floating_point T, typename Visit>
 struct WithinT {
     static constexpr bool nearest_first = false;
@@ -143,9 +143,9 @@ void keep_nearest(CandidatesT<T>& all, std::size_t count, std::size_t k,
     reach = ReachT<T>::up_to(limit2, true);
 }
 
-/// A result set of the k nearest points, for k up to max_counted. It gathers
-/// candidates. When there are `enough` candidates, select_smallest() finds the k-th
-/// distance, which becomes the reach.
+/// A result set for walk() that finds the k nearest points, for k up to max_counted. It
+/// gathers candidates. When there are `enough` candidates, select_smallest() finds the
+/// k-th distance, which becomes the reach.
 template <std::floating_point T, typename Wanted>
 struct NearestCountedT {
     static constexpr bool nearest_first = true;
@@ -206,7 +206,8 @@ struct NearestCountedT {
     }
 };
 
-/// A result set of the k nearest points for any k. It uses the heap of the plain tree.
+/// A result set for walk() that finds the k nearest points, for any k. It uses the heap
+/// of the plain tree.
 template <std::floating_point T, typename Wanted>
 struct NearestHeapT {
     static constexpr bool nearest_first = true;

@@ -48,7 +48,7 @@ struct ReachT {
     /// \param beyond  Whether the limit itself is excluded.
     [[nodiscard]] static constexpr ReachT up_to(double limit, bool beyond) noexcept {
         using Numbers = std::numeric_limits<T>;
-        // The bounds keep `tiny` apart, because processors may flush denormals to 0.
+        // `tiny` is added to the margin, because processors may flush denormals to 0.
         constexpr double margin = 8 * double(Numbers::epsilon());
         constexpr double tiny = 4 * double(Numbers::min());
         constexpr double most = double(Numbers::max());

@@ -30,7 +30,7 @@ struct IntervalT {
     T high = T(0); ///< The largest number.
 };
 
-/// A field f along a ray O + tD, as a function of t. It is negative outside [enter,
+/// A field f along a ray O + tD, as a function of t. f is negative outside [enter,
 /// leave]. `value(t)` is f, `steepest()` is a bound on the absolute slope of f, and
 /// `range(a, b)` contains all values of f for t in [a, b].
 template <typename L, typename T>
