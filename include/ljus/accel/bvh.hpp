@@ -10,8 +10,8 @@
 namespace ljus {
 
 /// \defgroup bvh Bounding volumes
-/// \brief Discussion: "an octree, axis-aligned bounding boxes, or a binary space
-/// partition". Chapter: \ref ch_bvh.
+/// \brief The report's discussion: "an octree, axis-aligned bounding boxes, or a binary
+/// space partition". Chapter: \ref ch_bvh.
 /// \{
 
 /// The default observer of a traversal. It does nothing.
@@ -98,7 +98,8 @@ public:
     explicit BvhT(std::span<const BoxT<T>> boxes, const BvhSettings& settings = {})
         : tree_(detail::build_bvh(boxes, settings)) {}
 
-    /// The index of the primitive at each slot, in the span of the boxes.
+    /// For each slot of the tree, the index of the primitive's box in the span from
+    /// which the tree was built.
     [[nodiscard]] const std::vector<std::uint32_t>& primitive_ids() const noexcept {
         return tree_.primitive_ids;
     }
@@ -136,7 +137,7 @@ public:
             watch);
     }
 
-    /// Whether a test succeeds for any primitive that a ray may hit.
+    /// Whether a test succeeds for at least one of the primitives that a ray may hit.
     /// \param ray    The ray.
     /// \param test   Called as test(slot). If it returns true, the traversal ends.
     /// \param watch  Called with the index of each visited node.

@@ -9,8 +9,8 @@
 namespace ljus {
 
 /// \defgroup bvh8 Wide trees
-/// \brief The fast counterpart of the plain tree \cite wald2008, with the same
-/// searches and results. Chapter: \ref ch_bvh.
+/// \brief A faster tree with the searches and the results of the plain tree
+/// \cite wald2008. Chapter: \ref ch_bvh.
 /// \{
 
 /// A tree with up to eight children per node. It is made from the plain tree, as
@@ -25,7 +25,7 @@ public:
     /// \param settings  As for BvhT, with at most 16 primitives per leaf.
     /// \param multiple  The first slot of each leaf is a multiple of this number.
     ///                  Unused slots between leaves are padding.
-    /// \throws std::invalid_argument  as BvhT.
+    /// \throws std::invalid_argument  as the constructor of BvhT.
     template <typename Boxes>
     requires std::convertible_to<const Boxes&, std::span<const Box>>
     explicit Bvh8(const Boxes& boxes, const BvhSettings& settings = {},
@@ -72,7 +72,8 @@ public:
         detail::walk<false>(wide_, ray, each_slot(ask), watch);
     }
 
-    /// Whether a test succeeds for any primitive that a ray may hit; see BvhT::any().
+    /// Whether a test succeeds for at least one of the primitives that a ray may hit;
+    /// see BvhT::any().
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
         return detail::walk<true>(wide_, ray, each_slot(test), watch);

@@ -227,7 +227,7 @@ template <std::floating_point T>
 } // namespace detail
 
 /// The nearest hit of a ray on an instance. t is the same as for the mesh.
-/// \cost That of the mesh, and 18 multiplications.
+/// \cost That of intersect() for the mesh, and 18 multiplications.
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
                                                     const InstanceT<T>& instance) {

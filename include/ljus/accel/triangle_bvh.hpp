@@ -115,7 +115,7 @@ public:
     /// \param triangle  Called as triangle(i); returns a Triangle.
     /// \param threads   The number of threads that build the tree; 0 for all
     ///                  processors.
-    /// \throws std::invalid_argument  as BvhT.
+    /// \throws std::invalid_argument  as the constructor of BvhT.
     template <typename TriangleOf>
     TriangleBvh(std::uint32_t count, TriangleOf&& triangle, int threads = 0) {
         std::vector<Box> boxes;

@@ -14,7 +14,7 @@
 namespace ljus {
 
 /// \defgroup box Boxes
-/// \brief Discussion: "axis-aligned bounding boxes". Chapter: \ref ch_bvh.
+/// \brief The report's discussion: "axis-aligned bounding boxes". Chapter: \ref ch_bvh.
 /// \{
 
 /// An axis-aligned box, given by two opposite corners. The default box is empty.

@@ -83,8 +83,8 @@ intersect(const RayT<T>& ray, const CylinderT<T>& cylinder) noexcept {
     return std::nullopt;
 }
 
-/// The area of a cylinder without its ends, \f$ 2 \pi R |A| \f$, in squared scene
-/// units.
+/// The area of a cylinder without its ends, in squared scene units: \f$ 2 \pi R |A| \f$
+/// for the radius R and the axis A.
 template <std::floating_point T>
 [[nodiscard]] T area(const CylinderT<T>& cylinder) noexcept {
     return T(2) * std::numbers::pi_v<T> * cylinder.radius * glm::length(cylinder.axis);

@@ -30,7 +30,7 @@ struct Facet {
 
 namespace detail {
 
-/// A facet whose front is the back of the given one.
+/// The given facet with its front and its back exchanged.
 [[nodiscard]] constexpr Facet turned(const Facet& facet) noexcept {
     Facet other{.count = facet.count};
     for (int i = 0; i < facet.count; ++i)

@@ -147,7 +147,7 @@ requires requires(const S& shape, const ShapeHitT<T>& hit, const Vec3T<T>& norma
     return shading_normal(moving.shape, hit, geometric);
 }
 
-/// The areas of the shape's parts, which a displacement does not change.
+/// The result of area_sums() for the shape, which a displacement does not change.
 template <typename S>
 requires requires(const S& shape) {
     area_sums(shape);

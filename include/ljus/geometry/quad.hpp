@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/quad.hpp
-/// \brief The parallelogram: the report's lamps and walls.
+/// \brief The parallelogram, which the report uses for lamps and walls.
 
 #include <array>
 #include <limits>
@@ -17,8 +17,9 @@
 namespace ljus {
 
 /// \defgroup quad Quads
-/// \brief Section 3.1.5, with other bounds for u and v. One test replaces the tests of
-/// two triangles, and no ray can pass through a diagonal.
+/// \brief Section 3.1.5: the intersection test of triangles, with other bounds for u
+/// and v. One test replaces the tests of two triangles, and no ray can pass through a
+/// diagonal.
 /// \{
 
 /// The points \f$ V_1 + uE_1 + vE_2 \f$ with u and v in [0, 1].

@@ -91,7 +91,7 @@ struct Unprepared {};
 } // namespace detail
 
 /// Computes, once per ray, the data that an intersection test uses for every shape.
-/// Most tests use none; prepare<Watertight>() returns some.
+/// Most tests need no such data and get an empty struct; see prepare<Watertight>().
 template <typename Test = void, std::floating_point T>
 [[nodiscard]] constexpr detail::Unprepared prepare(const RayT<T>&) noexcept {
     return {};

@@ -36,7 +36,7 @@ template <std::floating_point T>
     return {.t = t};
 }
 
-/// Returns the hit that a shape's intersect() returned.
+/// Returns its argument, for a shape whose intersect() already returns a hit.
 template <std::floating_point T>
 [[nodiscard]] constexpr ShapeHitT<T> as_hit(const ShapeHitT<T>& hit) noexcept {
     return hit;
@@ -78,8 +78,9 @@ concept Samplable = Shape<S> && HasArea<S> &&
 };
 
 /// A shape that can have a normal map. `texture_tangents(shape, hit)` returns two
-/// vectors along which the texture coordinates u and v grow: the derivatives of the
-/// point by u and by v, of any length. A vector is 0 where there is no derivative.
+/// vectors along which the texture coordinates u and v grow. They point along the
+/// derivatives of the point by u and by v, and may have any length. A vector is 0 where
+/// there is no derivative.
 template <typename S>
 concept HasTangents = requires(const S& shape, const ShapeHitT<ScalarOf<S>>& hit) {
     { texture_tangents(shape, hit) } -> std::same_as<std::array<Vec3T<ScalarOf<S>>, 2>>;
@@ -249,7 +250,7 @@ template <Shape S>
 /// | sphere          | longitude and latitude, as in a GlobeMap at its centre     |
 /// | disc            | the disc fills the circle in the unit square               |
 /// | cylinder        | around its axis, and along it: [0, 1] x [0, 1]             |
-/// | mesh            | interpolated between its vertices, or the triangle's       |
+/// | mesh | interpolated between its vertices, or as for a triangle |
 /// | moving shape    | those of its shape                                         |
 /// | instance        | those of its mesh                                          |
 /// | any other shape | u and v of the hit; (0, 0) if it has none                  |

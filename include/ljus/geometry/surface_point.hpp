@@ -107,8 +107,8 @@ template <std::floating_point T>
 ///
 /// The report's program has four fixed offsets, from 0.0001 to 0.1. A fixed offset is
 /// too long for a small scene and too short far from the origin. Here the offset along
-/// the normal is twice the error of the point, plus 4 units in the last place of its
-/// largest coordinate.
+/// the normal is twice the point's error along the normal, plus 4 units in the last
+/// place of its largest coordinate.
 ///
 /// In double, a ray that leaves a flat shape may hit the shape again if its angle to
 /// the plane is below about 20 units of roundoff times the point's `tilt`. Below that

@@ -109,8 +109,8 @@ separated(const Facet& facet, const SurfacePiece& other, double distance) noexce
             .count = 4};
 }
 
-/// A box around the point where a sphere or a tube touches another surface. In it the
-/// two surfaces are close to each other.
+/// A box around the point where a sphere or a tube touches another surface. Inside this
+/// box the two surfaces are close to each other.
 [[nodiscard, gnu::cold]] inline BoxT<double>
 around_touch(const glm::dvec3& touch, double radius, double distance) noexcept {
     const double half = std::sqrt(8 * radius * distance) + distance;
@@ -226,8 +226,8 @@ shared_by_round(const SurfacePiece& one, const SurfacePiece& other,
 /// \param one       A piece.
 /// \param other     The other piece.
 /// \param distance  Surfaces within this distance count as in one place; scene units.
-/// \return The place. Nothing if the pieces cross, if they share only an edge or a
-///         corner, or if they meet only for an instant.
+/// \return The shared place. Nothing if the pieces cross, if they share only an edge or
+///         a corner, or if they meet only for an instant.
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_place(const SurfacePiece& one, const SurfacePiece& other,
              double distance) noexcept {

@@ -63,7 +63,8 @@ template <std::floating_point T>
 }
 // [filter weight]
 
-/// A film position that was sampled for a pixel, and the weight of a ray through it.
+/// A film position that was sampled for a pixel, and the weight of a ray through this
+/// position.
 template <std::floating_point T>
 struct FilterSampleT {
     Vec2T<T> place{T(0)}; ///< Measured from the pixel's upper left corner, in pixels.

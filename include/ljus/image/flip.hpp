@@ -203,8 +203,8 @@ template <std::floating_point T, std::floating_point U, typename Make>
     return map;
 }
 
-/// A picture in YCxCz as a viewer sees it, in linear sRGB: each channel is blurred by
-/// the eye's contrast sensitivity.
+/// Converts a picture from YCxCz to what a viewer sees, in linear sRGB. Each channel is
+/// blurred by the eye's contrast sensitivity.
 [[nodiscard]] inline ImageT<double> eye_filtered(const ImageT<double>& image,
                                                  double ppd) {
     constexpr double pi = std::numbers::pi;
@@ -233,7 +233,7 @@ template <std::floating_point T, std::floating_point U, typename Make>
     return seen;
 }
 
-/// The strength of edges and points at each pixel of a YCxCz picture. These are the
+/// The strengths of edges and of points at each pixel of a YCxCz picture. They are the
 /// lengths of the first and the second derivative of lightness, smoothed by a Gaussian
 /// as wide as the eye's edge detector, 0.082 degrees.
 /// \return Edges in the first channel, points in the second.

@@ -34,8 +34,9 @@ struct Exposures {
 }
 
 /// The range of exposures at which a picture shows details.
-/// \return The first exposure maps the brightest luminance to 0.85 by film_curve(). The
-///         last exposure maps the median luminance to 0.85.
+/// \return The range. At the first exposure, film_curve() maps the brightest luminance
+///         to 0.85. At the last exposure, film_curve() maps the median luminance to
+///         0.85.
 template <std::floating_point T>
 [[nodiscard]] Exposures exposures_of(const ImageT<T>& reference) {
     check(reference);

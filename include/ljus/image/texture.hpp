@@ -45,8 +45,8 @@ struct GlobeMapT {
 };
 using GlobeMap = GlobeMapT<float>; ///< GlobeMapT in float.
 
-/// Uses the coordinates of the point on its own shape, which a mesh reads from its
-/// file. The coordinates are scaled, then rotated, then displaced.
+/// Uses the coordinates of the point on its own shape. The coordinates of a mesh come
+/// from its file. They are scaled, then rotated, then displaced.
 template <std::floating_point T>
 struct UvMapT {
     static constexpr bool uses_uv = true; ///< See texture_coordinates().
@@ -185,7 +185,8 @@ enum class PictureFilter : std::uint8_t {
     nearest   ///< The colour of the pixel that contains the point.
 };
 
-/// An image with its lower left corner at (0, 0) and its upper right corner at (1, 1).
+/// An image with its lower left corner at (u, v) = (0, 0) and its upper right corner at
+/// (1, 1).
 template <std::floating_point T, typename Map = PlaneMapT<T>>
 struct PictureTextureT {
     static constexpr bool uses_uv = UsesUv<Map>; ///< As the map declares it.

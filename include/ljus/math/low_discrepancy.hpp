@@ -117,8 +117,8 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 /// Sobol point, and all further ones are random. A SobolStream is used like a
 /// RandomStream.
 ///
-/// Each number alone is uniform, so that the points do not change a mean. The numbers
-/// of one path are independent of each other.
+/// Each number alone is uniform, so that expected values stay the same. The numbers of
+/// one path are independent of each other.
 struct SobolStream {
     std::uint64_t seed = 0;      ///< Seed of the scrambling; the same for all paths.
     std::uint32_t index = 0;     ///< Index of the Sobol point.

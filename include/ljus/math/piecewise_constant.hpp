@@ -94,8 +94,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// Chooses a cell with a probability proportional to its weight, and a point in the
-/// cell, uniformly. Close u give close points, so that stratified u give stratified
-/// points.
+/// cell, uniformly. Nearby values of u give nearby points, so that stratified values
+/// give stratified points.
 /// \return A cell whose weight is not 0.
 /// \cost Two binary searches.
 // [sample_cell]

@@ -84,9 +84,9 @@ template <std::floating_point T, std::size_t N>
     return T(8) * std::numeric_limits<T>::epsilon() * largest;
 }
 
-/// The root between a and b, where p has opposite signs. Each step is a step of
-/// Newton's method if that is at most half as long as the last step; otherwise the step
-/// bisects the interval.
+/// The root between a and b, where p has opposite signs. A step is a step of Newton's
+/// method if it stays in the interval and is at most half as long as the last step.
+/// Otherwise it bisects the interval.
 /// \return The root. Where p is steep, the error is at most one unit of roundoff of 1.
 /// \cost At most 2 steps per bit of T's mantissa.
 // [root_between]

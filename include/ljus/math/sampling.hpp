@@ -152,8 +152,8 @@ template <std::floating_point T>
 }
 
 /// Samples a point of a triangle, uniformly in area. The square is folded along its
-/// diagonal \cite heitz2019, so that close u give close points. No square root is
-/// needed.
+/// diagonal \cite heitz2019, so that nearby values of u give nearby points. No square
+/// root is needed.
 /// \return Barycentric coordinates of the three vertices, each >= 0, with sum 1.
 /// \cost Five additions and multiplications.
 template <std::floating_point T>

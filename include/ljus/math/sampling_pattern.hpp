@@ -134,11 +134,11 @@ struct Pattern {
 
 namespace detail {
 
-/// Finds the x strip of point number i in a multi-jittered pattern whose last row is
-/// incomplete. There are as many strips as points. A column with a point in the last
-/// row has one strip more than the other columns. These wider columns are spread evenly
-/// over the pixel from a random start. Finally all strips are shifted cyclically by the
-/// same random number, so that each strip is equally likely.
+/// Finds the strip along x that contains point number i of a multi-jittered pattern
+/// whose last row is incomplete. There are as many strips as points. A column with a
+/// point in the last row has one strip more than the other columns. These wider columns
+/// are spread evenly over the pixel from a random start. Finally all strips are shifted
+/// cyclically by the same random number, so that each strip is equally likely.
 /// \return The strip, in [0, points), another one for each i.
 /// \cost Two calls of shuffled() and five divisions.
 [[nodiscard]] constexpr std::uint32_t

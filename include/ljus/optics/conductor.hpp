@@ -95,7 +95,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Requires an index that a metal can have; `what` is its name, e.g. "metal.index".
+/// Requires an index that a metal can have. `what` is the name of the index, e.g.
+/// "metal.index".
 template <std::floating_point T>
 void require_conductor(std::string_view what, const ConductorIndexT<T>& index) {
     require_radiance(std::string(what) + ".n", index.n);

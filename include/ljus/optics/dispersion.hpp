@@ -171,7 +171,7 @@ template <std::floating_point T>
 /// The density of sample_wavelength(): the mean over the three channels of the eye's
 /// response.
 /// \param nm  The wavelength in nm.
-/// \return Per nm; 0 outside [360, 830].
+/// \return The density per nm; 0 outside [360, 830].
 template <std::floating_point T>
 [[nodiscard]] T pdf_wavelength(T nm) {
     const auto [first, last] = detail::visible<double>;
@@ -183,7 +183,7 @@ template <std::floating_point T>
 }
 
 /// Samples a wavelength in proportion to the eye's response.
-/// \param u  A random number in [0, 1). Close u give close wavelengths.
+/// \param u  A random number in [0, 1). Nearby values give nearby wavelengths.
 /// \return The wavelength in nm, in [360, 830].
 /// \cost A binary search among 94 bands.
 template <std::floating_point T>

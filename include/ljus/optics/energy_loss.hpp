@@ -33,7 +33,7 @@ struct EnergyLossT {
 };
 
 /// The cosine at a position of the table, \f$ \alpha s^2 / (\alpha + 1 - s^2) \f$. The
-/// position goes from 0 to EnergyLossT::cells, and s is the position over
+/// position goes from 0 to EnergyLossT::cells, and s is the position divided by
 /// EnergyLossT::cells.
 template <std::floating_point T>
 [[nodiscard]] constexpr T facet_cosine(T alpha, T place) noexcept {
@@ -114,7 +114,7 @@ inline double energy_loss(double alpha, double mu) {
     return sum / (rows * columns);
 }
 
-/// Makes the table of one roughness, in double.
+/// Makes the table for one roughness. It is computed in double.
 /// \param alpha  Roughness: 0 for a mirror, otherwise in [1e-4, 1].
 /// \return The table. Its values are up to 4e-4 below the loss, so that interpolation
 ///         adds no light. At the horizon they are less than 1e-5 above the loss.

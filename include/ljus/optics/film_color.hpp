@@ -42,8 +42,8 @@ template <std::floating_point T, typename Spectrum>
 }
 // [spectrum color]
 
-/// The colour of a film by integration over the spectrum; the reference for the other
-/// functions. The samples are so close that they resolve the fringes of the film.
+/// The colour of a film by integration over the spectrum. It is the reference for the
+/// other functions. The samples are so close that they resolve the fringes of the film.
 /// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
 /// \param index      Index of the film, >= 1.
 /// \param thickness  In nm, >= 0.
@@ -76,8 +76,8 @@ inline constexpr Vec3T<T> screen_wavelengths{T(611.4), T(549.1), T(464.3)};
 /// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
 /// \param index      Index of the film, > 0.
 /// \param thickness  In nm, >= 0.
-/// \return The reflectance in [0, 1] for each channel. Unlike real ones, the fringes of
-///         a thick film do not fade.
+/// \return The reflectance in [0, 1] for each channel. The fringes of a thick film do
+///         not fade, although real fringes do.
 /// \cost Three times thin_film().
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_three(T cos_theta, T index, T thickness) noexcept {

@@ -76,7 +76,7 @@ void add_cell(FilmTableT<T>& table, const RgbT<double>& color) {
 
 } // namespace detail
 
-/// Makes the table of one index, in double.
+/// Makes the table for one index. It is computed in double.
 /// \param index  The index of the films, in [1, 1000].
 /// \param size   The resolution. The default has 42 000 colours, half a megabyte in
 ///               float.

@@ -80,7 +80,7 @@ template <std::floating_point T>
 /// \param n_i          Index on the side of the incoming ray, in [1e-9, 1e9].
 /// \param n_t          Index on the other side, in [1e-9, 1e9].
 /// \return The reflectance, in [0, 1]. Between indices 1 and 1.5 it is within 0.036 of
-///         fresnel(), from either side.
+///         fresnel(), for rays from either side.
 /// \cost One square root if n_i > n_t, otherwise none.
 /// \report{Section 3.2.5}
 template <std::floating_point T>

@@ -12,8 +12,8 @@
 namespace ljus {
 
 /// \defgroup microfacet Microfacets
-/// \brief Section 3.2.4, between the mirror and Lambert: a rough surface of small
-/// mirrors.
+/// \brief Section 3.2.4: a rough surface made of small mirrors, between a mirror and a
+/// Lambertian surface.
 ///
 /// The distribution of the facets' normals is GGX \cite walter2007. It is that of an
 /// ellipsoid flattened by the factor alpha, the roughness. All directions are unit

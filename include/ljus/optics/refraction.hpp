@@ -17,8 +17,8 @@ namespace ljus {
 /// Let \f$ \eta = n_1/n_2 \f$, where n_1 is the index of the medium that the ray leaves
 /// and n_2 the index of the medium that the ray enters. Snell's law multiplies P, the
 /// component of the direction D along the surface, by \f$ \eta \f$. The refracted
-/// direction T has unit length, which gives the cosine of the angle theta_2 between T
-/// and the normal N:
+/// direction T has unit length, which gives the cosine of the refracted ray's angle
+/// theta_2. theta_1 is the angle of the incoming ray, and N is the normal:
 ///
 /// \f[ T = \eta P \pm N \cos\theta_2, \qquad
 ///     \cos^2\theta_2 = \cos^2\theta_1 + (1 - \eta)(1 + \eta)\,|P|^2 \f]
@@ -100,8 +100,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Requires an index of refraction within [0.001, 1000]; `what` is its name, e.g.
-/// "glass.index".
+/// Requires an index of refraction within [0.001, 1000]. `what` is the name of the
+/// index, e.g. "glass.index".
 template <std::floating_point T>
 void require_index(std::string_view what, T index) {
     require_positive(what, index);

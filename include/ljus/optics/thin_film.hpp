@@ -77,7 +77,7 @@ template <std::floating_point T>
 /// R_1 is the reflectance of one surface, n the index, d the thickness, lambda the
 /// wavelength, and theta_t the angle inside the film.
 ///
-/// The function computes \f$ F \sin^2\varphi = q^2 / 4\cos^2\theta \f$, in which
+/// The function computes \f$ F \sin^2\varphi = q^2 / (4\cos^2\theta) \f$, in which
 /// nothing cancels, for the angle theta outside. For waves polarised perpendicular to
 /// the plane of incidence, \f$ q = (n^2 - 1) \sin\varphi / g \f$ with
 /// \f$ g = n \cos\theta_t \f$. For the other waves q is multiplied by

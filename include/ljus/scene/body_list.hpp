@@ -24,19 +24,19 @@ struct BodyList {
 
     /// The rank of the body whose medium counts; 0 outside all bodies.
     [[nodiscard]] constexpr std::uint8_t top() const noexcept { return ranks[0]; }
-    /// Whether a body of a material is in the list.
+    /// Whether a body of the given rank is in the list.
     [[nodiscard]] constexpr bool has(std::uint8_t rank) const noexcept {
         return std::find(ranks.begin(), ranks.end(), rank) != ranks.end();
     }
-    /// The list with one more body of a rank.
+    /// A copy of the list with one more body of the given rank.
     [[nodiscard]] constexpr BodyList with(std::uint8_t rank) const noexcept {
         BodyList list = *this;
         for (std::uint8_t& place : list.ranks)
             if (rank > place) std::swap(rank, place);
         return list;
     }
-    /// The list with one body less of a rank. If there is no such body, the list is
-    /// unchanged.
+    /// A copy of the list without one body of the given rank. If there is no such body,
+    /// the copy is equal to the list.
     [[nodiscard]] constexpr BodyList without(std::uint8_t rank) const noexcept {
         BodyList list = *this;
         const auto at = std::find(list.ranks.begin(), list.ranks.end(), rank);

@@ -68,7 +68,7 @@ template <std::floating_point T>
             .half_height = static_cast<T>(std::tan(half_angle))};
 }
 
-/// The camera of a view in float; accepts a view in braces.
+/// The camera of a view in float. The view may be written in braces.
 [[nodiscard]] inline Camera look_at(const View& view) {
     return look_at<float>(view);
 }

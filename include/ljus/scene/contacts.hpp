@@ -33,10 +33,10 @@ namespace ljus {
 /// | in one place                             | what a path meets                   |
 /// |------------------------------------------|-------------------------------------|
 /// | a lamp and any other surface             | the lamp; the brighter of two lamps |
-/// | an opaque surface and a body             | the opaque surface, without air     |
+/// | an opaque surface and a transparent body | the opaque surface, without air     |
 /// |                                          | between them                        |
-/// | two bodies, one on each side             | one boundary of the relative index  |
-/// | two bodies, on the same side             | the body of the higher index        |
+/// | two transparent bodies on opposite sides | one boundary, of the relative index |
+/// | two transparent bodies on the same side  | the body of the higher index        |
 /// | two opaque surfaces                      | the surface whose material covers   |
 /// |                                          | less area                           |
 /// | a thin surface and any other surface     | the other surface                   |
@@ -260,10 +260,11 @@ contacts_of(const ContactSearch& search);
            b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
-/// A tree over boxes. Each box has a *look*, a number. Boxes of the same look are not
-/// compared with each other.
+/// A tree over boxes. Each box has a number, its *look*. Surfaces of the same look have
+/// the same appearance, and their boxes are not compared with each other.
 class LookTree {
 public:
+    /// Builds the tree.
     /// \param boxes  The boxes, in units of the scene's largest coordinate, so that
     ///               floats can represent them. Each box is enlarged by
     ///               contact_distance().

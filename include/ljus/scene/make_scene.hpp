@@ -18,7 +18,7 @@ namespace ljus {
 ///         placed(Quad{{-1, 4, -1}, {2, 0, 0}, {0, 0, 2}}, Lambertian{}, Rgb{10}),
 ///         PointLight{.position{0, 3, 3}}));
 ///
-/// makes a World of a `Scene<Shapes<Sphere, Quad>, Materials<Glass, Lambertian>,
+/// This makes a World of a `Scene<Shapes<Sphere, Quad>, Materials<Glass, Lambertian>,
 /// Lights<PointLight>>`.
 /// \{
 
@@ -114,9 +114,9 @@ scene_of(TypeList<S...>, TypeList<M...>, TypeList<L...>) {
 
 } // namespace detail
 
-/// Makes a scene of shapes and lights, which are added in the order of the arguments. A
-/// type is listed where it first occurs. Each placed() shape gets a material of its
-/// own. Shapes that share a material are added by Scene::add().
+/// Makes a scene of shapes and lights, which are added in the order of the arguments.
+/// Types are listed in the order in which they first occur. Each placed() shape gets a
+/// material of its own. Shapes that share a material are added by Scene::add().
 /// \param parts  Lights and placed() shapes, with at least one shape. All have the same
 ///               precision.
 /// \return The scene.

@@ -48,27 +48,27 @@ template <std::floating_point T>
 /// \name Functions of the matt surface
 /// \{
 
-/// As for a LambertianT.
+/// The lobes, the same as for a LambertianT.
 template <std::floating_point T>
 [[nodiscard]] constexpr Lobes lobes(const PictureLampT<T>&) noexcept {
     return Lobes::diffuse;
 }
 
-/// As for a LambertianT, in 1/sr, without the cosine.
+/// The BRDF, the same as for a LambertianT, in 1/sr and without the cosine.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const PictureLampT<T>& lamp, const Vec3T<T>& wo,
                                const Vec3T<T>& wi) noexcept {
     return evaluate(LambertianT<T>{lamp.albedo}, wo, wi);
 }
 
-/// As for a LambertianT, per steradian.
+/// The density of sample(), the same as for a LambertianT, per steradian.
 template <std::floating_point T>
 [[nodiscard]] T pdf(const PictureLampT<T>& lamp, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
     return pdf(LambertianT<T>{lamp.albedo}, wo, wi, which);
 }
 
-/// As for a LambertianT.
+/// Samples a direction, in the same way as for a LambertianT.
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const PictureLampT<T>& lamp, const Vec3T<T>& wo, const Vec3T<T>& u,

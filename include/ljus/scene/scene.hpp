@@ -22,22 +22,24 @@
 namespace ljus {
 
 /// \defgroup scene Scenes
-/// \brief A scene lists its types; a type that is not listed costs nothing.
+/// \brief A scene lists the types of its shapes, materials, lights and media. Code for
+/// other types is not compiled.
 /// \{
 
-/// The closed list of a scene's shape types.
+/// The list of the types of shapes that a scene may contain.
 template <Shape... S>
 struct Shapes {};
 
-/// The closed list of a scene's material types.
+/// The list of the types of materials that a scene may contain.
 template <Material... M>
 struct Materials {};
 
-/// The closed list of a scene's light types, except emissive objects.
+/// The list of the types of lights that a scene may contain. Emissive objects are not
+/// listed.
 template <LightSource... L>
 struct Lights {};
 
-/// The closed list of a scene's media; see \ref medium.
+/// The list of the types of media that a scene may contain; see \ref medium.
 template <Medium... P>
 struct Media {};
 
@@ -82,7 +84,7 @@ namespace detail {
 /// last type.
 template <typename X, typename First, typename... List>
 inline constexpr std::uint32_t type_number = 0;
-/// The case of at least two types.
+/// type_number for at least two types.
 template <typename X, typename First, typename Second, typename... List>
 inline constexpr std::uint32_t type_number<X, First, Second, List...> =
     std::is_same_v<X, First> ? 0 : 1 + type_number<X, Second, List...>;
@@ -90,7 +92,8 @@ inline constexpr std::uint32_t type_number<X, First, Second, List...> =
 /// True if no type is listed twice.
 template <typename... T>
 inline constexpr bool each_once = true;
-/// The first type differs from all others, and these are distinct.
+/// The case of at least one type: the first differs from all others, and the others are
+/// distinct.
 template <typename First, typename... T>
 inline constexpr bool each_once<First, T...> =
     !(std::is_same_v<First, T> || ...) && each_once<T...>;
@@ -112,8 +115,8 @@ void each_array([[maybe_unused]] const std::tuple<A...>& arrays, F&& f) {
     (f(std::get<A>(arrays)), ...);
 }
 
-/// Whether f(array) is true for any array of a tuple. The arrays after the first such
-/// array are not tested.
+/// Whether f(array) is true for at least one array of a tuple. The arrays after the
+/// first such array are not tested.
 template <typename... A, typename F>
 [[nodiscard]] bool any_array([[maybe_unused]] const std::tuple<A...>& arrays, F&& f) {
     return (f(std::get<A>(arrays)) || ...);
@@ -151,8 +154,8 @@ public:
         kept_.push_back(std::move(one));
         return kept_.back();
     }
-    /// \throws std::invalid_argument  if a shape refers to an object that is not kept
-    ///         here.
+    /// Checks that the object to which a shape refers is kept here.
+    /// \throws std::invalid_argument  if it is not.
     template <typename S>
     void require_kept(const S& shape) const {
         if constexpr (!std::is_void_v<typename PrototypeOf<S>::type>) {
@@ -311,7 +314,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
         std::get<std::vector<X>>(media).push_back(medium);
     }
 
-    /// Diagnoses an unlisted type.
+    /// Reports an unlisted type at compile time.
     template <typename X>
     requires(!lists<X> && !std::is_same_v<X, Prototype>) MaterialId add(const X&) {
         constexpr bool light = LightSource<X>, medium = Medium<X>;
@@ -321,7 +324,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
                       "Neither a light nor listed: Scene<..., Materials<...>>.");
         return {};
     }
-    /// Diagnoses an unlisted shape, or a material instead of its number.
+    /// Reports, at compile time, an unlisted shape or a material instead of its number.
     template <typename G, typename Made>
     ObjectId add(const G&, const Made&, RgbT<Scalar> = {}, bool = false) {
         static_assert(lists<G>, "List the shape: Scene<Shapes<...>, ...>.");
@@ -336,7 +339,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
 
     /// The emission of an object, including that of its material.
     /// \param object  An object with a material of this scene.
-    /// \return W/(m^2 sr).
+    /// \return The emission, in W/(m^2 sr).
     /// \throws std::invalid_argument  if the material is unknown, if the radiance is
     ///         out of range, or if a surface that is thin or has holes emits.
     [[nodiscard]] RgbT<Scalar> emission_of(const ObjectT<Scalar>& object) const {
@@ -362,7 +365,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     }
 
     /// Whether a predicate on types, a lambda `[]<typename G>() { ... }`, is true for
-    /// any listed shape.
+    /// at least one listed type of shape.
     template <typename F>
     [[nodiscard]] static constexpr bool any_shape(F f) noexcept {
         return f.template operator()<FirstShape>() ||

@@ -85,9 +85,9 @@ template <std::floating_point T>
 /// \}
 
 /// \defgroup world Worlds
-/// \brief Section 3.1: "determine the first object intersected by a ray"; discussion:
-/// "an octree, axis-aligned bounding boxes, or a binary space partition". Chapter:
-/// \ref ch_bvh.
+/// \brief Section 3.1: "determine the first object intersected by a ray"; the report's
+/// discussion: "an octree, axis-aligned bounding boxes, or a binary space partition".
+/// Chapter: \ref ch_bvh.
 /// \{
 
 namespace detail {
@@ -254,7 +254,8 @@ public:
     /// Whether the scene lists a type of material that may have a priority.
     static constexpr bool lists_priorities =
         S::any_material([]<typename M>() { return HasPriority<M>; });
-    /// Whether a material has a priority other than 0; see \ref nested_bodies.
+    /// Whether any material of the scene has a priority other than 0; see
+    /// \ref nested_bodies.
     [[nodiscard]] bool has_priorities() const noexcept {
         return lists_priorities && ranks_.prioritized;
     }
@@ -311,7 +312,7 @@ public:
     [[nodiscard]] const FrameT<Scalar>& frame(ObjectId id) const noexcept {
         return frames_[id.type][id.index];
     }
-    /// Whether the scene lists a material whose lamp shows a picture.
+    /// Whether the scene lists a type of material whose lamps emit a picture.
     static constexpr bool lists_pictures =
         S::any_material([]<typename M>() { return ShowsPicture<M>; });
     static_assert(
@@ -657,13 +658,13 @@ inline constexpr bool is_world<World<S, Compute>> = true;
 
 } // namespace detail
 
-/// Any World: the argument of renderers and photon passes.
+/// Any type of World, which renderers and photon passes take as an argument.
 template <typename W>
 concept AnyWorld = detail::is_world<W>;
 
 namespace detail {
 
-/// Diagnoses a scene that is not closed.
+/// Reports a scene that is not closed at compile time.
 template <typename W>
 struct Closed {
     using Type = W; ///< The world.
@@ -699,8 +700,8 @@ template <typename Compute, std::floating_point T, typename G, CutOutMaterial M>
 // [solid_hit]
 
 /// Calls f() for an object without holes, or f(material) for an object whose material
-/// may have holes. If the scene lists no such material, only f() is compiled. If it has
-/// none, the cost is one comparison.
+/// may have holes. If the scene lists no such material, only f() is compiled. If the
+/// scene contains none, the cost is one comparison.
 template <AnyWorld W, typename F>
 [[nodiscard]] decltype(auto) with_holes(const W& world, ObjectId id, F&& f) {
     if constexpr (lists_cut_outs<W>) {

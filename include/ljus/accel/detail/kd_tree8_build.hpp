@@ -37,9 +37,9 @@ struct KdTree8NodeT {
 ///
 /// The points are grouped into blocks of eight, and the blocks into leaves of at most
 /// `leaf_blocks` blocks. The number of leaves is a power of two, and the blocks are
-/// distributed evenly among the leaves. The points are halved repeatedly down to the
-/// leaves. A node with eight children combines three halvings; the root may have fewer
-/// children.
+/// distributed evenly among the leaves. The list of points is halved repeatedly, down
+/// to the leaves. A node with eight children combines three halvings; the root may have
+/// fewer children.
 struct KdTree8Shape {
     static constexpr int leaf_blocks = 4; ///< Largest number of blocks per leaf.
 
@@ -100,7 +100,7 @@ struct KdTree8ItemT {
 };
 
 /// A list of items, stored in pieces. A piece can be freed as soon as it has been read,
-/// so that the list and the result made from it are not in memory at the same time.
+/// so that the list and the result made from it are not both wholly in memory.
 template <std::floating_point T>
 class KdTree8ItemsT {
 public:
@@ -138,7 +138,8 @@ public:
         require_finite("a point of the k-d tree", point);
         push({point, size_});
     }
-    /// Collects pieces that were read in `spare`. If it is null, each piece is freed.
+    /// Sets where the list puts a piece that has been read. If `spare` is null, the
+    /// list frees the piece.
     void share(Spare* spare) noexcept { spare_ = spare; }
     /// Adds an item.
     void push(const Item& item) {
@@ -182,7 +183,7 @@ inline void require_point_count(std::size_t count) {
 }
 
 /// Makes a list of items from points.
-/// \throws std::invalid_argument  as KdTree8T.
+/// \throws std::invalid_argument  if a point is not finite, or if there are too many.
 template <std::floating_point T>
 [[nodiscard]] KdTree8ItemsT<T> kd_tree8_items(std::span<const Vec3T<T>> points) {
     require_point_count(points.size());

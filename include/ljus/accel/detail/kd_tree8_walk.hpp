@@ -242,7 +242,7 @@ struct BallBlocks {
 };
 
 /// Finds the points within many balls of one radius. All balls visit one level of the
-/// tree before the next level, and at last the leaves. The search for a single ball
+/// tree before the next level, and finally the leaves. The search for a single ball
 /// waits for memory at each step. Different balls do not depend on each other, so that
 /// the processor can read memory for many of them at once.
 ///

@@ -58,7 +58,7 @@ struct Extremes {
 /// \param count   The number of values.
 /// \param above   Exclusive lower bound of the smallest.
 /// \param up_to   Inclusive upper bound of the largest; finite or minus infinity.
-/// \return Both; infinity and minus infinity if there are none.
+/// \return Both values. If there is no such value, infinity and minus infinity.
 template <std::floating_point T>
 [[nodiscard]] constexpr Extremes<T>
 smallest_and_largest(const T* values, std::size_t count, T above, T up_to) noexcept {

@@ -105,10 +105,10 @@ template <std::floating_point T, FieldOnRay<T> Line>
 /// Finds the first zero of a field f along a ray by interval bisection.
 ///
 /// An interval [a, b] is dropped if all values of f in it have the sign of f at the
-/// start of the ray. If the slope has one sign in [a, b], the values at a and b decide.
-/// Otherwise the interval is halved, and the nearer half is tried first. The values are
-/// bounded by range(). If the field has a slope(), they are also bounded by f(m) +
-/// f'([a, b]) (b - a)/2, where m is the middle of the interval.
+/// start of the ray. If the slope has one sign in [a, b], the values at a and b tell
+/// whether f is 0 in between. Otherwise the interval is halved, and the nearer half is
+/// tried first. The values are bounded by range(). If the field has a slope(), they are
+/// also bounded by f(m) + f'([a, b]) (b - a)/2, where m is the middle of the interval.
 /// \return The first t at which f has changed its sign, to the last bit. Nothing for a
 ///         miss, for NaN, or if the intervals run out. A ray that only touches the
 ///         surface may miss it.

@@ -35,10 +35,10 @@ struct BlobT {
 };
 using Blob = BlobT<float>; ///< BlobT in float.
 
-/// A solver. It splits the ray where the ray enters or leaves a blob and where it is
-/// nearest to a centre. In each span the field is a quartic, and the first sign change
-/// of this quartic is the hit. The field of a blob rises before the nearest point and
-/// falls after it, so that most spans have at most one sign change.
+/// A solver. It splits the ray where the ray enters or leaves a blob and where the ray
+/// is nearest to a centre. In each span the field is a quartic, and the first sign
+/// change of this quartic is the hit. The field of a blob rises before the nearest
+/// point and falls after it, so that most spans have at most one sign change.
 struct QuarticPieces {};
 
 /// A solver that finds the roots of the quartics by quartic_formula(), for comparison.
@@ -177,7 +177,8 @@ private:
     }
 };
 
-/// The field along a ray. The result refers to `strands`, which must outlive it.
+/// Makes the field along a ray from its strands. The result refers to `strands`, which
+/// must outlive it.
 /// \return The field. If there are no strands, `leave` is below `enter`.
 template <std::floating_point C>
 [[nodiscard]] MetaballLineT<C> line_of(const StrandsT<C>& strands, C level) noexcept {

@@ -29,8 +29,8 @@ struct FlatShapesT {
 /// half as much, and the lamp becomes a single light.
 ///
 /// A parallelogram with the corners A, B and C has the fourth corner \f$ B + C - A \f$.
-/// The fourth vertex may differ from it by a few units in the last place of a double,
-/// because the decimals of a file are rounded.
+/// The fourth vertex may differ from this point by a few units in the last place of a
+/// double, because the decimals of a file are rounded.
 /// \tparam T  The precision of the shapes.
 /// \return Every triangle, unchanged or as half of a quad with the same normal.
 /// \cost O(n log n) for n triangles.
