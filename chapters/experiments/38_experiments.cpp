@@ -131,16 +131,6 @@ double range_of(const Image& right, const Image& wrong) {
     return 10;
 }
 
-/// Text for a page.
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text)
-        result += c == '&'   ? std::string("&amp;")
-                  : c == '<' ? std::string("&lt;")
-                             : std::string(1, c);
-    return result;
-}
-
 /// A page's address, as Doxygen names that of a source file.
 std::string source_page(const std::string& file) {
     std::string name;

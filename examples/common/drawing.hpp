@@ -172,7 +172,7 @@ inline void draw_label(Drawing& drawing, const Point& at, const std::string& nam
     std::string body;
     for (std::size_t i = 0; i < name.size();) {
         if (name[i] != '_') {
-            body += name[i++];
+            body += escaped({name[i++]});
             continue;
         }
         body += "<tspan dy=\"4\" font-size=\"70%\">";

@@ -205,6 +205,16 @@ inline void save_plot(const std::string& folder, const Plot& plot) {
     save_text(folder + "/" + plot.name + ".gp", gp);
 }
 
+/// Text as a page or a drawing holds it.
+inline std::string escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text)
+        result += c == '&'   ? std::string("&amp;")
+                  : c == '<' ? std::string("&lt;")
+                             : std::string(1, c);
+    return result;
+}
+
 /// Saves a table as NAME.csv and, for the chapter, as NAME.html.
 /// \param folder  Where to; it exists.
 /// \param table   The table.
@@ -212,14 +222,6 @@ inline void save_table(const std::string& folder, const Table& table) {
     std::string csv = csv_head(table.notes, table.columns);
     std::string html =
         "<table class=\"markdownTable ljus-table\">\n<tr class=\"markdownTableHead\">";
-    const auto escaped = [](const std::string& cell) {
-        std::string result;
-        for (const char c : cell)
-            result += c == '&'   ? std::string("&amp;")
-                      : c == '<' ? std::string("&lt;")
-                                 : std::string(1, c);
-        return result;
-    };
     for (const std::string& heading : table.columns)
         html += "<th class=\"markdownTableHeadRight\">" + escaped(heading) + "</th>";
     html += "</tr>\n";
