@@ -87,7 +87,7 @@ enum class Transport : std::uint8_t {
 template <std::floating_point T>
 struct BsdfSampleT {
     Vec3T<T> wi{T(0), T(0), T(1)}; ///< Incident direction; unit vector.
-    RgbT<T> weight{T(0)};  ///< f |cos|/pdf: the factor of the path's throughput.
+    RgbT<T> weight{T(0)}; ///< f |cos|/pdf: the factor of the path's throughput.
     /// Density per steradian, including the probability of the lobe; 0 for a delta.
     T pdf = T(0);
     bool specular = false; ///< True if `wi` is sampled from a delta lobe.

@@ -32,13 +32,13 @@ struct VertexT {
     SurfacePointT<T> point{};      ///< Position, rounding error, geometric normal.
     FrameT<T> frame{};             ///< Shading frame, in which materials work.
     Vec3T<T> wo{T(0), T(0), T(1)}; ///< Unit, to the previous vertex, in the frame.
-    Vec2T<T> uv{T(0)};    ///< texture_coordinates(), if the material uses them.
-    ObjectId id{};        ///< Number of the object.
-    ObjectT<T> object{};  ///< Material and emission of the object.
-    T outside = T(1);     ///< Index of refraction on the outside; 1 in air.
-    RgbT<T> medium{T(0)}; ///< Absorption before the vertex, per scene unit.
-    T distance = T(0);    ///< Distance from the previous vertex, in scene units.
-    T time = T(0);        ///< Time of the path, in [0, 1].
+    Vec2T<T> uv{T(0)};         ///< texture_coordinates(), if the material uses them.
+    ObjectId id{};             ///< Number of the object.
+    ObjectT<T> object{};       ///< Material and emission of the object.
+    T outside = T(1);          ///< Index of refraction on the outside; 1 in air.
+    RgbT<T> medium{T(0)};      ///< Absorption before the vertex, per scene unit.
+    T distance = T(0);         ///< Distance from the previous vertex, in scene units.
+    T time = T(0);             ///< Time of the path, in [0, 1].
     T stop_probability = T(1); ///< At a thin surface: probability of not passing it.
     T wavelength = line_d<T>;  ///< Wavelength for dispersive glass, in nm.
     bool smooth = false; ///< Whether the shading normal differs from the geometric one.

@@ -94,7 +94,7 @@ template <std::floating_point T>
 struct PhotonBlockT {
     std::vector<PhotonT<T>> photons{}; ///< The stored photons.
     FluxAudit audit{};                 ///< What became of the emitted flux.
-    long long unsent = 0; ///< Number of paths that no light could emit.
+    long long unsent = 0;              ///< Number of paths that no light could emit.
 };
 
 /// Number of paths per block.
