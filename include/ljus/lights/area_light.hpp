@@ -34,14 +34,13 @@ struct AreaLightT {
 
 namespace detail {
 
-/// Whether a type of light is a lamp: a surface of which each point emits the same
-/// radiance into all directions of a hemisphere.
+/// Whether a type of light is a lamp: a surface that emits diffusely from each point.
 template <typename L>
 inline constexpr bool is_lamp = false;
 template <typename S>
 inline constexpr bool is_lamp<AreaLightT<S>> = true;
 
-/// Whether a shape has area_sums(), the areas of its parts, which a lamp then keeps.
+/// Whether a shape has area_sums(). A lamp then stores the result of this function.
 template <typename S>
 inline constexpr bool has_area_sums = requires(const S& shape) {
     area_sums(shape);

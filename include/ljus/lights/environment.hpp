@@ -21,20 +21,20 @@ namespace ljus {
 /// The picture is a map of the sphere of directions. Its rows are equal steps of the
 /// angle from straight up (+y) to straight down, its columns equal steps of azimuth:
 ///
-/// | in the picture     | direction |
-/// |--------------------|-----------|
-/// | the upper edge     | +y        |
-/// | the middle         | -z        |
-/// | a quarter to right | +x        |
-/// | both side edges    | +z        |
+/// | in the picture                             | direction |
+/// |--------------------------------------------|-----------|
+/// | the upper edge                             | +y        |
+/// | the middle                                 | -z        |
+/// | a quarter of the width right of the middle | +x        |
+/// | the left and the right edge                | +z        |
 ///
 /// The radiance is the same for all directions within a pixel. A picture of one pixel
 /// is a constant sky.
 /// \{
 
-/// Light from infinitely far away in all directions, given by a sky or by a photograph
-/// of a place. Its flux is the light that falls into the sphere around all shapes of
-/// the scene.
+/// Light from infinitely far away, from all directions. It is given by a picture of a
+/// sky or of a place. Its flux is the light that falls into the sphere around all
+/// shapes of the scene.
 ///
 ///     scene.add(EnvironmentLight{.picture = load_hdr("garden.hdr"), .strength = 2});
 ///     scene.add(EnvironmentLight{.picture = make_image(1, 1, Rgb{0.2f, 0.4f, 1})});
@@ -62,15 +62,16 @@ struct EnvironmentInSceneT {
 
 namespace detail {
 
-/// 1 - cos of an angle, without cancellation. The angle is a fraction of pi.
+/// 1 - cos of an angle, without cancellation.
+/// \param fraction  The angle over pi.
 template <std::floating_point T>
 [[nodiscard]] T one_minus_cos_of(T fraction) noexcept {
     const T sine = std::sin(fraction * (std::numbers::pi_v<T> / T(2)));
     return T(2) * sine * sine;
 }
 
-/// The solid angle of a pixel in row y, in steradians. All pixels of a row share a belt
-/// of the unit sphere, whose area is 2 pi times the difference of its heights.
+/// The solid angle of a pixel in row y, in steradians. A row of pixels is a belt of the
+/// unit sphere. The area of a belt is 2 pi times its extent in height.
 // [solid angle of pixel]
 [[nodiscard]] inline double solid_angle_of_pixel(int width, int height,
                                                  int y) noexcept {

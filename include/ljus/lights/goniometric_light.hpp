@@ -36,7 +36,7 @@ namespace ljus {
 enum class Photometry : std::uint8_t {
     c, ///< For lamps of rooms and streets: the pole is the direction of the lamp.
     b, ///< For floodlights: the pole is the side of the lamp.
-    a  ///< For headlights: the pole is the upward direction of the lamp.
+    a  ///< For headlights: the pole is `reference`, which points up.
 };
 
 /// Intensities at a grid of angles. Between the angles they are interpolated
@@ -48,7 +48,8 @@ struct IntensityTable {
     /// Azimuths in degrees, within [-360, 720]: at least two, in increasing order, over
     /// a range of at most 360.
     std::vector<double> azimuth{};
-    /// Intensities in cd, at least 0. All polar angles of the first azimuth come first.
+    /// Intensities in cd, at least 0. Those at all polar angles of the first azimuth
+    /// come first.
     std::vector<double> candela{};
 };
 
@@ -67,8 +68,8 @@ struct GoniometricLightT {
     /// horizontal angle 0 (type C) or towards vertical angle 90 (types B and A). It
     /// need not be perpendicular to the direction, but must not be parallel to it.
     Vec3T<T> reference{0, 0, -1};
-    /// Watts per lumen of each channel. With the default, the luminance of a radiance
-    /// times 683 is in cd/m^2, because a watt of green light is 683 lumens.
+    /// Watts per lumen, for each channel. With the default, 683 times the luminance of
+    /// a rendered radiance is in cd/m^2, because a watt of green light is 683 lumens.
     RgbT<T> watts_per_lumen{T(1) / T(683)};
 };
 using GoniometricLight = GoniometricLightT<float>; ///< GoniometricLightT in float.

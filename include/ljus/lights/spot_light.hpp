@@ -18,8 +18,8 @@ struct SpotLightT {
     Vec3T<T> position{T(0)};      ///< In scene units.
     Vec3T<T> direction{0, -1, 0}; ///< Axis of the cone; any length but 0.
     RgbT<T> intensity{T(1)};      ///< W/sr within the inner cone.
-    T inner_degrees = T(20);      ///< Angle to the axis where the fall begins.
-    T outer_degrees = T(30);      ///< Angle where the light ends; in [0.001, 180].
+    T inner_degrees = T(20);      ///< Angle to the axis: end of the constant part.
+    T outer_degrees = T(30);      ///< Angle to the axis: end of the cone; 0.001 to 180.
 };
 using SpotLight = SpotLightT<float>; ///< SpotLightT in float.
 
@@ -57,7 +57,7 @@ void check(const SpotLightT<T>& light) {
 /// of both angles. The light must have passed check().
 template <std::floating_point T>
 [[nodiscard]] SpotInSceneT<T> in_scene(const SpotLightT<T>& light, const SphereT<T>&) {
-    const auto one_minus_cos = [](T degrees) { // by the half angle, without rounding
+    const auto one_minus_cos = [](T degrees) { // by the half angle: no cancellation
         const T sine = std::sin(degrees * (std::numbers::pi_v<T> / T(360)));
         return T(2) * sine * sine;
     };

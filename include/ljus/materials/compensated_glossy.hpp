@@ -129,7 +129,8 @@ template <std::floating_point T, typename F>
 
 /// Samples the lobe of one reflection as GlossyT does, or the lobe of multiple
 /// scattering. u.z chooses the lobe.
-/// \return The sample. Nothing also if the direction points into the surface.
+/// \return The sample. Besides the cases of \ref bsdf, nothing if the direction points
+///         into the surface.
 /// \cost Up to twice sample() of GlossyT.
 template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

@@ -18,7 +18,7 @@ namespace ljus {
 /// The holes of a CutOut material, given by a texture.
 template <typename Texture>
 struct Holes {
-    static constexpr bool uses_uv = UsesUv<Texture>; ///< As the texture declares.
+    static constexpr bool uses_uv = UsesUv<Texture>; ///< True if the mask uses uv.
     Texture mask{};      ///< The red channel is the opacity; see load_image().
     double cutoff = 0.5; ///< Opacity below which a point is in a hole; at least 0.
 };

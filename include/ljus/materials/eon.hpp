@@ -34,9 +34,9 @@ using Eon = EonT<float>; ///< EonT in float.
 namespace detail {
 
 /// The fraction of light that Fujii's second model loses at an angle, divided by A r:
-/// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$. Here r is the roughness, k_1 = 1/2
-/// - 2/(3 pi), A = 1/(1 + k_1 r), mu the cosine of the angle, and E the reflected
-/// fraction of a white surface. The code computes G.
+/// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$. Here mu is the cosine of the angle,
+/// E the fraction of light that a white surface reflects, r the roughness, k_1 the
+/// constant fon_constant, and A = 1/(1 + k_1 r). The code computes G.
 /// \return At least 0, at most k_1.
 /// \cite eon2025
 // [eon loss]
@@ -90,7 +90,7 @@ struct EonLobeT {
     T c;            ///< Second row of M.
     T d;            ///< Third row of M, at most 0.
     T kept;         ///< The fraction of the lobe above the horizon.
-    T uniform;      ///< The probability of sampling a uniform direction instead.
+    T uniform;      ///< The probability of a uniform direction instead of the lobe.
     Vec2T<T> along; ///< The azimuth of wo; unit vector.
 };
 
@@ -106,7 +106,7 @@ template <std::floating_point T>
     lobe.c = T(1) + r * (T(0.20013) + mu * (T(-0.506373) + T(0.261777) * mu));
     lobe.d = r * (T(0.540852) + mu * (T(-1.01625) + T(0.475392) * mu)) /
              (T(-1.0743) + mu * (T(0.0725628) + mu));
-    lobe.d = std::min(lobe.d, T(0)); // the fit is slightly positive at the pole
+    lobe.d = std::min(lobe.d, T(0)); // the fit is slightly above 0 at normal incidence
     lobe.kept = (T(1) + T(1) / std::sqrt(lobe.d * lobe.d + T(1))) / T(2);
     lobe.uniform =
         std::pow(r, T(0.1)) *

@@ -111,7 +111,8 @@ template <std::floating_point T, typename F>
 /// Samples a facet that is visible from `wo`, and returns the mirror direction about
 /// its normal. The weight is F, the reflectance of the facet, times the fraction of
 /// light that no other facet blocks.
-/// \return The sample. Nothing also if the direction points into the surface.
+/// \return The sample. Besides the cases of \ref bsdf, nothing if the direction points
+///         into the surface.
 /// \cost One sine, one cosine, eight square roots.
 /// \cite heitz2018
 template <std::floating_point T, typename F>

@@ -91,9 +91,10 @@ struct BsdfSampleT {
     /// Density per steradian, including the probability of the lobe; 0 for a delta.
     T pdf = T(0);
     bool specular = false; ///< True if `wi` is sampled from a delta lobe.
-    /// The factor of `weight` that is due to refraction of radiance: the square of the
-    /// index on the side of `wo` over that on the side of `wi`. It is 1 for reflection
-    /// and for flux. Russian roulette divides the throughput by this factor.
+    /// The factor in `weight` that is due to refraction of radiance: (n_o/n_i)^2, with
+    /// the indices n_o on the side of `wo` and n_i on the side of `wi`. It is 1 for
+    /// reflection and for flux. Russian roulette leaves it out of the probability of
+    /// survival.
     T eta_scale = T(1);
 };
 using BsdfSample = BsdfSampleT<float>; ///< BsdfSampleT in float.
@@ -102,7 +103,7 @@ using BsdfSample = BsdfSampleT<float>; ///< BsdfSampleT in float.
 /// \param wi         Incident direction.
 /// \param share      The fraction of light that the lobe scatters, divided by the
 ///                   probability of the lobe.
-/// \param eta_scale  BsdfSampleT::eta_scale.
+/// \param eta_scale  See BsdfSampleT::eta_scale.
 template <std::floating_point T>
 [[nodiscard]] constexpr BsdfSampleT<T>
 specular_sample(const Vec3T<T>& wi, const RgbT<T>& share, T eta_scale = T(1)) noexcept {
@@ -275,8 +276,8 @@ concept HasPriority = requires(const detail::Own<M>& m) {
 };
 
 /// Whether a material scatters light through its surface into a lobe with a density, as
-/// rough glass does: it is Refractive and has a glossy lobe. At a vertex on such a
-/// material, lamps on both sides of the surface are asked for light.
+/// rough glass does: it is Refractive and has a glossy lobe. A vertex on such a
+/// material receives light from lamps on both sides of the surface.
 template <typename M>
 [[nodiscard]] constexpr bool scatters_through([[maybe_unused]] const M& m) noexcept {
     if constexpr (Refractive<M>)

@@ -59,7 +59,7 @@ template <std::floating_point T>
 struct MetalT {
     using Scalar = T;                           ///< The precision of its numbers.
     static constexpr bool only_specular = true; ///< See OnlySpecular.
-    ConductorIndexT<T> index = gold<T>;         ///< Complex index of each channel.
+    ConductorIndexT<T> index = gold<T>; ///< Complex index of refraction, per channel.
 };
 using Metal = MetalT<float>; ///< MetalT in float.
 

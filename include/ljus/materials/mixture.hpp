@@ -43,7 +43,7 @@ struct MixtureT {
     T specularity = T(0);     ///< Factor of Fresnel's reflectance, in [0, 1].
     T emissivity = T(0);      ///< Emitted radiance over color, W/(m^2 sr), >= 0.
     T sigma = T(0);           ///< Roughness of the matt lobe, radians; 0: Lambert.
-    RgbT<T> absorption{T(0)}; ///< Coefficient inside, per scene unit, >= 0.
+    RgbT<T> absorption{T(0)}; ///< Absorption inside, per scene unit, >= 0.
 };
 using Mixture = MixtureT<float>; ///< MixtureT in float.
 

@@ -21,7 +21,8 @@ namespace ljus {
 /// \{
 
 /// A two-sided surface of matt facets with random slopes. Its shading is flatter than
-/// that of a Lambertian surface, and it looks brighter from where the light comes.
+/// that of a Lambertian surface. It looks brighter when seen from the direction of the
+/// light.
 /// \report{Section 3.2.1}
 template <std::floating_point T>
 struct OrenNayarT {

@@ -12,9 +12,9 @@ namespace ljus {
 /// \brief Section 3.2.1: four formulas that are called Oren-Nayar.
 /// \{
 
-/// A formula that is called Oren-Nayar. Each description ends with the largest fraction
-/// of the light of a uniform sky that a white surface reflects in any direction, at any
-/// roughness.
+/// A formula that is called Oren-Nayar. The number at the end of each description is
+/// the largest fraction of the light of a uniform sky that a white surface reflects,
+/// over all directions and roughnesses.
 enum class RoughModel : std::uint8_t {
     as_printed, ///< The formula of the report's program: 1.
     full,       ///< Oren and Nayar 1994 with interreflection between facets: 1.05.
@@ -41,7 +41,7 @@ namespace detail {
 /// The formula of the report's program. Unlike oren_nayar_ratio(), it uses the cosine
 /// of the angle between wi and wo in place of that between their azimuths, has 0.57 in
 /// place of 0.33, and clamps the result to 1.
-/// \return The ratio to Lambert, in [1/2, 1].
+/// \return The ratio to Lambert's BRDF, in [1/2, 1].
 /// \report{Section 3.2.1}
 template <std::floating_point T>
 [[nodiscard]] T rough_as_printed(T sigma, const Vec3T<T>& wo,
@@ -104,9 +104,9 @@ template <std::floating_point T>
 }
 // [full]
 
-/// Fujii's term s/t. Here s is the product of the sines of both directions and of the
-/// cosine between their azimuths. If s is positive, t is the larger cosine to the
-/// normal, otherwise 1.
+/// Fujii's term s/t. Here s is the product of three factors: the sines of the two
+/// angles to the normal, and the cosine of the angle between the azimuths. If s is
+/// positive, t is the larger of the two cosines to the normal, otherwise 1.
 /// \return At least -1.
 // [fujii]
 template <std::floating_point T>
@@ -132,7 +132,7 @@ template <std::floating_point T>
 inline constexpr T fon_constant = T(0.5) - T(2) / T(3) * std::numbers::inv_pi_v<T>;
 
 /// Fujii's second model, called FON by \cite eon2025.
-/// \return The ratio to Lambert.
+/// \return The ratio to Lambert's BRDF.
 /// \cost Two divisions.
 template <std::floating_point T>
 [[nodiscard]] T rough_fon(T roughness, const Vec3T<T>& wo,

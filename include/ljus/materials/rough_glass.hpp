@@ -27,8 +27,8 @@ namespace ljus {
 /// w_i, which is 1 for a reflection.
 ///
 /// The lobe has a density, so that rough glass counts as D in Heckbert's notation. A
-/// shadow ray towards a lamp is blocked by rough glass. From a vertex on rough glass,
-/// shadow rays start to both sides of the surface.
+/// shadow ray that meets rough glass is blocked. From a vertex on rough glass, shadow
+/// rays are cast to both sides of the surface.
 /// \{
 
 /// The rough boundary between a transparent body and air. The side z > 0 is air, with
@@ -41,7 +41,7 @@ struct RoughGlassT {
     using Scalar = T;         ///< The precision of its numbers.
     T index = T(1.5);         ///< Index of refraction inside.
     T roughness = T(0.3);     ///< Square root of GGX's alpha; 0 or in [0.01, 1].
-    RgbT<T> absorption{T(0)}; ///< Coefficient inside, per scene unit, >= 0.
+    RgbT<T> absorption{T(0)}; ///< Absorption inside, per scene unit, >= 0.
 };
 using RoughGlass = RoughGlassT<float>; ///< RoughGlassT in float.
 
@@ -180,8 +180,8 @@ template <std::floating_point T>
 /// its Fresnel reflectance, and otherwise refracts. The weight is the fraction of light
 /// that no other facet blocks, at most 1. For refracted radiance it is multiplied by
 /// (n_o/n_i)^2, with the indices n_o on the side of `wo` and n_i on that of `wi`.
-/// \return The sample. Nothing also if a reflected direction points into the surface,
-///         or a refracted direction points out of it.
+/// \return The sample. Besides the cases of \ref bsdf, nothing if a reflected direction
+///         points into the surface, or a refracted direction points out of it.
 /// \cost One sine, one cosine, a dozen square roots.
 /// \cite walter2007 \cite heitz2018
 // [sample rough glass]

@@ -83,7 +83,7 @@ template <std::floating_point T>
     return into_gamut(film_preintegrated(c, film.index, thickness));
 }
 
-/// The material of a film at one point, where it has one thickness.
+/// A film at one point, as a material of one thickness.
 template <std::floating_point T>
 struct FilmPointT {
     using Scalar = T;                           ///< The precision of its numbers.

@@ -16,8 +16,9 @@ namespace ljus {
 /// \{
 
 /// A material whose colour is multiplied by that of a texture. Holes or a NormalMap in
-/// place of the texture leave the colour unchanged. The material's own sample() and
-/// evaluate() ignore the texture; those of the result of material_at() do not.
+/// place of the texture leave the colour unchanged. The sample() and evaluate() of this
+/// type ignore the texture. Renderers call those of the material that material_at()
+/// returns.
 template <Material Base, typename Texture>
 struct Textured {
     using Scalar = typename Base::Scalar;          ///< The precision of its numbers.

@@ -159,7 +159,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
         .previous = vertex.point.position,
         .depth = 1,
         .branch = std::uint64_t(1) << 44};
-    auto numbers = context.stream; // next_vertex() moves the copy
+    auto numbers = context.stream; // a copy, because next_vertex() advances it
     ++context.counts.shadow_rays;
     const auto lamp = next_vertex(world, path, numbers);
     T reaching = next->sample.pdf;
@@ -215,8 +215,8 @@ public:
             scale_ = std::ceil(T(2 * rays) * (faint / sent_by_all_)) / faint;
     }
 
-    /// The result of seen_lamp() for a light. Nothing if the light is known to be
-    /// occluded.
+    /// The result of seen_lamp() for a light. Nothing if the light has no closed form
+    /// or is known to be occluded.
     [[nodiscard]] const std::optional<SeenLampT<T>>& lamp(std::uint32_t light) const {
         return lamps_[light];
     }
@@ -287,7 +287,7 @@ template <std::floating_point T, typename Context>
     return stratified(cells, i, key, u);
 }
 
-/// Adds the light of one light by shadow rays, as their mean.
+/// Adds the light of one light: the mean of several shadow rays.
 /// \param sum       The sum of radiance towards `wo`.
 /// \param world     The closed scene.
 /// \param light     The index of the light.
@@ -368,9 +368,10 @@ struct DirectLightSettings {
     /// Number of shadow rays per light, at least 1. DirectLight::analytic casts fewer
     /// rays to lamps that send little light.
     int rays = 1;
-    /// For the scattered ray of multiple importance sampling. Lobes::none: an extra ray
-    /// is traced. Otherwise the next ray of the path itself, sampled from these lobes,
-    /// must add the light, by met_light(). Must be Lobes::none in fog.
+    /// Multiple importance sampling needs a scattered ray. If this is Lobes::none, an
+    /// extra ray is traced. Otherwise the next ray of the path, sampled from these
+    /// lobes, serves as the scattered ray, and the caller must add its light by
+    /// met_light(). Must be Lobes::none in fog.
     Lobes next = Lobes::none;
 };
 
@@ -395,7 +396,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
                                         Context& context, Verdicts verdicts = {}) {
     const DirectLight how = settings.how;
     const int rays = settings.rays;
-    // A matt surface never uses the path's next ray, which is known at compile time.
+    // A matt surface never uses the path's next ray. This is decided at compile time.
     const Lobes next = std::same_as<M, LambertianT<T>> ? Lobes::none : settings.next;
     if constexpr (std::same_as<M, LambertianT<T>>)
         if (how == DirectLight::analytic)

@@ -94,7 +94,7 @@ template <typename M, std::floating_point T>
 }
 
 /// Whether a path leaves a body along `wi`. If another body surrounds this body,
-/// medium_beyond() does not know its absorption; medium_at() does.
+/// medium_beyond() is wrong, and medium_at() must find the absorption.
 template <typename M, std::floating_point T>
 [[nodiscard]] bool leaves_body(const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
     return MayAbsorb<M> && wo.z < T(0) && wi.z > T(0);

@@ -135,14 +135,14 @@ template <AnyWorld W, std::floating_point T>
 namespace detail {
 
 /// The mean of the channels of the transmittance of fog. This is about the probability
-/// that fog lets a scattered ray pass. The density of such a ray is multiplied by it,
-/// for the weights of multiple importance sampling.
+/// that fog lets a scattered ray pass. For the weights of multiple importance sampling,
+/// the density of a scattered ray is multiplied by this mean.
 template <std::floating_point T>
 [[nodiscard]] T passing(const RgbT<T>& transmittance) noexcept {
     return (transmittance.x + transmittance.y + transmittance.z) / T(3);
 }
 
-/// The radiance from one sampled point of a light that a vertex reflects.
+/// The radiance that a vertex reflects from one sampled point of a light.
 template <std::floating_point T>
 struct LightShareT {
     RgbT<T> sent{T(0)};    ///< Without occlusion and absorption.

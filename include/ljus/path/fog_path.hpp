@@ -21,7 +21,7 @@ namespace ljus {
 /// The segment of a camera path between two surfaces.
 template <std::floating_point T>
 struct FogSegmentT {
-    RayT<T> ray{}; ///< Has a unit direction; t_max is the distance to the next surface.
+    RayT<T> ray{}; ///< A ray with a unit direction; t_max is at the next surface.
     RgbT<T> throughput{T(1)}; ///< Throughput of the path at the start of the segment.
 };
 
@@ -65,7 +65,7 @@ template <AnyWorld W, typename F>
 void visit_fog(const W& world, std::uint32_t number, F&& f) {
     const auto visit = [&](const auto& list) {
         if (number < list.size()) f(list[number]);
-        number -= static_cast<std::uint32_t>(list.size()); // huge after the call of f
+        number -= static_cast<std::uint32_t>(list.size()); // wraps after f was called
     };
     detail::each_array(world.media(), visit);
 }
@@ -178,7 +178,7 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
 /// \param u       Point of the unit square; chooses the point of the light.
 /// \param mis     How light is divided between this ray and a scattered ray.
 /// \param counts  Counts the ray.
-/// \return Radiance against the direction of travel, divided by the scattering
+/// \return The radiance that goes back along the path, divided by the scattering
 ///         coefficient.
 template <AnyWorld W, std::floating_point T, Medium M>
 [[nodiscard]] RgbT<T> fog_light(const W& world, std::uint32_t light,

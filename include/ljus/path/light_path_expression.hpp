@@ -27,7 +27,7 @@ namespace ljus {
 /// A compiled class of paths: Glushkov's automaton. State 0 is the start. Each letter
 /// of the expression is one more state. A set of states has one bit per state.
 struct LightPathExpression {
-    std::array<std::uint64_t, 64> follow{}; ///< The set of states that may follow each.
+    std::array<std::uint64_t, 64> follow{}; ///< For each state, the states after it.
     std::array<char, 64> letter{}; ///< Letter of each state: E, D, S, L or '.'.
     std::uint64_t last = 0;        ///< The set of accepting states.
 

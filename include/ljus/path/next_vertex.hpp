@@ -41,8 +41,8 @@ struct VertexT {
     T time = T(0);             ///< Time of the path, in [0, 1].
     T stop_probability = T(1); ///< At a thin surface: probability of not passing it.
     T wavelength = line_d<T>;  ///< Wavelength for dispersive glass, in nm.
-    bool smooth = false; ///< Whether the shading normal differs from the geometric one.
-    bool turned = false; ///< Whether the normals disagree about the side of `wo`.
+    bool smooth = false; ///< Whether the normals differ but agree on the side of `wo`.
+    bool turned = false; ///< Whether the normals disagree on the side of `wo`.
 
     /// Whether the surface emits towards `wo`; emission is one-sided.
     [[nodiscard]] bool emits() const noexcept {
@@ -293,8 +293,8 @@ decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f
 }
 // [visit_material_at]
 
-/// Whether a vertex lies on an object whose material is nearly_specular(). A texture
-/// does not matter, because photons are aimed at whole objects.
+/// Whether a vertex lies on an object whose material is nearly_specular(). The answer
+/// is the same for all points of the object, even if a texture changes the material.
 template <AnyWorld W, std::floating_point T, Material M>
 [[nodiscard]] bool nearly_specular_at(const W& world, const VertexT<T>& vertex,
                                       const M& material) {
@@ -375,14 +375,14 @@ template <AnyWorld W, std::floating_point T>
 }
 // [at_rest]
 
-/// Whether a scene has a material that is a thin surface. Listing the type is not
-/// enough.
+/// Whether a scene has a material that is a thin surface. False if the scene only lists
+/// such a type.
 template <AnyWorld W>
 [[nodiscard]] bool has_thin_surfaces(const W& world) noexcept {
     return world.has_material([]<typename M>() { return ThinSurface<M>; });
 }
 
-/// Whether a scene has a shape that moves. Listing the type is not enough.
+/// Whether a scene has a shape that moves. False if the scene only lists such a type.
 template <AnyWorld W>
 [[nodiscard]] bool has_moving(const W& world) noexcept {
     return any_array(world.shapes(), []<typename G>(const std::vector<G>& array) {
@@ -501,7 +501,7 @@ struct PassageT {
     RgbT<T> through{T(1)};     ///< Transmittance over the probability of passing.
     T distance = T(0);         ///< From the first vertex to the last passed surface.
     T stop_probability = T(1); ///< Probability of stopping at a thin surface; else 1.
-    std::uint8_t outside = 0;  ///< Rank of the body outside the second vertex.
+    std::uint8_t outside = 0;  ///< Rank of the body outside; see BodyList. 0: air.
 };
 
 /// Traces a path through thin and hidden surfaces. A path stops at a thin surface, to
@@ -577,8 +577,8 @@ template <AnyWorld W>
         });
 }
 
-/// The absorption coefficient in the body of a rank, per scene unit; nothing for rank
-/// 0, which is air.
+/// The absorption coefficient in the body of a rank, see BodyList, per scene unit.
+/// Nothing for rank 0, which is air.
 template <AnyWorld W>
 [[nodiscard]] std::optional<RgbT<typename W::Scalar>>
 medium_of_rank(const W& world, std::uint8_t rank) {
@@ -697,7 +697,7 @@ inline void find_medium(const W& world, PathStateT<T>& path) {
 /// \param vertex   The vertex.
 /// \param world    The closed scene.
 /// \param path     The path.
-/// \param outside  The rank of the body on the outside; 0 is air.
+/// \param outside  The rank of the body on the outside, see BodyList; 0 is air.
 template <AnyWorld W, std::floating_point T>
 inline void set_bodies(VertexT<T>& vertex, const W& world, PathStateT<T>& path,
                        std::uint8_t outside) {

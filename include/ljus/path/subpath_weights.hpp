@@ -97,8 +97,8 @@ struct LightEnd {
 }
 // [recursion]
 
-/// The densities of all other strategies, relative to that of a camera path that hits a
-/// lamp.
+/// The sum of the densities of all other strategies, relative to the density of a
+/// camera path that hits a lamp.
 /// \param at           The weights of the camera path at the lamp.
 /// \param end          The point of the lamp.
 /// \param probability  The probability of choosing the lamp.
@@ -109,7 +109,8 @@ struct LightEnd {
     return probability / end.area * (end.direct * at.join + end.pdf * at.further);
 }
 
-/// The densities of all other strategies, relative to that of a shadow ray.
+/// The sum of the densities of all other strategies, relative to the density of a
+/// shadow ray.
 /// \param at           The weights of the camera path at the lit surface.
 /// \param end          The point of the light.
 /// \param probability  The probability of choosing the light.
@@ -130,8 +131,8 @@ others_of_shadow_ray(const SubpathWeights& at, const LightEnd& end, double proba
 }
 // [ends]
 
-/// The densities of the strategies that join earlier on one of the two subpaths,
-/// relative to that of merging at x.
+/// The sum of the densities of all strategies that join the subpaths earlier on one of
+/// them, relative to the density of merging at x.
 /// \param at       The weights of the subpath at x.
 /// \param back     Density of the direction from x to the vertex before x, per
 ///                 steradian.

@@ -47,7 +47,8 @@ struct AimedPhotonT {
 /// Aims a photon of a point light at a ball: the plain counterpart of aim(). The light
 /// emits \f$1/4\pi\f$ of its flux per steradian. All photons go into the cone of
 /// \f$2\pi(1 - \cos\theta)\f$ steradians around the ball, where theta is half the
-/// opening angle of the cone. They share the flux that the light emits into this cone.
+/// opening angle of the cone. The photons share the flux that the light emits into this
+/// cone.
 /// \param light  A point light.
 /// \param ball   The target. The light must be outside the ball.
 /// \param u      Point of the unit square; chooses the direction in the cone.
@@ -155,7 +156,7 @@ struct AimedDirectionT {
 template <std::floating_point T>
 struct AimNumbersT {
     T probability;        ///< Probability of the light, which is chosen first.
-    Vec2T<T> u_point;     ///< Chooses a point of the light or, if distant, of a disc.
+    Vec2T<T> u_point;     ///< Chooses a point of the light; of a disc if it is distant.
     T u_target;           ///< Chooses the target.
     Vec2T<T> u_direction; ///< Chooses the direction.
     T time;               ///< Time of the photon.
@@ -260,9 +261,9 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 /// flat object is sampled uniformly over its area instead. A distant light aims at the
 /// cross sections of the bounding spheres.
 ///
-/// The flux is multiplied by the density with which the light emits in this direction,
-/// over the density with which the direction is aimed. Cones may overlap. The caller
-/// must drop a photon that hits another object first.
+/// The flux is multiplied by a ratio of two densities: that with which the light emits
+/// in the direction, over that with which this function samples the direction. Because
+/// cones may overlap, the caller must drop a photon that hits another object first.
 /// \param world    The closed scene.
 /// \param choice   The distribution of the lights, at least one.
 /// \param targets  The objects, at least one.
@@ -323,7 +324,7 @@ inline void check_shares(std::span<const double> shares, std::size_t count,
 /// \param choice   The distribution of the lights, at least one.
 /// \param targets  The objects, at least one.
 /// \param shares   The probabilities, which must pass check_shares(). If empty, the
-///                 function is aim().
+///                 function does the same as aim().
 /// \param stream   With shares, one number more is drawn than by aim().
 /// \return As aim().
 template <AnyWorld W, StreamLike Stream>

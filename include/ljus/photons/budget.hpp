@@ -152,8 +152,8 @@ struct PilotLightT {
 } // namespace detail
 
 /// Traces a few photons to each mirror and each glass object, to measure the flux and
-/// the scatter of its caustic. The photons are not used for the picture, because an
-/// estimate whose fractions depend on its own photons is biased.
+/// the scatter of the object's caustic. These photons are not used for the picture,
+/// because an estimate whose fractions depend on its own photons is biased.
 ///
 /// The variance of estimates, summed over a picture, is proportional to
 /// \f$ \sum_i \varphi_i^2 \f$, where \f$ \varphi_i \f$ is the flux of photon i. If an

@@ -78,7 +78,7 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
 /// \param wo        Unit direction to the observer, in the frame of the vertex.
 /// \param gather    The settings.
 /// \param kinds     The kinds of photons that count.
-/// \param gathered  Receives the number of summed photons, which is added.
+/// \param gathered  A counter. The number of summed photons is added to it.
 /// \return Radiance, W/(m^2 sr). 0 if the k nearest photons lie so close to the point
 ///         that the disc has no area.
 /// \throws std::invalid_argument  if k is 1 or above max_nearest. The other settings
@@ -152,7 +152,7 @@ void set_place(EstimatePlaceT<T>& place, const VertexT<T>& vertex,
 /// \param places    The requests.
 /// \param gather    The settings. They must satisfy in_lanes(); `nearest` must be 0.
 /// \param kinds     The kinds of photons that count.
-/// \param gathered  Receives the number of photons in the discs, which is added.
+/// \param gathered  A counter. The number of photons in the discs is added to it.
 /// \param found     A buffer for the search, which can be used again.
 /// \param give      Called as give(place, radiance), in the order of the requests. A
 ///                  request without photons is left out.

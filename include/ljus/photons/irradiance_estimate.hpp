@@ -44,8 +44,8 @@ struct DensityEstimateOf {
     std::size_t nearest = 0;
     K kernel = detail::default_kernel<K>; ///< Weight by distance.
     /// Half the height of the disc over its radius. A small value excludes photons of
-    /// parallel walls. With 0.5 the disc contains the part within the radius of any
-    /// ball that is at least as large as the disc.
+    /// parallel walls. On a ball whose radius is at least that of the disc, 0.5 is
+    /// enough to contain the surface within the radius.
     float thickness = 0.5f;
 };
 /// DensityEstimateOf with a kernel of the library.
@@ -149,7 +149,7 @@ nearest_photons(const PhotonMapT<T>& map, const SurfacePointT<T>& point, T radiu
 /// \param point     Point of a surface; its position and normal are used.
 /// \param gather    The settings; `nearest` is k.
 /// \param kinds     The kinds of photons that count.
-/// \param gathered  Receives the number of summed photons, which is added.
+/// \param gathered  A counter. The number of summed photons is added to it.
 /// \param factor    Called with a PhotonRecordT; returns a factor of the flux.
 /// \return The sum; 0 if all k photons lie at one point, where the disc has no area.
 template <std::floating_point T, KernelLike<T> K, typename Factor>
@@ -199,8 +199,8 @@ flux_disc(const Vec3T<T>& position, const Vec3T<T>& normal, const Vec3T<T>& side
 /// \param side      Unit normal on this side. Photons that travel against it count.
 /// \param gather    The settings.
 /// \param kinds     The kinds of photons that count.
-/// \param gathered  Receives the number of photons in the disc, on both sides, which is
-///                  added.
+/// \param gathered  A counter. The number of photons in the disc, on both sides, is
+///                  added to it.
 template <std::floating_point T, KernelLike<T> K>
 [[nodiscard]] DiscSum flux_within(const PhotonMapT<T>& map,
                                   const SurfacePointT<T>& point, const Vec3T<T>& side,

@@ -28,7 +28,7 @@ namespace ljus {
 /// The irradiance at a point of a surface.
 template <std::floating_point T>
 struct IrradianceAtT {
-    RgbT<T> irradiance{T(0)};          ///< From direct and all other light, W/m^2.
+    RgbT<T> irradiance{T(0)};          ///< From all light, direct light too; W/m^2.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit normal on the lit side.
 };
 

@@ -42,7 +42,8 @@ enum class Kernel : std::uint8_t {
 /// \return At least 0. The mean over the disc is 1.
 /// \report{Section 3.2.6}
 /// \erratum{The report's program multiplies by 1 - d/r, with distance d and radius r,
-/// but without the factor 3 that conserves the flux. It compensates by hand.}
+/// but without the factor 3 that conserves the flux. The brightness is corrected by
+/// hand.}
 // [kernel]
 template <std::floating_point T>
 [[nodiscard]] T kernel_weight(Kernel kernel, T x) noexcept {

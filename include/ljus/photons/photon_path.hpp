@@ -22,13 +22,13 @@ namespace ljus {
 
 namespace detail {
 
-/// The ray of a photon that leaves a light, from a point of a surface or in space.
+/// The ray of a photon that leaves a light from a point of its surface.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> leave(const SurfacePointT<T>& point,
                             const Vec3T<T>& direction) noexcept {
     return spawn_ray(point, direction);
 }
-/// \copydoc leave
+/// The ray of a photon that leaves a light without extent.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> leave(const Vec3T<T>& point, const Vec3T<T>& direction) noexcept {
     return {.origin = point, .direction = direction};
@@ -93,7 +93,7 @@ namespace detail {
 
 /// Emits photons by emit_photon(), for a pass that does not aim at the scene.
 struct LeaveAsEmitted {
-    /// A photon of a light. The light's number is ignored.
+    /// Emits a photon of a light. The number of the light is ignored.
     template <Light L, std::floating_point T>
     [[nodiscard]] LeavingPhotonT<T>
     operator()(std::uint32_t, const L& light, const Vec2T<T>& u_point,
@@ -155,7 +155,8 @@ emit(const W& world, const LightChoice& choice, Stream& stream,
 /// \return The new flux; nothing if the photon does not survive.
 /// \report{Section 3.2.2}
 /// \erratum{The report does not say that the flux of a survivor must be divided by the
-/// probability. The report's program does not divide it, and so absorbs twice.}
+/// probability. The report's program does not divide it, and so counts the absorption
+/// twice.}
 // [roulette]
 template <std::floating_point T>
 [[nodiscard]] std::optional<RgbT<T>> play_roulette(const RgbT<T>& flux,
@@ -182,7 +183,7 @@ namespace detail {
 /// light.
 /// \param world   The closed scene.
 /// \param photon  The photon as it leaves the light.
-/// \param first   Its first hit.
+/// \param first   The first hit of the photon.
 /// \param stream  A copy of the photon's stream. One number is drawn per thin surface.
 /// \param out     Receives the shadow photons.
 /// \cost One call of closest_hit() for each surface behind the first, and one more; at
@@ -221,8 +222,8 @@ template <std::floating_point T>
 }
 
 /// The factor of a photon's flux where shading normal and geometric normal differ. The
-/// density of photons on a surface has the cosine of the geometric normal, but a
-/// material must receive that of the shading normal.
+/// density of photons on a surface contains the cosine to the geometric normal, but the
+/// material needs the cosine to the shading normal.
 /// \param vertex     The vertex.
 /// \param direction  The photon's unit direction of travel.
 /// \return |cosine| to the shading normal over |cosine| to the geometric normal. 0 if

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/scene_aim.hpp
-/// \brief Aims the photons of a lamp that is far from the scene at the scene.
+/// \brief Aims photons at the scene, for lamps that are far from the scene.
 
 #include <algorithm>
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace ljus {
 namespace detail {
 
 /// A sphere around one or more spheres.
-/// \return The sphere. Its radius is 0.1 % too large, because of rounding.
+/// \return The sphere. Its radius is 0.1 % larger than needed, to allow for rounding.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] SphereT<T>
 sphere_around(const std::vector<SphereT<T>>& others) {
@@ -40,8 +40,8 @@ sphere_around(const std::vector<SphereT<T>>& others) {
 /// The sphere to which photons are sent. It contains all objects that are not lamps,
 /// and all lamps that touch the sphere around these objects. Lamps that are farther
 /// away are left out.
-/// \return The sphere. Its radius is 0.1 % too large, because of rounding. Nothing if
-///         all objects are lamps.
+/// \return The sphere. Its radius is 0.1 % larger than needed, to allow for rounding.
+///         Nothing if all objects are lamps.
 /// \cost O(n) for n objects, and 16 bytes for each in float.
 template <AnyWorld W, std::floating_point T = typename W::Scalar>
 [[nodiscard, gnu::cold]] std::optional<SphereT<T>> lit_sphere(const W& world) {
@@ -61,9 +61,9 @@ template <AnyWorld W, std::floating_point T = typename W::Scalar>
 
 namespace detail {
 
-/// The fraction of a light's photons that is sent into the cone. The other photons
-/// leave as from any light, because light also goes to objects outside the cone. Their
-/// flux is at most eight times that of a photon of a light that is not aimed.
+/// The fraction of an aimed light's photons that is sent into the cone. The other
+/// photons leave as from a light that is not aimed, because objects may lie outside the
+/// cone. Their flux is at most eight times that of a photon that is not aimed.
 inline constexpr double part_in_cone = 7.0 / 8;
 
 /// Emits a photon of a near light. With the probability part_in_cone it is sent into
@@ -138,8 +138,9 @@ part_of_flux_in(const W& world, const L& light, const SphereT<T>& sphere) {
 
 } // namespace detail
 
-/// How the photons of a general map leave the lights of a scene. The photons of distant
-/// lamps are aimed at the scene. `emit(world, aim.choice, stream, aim)` emits a photon.
+/// How the photons of a general map leave the lights of a scene. The photons of lamps
+/// that are far from the scene are aimed. `emit(world, aim.choice, stream, aim)` emits
+/// a photon.
 template <std::floating_point T>
 struct SceneAimT {
     LightChoice choice{}; ///< The distribution of the lights.

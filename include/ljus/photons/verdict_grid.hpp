@@ -14,9 +14,9 @@ namespace ljus {
 /// the six facings of a surface, and for each light \cite jensen1995.
 ///
 /// The verdict of a cell is that of the photons in the cell and in its 26 neighbours.
-/// They contain all photons that are closer to any point of the cell than the length of
-/// a cell. If there are too few photons for a verdict, cells of twice and then of four
-/// times the length are used.
+/// These 27 cells contain all photons within the length of a cell around any point of
+/// the middle cell. If there are too few photons for a verdict, cells of twice and then
+/// of four times the length are used.
 template <std::floating_point T>
 struct VerdictGridT {
     detail::VerdictBitsT<T> known{}; ///< The verdicts, by brick.

@@ -74,7 +74,7 @@ inline void check(const BeamEstimateSettings& settings) {
 /// Photons in fog, with a tree over the bounding boxes of their balls.
 template <std::floating_point T>
 struct VolumeMapT {
-    /// The type of the tree, which is that of a World.
+    /// The type of the tree. A World uses the same type.
     using Tree = std::conditional_t<std::is_same_v<T, float>, Bvh8, BvhT<T>>;
     Tree tree{};                             ///< The tree over the boxes.
     std::vector<VolumePhotonT<T>> photons{}; ///< In the order of the tree.
@@ -205,8 +205,8 @@ template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 /// \param map      The photons.
 /// \param ray      As for light_of_photon().
 /// \param kernel   The kernel.
-/// \param visited  Receives the number of photons whose boxes the ray meets, which is
-///                 added.
+/// \param visited  A counter. The number of photons whose boxes the ray meets is added
+///                 to it.
 /// \return Radiance, W/(m^2 sr).
 /// \cost One call of light_of_photon() for each box that the ray meets.
 // [tree beam]

@@ -34,8 +34,8 @@ namespace detail {
            d * z * std::atan2(z, d);
 }
 
-// Nodes in (0, 1) and weights of the double exponential rule. It suits integrands that
-// behave like s ln s at an end.
+// Nodes in (0, 1) and weights of the double exponential rule. This rule suits
+// integrands that behave like s ln s at an end.
 struct EdgeRule {
     static constexpr int count = 49;
     std::array<double, count> place{};

@@ -96,8 +96,8 @@ void shoot_rays(const W& world, const Patches& all, std::uint32_t number, int ra
 namespace detail {
 
 /// The visible fraction of the exchange between two patches, by rays between random
-/// points of both. The weight of a ray is the product of the cosines at its ends over
-/// its squared length.
+/// points of both patches. The weight of a ray is the product of the cosines at its
+/// ends over its squared length.
 /// \param world  The closed scene.
 /// \param all    The patches.
 /// \param one    The index of one patch.

@@ -38,8 +38,9 @@ struct Patches {
     bool convex = true;           ///< True if nothing can lie between two patches.
     /// Sentences about objects and lights that radiosity leaves out.
     std::vector<std::string> left_out;
-    /// The indices of the grids of an object, by its type and its index: that of the
-    /// front first, then that of the back. no_grid for a side without patches.
+    /// The grids of each object, by the type and the index of the object. Each element
+    /// has the index of the grid of the front, then that of the back. A side without
+    /// patches has no_grid.
     std::vector<std::vector<std::array<std::uint32_t, 2>>> grid_of;
 };
 

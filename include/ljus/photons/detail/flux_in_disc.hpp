@@ -121,7 +121,7 @@ public:
         }
         if (++parts_ == 16) add_part();
     }
-    /// The sum of weight times flux; W.
+    /// The sum of weight times flux, in W.
     RgbT<double> sum() noexcept {
         if (parts_ > 0) add_part();
         return sum_;
@@ -203,8 +203,8 @@ private:
 /// \param tree      The positions of the photons.
 /// \param records   The other data of the photons.
 /// \param disc      The disc.
-/// \param gathered  Receives the number of photons in the disc, on both sides, which is
-///                  added.
+/// \param gathered  A counter. The number of photons in the disc, on both sides, is
+///                  added to it.
 /// \return The sum of weight times flux, in W.
 template <std::floating_point T, typename K>
 [[nodiscard]] LJUS_CORE_CLONES RgbT<double>

@@ -204,9 +204,9 @@ struct Witness {
 };
 
 /// Finds the cells of photons, and inserts their bricks into the table of a grid.
-/// \return The direct and shadow photons, a list per light, and one more list with the
-///         indirect photons. For SkipRule::report the first list has those of all
-///         lights.
+/// \return For each light a list of direct and shadow photons, and one more list with
+///         the indirect photons. For SkipRule::report the first list has the direct and
+///         shadow photons of all lights.
 template <std::floating_point T>
 [[nodiscard]] std::vector<std::vector<Witness>>
 find_witnesses(const std::vector<PhotonT<T>>& photons, const SkipSettings& skip,
