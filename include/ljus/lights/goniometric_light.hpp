@@ -34,7 +34,7 @@ namespace ljus {
 
 /// The type of a goniophotometer; see \ref goniometric.
 enum class Photometry : std::uint8_t {
-    c, ///< For lamps of rooms and streets: the pole is the direction of the lamp.
+    c, ///< For lamps of rooms and streets: the pole is `direction`.
     b, ///< For floodlights: the pole is the side of the lamp.
     a  ///< For headlights: the pole is `reference`, which points up.
 };

@@ -148,7 +148,8 @@ concept NearLight = requires(const L& light, const Vec2T<typename L::Scalar>& u,
         } -> std::same_as<typename L::Scalar>;
 };
 
-/// A light so distant that its light has the same direction everywhere in the scene.
+/// A light at infinity. The radiance from a direction is the same at all points of the
+/// scene.
 template <typename L>
 concept FarLight = requires(const L& light, const Vec2T<typename L::Scalar>& u) {
     { light.around } -> std::convertible_to<SphereT<typename L::Scalar>>;

@@ -27,9 +27,10 @@ struct CompensatedGlossyT {
     detail::EnergyLossT<T> loss{}; ///< The loss of `first`, by bake_energy_loss().
     RgbT<T> mean{T(0)}; ///< Mean reflectance of a facet, from mean_reflectance().
 };
-using CompensatedGlossy = CompensatedGlossyT<float>; ///< With a colour, in float.
-using FullRoughMetal =
-    CompensatedGlossyT<float, ConductorIndexT<float>>; ///< With a metal, in float.
+/// CompensatedGlossyT in float, with a colour as the reflectance.
+using CompensatedGlossy = CompensatedGlossyT<float>;
+/// CompensatedGlossyT in float, with the complex index of a metal as the reflectance.
+using FullRoughMetal = CompensatedGlossyT<float, ConductorIndexT<float>>;
 
 namespace detail {
 

@@ -44,8 +44,8 @@ requires(detail::is_holes<Texture> || CutOutMaterial<Base>)
                                const Vec3T<T>& position, const Vec2T<T>& uv) noexcept {
     static_assert(
         !Refractive<std::remove_cvref_t<decltype(material_at(cut.base, position, uv))>>,
-        "The body of a transparent material cannot be cut out: a path would "
-        "get into it without crossing its surface.");
+        "A material with holes must be opaque: a path would get into a transparent "
+        "body without crossing its surface.");
     if constexpr (CutOutMaterial<Base>)
         if (is_open(cut.base, position, uv)) return true;
     if constexpr (detail::is_holes<Texture>)

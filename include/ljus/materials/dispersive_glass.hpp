@@ -58,7 +58,7 @@ sample(const DispersiveGlassT<T, Law>& glass, const Vec3T<T>& wo, const Vec3T<T>
     return sample(at_wavelength(glass, line_d<T>), wo, u, transport, which);
 }
 
-/// Both directions at the d line, 587.6 nm, as for GlassT.
+/// The reflected and the refracted sample at the d line, 587.6 nm, as for GlassT.
 template <std::floating_point T, typename Law>
 [[nodiscard]] std::optional<std::array<BsdfSampleT<T>, 2>>
 split(const DispersiveGlassT<T, Law>& glass, const Vec3T<T>& wo,

@@ -52,8 +52,10 @@ struct GlossyT {
     Facet reflectance{};  ///< Reflectance of a facet.
     T roughness = T(0.3); ///< Square root of GGX's alpha; 0 or in [0.01, 1].
 };
-using Glossy = GlossyT<float>;                             ///< With a colour, in float.
-using RoughMetal = GlossyT<float, ConductorIndexT<float>>; ///< With a metal, in float.
+/// GlossyT in float, with a colour as the reflectance.
+using Glossy = GlossyT<float>;
+/// GlossyT in float, with the complex index of a metal as the reflectance.
+using RoughMetal = GlossyT<float, ConductorIndexT<float>>;
 
 /// The lobes of this material: Lobes::glossy or, if the roughness is 0,
 /// Lobes::specular.

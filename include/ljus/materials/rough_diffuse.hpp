@@ -12,14 +12,14 @@ namespace ljus {
 /// \brief Section 3.2.1: four formulas that are called Oren-Nayar.
 /// \{
 
-/// A formula that is called Oren-Nayar. The number at the end of each description is
-/// the largest fraction of the light of a uniform sky that a white surface reflects,
-/// over all directions and roughnesses.
+/// A formula that is called Oren-Nayar. The numbers are the largest fraction of the
+/// light of a uniform sky that a white surface reflects, over all directions and
+/// roughnesses.
 enum class RoughModel : std::uint8_t {
-    as_printed, ///< The formula of the report's program: 1.
-    full,       ///< Oren and Nayar 1994 with interreflection between facets: 1.05.
-    fujii,      ///< Fujii's first model, with light reflected twice: 1.03.
-    fon         ///< Fujii's second model, whose roughness is in [0, 1]: 1.
+    as_printed, ///< The formula of the report's program; reflects up to 1.
+    full,       ///< Oren and Nayar's full model of 1994; reflects up to 1.05.
+    fujii,      ///< Fujii's first model; reflects up to 1.03.
+    fon         ///< Fujii's second model, roughness in [0, 1]; reflects up to 1.
 };
 
 /// A two-sided matt surface by one of the models.
@@ -59,8 +59,8 @@ template <std::floating_point T>
 /// BRDF is (single albedo + twice albedo^2)/pi.
 template <std::floating_point T>
 struct RoughRatiosT {
-    T single{}; ///< For light reflected once.
-    T twice{};  ///< For light reflected twice.
+    T single{}; ///< The ratio for light reflected once.
+    T twice{};  ///< The ratio for light reflected twice.
 };
 
 /// The full model of 1994, equations (30) and (31) of \cite orennayar1994. The ratios

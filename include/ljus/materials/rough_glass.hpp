@@ -69,8 +69,8 @@ template <std::floating_point T>
 /// The indices on both sides of a boundary, as seen from `wo`.
 template <std::floating_point T>
 struct SidesT {
-    T here = T(1);   ///< On the side of `wo`.
-    T beyond = T(1); ///< On the other side.
+    T here = T(1);   ///< Index on the side of `wo`.
+    T beyond = T(1); ///< Index on the other side.
 };
 
 template <std::floating_point T>
@@ -215,7 +215,7 @@ sample(const RoughGlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
 }
 // [sample rough glass]
 
-/// Both directions of a smooth boundary, as for GlassT.
+/// The reflected and the refracted sample of a smooth boundary, as for GlassT.
 /// \return Nothing if the boundary is rough.
 template <std::floating_point T>
 [[nodiscard]] std::optional<std::array<BsdfSampleT<T>, 2>>

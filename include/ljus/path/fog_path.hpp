@@ -43,8 +43,9 @@ void require_no_film_in_fog([[maybe_unused]] const W& world) {
     if constexpr (W::lists_fog && detail::lists_thin_surfaces<W>)
         if (world.has_fog() && detail::has_thin_surfaces(world))
             throw std::invalid_argument(
-                "the scene has both fog and thin surfaces, which paths in fog do not "
-                "pass; remove the fog, or all soap films and thin glass.");
+                "the scene has both fog and thin surfaces, but paths in fog cannot "
+                "pass "
+                "thin surfaces; remove the fog, or all soap films and thin glass.");
 }
 
 /// The points of a segment from which shadow rays find the light that fog scatters. All

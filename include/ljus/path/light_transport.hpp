@@ -80,7 +80,8 @@ struct ClassesLog {
     std::vector<std::uint64_t> takers{};   ///< For each delayed term, a bit per class.
     std::uint32_t* next_delayed = nullptr; ///< Receives takers.size() after delay().
 
-    /// \param classes  Must outlive the log.
+    /// Makes a log.
+    /// \param classes  The classes of paths, at most 64; must outlive the log.
     explicit ClassesLog(std::span<const LightPathExpression> classes) {
         for (const LightPathExpression& wanted : classes) logs.push_back({wanted});
     }

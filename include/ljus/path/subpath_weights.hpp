@@ -38,8 +38,8 @@ namespace ljus {
 /// direction from x to the vertex before x; and \f$\eta = N \pi r^2\f$ is the term of
 /// merging at x, with N light paths and the radius r.
 struct SubpathWeights {
-    double join = 0;    ///< For a connection of x and the vertex before x.
-    double further = 0; ///< For all earlier joints.
+    double join = 0;    ///< The term of a connection of x and the vertex before x.
+    double further = 0; ///< The term of all earlier joints.
 };
 
 /// The densities at the end of a path on a light.

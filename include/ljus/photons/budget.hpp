@@ -48,8 +48,8 @@ namespace ljus {
 }
 // [share_out]
 
-/// The results of a pilot pass for one object. Each *scatter* is an a_k of share_out(),
-/// by another measure of the error; see pilot_caustics().
+/// The results of a pilot pass for one object. Each *scatter* is the a_k of share_out()
+/// for one measure of the error; see pilot_caustics().
 struct CausticPilot {
     ObjectId object{};      ///< The object.
     std::size_t stored = 0; ///< Number of photons that the pilot stored.

@@ -131,8 +131,8 @@ namespace detail {
 /// the shutter is open.
 /// \param world    The closed scene.
 /// \param resting  The point at time 0.
-/// \param rays     Number of shadow rays per light. If a shape moves, each ray has
-///                 another time.
+/// \param rays     Number of shadow rays per light. If a shape moves, the rays have
+///                 different times.
 /// \param context  Its stream gives random numbers.
 /// \return W/m^2.
 template <AnyWorld W, std::floating_point T, typename Context>

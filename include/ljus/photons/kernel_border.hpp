@@ -52,8 +52,8 @@ vertex_below(const W& world, const Vec3T<T>& place, const Vec3T<T>& normal, T he
     return vertex;
 }
 
-/// Whether a surface continues at a point: whether vertex_below() finds a surface with
-/// the same normal.
+/// Whether a surface continues at a point. It does if vertex_below() finds a surface
+/// with the same normal.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] bool goes_on(const W& world, const Vec3T<T>& place,
                            const Vec3T<T>& normal, T height) {

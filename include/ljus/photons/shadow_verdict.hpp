@@ -20,10 +20,12 @@ namespace ljus {
 /// A rule by which the photons around a point make a shadow ray unnecessary. Direct
 /// photons mean that a light is visible, shadow photons that it is occluded.
 enum class SkipRule : std::uint8_t {
-    none,   ///< Every shadow ray is cast.
-    report, ///< The report's: many photons of one kind, few of the other; all lights.
-    any,    ///< At least one photon of one kind, none of the other \cite jensen1995.
-    enough  ///< At least photons_needed() of one kind, none of the other.
+    none, ///< Every shadow ray is cast.
+    /// The rule of the report: many photons of one kind, few of the other. The photons
+    /// of all lights are counted together.
+    report,
+    any,   ///< At least one photon of one kind, none of the other \cite jensen1995.
+    enough ///< At least photons_needed() of one kind, none of the other.
 };
 
 /// Settings for skipping rays. `tolerance` and `risk` are used by SkipRule::enough.

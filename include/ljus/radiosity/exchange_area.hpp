@@ -59,8 +59,8 @@ struct EdgeRule {
 }
 
 // The integral over two distant edges, by Gauss's rule with six points on each edge. If
-// the distance is above six lengths of the edges, the rule is exact to the last digit,
-// while the closed form would be a small difference of large numbers.
+// the distance is above six times the length of the longer edge, the rule is exact to
+// the last digit. The closed form would be a small difference of large numbers.
 [[nodiscard]] inline double edges_apart(const glm::dvec3& way, const glm::dvec3& u,
                                         const glm::dvec3& v, double unit) noexcept {
     constexpr std::array place{0.03376524289842397, 0.1693953067668678,

@@ -223,8 +223,8 @@ template <AnyWorld W>
     detail::say(all, unknown, " object is of a shape that is not divided into patches",
                 " objects are of a shape that is not divided into patches");
     detail::say(all, static_cast<long long>(world.light_count()) - lamps,
-                " light is no surface with patches and lights nothing",
-                " lights are no surfaces with patches and light nothing");
+                " light has no patches and lights no surface",
+                " lights have no patches and light no surface");
     require(!all.patches.empty(), "the number of patches", 0LL,
             "at least 1: add a Lambertian quad, triangle or ball that sees another");
     return all;
