@@ -31,7 +31,8 @@ enum class SkipRule : std::uint8_t {
 /// Settings for skipping rays. `tolerance` and `risk` are used by SkipRule::enough.
 struct SkipSettings {
     SkipRule rule = SkipRule::none; ///< Rule for shadow rays.
-    bool indirect_rays = false;     ///< Skip indirect rays far from indirect photons.
+    /// Whether indirect rays are skipped where no indirect photon is near.
+    bool indirect_rays = false;
     float radius = 0; ///< Search radius in scene units; 0: chosen from the photons.
     float tolerance = 0.05f; ///< Occluded fraction of a light that may be ignored.
     float risk = 0.05f;      ///< Probability of ignoring a larger fraction.

@@ -55,7 +55,7 @@ using VolumePhoton = VolumePhotonT<float>; ///< VolumePhotonT in float: 44 bytes
 /// How the flux of photons in fog is spread.
 struct BeamEstimateSettings {
     /// Radius of the balls, in scene units. 0: each photon has its own radius, which is
-    /// the distance to its n-th nearest neighbour, n being `nearest`.
+    /// the distance to its n-th nearest neighbour, where n is `nearest`.
     float radius = 0;
     std::size_t nearest = 10; ///< The neighbour that sets the radius, 1 to 511.
     Kernel kernel = Kernel::epanechnikov; ///< Weight by the distance from the ray.
@@ -86,8 +86,8 @@ using VolumeMap = VolumeMapT<float>; ///< VolumeMapT in float.
 
 namespace detail {
 
-/// Sets the radius of each photon to the distance to its n-th nearest neighbour, n
-/// being `nearest`. If this distance is 0, the radius is a thousandth of the extent of
+/// Sets the radius of each photon to the distance to its n-th nearest neighbour, where
+/// n is `nearest`. If this distance is 0, the radius is a thousandth of the extent of
 /// all photons.
 // [radii]
 template <std::floating_point T>

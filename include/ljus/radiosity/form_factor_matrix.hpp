@@ -16,8 +16,8 @@ namespace ljus {
 /// \{
 
 /// The form factors F_ij of a scene, stored as exchange areas
-/// \f$ A_i F_{ij} = A_j F_{ji} \f$, where A_i is the area of patch i. This matrix is
-/// exactly symmetric.
+/// \f$ A_i F_{ij} = A_j F_{ji} \f$, where A_i is the area of patch i. The matrix of
+/// exchange areas is exactly symmetric.
 struct FormFactors {
     std::vector<double> area{}; ///< Area of each patch, in squared scene units.
     /// Exchange areas, in squared scene units: a symmetric matrix, row by row.
@@ -83,9 +83,10 @@ inline bool close_rows(FormFactors& factors) {
 
 } // namespace detail
 
-/// Computes the form factors between all patches. Between two flat patches it is the
-/// closed form times the visible fraction. Between other patches rays are cast, from
-/// one patch or from both; then the mean is weighted by area for the least noise.
+/// Computes the form factors between all patches. Between two flat patches, the form
+/// factor is the closed form times the visible fraction. For all other pairs, rays are
+/// cast from each patch of the pair that is not flat; without settings.analytic, from
+/// both patches. Two results are averaged with the weights of the least noise.
 /// \param world     The closed scene.
 /// \param all       The patches.
 /// \param settings  The settings.
