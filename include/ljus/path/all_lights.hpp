@@ -287,7 +287,7 @@ template <std::floating_point T, typename Context>
     return stratified(cells, i, key, u);
 }
 
-/// Adds the light of one light: the mean of several shadow rays.
+/// Adds the radiance from one light: the mean of several shadow rays.
 /// \param sum       The sum of radiance towards `wo`.
 /// \param world     The closed scene.
 /// \param light     The index of the light.

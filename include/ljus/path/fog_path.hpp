@@ -171,7 +171,7 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     // [fly]
 }
 
-/// The light of one light that fog scatters back along a path, by one shadow ray.
+/// The radiance from one light that fog scatters back along a path, by one shadow ray.
 /// \param world   The closed scene.
 /// \param light   The index of the light.
 /// \param vertex  The point in fog.
@@ -242,8 +242,8 @@ template <Medium M, std::floating_point T>
 
 } // namespace detail
 
-/// The light of one light that fog scatters at a vertex from fly(), by one shadow ray.
-/// The light is chosen in proportion to its power.
+/// The radiance from one light that fog scatters at a vertex from fly(), by one shadow
+/// ray. The light is chosen in proportion to its power.
 /// \param world       The closed scene, with at least one light.
 /// \param segment     The segment.
 /// \param vertex      The vertex from fly().
@@ -274,9 +274,9 @@ template <AnyWorld W, std::floating_point T, typename Context>
     return throughput * light / chosen.probability;
 }
 
-/// The light of one light that fog scatters on a segment, by one shadow ray. The light
-/// is chosen in proportion to its power. The ray starts at a point from equi-angular
-/// sampling, which favours points near the light \cite kulla2012.
+/// The radiance from one light that fog scatters on a segment, by one shadow ray. The
+/// light is chosen in proportion to its power. The ray starts at a point from
+/// equi-angular sampling, which favours points near the light \cite kulla2012.
 /// \param world      The closed scene, with at least one light.
 /// \param segment    The segment, outside all bodies.
 /// \param heuristic  The weights of this ray and of a scattered ray.

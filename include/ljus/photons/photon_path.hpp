@@ -302,7 +302,7 @@ template <std::floating_point T, Material M, StreamLike Stream>
 ///
 /// A photon of the general map is scattered at this point, unless Russian roulette ends
 /// it. A photon of the caustics map is not scattered; its flux is attenuated by the
-/// fog. At the point a photon of the kind PhotonKind::fog is stored if the path so far
+/// fog. At this point a photon of the kind PhotonKind::fog is stored if the path so far
 /// is L S+ for the caustics map, or L ... D ... for the general map. For light that
 /// comes straight from a light, shadow rays are used instead.
 /// \param world    The closed scene.

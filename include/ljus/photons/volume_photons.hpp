@@ -35,10 +35,11 @@ namespace ljus {
 /// \f[ L = \sum_i \frac{w(d_i^2 / r_i^2)}{\pi r_i^2}\,\varrho(\theta_i)\,T(t_i)\,
 ///     \Delta\Phi_i , \f]
 ///
-/// where the ray passes photon i at the distance d_i, below the radius r_i of the
-/// photon, after a way of length t_i. w is the weight of the kernel, \f$ \varrho \f$
-/// the phase function, \f$ \theta_i \f$ the angle by which light is turned, T the
-/// transmittance of the fog, and \f$ \Delta\Phi_i \f$ the flux of the photon.
+/// where d_i is the distance at which the ray passes photon i, t_i the length of the
+/// ray up to there, and r_i the radius of the photon. Only photons with d_i < r_i
+/// count. w is the weight of the kernel, \f$ \varrho \f$ the phase function,
+/// \f$ \theta_i \f$ the angle by which light is turned, T the transmittance of the fog,
+/// and \f$ \Delta\Phi_i \f$ the flux of the photon.
 /// \{
 
 /// A photon in fog.
@@ -199,8 +200,8 @@ template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 
 /// The radiance that fog scatters along a ray to its origin, by the photons of a map.
 /// The estimate is too dark near the border of the fog and near surfaces, because a
-/// part of a ball lies outside the fog. It ignores objects between a photon and the
-/// ray.
+/// part of a ball lies outside the fog. Objects between a photon and the ray are
+/// ignored.
 /// \param world    The closed scene.
 /// \param map      The photons.
 /// \param ray      As for light_of_photon().

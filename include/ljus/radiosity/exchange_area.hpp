@@ -108,11 +108,11 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
 }
 
 /// The integral of the logarithm of the distance r over two edges, times the cosine of
-/// their angle phi. For perpendicular edges it is 0, and for parallel edges it has a
-/// closed form. In all other cases the inner integral has a closed form, and the outer
-/// integral is summed by the double exponential rule \cite takahasi1974. This rule
-/// allows singularities at its ends, so that the first edge is split where it is close
-/// to the second.
+/// their angle phi. The result is 0 for perpendicular edges, and has a closed form for
+/// parallel edges. In all other cases the inner integral has a closed form, and the
+/// outer integral is summed by the double exponential rule \cite takahasi1974. This
+/// rule allows singularities at the ends of an interval. The first edge is therefore
+/// split where it is close to the second.
 /// \param a, u  Start and vector of the first edge.
 /// \param b, v  Start and vector of the second edge.
 /// \param unit  A length that keeps the logarithm small.

@@ -40,8 +40,8 @@ struct RecordBlockT {
     std::uint32_t unused[4];         ///< 0, so that saved maps have defined bytes.
 };
 
-// The kind of a photon and its normal, in 32 bits. Each field has the same position in
-// all eight numbers of a block, so that one instruction can extract it from all.
+// The kind of a photon and its normal, in 32 bits. A field has the same position in all
+// eight numbers of a block, so that one instruction can extract the field from all.
 struct RecordCode {
     // The bits of one_kind() follow the three bytes of the normal.
     static constexpr int kind_shift = 24;
