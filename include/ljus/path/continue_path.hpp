@@ -132,7 +132,7 @@ void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
 /// \param transport  Whether the path carries radiance or flux.
 /// \param which      The lobes to sample.
 /// \param stream     Three numbers are drawn.
-/// \return False if the path ends here; then it is unchanged.
+/// \return False if the path ends here. The path is then unchanged.
 /// \report{Section 3.2.4}
 template <std::floating_point T, Material M, StreamLike Stream>
 [[nodiscard]] bool continue_path(PathStateT<T>& path, const VertexT<T>& vertex,

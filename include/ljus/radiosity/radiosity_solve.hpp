@@ -31,9 +31,10 @@ enum class RadiositySolver : std::uint8_t {
 /// The solver, and when it stops.
 struct SolveSettings {
     RadiositySolver solver = RadiositySolver::shooting; ///< The solver.
-    double tolerance = 1e-12; ///< It stops at this unshot fraction of the emitted flux.
-    int max_sweeps = 10000;   ///< The largest number of sweeps of n steps each.
-    int threads = 0;          ///< For RadiositySolver::jacobi; as in ParallelSettings.
+    /// The solver stops when the unshot flux is this fraction of the emitted flux.
+    double tolerance = 1e-12;
+    int max_sweeps = 10000; ///< The largest number of sweeps of n steps each.
+    int threads = 0;        ///< For RadiositySolver::jacobi; as in ParallelSettings.
 };
 
 /// The radiosity of all patches.
