@@ -90,8 +90,7 @@ template <std::floating_point T>
 }
 
 /// Samples a photon's angle to the axis, in proportion to the flux.
-/// \param light  The spot light.
-/// \param u      In [0, 1).
+/// \param u  In [0, 1).
 /// \return 1 - cos of the angle, within [0, light.outer].
 // [sample_spot]
 template <std::floating_point T>

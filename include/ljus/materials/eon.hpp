@@ -59,7 +59,6 @@ inline constexpr T eon_mean_loss = fon_constant<T> -
 /// Pi times the BRDF: Fujii's second model, plus the light that it loses, by
 /// \ref multiple_scattering. The factor A r of the losses is cancelled, so that a
 /// roughness of 0 needs no special case.
-/// \param surface  The material.
 /// \param wo, wi   Unit vectors on the same side.
 /// \return At least 0.
 /// \cost Two arc tangents, four square roots, eight divisions.

@@ -116,8 +116,7 @@ sample(const OrenNayarT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
 namespace detail {
 
 /// Requires a roughness within [0, 1000] radians.
-/// \param what   The name of the member for the message, e.g. "oren_nayar.sigma".
-/// \param sigma  The roughness.
+/// \param what  The name of the member for the message, e.g. "oren_nayar.sigma".
 template <std::floating_point T>
 void require_roughness(std::string_view what, T sigma) {
     require(sigma >= T(0) && sigma <= T(1000), what, sigma,

@@ -74,16 +74,11 @@ template <std::floating_point T>
 /// lamp is fully visible or fully occluded there is no noise. In a penumbra the ratio
 /// of two random sums has a bias; it is of the order of the variance of f_i over the
 /// number of rays.
-/// \param world     The closed scene.
-/// \param light     The index of the light.
-/// \param lamp      From seen_lamp().
-/// \param vertex    The surface.
-/// \param material  The material of the surface.
-/// \param rays      Number of shadow rays, at least 1.
-/// \param place     place(i, cells) returns a point of the unit square, in the i-th
-///                  cell.
-/// \param counts    Counts the rays.
-/// \param verdict   The known visibility.
+/// \param lamp    From seen_lamp().
+/// \param rays    Number of shadow rays, at least 1.
+/// \param place   place(i, cells) returns a point of the unit square, in the i-th
+///                cell.
+/// \param counts  Counts the rays.
 /// \return Radiance towards `wo`, W/(m^2 sr).
 /// \cite heitz2018shadows
 template <AnyWorld W, std::floating_point T, typename Place>
@@ -108,7 +103,6 @@ analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
 
 /// The emission of a lamp or of the sky that a scattered ray meets, with the weight of
 /// multiple importance sampling.
-/// \param world     The closed scene.
 /// \param path      The path after next_vertex(). It was scattered at path.previous.
 /// \param lamp      The vertex that the ray hit; nothing if the ray left the scene.
 /// \param reaching  The density of the ray's direction, per steradian. In fog it is
@@ -138,11 +132,8 @@ template <AnyWorld W, std::floating_point T>
 
 /// Traces an extra ray, sampled by the material, and returns the result of met_light()
 /// for this ray. The ray carries no other light.
-/// \param world     The closed scene.
-/// \param vertex    The surface.
-/// \param material  The material of the surface.
-/// \param rays      Number of shadow rays per light.
-/// \param context   Three numbers are drawn; the ray is counted as a shadow ray.
+/// \param rays     Number of shadow rays per light.
+/// \param context  Three numbers are drawn; the ray is counted as a shadow ray.
 /// \return Radiance towards `wo`, W/(m^2 sr).
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> found_light(const W& world, const VertexT<T>& vertex,
@@ -192,8 +183,6 @@ template <std::floating_point T>
 class SharedRaysT {
 public:
     /// Computes the unoccluded light of all lamps that are not known to be occluded.
-    /// \param world     The closed scene.
-    /// \param vertex    The surface.
     /// \param rays      The largest number of rays to a lamp.
     /// \param verdicts  Called with a light's index; returns its known visibility.
     /// \param stream    One number is drawn.
@@ -288,16 +277,11 @@ template <std::floating_point T, typename Context>
 }
 
 /// Adds the radiance from one light: the mean of several shadow rays.
-/// \param sum       The sum of radiance towards `wo`.
-/// \param world     The closed scene.
-/// \param light     The index of the light.
-/// \param vertex    The surface.
-/// \param material  The material of the surface.
-/// \param u         Position within each cell of the light.
-/// \param rays      Number of rays, at least 1.
-/// \param mis       How light is divided between these rays and a scattered ray.
-/// \param context   Its counters count the rays.
-/// \param verdict   The known visibility.
+/// \param sum      The sum of radiance towards `wo`.
+/// \param u        Position within each cell of the light.
+/// \param rays     Number of rays, at least 1.
+/// \param mis      How light is divided between these rays and a scattered ray.
+/// \param context  Its counters count the rays.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[gnu::always_inline]] inline void
 add_sampled_light(RgbT<T>& sum, const W& world, std::uint32_t light,

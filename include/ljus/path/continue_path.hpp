@@ -83,7 +83,6 @@ namespace detail {
 /// the same side, it is `medium`. Otherwise it is that of the material inside the body,
 /// and 0 outside.
 /// \param medium    Absorption coefficient on the side of `wo`, per scene unit.
-/// \param material  The material of the surface.
 /// \param wo, wi    Unit vectors in the frame of the surface.
 /// \return Per scene unit.
 template <typename M, std::floating_point T>
@@ -101,11 +100,8 @@ template <typename M, std::floating_point T>
 }
 
 /// Continues a path in a sampled direction.
-/// \param path      The path; receives the new ray, throughput and medium.
-/// \param vertex    The vertex.
-/// \param material  The material at the vertex.
-/// \param next      The sample.
-/// \param wi        The sampled direction in the world.
+/// \param path  The path; receives the new ray, throughput and medium.
+/// \param wi    The sampled direction in the world.
 template <std::floating_point T, Material M>
 void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
             const BsdfSampleT<T>& next, const Vec3T<T>& wi) noexcept {

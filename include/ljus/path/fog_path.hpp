@@ -111,8 +111,6 @@ template <AnyWorld W, std::floating_point T>
 }
 
 /// The density with which fly() scatters a path at a vertex, per scene unit.
-/// \param segment     The segment.
-/// \param vertex      The vertex.
 /// \param extinction  Extinction coefficient of the vertex's medium, per scene unit.
 template <std::floating_point T>
 [[nodiscard]] T pdf_flight(const FogSegmentT<T>& segment, const FogVertexT<T>& vertex,

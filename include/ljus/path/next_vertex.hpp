@@ -67,7 +67,6 @@ template <AnyWorld W>
 /// Sets the shading frame of a vertex, and turns its normals if the object is inside
 /// out.
 /// \param vertex  The vertex; `point` and `object` must be set.
-/// \param ray     The ray that hit.
 /// \param normal  The shading normal of the shape.
 // [set_frame]
 template <std::floating_point T>
@@ -167,7 +166,6 @@ template <AnyWorld W>
 /// disperses light, on either side of the surface. Until then the path carries all
 /// wavelengths. The throughput is multiplied by the colour of the wavelength; the mean
 /// of these colours is white.
-/// \param world    The closed scene.
 /// \param path     The path; receives the wavelength and keeps it.
 /// \param vertex   A vertex from fill_vertex(); receives the wavelength.
 /// \param hit      The hit at the vertex.
@@ -190,10 +188,6 @@ void disperse(const W& world, PathStateT<T>& path, VertexT<T>& vertex,
 
 /// Sets the frame of a vertex by the normal map of its material, if there is one.
 /// \param vertex  The vertex; `point`, `uv` and `object` must be set.
-/// \param world   The closed scene.
-/// \param ray     The ray that hit.
-/// \param shape   The shape.
-/// \param hit     The hit.
 /// \return Whether the material has a normal map.
 template <AnyWorld W, std::floating_point T, HasTangents G>
 [[nodiscard]] bool map_normal(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
@@ -217,9 +211,7 @@ template <AnyWorld W, std::floating_point T, HasTangents G>
 /// Computes vertex_at() in place, which saves a copy of 160 bytes per ray.
 /// \param vertex  A new vertex. All members except `medium`, `outside`, `wavelength`
 ///                and `stop_probability` are set.
-/// \param world   The closed scene.
 /// \param ray     The ray that hit, with a unit direction.
-/// \param hit     The hit.
 template <AnyWorld W, std::floating_point T>
 inline void fill_vertex(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
                         const SceneHitT<T>& hit) {
@@ -306,9 +298,8 @@ template <AnyWorld W, std::floating_point T, Material M>
 namespace detail {
 
 /// Whether both normals of a vertex agree about the side of a direction.
-/// \param vertex  The vertex.
-/// \param local   The direction in the frame of the vertex.
-/// \param world   The same direction in the world.
+/// \param local  The direction in the frame of the vertex.
+/// \param world  The same direction in the world.
 template <std::floating_point T>
 [[nodiscard]] bool agrees(const VertexT<T>& vertex, const Vec3T<T>& local,
                           const Vec3T<T>& world) noexcept {
@@ -506,7 +497,6 @@ struct PassageT {
 
 /// Traces a path through thin and hidden surfaces. A path stops at a thin surface, to
 /// be reflected, with a probability that is the mean reflectance of the channels.
-/// \param world   The closed scene.
 /// \param path    The path. Receives the last segment of its ray, and the bodies on
 ///                both sides of the surface where the path stops.
 /// \param hit     The first hit of the ray; receives the hit where the path stops.
@@ -694,9 +684,6 @@ inline void find_medium(const W& world, PathStateT<T>& path) {
 /// In a scene with priorities, sets two things: the index of refraction on the outside
 /// of a vertex; and the medium of the path, which is that of the body with the highest
 /// priority around it.
-/// \param vertex   The vertex.
-/// \param world    The closed scene.
-/// \param path     The path.
 /// \param outside  The rank of the body on the outside, see BodyList; 0 is air.
 template <AnyWorld W, std::floating_point T>
 inline void set_bodies(VertexT<T>& vertex, const W& world, PathStateT<T>& path,

@@ -75,7 +75,6 @@ void log_arrival(Log& log, const Vec3T<T>& position) {
 
 /// Reports a term to a log that has delay(). The value of the term is found later, by a
 /// batch.
-/// \param log     The log.
 /// \param suffix  The letters from the last vertex to the light.
 template <typename Log>
 void log_delay(Log& log, std::string_view suffix) {
@@ -83,7 +82,6 @@ void log_delay(Log& log, std::string_view suffix) {
 }
 
 /// Reports the last scattering of a path to a log.
-/// \param log   The log.
 /// \param path  The path after continue_path().
 template <typename Log, std::floating_point T>
 void log_vertex(Log& log, const PathStateT<T>& path) {
@@ -91,7 +89,6 @@ void log_vertex(Log& log, const PathStateT<T>& path) {
 }
 
 /// Reports a path from split_path() as a new path, with all its vertices so far.
-/// \param log   The log.
 /// \param path  The path. It has met only mirrors and glass.
 template <typename Log, std::floating_point T>
 void log_specular_path(Log& log, const PathStateT<T>& path) {

@@ -191,8 +191,6 @@ struct TurnT {
 };
 
 /// Computes a TurnT.
-/// \param at         The vertex.
-/// \param material   The material at the vertex.
 /// \param direction  Unit direction in the world.
 /// \param transport  The quantity that the path carries.
 template <std::floating_point T, Material M>

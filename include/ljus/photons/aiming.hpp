@@ -81,10 +81,8 @@ struct AimT {
 /// object's bounding sphere or, if the object is flat, at its area. If the cone of
 /// emission is narrower (a spot light, or a lamp inside the bounding sphere), the point
 /// aims at the cone of emission instead.
-/// \param world     The closed scene.
 /// \param emission  The cone of all directions of emission.
 /// \param from      The point of the light.
-/// \param target    The object.
 // [aim_at]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] AimT<T> aim_at(const W& world, const ConeT<T>& emission,
@@ -196,11 +194,9 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 
 /// Samples a direction from a point of a near light to one of the targets: uniformly in
 /// a cone, or uniformly over the area of a flat object; see aim_at().
-/// \param world     The closed scene.
 /// \param emission  The cone of all directions of emission.
 /// \param from      The point of the light.
 /// \param targets   The targets.
-/// \param u         The random numbers.
 /// \return Nothing if all targets have the radius 0, or if the chosen target is flat
 ///         and is seen edge-on or contains `from`.
 template <AnyWorld W, std::floating_point T>

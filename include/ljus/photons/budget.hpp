@@ -64,7 +64,6 @@ namespace detail {
 
 /// The irradiance around a photon, on the side of the surface on which it arrived.
 /// \param map     The photons to sum. Shadow photons do not count.
-/// \param at      The photon.
 /// \param radius  Search radius, in scene units.
 /// \return Luminance of the irradiance, in W/m^2.
 template <std::floating_point T>
@@ -120,7 +119,6 @@ struct PilotLightT {
     double dark = 0;               ///< A tenth of the mean irradiance, W/m^2.
 
     /// Sums the flux and the scatters of an object.
-    /// \param object   The object.
     /// \param photons  The photons that its pilot stored.
     /// \param paths    The number of photons that its pilot emitted.
     [[nodiscard]] CausticPilot judge(ObjectId object,

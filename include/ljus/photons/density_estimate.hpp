@@ -130,8 +130,6 @@ struct EstimatePlaceT {
 /// direction vertex.wo.
 /// \param place       Receives the request. Writing in place avoids a store-forwarding
 ///                    stall.
-/// \param vertex      The vertex.
-/// \param material    The material at the vertex.
 /// \param throughput  Throughput of the path.
 /// \param item        Identifies the request to the caller.
 template <std::floating_point T>
@@ -148,7 +146,6 @@ void set_place(EstimatePlaceT<T>& place, const VertexT<T>& vertex,
 
 /// Computes estimate_radiance() at many points, with the same results to the last bit.
 /// It is faster, because the waits for memory overlap.
-/// \param map       The photons.
 /// \param places    The requests.
 /// \param gather    The settings. They must satisfy in_lanes(); `nearest` must be 0.
 /// \param kinds     The kinds of photons that count.

@@ -122,7 +122,6 @@ struct NearestPhotons {
 /// Finds the k nearest photons for an estimate. The k-th photon sets the radius and is
 /// left out. If there are fewer than k photons within `radius`, all of them are
 /// returned.
-/// \param map     The photons.
 /// \param point   Point of a surface; its position and normal are used.
 /// \param radius  The largest radius, in scene units.
 /// \param room    Space for k elements, at most max_nearest.
@@ -145,7 +144,6 @@ nearest_photons(const PhotonMapT<T>& map, const SurfacePointT<T>& point, T radiu
 }
 
 /// Sums over the k nearest photons, one by one.
-/// \param map       The photons.
 /// \param point     Point of a surface; its position and normal are used.
 /// \param gather    The settings; `nearest` is k.
 /// \param kinds     The kinds of photons that count.
@@ -194,10 +192,8 @@ flux_disc(const Vec3T<T>& position, const Vec3T<T>& normal, const Vec3T<T>& side
 
 /// Sums the flux that arrives on one side of a surface within a fixed radius, eight
 /// photons at a time.
-/// \param map       The photons.
 /// \param point     Point of a surface; its position and normal are used.
 /// \param side      Unit normal on this side. Photons that travel against it count.
-/// \param gather    The settings.
 /// \param kinds     The kinds of photons that count.
 /// \param gathered  A counter. The number of photons in the disc, on both sides, is
 ///                  added to it.

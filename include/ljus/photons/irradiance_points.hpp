@@ -129,7 +129,6 @@ namespace detail {
 
 /// The irradiance from all lights at a lookup point: the mean over the time for which
 /// the shutter is open.
-/// \param world    The closed scene.
 /// \param resting  The point at time 0.
 /// \param rays     Number of shadow rays per light. If a shape moves, the rays have
 ///                 different times.
@@ -163,12 +162,10 @@ template <AnyWorld W, std::floating_point T, typename Context>
 
 /// The irradiance at a lookup point: direct light by shadow rays, caustics and indirect
 /// light from the maps.
-/// \param world     The closed scene.
 /// \param general   The general map. Its indirect photons count, except for lookup
 ///                  points.
 /// \param caustics  The caustics map; may be empty.
 /// \param vertex    The point at time 0, with `wo` on the side of the irradiance.
-/// \param settings  The settings.
 /// \param radius    The largest radius of an estimate, in scene units.
 /// \param context   Its stream gives random numbers.
 /// \return W/m^2.

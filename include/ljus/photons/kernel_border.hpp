@@ -34,9 +34,6 @@ template <std::floating_point T>
 namespace detail {
 
 /// Finds the surface near a point by a short ray against the normal.
-/// \param world   The closed scene.
-/// \param place   The point.
-/// \param normal  Unit normal.
 /// \param height  The ray starts at this height above the point, and ends as far below.
 /// \return The vertex; nothing if the ray hits nothing.
 template <AnyWorld W, std::floating_point T>

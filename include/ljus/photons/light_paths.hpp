@@ -82,7 +82,6 @@ struct LightStartT {
 };
 
 /// Starts a light path as emit() does. The result also has the point of the light.
-/// \param world   The closed scene.
 /// \param stream  Five numbers are drawn.
 template <AnyWorld W, StreamLike Stream>
 [[nodiscard]] auto start_light_path(const W& world, Stream& stream) {

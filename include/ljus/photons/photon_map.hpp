@@ -39,9 +39,8 @@ template <std::floating_point T>
 }
 
 /// Builds a map.
-/// \param count    The number of photons.
-/// \param each     each(add) must call add(photon) for each photon.
-/// \param threads  As in ParallelSettings.
+/// \param count  The number of photons.
+/// \param each   each(add) must call add(photon) for each photon.
 template <std::floating_point T, typename Each>
 [[nodiscard]] PhotonMapT<T> map_of(std::size_t count, const Each& each, int threads) {
     require_point_count(count);

@@ -116,8 +116,6 @@ template <std::floating_point T>
 }
 
 /// Refuses a pass that would exceed its limit of memory.
-/// \param map   The kind of map.
-/// \param pass  The settings.
 /// \param mean  The number of stored photons per path so far.
 /// \throws std::invalid_argument  with the predicted memory, the limit, and the number
 ///         of photons that would fit.
@@ -139,8 +137,6 @@ template <std::floating_point T>
 }
 
 /// Explains in one sentence why a pass that has stored nothing gives up.
-/// \param pass    The settings.
-/// \param map     The kind of map.
 /// \param paths   The number of paths.
 /// \param unsent  The number of paths that no light could emit.
 /// \param audit   What became of the emitted flux.

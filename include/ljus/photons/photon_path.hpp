@@ -181,7 +181,6 @@ namespace detail {
 /// Stores shadow photons on the diffuse surfaces behind the first hit of a photon. On
 /// each side of a surface, direct and shadow photons together represent the unoccluded
 /// light.
-/// \param world   The closed scene.
 /// \param photon  The photon as it leaves the light.
 /// \param first   The first hit of the photon.
 /// \param stream  A copy of the photon's stream. One number is drawn per thin surface.
@@ -224,7 +223,6 @@ template <std::floating_point T>
 /// The factor of a photon's flux where shading normal and geometric normal differ. The
 /// density of photons on a surface contains the cosine to the geometric normal, but the
 /// material needs the cosine to the shading normal.
-/// \param vertex     The vertex.
 /// \param direction  The photon's unit direction of travel.
 /// \return |cosine| to the shading normal over |cosine| to the geometric normal. 0 if
 ///         the two normals disagree about the side.
@@ -238,14 +236,9 @@ template <std::floating_point T>
 
 /// Stores a photon if the surface has a non-specular lobe and the map stores this kind
 /// of photon.
-/// \param world     The closed scene.
-/// \param path      The path of the photon; its throughput is the flux.
-/// \param vertex    The vertex.
-/// \param material  The material at the vertex.
-/// \param light     Index of the light.
-/// \param map       The kind of map.
-/// \param keep      The kinds that are stored.
-/// \param out       Receives the photon.
+/// \param path  The path of the photon; its throughput is the flux.
+/// \param keep  The kinds that are stored.
+/// \param out   Receives the photon.
 template <AnyWorld W, std::floating_point T, Material M>
 void store_photon(const W& world, const PathStateT<T>& path, const VertexT<T>& vertex,
                   const M& material, std::uint16_t light, MapType map, PhotonKinds keep,
@@ -262,14 +255,12 @@ void store_photon(const W& world, const PathStateT<T>& path, const VertexT<T>& v
 }
 
 /// Scatters a photon at a vertex, and plays Russian roulette.
-/// \param path      The path; receives the new ray, flux and medium.
-/// \param vertex    The vertex.
-/// \param material  The material at the vertex.
-/// \param map       The kind of map. For caustics only specular lobes are sampled.
-/// \param stream    Four numbers are drawn.
-/// \param audit     Receives the absorbed flux, and the flux lost and gained by
-///                  roulette.
-/// \param gloss     Whether the glossy lobe of the surface counts as a mirror.
+/// \param path    The path; receives the new ray, flux and medium.
+/// \param map     The kind of map. For caustics only specular lobes are sampled.
+/// \param stream  Four numbers are drawn.
+/// \param audit   Receives the absorbed flux, and the flux lost and gained by
+///                roulette.
+/// \param gloss   Whether the glossy lobe of the surface counts as a mirror.
 /// \return Whether the path continues.
 template <std::floating_point T, Material M, StreamLike Stream>
 [[nodiscard]] bool scatter_photon(PathStateT<T>& path, const VertexT<T>& vertex,
@@ -305,8 +296,6 @@ template <std::floating_point T, Material M, StreamLike Stream>
 /// fog. At this point a photon of the kind PhotonKind::fog is stored if the path so far
 /// is L S+ for the caustics map, or L ... D ... for the general map. For light that
 /// comes straight from a light, shadow rays are used instead.
-/// \param world    The closed scene.
-/// \param map      The kind of map.
 /// \param path     The path after next_vertex(). Receives the flux and, if fog scatters
 ///                 the photon, the new ray.
 /// \param before   The flux before next_vertex(); receives the flux at the surface.
@@ -367,8 +356,6 @@ struct SentPhotonT {
 /// and not in the general map. With PhotonPassSettings::gloss_as_mirrors, a glossy
 /// surface counts as a mirror. After such a surface, the photon is stored only at
 /// surfaces with a diffuse lobe.
-/// \param world   The closed scene.
-/// \param map     The kind of map.
 /// \param sent    The photon. Its flux has been divided by the number of paths.
 /// \param pass    The settings of the pass.
 /// \param stream  Four numbers are drawn per bounce; more in fog, at thin surfaces and

@@ -68,7 +68,6 @@ inline constexpr double part_in_cone = 7.0 / 8;
 
 /// Emits a photon of a near light. With the probability part_in_cone it is sent into
 /// the cone around a sphere.
-/// \param light    The light.
 /// \param sphere   From lit_sphere().
 /// \param u_point  Point of the unit square; chooses the origin.
 /// \param u        Point of the unit square; chooses the direction.
@@ -109,8 +108,6 @@ template <NearLight L, std::floating_point T>
 /// w. It is worth \f$ E[w]^2 / E[w^2] \f$ photons of equal flux, where E is the mean.
 /// Without aiming, the fraction \f$ E[w] \f$ of the photons goes into the cone.
 /// Therefore aiming pays if \f$ E[w] > E[w^2] \f$.
-/// \param world   The closed scene.
-/// \param light   The light.
 /// \param sphere  From lit_sphere().
 /// \cost 64 samples.
 template <AnyWorld W, NearLight L, std::floating_point T>

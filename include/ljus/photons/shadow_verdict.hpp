@@ -78,7 +78,6 @@ struct PhotonCounts {
 inline constexpr std::uint64_t report_ratio = 1200;
 
 /// The verdict of the photons around a point.
-/// \param found   The numbers of photons.
 /// \param rule    The rule; not SkipRule::none.
 /// \param needed  The result of photons_needed().
 // [judge]

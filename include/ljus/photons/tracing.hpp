@@ -99,8 +99,6 @@ template <std::floating_point T>
 }
 
 /// Checks the settings and the lights of a pass.
-/// \param map     The kind of map.
-/// \param pass    The settings.
 /// \param choice  The distribution of the lights by power.
 /// \return The distribution of the lights for the pass.
 /// \throws std::invalid_argument  as trace_photons().
@@ -149,8 +147,6 @@ template <AnyWorld W>
 
 /// Traces the blocks of a pass by several threads. This function is compiled once for
 /// all types of scenes.
-/// \param map    The kind of map.
-/// \param pass   The settings.
 /// \param trace  Traces one block of paths, by trace_block().
 /// \return The photons in the order of emission.
 template <std::floating_point T>

@@ -109,7 +109,6 @@ template <std::floating_point T>
 }
 
 /// Replaces unknown verdicts by those of a coarser grid.
-/// \param fine    The grid.
 /// \param coarse  A grid whose cells are longer by the factor `times`.
 /// \param times   2 or 4.
 template <std::floating_point T>

@@ -189,7 +189,6 @@ template <typename S, std::floating_point T>
 }
 
 /// The corners of a cell of a flat shape. The facet faces the side of the grid.
-/// \param grid   The grid.
 /// \param whole  The corners of the shape.
 /// \param cell   The index of the cell within the grid.
 [[nodiscard]] inline Facet cell_facet(const PatchGrid& grid, const Facet& whole,

@@ -21,8 +21,6 @@ namespace ljus {
 namespace detail {
 
 /// Samples a point of a patch, uniformly over its area.
-/// \param world   The closed scene.
-/// \param all     The patches.
 /// \param number  The index of the patch.
 /// \param u       Point of the unit square.
 /// \return The point. Its normal is on the side of the patch.
@@ -98,12 +96,9 @@ namespace detail {
 /// The visible fraction of the exchange between two patches, by rays between random
 /// points of both patches. The weight of a ray is the product of the cosines at its
 /// ends over its squared length.
-/// \param world  The closed scene.
-/// \param all    The patches.
-/// \param one    The index of one patch.
-/// \param two    The index of the other patch.
-/// \param rays   The number of rays, at least 1.
-/// \param seed   Seed of the random streams.
+/// \param one   The index of one patch.
+/// \param two   The index of the other patch.
+/// \param rays  The number of rays, at least 1.
 /// \return In [0, 1].
 template <AnyWorld W>
 [[nodiscard]] double visible_fraction(const W& world, const Patches& all,

@@ -107,9 +107,7 @@ solve_lu(const FormFactors& factors, const std::vector<Patch>& patches) {
 }
 
 /// The irradiance of all patches.
-/// \param factors    The form factors.
 /// \param radiosity  The radiosity of each patch, W/m^2.
-/// \param threads    As in ParallelSettings.
 /// \return \f$ H_i = \sum_j F_{ij} B_j \f$, in W/m^2.
 /// \cost n^2 multiplications per channel.
 [[nodiscard]] inline std::vector<RgbT<double>>
@@ -153,9 +151,6 @@ inline void require_loss(const FormFactors& factors,
 }
 
 /// Shoots the unshot light of all patches at once: one bounce.
-/// \param factors   The form factors.
-/// \param patches   The patches.
-/// \param threads   As in ParallelSettings.
 /// \param solution  The radiosity, W/m^2. The shot light is added.
 /// \param unsent    The unshot light, W/m^2. Receives the light after the bounce.
 /// \cost n^2 multiplications per channel.

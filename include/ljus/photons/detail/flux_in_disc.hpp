@@ -30,8 +30,7 @@ struct FluxDiscT {
 };
 
 /// kernel_weight() of eight photons.
-/// \param kernel  The kernel.
-/// \param x       Eight squared distances over the squared radius, each in [0, 1].
+/// \param x  Eight squared distances over the squared radius, each in [0, 1].
 template <std::floating_point T, KernelLike<T> K>
 [[nodiscard]] LanesT<T> kernel_weights(const K& kernel, const LanesT<T>& x) noexcept {
     LanesT<T> weight;
@@ -202,7 +201,6 @@ private:
 /// Sums the weighted flux of the photons that arrive on one side of a disc.
 /// \param tree      The positions of the photons.
 /// \param records   The other data of the photons.
-/// \param disc      The disc.
 /// \param gathered  A counter. The number of photons in the disc, on both sides, is
 ///                  added to it.
 /// \return The sum of weight times flux, in W.

@@ -118,8 +118,7 @@ public:
 
     /// Sorts the records in place, makes blocks of them and returns these. The sorter
     /// is then empty.
-    /// \param order    order[i] is the index of the record that becomes record i.
-    /// \param threads  As in ParallelSettings.
+    /// \param order  order[i] is the index of the record that becomes record i.
     /// \cost O(n), and 4 bytes per record.
     [[nodiscard]] PhotonRecordsT<T> sorted(std::span<const std::uint32_t> order,
                                            int threads) {

@@ -52,8 +52,7 @@ struct CellsT {
     T length = T(0);       ///< Length of a cell, in scene units.
 
     /// The cell that contains a point; nothing outside the grid.
-    /// \param point  The point.
-    /// \param way    Facing of the surface.
+    /// \param way  Facing of the surface.
     [[nodiscard]] std::optional<VerdictCell> cell_of(const Vec3T<T>& point,
                                                      int way) const noexcept {
         const Vec3T<T> c = (point - corner) * (T(1) / length);
@@ -168,10 +167,7 @@ template <std::floating_point T>
 /// The length of the smallest cells. It is skip.radius or, if this is 0, chosen from
 /// the photons: on average, a cell and its neighbours then contain the number of
 /// photons of a light that the rule needs, but at least 20.
-/// \param photons  The photons.
-/// \param box      Their bounding box.
-/// \param lights   The number of lights.
-/// \param skip     The settings.
+/// \param box  The bounding box of the photons.
 /// \return In scene units; 0 if all photons lie at one point.
 template <std::floating_point T>
 [[nodiscard]] T cell_length(const std::vector<PhotonT<T>>& photons, const BoxT<T>& box,
@@ -245,8 +241,6 @@ using PackedCounts = std::uint64_t;
 using CountsAround = std::array<PackedCounts, 216>;
 
 /// Collects the counts of the cells of a brick and of the cells around it.
-/// \param table   The bricks.
-/// \param brick   The index of the brick.
 /// \param counts  The counts of all cells, 64 per brick.
 [[nodiscard]] inline CountsAround
 counts_around(const BrickTable& table, std::uint32_t brick,
@@ -285,7 +279,6 @@ constexpr void add_neighbors(CountsAround& sums) noexcept {
 
 /// Converts the sums of a brick into bits.
 /// \param sums    The result of add_neighbors().
-/// \param rule    The rule.
 /// \param needed  The result of photons_needed().
 /// \return Two elements: a bit for each lit cell, and a bit for each cell in shadow.
 [[nodiscard]] inline std::array<std::uint64_t, 2>
@@ -303,11 +296,6 @@ judge_brick(const CountsAround& sums, SkipRule rule, std::uint32_t needed) noexc
 }
 
 /// Computes the bits of all bricks.
-/// \param photons  The photons.
-/// \param cells    The geometry of the cells.
-/// \param lights   The number of lights.
-/// \param skip     The settings.
-/// \param threads  As in ParallelSettings.
 /// \throws std::invalid_argument  if there would be more than most_bricks bricks.
 template <std::floating_point T>
 [[nodiscard]] VerdictBitsT<T> make_bits(const std::vector<PhotonT<T>>& photons,
