@@ -342,9 +342,9 @@ template <std::floating_point T>
     return light.position;
 }
 
-/// Samples the unit direction of a photon, in proportion to the intensity. It chooses a
-/// cell of the table by its flux, then a polar angle within the cell, and then an
-/// azimuth.
+/// Samples the unit direction of a photon, in proportion to the intensity. The function
+/// chooses a cell of the table by its flux, then a polar angle within the cell, and
+/// then an azimuth.
 /// \cost Two binary searches, and about four sines and cosines for Newton's method.
 // [sample_emission]
 template <std::floating_point T>

@@ -16,9 +16,9 @@ namespace ljus {
 /// \defgroup phase_function Phase functions
 /// \brief The directions of light that is scattered within a medium.
 ///
-/// A phase function describes the scattering of a medium, as a BRDF that of a surface.
-/// No cosine belongs to it. Its integral over all directions is 1, so that it can serve
-/// as a probability density.
+/// A phase function describes how a medium scatters light, as a BRDF does for a
+/// surface. Unlike a BRDF it is not multiplied by a cosine. Its integral over all
+/// directions is 1, so that it can serve as a probability density.
 /// \{
 
 /// The phase function of Henyey and Greenstein \cite henyey1941,

@@ -72,8 +72,8 @@ namespace detail {
 /// How a point of a light aims at an object.
 template <std::floating_point T>
 struct AimT {
-    ConeT<T> cone{};      ///< The cone into which it aims.
-    bool at_area = false; ///< Whether it aims at the object's area instead.
+    ConeT<T> cone{};      ///< The cone into which the point aims.
+    bool at_area = false; ///< Whether the point aims at the object's area instead.
     T size = T(0); ///< About the solid angle over 2 pi: the weight of the choice.
 };
 

@@ -20,7 +20,7 @@ inline constexpr std::size_t lone_others = 3;
 /// The lone photons of a map. An estimate shows a lone photon as a visible disc. If the
 /// flux of the photon is spread over a wider disc, the disc is fainter. The flux stays
 /// the same, except where the disc reaches beyond an edge. This is a variable kernel
-/// estimate \cite silverman1986: the radius belongs to the photon.
+/// estimate \cite silverman1986, in which each photon has its own radius.
 /// \param map     The photons.
 /// \param radius  The radius of the estimate, in scene units.
 /// \return A map of the lone photons, with all their data; empty if there are none.

@@ -73,8 +73,8 @@ struct PhotonCounts {
     std::uint32_t shadow = 0; ///< Photons that were occluded.
 };
 
-/// In the report's program, one photon of the other kind per this number of photons is
-/// ignored.
+/// The rule of the report ignores the photons of one kind if photons of the other kind
+/// are more frequent by more than this factor.
 inline constexpr std::uint64_t report_ratio = 1200;
 
 /// The verdict of the photons around a point.
